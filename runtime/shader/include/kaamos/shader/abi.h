@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+//
+// The binary interface between compiled shader code and a backend that runs native code.
+//
+// A shader library becomes one object with one table (LibraryDesc). A backend calls its entry
+// points with an Invocation; the shader calls back through the function pointers of Services.
+// Nothing here depends on a compiler's library, so that a library compiled at run time needs no
+// symbol of its host.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace kaamos::shader {
+
+// Changes with every change of a struct below. A library of another version is refused when loaded.
+inline constexpr uint32_t kAbiVersion = 1;
+
+inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
+
+// ---------------------------------------------------------------------------------------------
+// Descriptors
+
+enum class DescriptorKind : uint16_t {
+  kNull = 0,  // reads give 0, writes are dropped, an acceleration structure is missed by every ray
+  kConstantBuffer = 1,
+  kRawBuffer = 2,         // (RW)ByteAddressBuffer
+  kStructuredBuffer = 3,  // stride_bytes is the view's
+  kTypedBuffer = 4,       // (RW)Buffer<T>: format is a DXGI_FORMAT
+  kTexture = 5,           // address: the backend's view object
+  kSampler = 6,           // address: the backend's sampler object
+  kAccelerationStructure = 7,
+};
+
+enum class DescriptorAccess : uint16_t { kShaderResource = 0, kUnorderedAccess = 1, kOther = 2 };
+
+// One slot of a descriptor heap: plain bytes, copied freely. Also what an HLSL resource variable
+// holds. A GPU descriptor handle is the address of such a slot.
+struct alignas(8) Descriptor {
+  DescriptorKind kind = DescriptorKind::kNull;
+  DescriptorAccess access = DescriptorAccess::kShaderResource;
+  uint32_t stride_bytes = 0;  // structured buffers
+  uint64_t address = 0;       // GPU virtual address, or the backend's object
+  uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
+  uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(Descriptor) == 32);
+
+// ---------------------------------------------------------------------------------------------
+// Bindings: which root argument feeds which HLSL register. Fixed when a state object is created.
+
+enum class SlotSource : uint8_t {
+  kUnbound = 0,      // the binding is not used by this export: never read
+  kRootConstants,    // the arguments themselves: size_bytes bytes at argument_offset
+  kRootDescriptor,   // an 8-byte GPU virtual address at argument_offset; no bounds [D3D12]
+  kDescriptorTable,  // an 8-byte GPU descriptor handle at argument_offset
+  kStaticSampler,    // static_sampler
+};
+
+struct BindingSlot {
+  SlotSource source = SlotSource::kUnbound;
+  bool local = false;  // arguments of the shader record, else of the dispatch
+  DescriptorKind kind = DescriptorKind::kNull;  // root descriptors: what the HLSL declares
+  DescriptorAccess access = DescriptorAccess::kShaderResource;
+  uint32_t argument_offset = 0;  // bytes; local ones count from byte 32 of the record
+  uint32_t descriptor_index =
+      0;  // first descriptor of the binding, counted from the table's handle
+  uint32_t descriptor_count = 0;  // descriptors of the binding in its range; kUnbounded possible
+  uint32_t size_bytes = 0;        // kRootConstants
+  uint32_t stride_bytes = 0;      // kRootDescriptor on structured buffers: the HLSL element's size
+  const Descriptor* static_sampler = nullptr;
+};
+
+// ---------------------------------------------------------------------------------------------
+// What runs
+
+struct Services;
+
+// One per DispatchRays or Dispatch; shared by all its threads and constant while it runs.
+struct Dispatch {
+  const Services* services = nullptr;
+  const uint8_t* root_arguments = nullptr;  // laid out by the global root signature
+  uint32_t dimensions[3] = {0, 0, 0};       // DispatchRaysDimensions; thread groups for compute
+  // [begin, end) of the shader-visible heaps that are set: a descriptor outside reads as null.
+  const Descriptor* view_heap_begin = nullptr;
+  const Descriptor* view_heap_end = nullptr;
+  const Descriptor* sampler_heap_begin = nullptr;
+  const Descriptor* sampler_heap_end = nullptr;
+  void* backend = nullptr;  // the backend's own dispatch state
+};
+
+// HLSL's RayDesc. [DXR: RayDesc structure]
+struct RayDesc {
+  float origin[3];
+  float t_min;
+  float direction[3];
+  float t_max;
+};
+static_assert(sizeof(RayDesc) == 32);
+
+// What the system-value intrinsics of one ray shader invocation return.
+struct RaySystemValues {
+  RayDesc ray = {};     // WorldRayOrigin, WorldRayDirection, RayTMin; t_max is RayDesc.TMax
+  float t_current = 0;  // RayTCurrent, by stage [DXR: RayTCurrent]
+  uint32_t ray_flags = 0;
+  uint32_t hit_kind = 0;
+  uint32_t instance_index = 0;
+  uint32_t instance_id = 0;
+  uint32_t geometry_index = 0;
+  uint32_t primitive_index = 0;
+  const float* object_to_world = nullptr;  // 3x4, row-major
+  const float* world_to_object = nullptr;  // 3x4, row-major
+};
+
+// One shader invocation. Lives on the backend's stack for the time of the call.
+struct Invocation {
+  const Dispatch* dispatch = nullptr;
+  const BindingSlot* slots = nullptr;  // of this export, indexed by the library's binding index
+  const uint8_t* local_arguments = nullptr;  // byte 32 of the shader record
+  const RaySystemValues* ray = nullptr;      // null in ray generation, callable and compute
+  uint32_t index[3] = {0, 0, 0};             // DispatchRaysIndex
+  uint32_t depth = 0;                        // ray generation is 0 [DXR: Ray recursion limit]
+  void* backend = nullptr;                   // the backend's state of this call chain
+};
+
+// One thread group of a compute dispatch.
+struct ComputeGroup {
+  uint32_t group_id[3] = {0, 0, 0};
+  void* shared = nullptr;  // groupshared memory, ComputeDesc::shared_bytes, zeroed by the backend
+  void* backend = nullptr;
+};
+
+enum class AnyHitResult : uint32_t { kAccept = 0, kIgnore = 1, kAcceptAndEndSearch = 2 };
+enum class ReportHitResult : uint32_t { kRejected = 0, kAccepted = 1, kEndSearch = 2 };
+
+using RayGenerationFn = void (*)(Invocation&);
+using MissFn = void (*)(Invocation&, void* payload);
+using ClosestHitFn = void (*)(Invocation&, void* payload, const void* attributes);
+using AnyHitFn = AnyHitResult (*)(Invocation&, void* payload, const void* attributes);
+using IntersectionFn = void (*)(Invocation&);
+using CallableFn = void (*)(Invocation&, void* data);
+// Runs a whole group: kernels without barriers, and those that were split at their barriers.
+using ComputeGroupFn = void (*)(Invocation&, ComputeGroup&);
+// Runs one thread of a group on a fiber of its own; barriers go through Services::group_barrier.
+using ComputeThreadFn = void (*)(Invocation&, ComputeGroup&, const uint32_t thread_id[3]);
+using AnyFn = void (*)();
+
+// ---------------------------------------------------------------------------------------------
+// What a shader asks of its backend
+
+struct TraceRayArguments {
+  uint64_t acceleration_structure;  // GPU virtual address; 0 is missed by every ray
+  uint32_t ray_flags;
+  uint32_t instance_inclusion_mask;               // low 8 bits count
+  uint32_t ray_contribution_to_hit_group_index;   // low 4 bits count
+  uint32_t multiplier_for_geometry_contribution;  // low 4 bits count
+  uint32_t miss_shader_index;                     // low 16 bits count
+  uint32_t payload_bytes;                         // storage size, sizeof in the emitted code
+  RayDesc ray;
+};
+
+// Texel data is four 32-bit values: float, int32_t or uint32_t after the view's format class.
+struct Texel {
+  uint32_t bits[4];
+};
+
+struct SampleArguments {
+  const Descriptor* texture;
+  const Descriptor* sampler;
+  float coordinates[4];  // as HLSL's location argument; unused ones are 0
+  int32_t offset[3];     // texel offset
+  float lod;             // SampleLevel; mip bias is the sampler's
+  float ddx[3];          // SampleGrad
+  float ddy[3];
+  float min_lod;       // clamp argument, 0 unless given
+  float comparison;    // SampleCmp*, GatherCmp*
+  uint32_t component;  // Gather: 0 red .. 3 alpha
+};
+
+struct TextureDimensions {
+  uint32_t width;
+  uint32_t height;
+  uint32_t depth_or_elements;
+  uint32_t mip_count;
+};
+
+enum class RemovalReason : uint32_t { kRecursionDepth, kStackOverflow, kFault, kOther };
+
+struct Services {
+  void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload);
+  ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
+                                uint32_t attribute_bytes);
+  void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);
+
+  Texel (*sample_level)(const SampleArguments&);
+  Texel (*sample_gradient)(const SampleArguments&);
+  float (*sample_compare_level)(const SampleArguments&);
+  Texel (*gather)(const SampleArguments&);
+  Texel (*gather_compare)(const SampleArguments&);
+  // coordinates: x, y, z or array element, mip level. Out of bounds reads 0, writes nothing.
+  // [D3D11.3 7.18]
+  Texel (*load_texel)(const Descriptor& texture, const int32_t coordinates[4]);
+  void (*store_texel)(const Descriptor& texture, const int32_t coordinates[4], const Texel& value);
+  Texel (*load_typed)(const Descriptor& buffer, uint32_t element);
+  void (*store_typed)(const Descriptor& buffer, uint32_t element, const Texel& value);
+  // For atomics on R32 formats; null where out of bounds.
+  void* (*texel_address)(const Descriptor& texture, const int32_t coordinates[4]);
+  void* (*typed_address)(const Descriptor& buffer, uint32_t element);
+  TextureDimensions (*texture_dimensions)(const Descriptor& texture, uint32_t mip);
+
+  void (*group_barrier)(ComputeGroup&);  // fibers only
+  void (*remove_device)(Invocation&, RemovalReason);
+};
+
+// ---------------------------------------------------------------------------------------------
+// A library
+
+// The numbers of D3D12_SHADER_VERSION_TYPE.
+enum class Stage : uint32_t {
+  kCompute = 5,
+  kLibrary = 6,  // an exported function that is no entry point
+  kRayGeneration = 7,
+  kIntersection = 8,
+  kAnyHit = 9,
+  kClosestHit = 10,
+  kMiss = 11,
+  kCallable = 12,
+};
+
+enum class RegisterClass : uint32_t {
+  kShaderResource = 0,
+  kUnorderedAccess = 1,
+  kConstantBuffer = 2,
+  kSampler = 3
+};
+
+enum class BindingType : uint32_t {
+  kConstantBuffer,
+  kRawBuffer,
+  kStructuredBuffer,
+  kTypedBuffer,
+  kTexture,
+  kSampler,
+  kComparisonSampler,
+  kAccelerationStructure,
+};
+
+struct BindingDesc {
+  const char* name;
+  RegisterClass register_class;
+  BindingType type;
+  uint32_t register_index;
+  uint32_t space;
+  uint32_t count;       // 1, the array's size, or kUnbounded
+  uint32_t size_bytes;  // constant buffers: bytes; structured buffers: element stride
+  bool automatic;       // the register was assigned by the compiler, not written in the source
+};
+
+enum ExportFlags : uint32_t {
+  kExportTraces = 1,           // can reach TraceRay
+  kExportCalls = 2,            // can reach CallShader
+  kExportUsesViewHeap = 4,     // ResourceDescriptorHeap[]
+  kExportUsesSamplerHeap = 8,  // SamplerDescriptorHeap[]
+};
+
+struct ComputeDesc {
+  uint32_t thread_group[3];
+  uint32_t shared_bytes;
+  ComputeGroupFn group;    // null where barriers could not be split: then thread is run on fibers
+  ComputeThreadFn thread;  // null where group is set
+};
+
+struct ExportDesc {
+  const char* name;          // as written
+  const char* mangled_name;  // as DXC mangles it
+  Stage stage;
+  AnyFn entry;                 // of the stage's function type; null for kLibrary and kCompute
+  const ComputeDesc* compute;  // null unless kCompute
+  uint32_t
+      payload_bytes;  // each scalar as 4 bytes [DXR: D3D12_RAYTRACING_SHADER_CONFIG]; callables: 0
+  uint32_t payload_storage_bytes;
+  uint32_t attribute_bytes;
+  uint32_t callable_data_bytes;  // callables: of their parameter
+  uint32_t stack_bytes;          // what GetShaderStackSize reports
+  uint32_t flags;                // ExportFlags
+  const uint32_t* bindings;      // indices into LibraryDesc::bindings that it can reach
+  uint32_t binding_count;
+};
+
+// Subobjects written in HLSL. Which members count depends on type (numbers of
+// D3D12_STATE_SUBOBJECT_TYPE).
+struct SubobjectDesc {
+  const char* name;
+  uint32_t type;
+  // GLOBAL/LOCAL_ROOT_SIGNATURE: {root signature string}; association: {subobject,
+  // "export;export"}; HIT_GROUP: {any-hit, closest-hit, intersection}.
+  const char* strings[3];
+  // SHADER_CONFIG: {payload, attribute}; PIPELINE_CONFIG: {depth}; CONFIG1: {depth, flags};
+  // STATE_OBJECT_CONFIG: {flags}; HIT_GROUP: {D3D12_HIT_GROUP_TYPE}.
+  uint32_t values[2];
+};
+
+struct LibraryDesc {
+  uint32_t abi_version;
+  uint32_t struct_bytes;  // sizeof(LibraryDesc): a second guard against a mismatch
+  const char* name;       // the main source file, as given
+  const char* target;     // "lib_6_6"
+  const ExportDesc* exports;
+  uint32_t export_count;
+  const BindingDesc* bindings;
+  uint32_t binding_count;
+  const SubobjectDesc* subobjects;
+  uint32_t subobject_count;
+};
+
+// The one symbol of a library that is compiled at run time.
+inline constexpr char kLibraryEntryPoint[] = "kaamos_shader_library";
+using LibraryEntryPointFn = const LibraryDesc* (*)();
+
+}  // namespace kaamos::shader
