@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: MIT
+# Configures and builds a preset; turns the usual failures into sentences.
+
+cmake_minimum=3.25
+
+version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
+
+require_tools() {
+  local tool version
+  for tool in cmake ctest ninja; do
+    command -v "$tool" >/dev/null ||
+      die "$tool is not installed (or not in PATH)." \
+        "On Debian: apt-get install cmake ninja-build. Or run $program without --no-install."
+  done
+  version=$(cmake --version | awk 'NR == 1 { print $3 }')
+  version_at_least "$version" "$cmake_minimum" ||
+    die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
+      "Debian 12 brings 3.25 as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
+  if [[ -z ${CXX:-} ]] && ! command -v c++ >/dev/null && ! command -v g++ >/dev/null &&
+    ! command -v clang++ >/dev/null; then
+    die "there is no C++ compiler in PATH." "On Debian: apt-get install g++"
+  fi
+}
+
+# All cores, but no more compilers at once than memory holds (a large file takes about 1 GiB).
+choose_jobs() {
+  local cores memory
+  cores=$(nproc 2>/dev/null || echo 2)
+  jobs=$cores
+  memory=$(awk '/^MemAvailable:/ { print int($2 / 1048576) }' /proc/meminfo 2>/dev/null || true)
+  if [[ -n $memory ]] && ((memory < cores)); then
+    jobs=$((memory > 1 ? memory : 1))
+    say "note: $cores cores but only $memory GiB of free memory: building $jobs files at a time."
+  fi
+}
+
+# A failure on a full disk looks like a failure of anything; say it first.
+die_build() {
+  local free
+  free=$(free_mib "$root/build")
+  if [[ -n $free ]] && ((free < 50)); then die_disk_full; fi
+  if grep -q 'No space left on device' "$log"; then die_disk_full; fi
+  die "$@"
+}
+
+# configure PRESET FOLDER [cmake arguments]
+configure() {
+  local preset=$1 folder=$2 home fresh=()
+  shift 2
+  if [[ -f $folder/CMakeCache.txt ]]; then
+    home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt")
+    if [[ $home != "$root" ]]; then
+      say "note: \"$folder\" was configured for \"$home\"; starting it anew."
+      fresh=(--fresh)
+    fi
+  fi
+  step "Configuring (preset $preset)"
+  run_step configure cmake -S "$root" --preset "$preset" "${fresh[@]}" "$@" ||
+    die_build "configuring failed; CMake says above what it misses." \
+      "What each package is for stands in scripts/packages.txt, the whole log in \"$log\"."
+}
+
+# build PRESET [targets]
+build() {
+  local preset=$1 arguments=()
+  shift
+  if (($#)); then arguments=(--target "$@"); fi
+  step "Building${*:+ $*} with $jobs jobs"
+  NINJA_STATUS='[%f/%t] ' run_step build cmake --build --preset "$preset" -j "$jobs" "${arguments[@]}" ||
+    die_build "the build failed; the compiler's message stands above." "The whole log: \"$log\"."
+  say "    built in $(duration "$step_seconds")."
+}

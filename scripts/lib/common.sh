@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: MIT
+# Shared by scripts/test and scripts/demo: messages, the log file, progress lines.
+# The caller sets `program` (its name in messages) and sources this file first.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
+build_dir="$root/build/release"
+log=/dev/null  # open_log points it into build/
+
+# Messages go to the terminal and, where there is one, into the log.
+say() {
+  printf '%s\n' "$*"
+  printf '%s\n' "$*" >>"$log"
+}
+
+step() { say "==> $*"; }
+
+complain() {
+  printf '%s\n' "$*" >&2
+  printf '%s\n' "$*" >>"$log"
+}
+
+# die MESSAGE...: one line per argument, the first one says what went wrong, the others what to do.
+die() {
+  complain "$program: error: $1"
+  shift
+  local line
+  for line in "$@"; do complain "  $line"; done
+  exit 1
+}
+
+# An empty message for a file system that can be written; otherwise the reason in the system's words.
+open_log() {
+  local reason
+  if ! reason=$(mkdir -p "$root/build" 2>&1); then
+    reason=${reason##*: }
+  elif ! reason=$( (: >"$root/build/$1") 2>&1); then
+    reason=${reason##*: }
+  else
+    log="$root/build/$1"
+    printf '%s, %s\n' "$program" "$(date '+%Y-%m-%d %H:%M:%S %z')" >>"$log" 2>/dev/null ||
+      die_disk_full
+    return 0
+  fi
+  die "cannot write into \"$root/build\": $reason." \
+    "The build and its results stand beside the sources, in build/ and out/. Use a checkout that" \
+    "$(id -un 2>/dev/null || id -u) may write, or copy this one to a folder that you own."
+}
+
+free_mib() { df -Pm "$1" 2>/dev/null | awk 'NR == 2 { print $4 }'; }
+
+die_disk_full() {
+  log=/dev/null
+  die "the disk that holds \"$root/build\" is full ($(free_mib "$root") MiB free)." \
+    "A build needs about 3 GB. Make room, then run $program again: it goes on where it stopped."
+}
+
+# require_space: early, because a compiler that meets a full disk says so in a dozen odd ways.
+require_space() {
+  local free
+  free=$(free_mib "$root/build")
+  [[ -n $free ]] || return 0
+  if ((free < 200)); then die_disk_full; fi
+  if ((free < 3000)) && [[ ! -e $build_dir/CMakeCache.txt ]]; then
+    say "note: $free MiB are free here; a full build needs about 3,000 MiB."
+  fi
+}
+
+# One run at a time in one build folder.
+lock_build() {
+  command -v flock >/dev/null || return 0
+  exec 8>"$root/build/.lock"
+  if ! flock -n 8; then
+    say "Another scripts/test or scripts/demo works in this checkout; waiting for it."
+    flock 8
+  fi
+}
+
+# progress KIND: reads a command's output. Everything goes into the log. Lines that only tell how far
+# it got become one changing line on a terminal, and one line per ten seconds elsewhere; all other
+# lines (warnings, errors, what a failed test printed) are shown as they are.
+progress() {
+  local kind=$1 line text shown=$SECONDS width=0 quiet tty=0
+  if [[ -t 1 ]]; then
+    tty=1
+    width=$(tput cols 2>/dev/null || echo 80)
+  fi
+  while IFS= read -r line || [[ -n $line ]]; do
+    printf '%s\n' "$line" >>"$log"
+    quiet=1 text=$line
+    case $kind in
+      build) [[ $line =~ ^\[[0-9]+/[0-9]+ ]] || quiet=0 ;;
+      configure) [[ $line == --* || -z $line || $line == 'Preset '* || $line =~ ^\ \ [A-Z_]+= ]] || quiet=0 ;;
+      apt) [[ $line != E:* && $line != *'No space left'* ]] || quiet=0 ;;
+      test)
+        if [[ $line =~ ^\ *([0-9]+)/([0-9]+)\ Test\ +\#[0-9]+:\ (.*)$ ]]; then
+          text="[${BASH_REMATCH[1]}/${BASH_REMATCH[2]}] ${BASH_REMATCH[3]}"
+          case $line in
+            *'***Skipped'* | *'(Disabled)'*) ;;
+            *'***'*) quiet=0 ;;
+          esac
+        elif [[ $line =~ ^\ +Start\ +[0-9]+: || $line == 'Test project '* || -z $line ||
+          $line == 'Internal ctest '* ]]; then
+          text=
+        else
+          quiet=0
+        fi
+        # ctest's own summary repeats what the closing report says.
+        if [[ $line =~ ^[0-9]+%\ tests\ passed ]]; then
+          while IFS= read -r line; do printf '%s\n' "$line" >>"$log"; done
+          break
+        fi
+        ;;
+    esac
+    if ((quiet)); then
+      [[ -n $text ]] || continue
+      if ((tty)); then
+        printf '\r\033[K%s' "${text:0:width-1}"
+      elif ((SECONDS - shown >= 10)); then
+        printf '%s\n' "$text"
+        shown=$SECONDS
+      fi
+    else
+      ((tty)) && printf '\r\033[K'
+      printf '%s\n' "$text"
+    fi
+  done
+  ((tty)) && printf '\r\033[K'
+  return 0
+}
+
+# run_step KIND COMMAND...: the command's own exit status, its output through progress. The time it
+# took stands in step_seconds.
+run_step() {
+  local kind=$1 start=$SECONDS status
+  shift
+  printf '+ %s\n' "$*" >>"$log"
+  "$@" 2>&1 </dev/null 8>&- | progress "$kind"
+  status=${PIPESTATUS[0]}
+  step_seconds=$((SECONDS - start))
+  return "$status"
+}
+
+duration() {
+  if (($1 < 60)); then printf '%d s' "$1"; else printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); fi
+}
+
+trap 'printf "\n%s: interrupted; run it again to go on from here.\n" "$program" >&2; exit 130' INT TERM
