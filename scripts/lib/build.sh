@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Configures and builds a preset; turns the usual failures into sentences.
 
-cmake_minimum=3.25
+cmake_minimum=3.25  # as in CMakeLists.txt
 
 version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
 

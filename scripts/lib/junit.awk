@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Reads ctest's JUnit file. Prints one line per test that did not pass, then the counts:
+# Reads ctest's JUnit file. Prints one line per test that did not pass, the time of each test that ran,
+# and the counts:
 #   failed<TAB>name<TAB>what happened
 #   skipped<TAB>name<TAB>reason
+#   time<TAB>seconds<TAB>name
 #   total<TAB>passed<TAB>failed<TAB>skipped
 # ctest calls a test "notrun" both when it skipped itself and when it could not be started; only the
 # first is a skip. A file that ends early, or holds fewer tests than it announces, fails.
@@ -37,6 +39,7 @@ function reason(    n, i, lines, text) {
 
 function close_test() {
   seen++
+  if (seconds + 0 > 0) printf "time\t%.2f\t%s\n", seconds, name
   if (status == "run") passed++
   else if (status == "disabled") { skipped++; print "skipped\t" name "\tdisabled in its source" }
   else if (status == "notrun" && why ~ /^SKIP_/) { skipped++; print "skipped\t" name "\t" reason() }
@@ -48,7 +51,7 @@ BEGIN { passed = failed = skipped = seen = 0 }
 !in_test && /^[[:space:]]*tests="[0-9]+"/ { announced = $0; gsub(/[^0-9]/, "", announced) }
 !in_output && /^[[:space:]]*<testcase / {
   in_test = 1
-  name = attribute($0, "name"); status = attribute($0, "status"); why = ""; output = ""
+  name = attribute($0, "name"); seconds = attribute($0, "time"); status = attribute($0, "status"); why = ""; output = ""
   next
 }
 !in_output && /^[[:space:]]*<(failure|skipped) message=/ { why = attribute($0, "message"); next }

@@ -99,7 +99,7 @@ explain_foreign() {
 
 # install_packages PURPOSE...: honours no_install=1 (--no-install, KAAMOS_NO_INSTALL=1).
 install_packages() {
-  local missing names count start
+  local missing names start
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     explain_foreign "$@"
     return 0
@@ -109,13 +109,12 @@ install_packages() {
     step "All $(list_packages "$@" | wc -l) needed packages are installed."
     return 0
   fi
-  count=$(wc -l <<<"$missing")
   if ((${no_install:-0})); then
-    step "$count needed packages are missing and, as asked, not installed:"
+    step "Missing, and not installed because you asked for that:"
     print_roles "$missing"
     return 0
   fi
-  step "Installing $count packages with apt-get, and what they depend on:"
+  step "Installing packages with apt-get, and what they depend on:"
   print_roles "$missing"
   mapfile -t names < <(cut -f1 <<<"$missing")
   choose_root "${names[*]}"

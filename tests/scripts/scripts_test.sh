@@ -1,0 +1,438 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# scripts_test.sh WORK: runs scripts/test and scripts/demo in a copy of the checkout in which apt-get,
+# sudo, cmake and ctest are played by small scripts, and checks what they answer. Nothing is installed
+# or built. One function per rule; its name is the rule.
+set -uo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
+source_root=$(cd "$here/../.." && pwd -P)
+work=$1
+checkout="$work/checkout"
+bin="$work/bin"  # all of PATH
+state="$work/state"
+failures=0
+
+fake() { cat >"$bin/$1" && chmod +x "$bin/$1"; }
+
+# A fresh checkout, a machine with everything installed, a user who is root.
+fresh_machine() {
+  rm -rf "$work"
+  mkdir -p "$checkout" "$bin" "$state"
+  cp -r "$source_root/scripts" "$source_root/.ci" "$checkout/"
+  local tool
+  for tool in awk bash cat cp cut date df dirname env flock grep head mkdir mktemp nproc paste rm sed \
+    sort tail touch tr uname wc; do
+    ln -s "$(command -v "$tool")" "$bin/$tool"
+  done
+  fake c++ <<<'#!/bin/sh'
+  fake ninja <<<'#!/bin/sh'
+  user root 0
+  installed_packages "$(awk '!/^#/ && NF { print $1 }' "$source_root/scripts/packages.txt")"
+  fake dpkg-query <<<"#!/bin/sh
+sed 's/^/installed /' $state/packages"
+  fake apt-get <<<"#!/bin/sh
+echo \"apt-get \$*\" >>$state/calls
+case \" \$* \" in *' install '*) for p in \"\$@\"; do echo \"\$p\"; done >>$state/packages;; esac"
+  fake cmake <<<"#!/bin/sh
+echo \"cmake \$*\" >>$state/calls
+case \$1 in --version) echo 'cmake version 3.25.1';; esac
+case \"\$*\" in *'--target help') cat $state/targets 2>/dev/null;; esac
+exit 0"
+  # Writes the results that the test laid out, like ctest --output-junit FILE.
+  fake ctest <<<"#!/bin/sh
+echo \"ctest \$*\" >>$state/calls
+while [ \$# -gt 0 ]; do if [ \"\$1\" = --output-junit ]; then junit=\$2; fi; shift; done
+if [ -n \"\$junit\" ] && [ -f $state/results.xml ]; then
+  mkdir -p \"\${junit%/*}\" && cat $state/results.xml >\"\$junit\"
+fi
+exit \$(cat $state/ctest_status 2>/dev/null || echo 0)"
+  results ran ran
+  : >"$state/calls"
+}
+
+user() {
+  fake id <<<"#!/bin/sh
+case \$1 in -un) echo $1;; *) echo $2;; esac"
+}
+
+installed_packages() { printf '%s\n' $1 >"$state/packages"; }
+
+# results OUTCOME...: ran, failed, skipped; each makes one test.
+results() {
+  local outcome n=0
+  {
+    printf '<testsuite name="x"\n\ttests="%d"\n\t>\n' "$#"
+    for outcome in "$@"; do
+      n=$((n + 1))
+      case $outcome in
+        ran) printf '<testcase name="T%d" classname="T" time="0.%d5" status="run">\n' $n $n ;;
+        failed) printf '<testcase name="T%d" classname="T" time="1" status="fail">\n<failure message=""/>\n' $n ;;
+        skipped)
+          printf '<testcase name="T%d" classname="T" time="0" status="notrun">\n' $n
+          printf '<skipped message="SKIP_RETURN_CODE=77"/>\n<system-out>needs a GPU\n</system-out>\n'
+          ;;
+      esac
+      printf '</testcase>\n'
+    done
+    printf '</testsuite>\n'
+  } >"$state/results.xml"
+}
+
+# command_ NAME [arguments]: sets output and status. No variable of the caller (CI, CXX) leaks in.
+command_() {
+  output=$(cd "$checkout" && env -i PATH="$bin" HOME="$work" "$@" 2>&1 </dev/null)
+  status=$?
+}
+run_test() { command_ "$checkout/scripts/test" "$@"; }
+run_demo() { command_ "$checkout/scripts/demo" "$@"; }
+
+fail() {
+  printf 'FAILED %s: %s\n--- status %s, output:\n%s\n---\n' "$rule" "$1" "$status" "$output"
+  failures=$((failures + 1))
+}
+expect_status() { [[ $status == "$1" ]] || fail "expected exit status $1"; }
+expect() { [[ $output == *"$1"* ]] || fail "expected \"$1\" in the output"; }
+expect_not() { [[ $output != *"$1"* ]] || fail "did not expect \"$1\" in the output"; }
+expect_call() { grep -qE -- "$1" "$state/calls" || fail "expected a call \"$1\" among: $(cat "$state/calls")"; }
+expect_no_call() { ! grep -qE -- "$1" "$state/calls" || fail "unexpected call \"$1\""; }
+expect_last_line() { [[ ${output##*$'\n'} == "$1" ]] || fail "expected the last line \"$1\""; }
+
+wrong_option_is_named() {
+  run_test --fast
+  expect_status 1
+  expect 'scripts/test: error: unknown option "--fast".'
+  expect 'scripts/test --help lists the options.'
+  expect_no_call .
+}
+
+label_option_needs_a_label() {
+  run_test -L
+  expect_status 1
+  expect '-L needs a label, for example: scripts/test -L unit'
+}
+
+help_builds_nothing() {
+  run_test --help
+  expect_status 0
+  expect 'Usage: scripts/test [--full] [-L LABEL]'
+  run_demo --help
+  expect_status 0
+  expect 'Usage: scripts/demo [northlight arguments]'
+  expect_no_call .
+}
+
+unwritable_checkout_is_explained() {
+  touch "$checkout/build"  # a file in the folder's place stops root as well
+  run_test
+  expect_status 1
+  expect "error: cannot write into \"$checkout/build\": File exists."
+  expect 'copy this one to a folder that you own'
+}
+
+full_disk_is_said_before_the_build() {
+  rm "$bin/df"
+  fake df <<<"#!/bin/sh
+printf 'Filesystem blocks used available\nx 1 1 7 99%% /\n'"
+  run_test
+  expect_status 1
+  expect 'is full (7 MiB free)'
+  expect 'Make room'
+  expect_no_call cmake
+}
+
+everything_installed_asks_for_no_root() {
+  user ada 1000
+  run_test
+  expect_status 0
+  expect_no_call apt-get
+  expect "All $(wc -l <"$state/packages") needed packages are installed."
+}
+
+missing_packages_are_named_and_installed() {
+  sed -i '/^libpng-dev$/d; /^gdb$/d' "$state/packages"
+  run_test
+  expect_status 0
+  expect 'Installing packages with apt-get'
+  expect 'libpng-dev             libpng: PNG pictures'
+  expect_call 'apt-get .*update'
+  expect_call 'apt-get .*install --no-install-recommends libpng-dev gdb'
+  expect_no_call sudo
+}
+
+demo_installs_nothing_that_only_tests_need() {
+  sed -i '/^gdb$/d' "$state/packages"
+  run_demo
+  expect_no_call apt-get
+}
+
+only_apt_runs_through_sudo() {
+  user ada 1000
+  installed_packages ninja-build
+  fake sudo <<<"#!/bin/sh
+echo \"sudo \$*\" >>$state/calls
+if [ \"\$1\" = -n ]; then shift; fi
+exec \"\$@\""
+  fake true <<<'#!/bin/sh'
+  run_test
+  expect_status 0
+  expect_call 'sudo -n env .*apt-get .*install'
+  expect_no_call '^sudo .*(--preset|--output-junit)'
+}
+
+no_sudo_says_what_to_run() {
+  user ada 1000
+  sed -i '/^libpng-dev$/d' "$state/packages"
+  run_test
+  expect_status 1
+  expect 'ada is not root and there is no sudo'
+  expect '  apt-get install --no-install-recommends libpng-dev'
+}
+
+sudo_without_terminal_says_what_to_run() {
+  user ada 1000
+  sed -i '/^libpng-dev$/d' "$state/packages"
+  fake sudo <<<'#!/bin/sh
+exit 1'
+  run_test
+  expect_status 1
+  expect 'sudo wants a password but has no terminal'
+  expect '  sudo apt-get install --no-install-recommends libpng-dev'
+}
+
+offline_machine_is_told_so() {
+  sed -i '/^libpng-dev$/d' "$state/packages"
+  fake apt-get <<<'#!/bin/sh
+echo "E: Failed to fetch http://deb.debian.org/x.deb  Temporary failure resolving deb.debian.org"
+exit 100'
+  run_test
+  expect_status 1
+  expect 'the package server cannot be reached: this machine seems to be offline.'
+}
+
+unknown_package_is_told_with_the_system() {
+  sed -i '/^libembree-dev$/d' "$state/packages"
+  fake apt-get <<<'#!/bin/sh
+echo "E: Unable to locate package libembree-dev"
+exit 100'
+  run_test
+  expect_status 1
+  expect 'apt-get does not know some of these packages'
+  expect 'Unable to locate package libembree-dev'
+}
+
+without_apt_the_needed_packages_are_listed() {
+  rm "$bin/apt-get"
+  run_test
+  expect_status 0
+  expect 'installs packages only with apt (Debian and its relatives)'
+  expect 'libembree-dev          Intel Embree'
+  expect 'Going on with what is installed.'
+}
+
+no_install_goes_on_with_what_is_there() {
+  sed -i '/^libpng-dev$/d' "$state/packages"
+  run_test --no-install
+  expect_status 0
+  expect 'Missing, and not installed because you asked for that:'
+  expect_no_call apt-get
+}
+
+missing_compiler_is_named() {
+  rm "$bin/c++"
+  run_test
+  expect_status 1
+  expect 'there is no C++ compiler in PATH.'
+  expect 'apt-get install g++'
+}
+
+missing_cmake_is_named() {
+  rm "$bin/cmake"
+  run_test
+  expect_status 1
+  expect 'cmake is not installed (or not in PATH).'
+}
+
+old_cmake_is_named_with_its_path() {
+  fake cmake <<<'#!/bin/sh
+echo "cmake version 3.18.4"'
+  run_test
+  expect_status 1
+  expect "CMake 3.18.4 is too old: $bin/cmake is the first in PATH, 3.25 is needed."
+}
+
+failed_configure_shows_cmakes_words() {
+  fake cmake <<<'#!/bin/sh
+case $1 in --version) echo "cmake version 3.25.1"; exit 0;; esac
+echo "-- Looking"
+echo "CMake Error: Could not find a package configuration file provided by \"embree\""
+exit 1'
+  run_test
+  expect_status 1
+  expect 'Could not find a package configuration file provided by "embree"'
+  expect 'configuring failed; CMake says above what it misses.'
+}
+
+failed_build_shows_the_compilers_words() {
+  fake cmake <<<'#!/bin/sh
+case $1 in --version) echo "cmake version 3.25.1";;
+  --build) echo "[1/9] Building x.cpp.o"; echo "x.cpp:3:1: error: expected expression"; exit 1;; esac'
+  run_test
+  expect_status 1
+  expect 'x.cpp:3:1: error: expected expression'
+  expect_not '[1/9] Building'
+  expect 'the build failed; the compiler'
+}
+
+passing_run_closes_with_its_count() {
+  run_test
+  expect_status 0
+  expect_last_line '2 passed, 0 failed, 0 skipped'
+  expect_call 'cmake .*--preset release'
+  expect_call 'ctest .*-LE \^full\$'
+}
+
+failed_test_fails_the_run() {
+  results ran failed skipped
+  echo 8 >"$state/ctest_status"
+  run_test
+  expect_status 1
+  expect '  T2: failed'
+  expect '  T3: needs a GPU'
+  expect_last_line '1 passed, 1 failed, 1 skipped'
+}
+
+slowest_tests_are_shown_slowest_first() {
+  results ran ran ran failed ran ran ran ran ran ran ran ran
+  run_test
+  expect $'Slowest tests, in seconds:\n     1.00  T4\n     0.95  T9\n'
+  expect_not '  T10'
+}
+
+no_test_is_a_failure() {
+  results
+  run_test -L unti
+  expect_status 1
+  expect 'no test ran. Is "-L unti" a label?'
+  expect_last_line '0 passed, 0 failed, 0 skipped'
+}
+
+only_skips_are_a_failure() {
+  results skipped skipped
+  run_test
+  expect_status 1
+  expect 'every test was skipped; nothing is proven.'
+  expect_last_line '0 passed, 0 failed, 2 skipped'
+}
+
+stopped_ctest_is_a_failure() {
+  sed -i '/testsuite>/d' "$state/results.xml"
+  run_test
+  expect_status 1
+  expect 'ends early: ctest was stopped.'
+}
+
+ctest_without_results_is_a_failure() {
+  rm "$state/results.xml"
+  run_test
+  expect_status 1
+  expect 'ctest wrote no results'
+}
+
+ctest_failure_without_failed_test_is_a_failure() {
+  echo 8 >"$state/ctest_status"
+  run_test
+  expect_status 1
+  expect 'ctest failed (status 8) although no test did'
+}
+
+every_outcome_of_ctest_is_counted() {
+  cp "$here/testdata/every_outcome.xml" "$state/results.xml"
+  echo 8 >"$state/ctest_status"
+  run_test
+  expect_last_line '1 passed, 7 failed, 4 skipped'
+  expect '  A.Skip: no Vulkan device: install mesa-vulkan-drivers'
+  expect '  t2_NOT_BUILT: Unable to find executable'
+  expect '  code: needs a <thing> & more'
+}
+
+label_is_passed_to_ctest() {
+  run_test -L hlsl
+  expect_call 'ctest .*-L hlsl'
+}
+
+full_run_adds_both_sanitizers() {
+  run_test --full
+  expect_status 0
+  expect_last_line '6 passed, 0 failed, 0 skipped'
+  expect_call 'cmake --build --preset asan'
+  expect_call 'cmake --build --preset tsan'
+  expect_call 'ctest .*build/tsan .*-LE \^package\$'
+  expect_no_call 'LE \^full'
+}
+
+ci_makes_warnings_errors() {
+  command_ "$checkout/.ci/run"
+  expect_status 0
+  expect_call 'cmake .*--preset ci'
+  expect_last_line '2 passed, 0 failed, 0 skipped'
+}
+
+# A program in northlight's place, which says what it was given.
+northlight() {
+  echo 'northlight: phony' >"$state/targets"
+  mkdir -p "$checkout/build/release/bin"
+  printf '%s\n' "$1" >"$checkout/build/release/bin/northlight"
+  chmod +x "$checkout/build/release/bin/northlight"
+}
+
+demo_without_northlight_says_so() {
+  run_demo
+  expect_status 1
+  expect 'this version of Kaamos has no northlight program yet'
+}
+
+demo_writes_into_out_demo() {
+  northlight '#!/bin/sh
+echo "given: $*"'
+  run_demo --size 64x64
+  expect_status 0
+  expect_call 'cmake --build --preset release .*--target northlight'
+  expect "given: --size 64x64 --out $checkout/out/demo"
+  expect_last_line "Pictures: $checkout/out/demo"
+}
+
+demo_keeps_a_given_out() {
+  northlight '#!/bin/sh
+echo "given: $*"'
+  run_demo --out pictures
+  expect 'given: --out pictures'
+  expect_not out/demo
+  run_demo --out=pictures
+  expect 'given: --out=pictures'
+}
+
+demo_passes_northlights_failure_on() {
+  northlight '#!/bin/sh
+echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
+  run_demo
+  expect_status 3
+  expect 'out/demo: Permission denied'
+  expect 'northlight ended with status 3'
+}
+
+rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
+  grep -vxE 'fake|fresh_machine|user|installed_packages|results|command_|fail|northlight')
+count=0
+for rule in $rules; do
+  output='' status=
+  fresh_machine
+  "$rule"
+  count=$((count + 1))
+done
+rm -rf "$work"
+if ((failures)); then
+  printf '%d expectations failed in %d rules\n' "$failures" "$count"
+  exit 1
+fi
+printf '%d rules hold\n' "$count"
+((count >= 30))
