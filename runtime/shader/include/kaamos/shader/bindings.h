@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// From an HLSL resource variable to its descriptor: root arguments, descriptor tables, heaps. What
+// is unbound, out of bounds or of the wrong kind becomes the null descriptor, which reads as zeros.
+#pragma once
+
+#include "kaamos/shader/abi.h"
+#include "kaamos/shader/half.h"
+
+namespace kaamos::shader {
+namespace bindings {
+
+// Arguments need no alignment here: a shader record may start anywhere an application puts it.
+KAAMOS_INLINE uint64_t read_address(const uint8_t* argument) {
+  uint64_t address;
+  __builtin_memcpy(&address, argument, sizeof(address));
+  return address;
+}
+
+constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, DescriptorAccess access) {
+  if (kind == DescriptorKind::kNull) return true;  // the slot does not say
+  if (descriptor.kind != kind) return false;
+  const bool has_access = kind != DescriptorKind::kConstantBuffer &&
+                          kind != DescriptorKind::kSampler &&
+                          kind != DescriptorKind::kAccelerationStructure;
+  return !has_access || access == DescriptorAccess::kOther || descriptor.access == access;
+}
+
+// The heap slot at `address`, or null where no slot of [begin, end) starts there. Addresses are
+// compared as integers: a handle in a record can hold anything.
+KAAMOS_INLINE const Descriptor* heap_slot(uint64_t address, const Descriptor* begin,
+                                          const Descriptor* end) {
+  const uint64_t first = reinterpret_cast<uintptr_t>(begin);
+  const uint64_t last = reinterpret_cast<uintptr_t>(end);
+  if (address < first || address >= last || (address - first) % sizeof(Descriptor) != 0) {
+    return nullptr;
+  }
+  return begin + (address - first) / sizeof(Descriptor);
+}
+
+KAAMOS_INLINE Descriptor from_table(const Dispatch& dispatch, const BindingSlot& slot,
+                                    const uint8_t* argument, uint32_t index) {
+  if (index >= slot.descriptor_count && slot.descriptor_count != kUnbounded) return {};
+  const uint64_t first = static_cast<uint64_t>(slot.descriptor_index) + index;
+  const uint64_t address = read_address(argument) + first * sizeof(Descriptor);
+  const bool sampler = slot.kind == DescriptorKind::kSampler;
+  const Descriptor* found = nullptr;
+  if (!sampler) found = heap_slot(address, dispatch.view_heap_begin, dispatch.view_heap_end);
+  if (sampler || (found == nullptr && slot.kind == DescriptorKind::kNull)) {
+    found = heap_slot(address, dispatch.sampler_heap_begin, dispatch.sampler_heap_end);
+  }
+  return found != nullptr && matches(*found, slot.kind, slot.access) ? *found : Descriptor{};
+}
+
+inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot, uint32_t index) {
+  if (slot.source == SlotSource::kUnbound) return {};
+  if (slot.source == SlotSource::kStaticSampler) {
+    return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};
+  }
+  const uint8_t* arguments =
+      slot.local ? invocation.local_arguments : invocation.dispatch->root_arguments;
+  if (arguments == nullptr) return {};
+  arguments += slot.argument_offset;
+
+  if (slot.source == SlotSource::kDescriptorTable) {
+    return from_table(*invocation.dispatch, slot, arguments, index);
+  }
+  if (index != 0) return {};  // root parameters are no arrays
+  Descriptor result;
+  if (slot.source == SlotSource::kRootConstants) {
+    result.kind = DescriptorKind::kConstantBuffer;
+    result.access = DescriptorAccess::kOther;
+    result.address = reinterpret_cast<uintptr_t>(arguments);
+    result.size_bytes = slot.size_bytes;
+    return result;
+  }
+  const uint64_t address = read_address(arguments);
+  if (address == 0) return {};
+  result.kind = slot.kind;
+  result.access = slot.access;
+  result.stride_bytes = slot.stride_bytes;
+  result.address = address;
+  result.size_bytes = ~uint64_t{0};  // a root descriptor has no bounds [D3D12]
+  return result;
+}
+
+}  // namespace bindings
+
+// The resource of binding `slot` of the running export; index is 0 unless the binding is an array.
+KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, uint32_t index = 0) {
+  return bindings::resolve(invocation, invocation.slots[slot], index);
+}
+
+// ResourceDescriptorHeap[index], SamplerDescriptorHeap[index]
+KAAMOS_INLINE Descriptor heap_resource(const Invocation& invocation, uint32_t index, bool sampler) {
+  const Dispatch& dispatch = *invocation.dispatch;
+  const Descriptor* begin = sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin;
+  const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;
+  return index < static_cast<uint64_t>(end - begin) ? begin[index] : Descriptor{};
+}
+
+}  // namespace kaamos::shader

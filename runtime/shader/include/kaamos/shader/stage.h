@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// What ends up in the backend: TraceRay, ReportHit, CallShader, barriers; and reading hit
+// attributes.
+#pragma once
+
+#include "kaamos/shader/abi.h"
+#include "kaamos/shader/half.h"
+
+namespace kaamos::shader {
+
+// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
+template <class Ray, class Payload>
+inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
+                      uint32_t ray_flags, uint32_t instance_inclusion_mask,
+                      uint32_t ray_contribution_to_hit_group_index,
+                      uint32_t multiplier_for_geometry_contribution, uint32_t miss_shader_index,
+                      const Ray& ray, Payload& payload) {
+  static_assert(sizeof(Ray) == sizeof(RayDesc));
+  TraceRayArguments arguments;
+  const bool usable = acceleration_structure.kind == DescriptorKind::kAccelerationStructure;
+  arguments.acceleration_structure = usable ? acceleration_structure.address : 0;
+  arguments.ray_flags = ray_flags;
+  arguments.instance_inclusion_mask = instance_inclusion_mask & 0xFFu;
+  arguments.ray_contribution_to_hit_group_index = ray_contribution_to_hit_group_index & 0xFu;
+  arguments.multiplier_for_geometry_contribution = multiplier_for_geometry_contribution & 0xFu;
+  arguments.miss_shader_index = miss_shader_index & 0xFFFFu;
+  arguments.payload_bytes = sizeof(Payload);
+  __builtin_memcpy(&arguments.ray, &ray, sizeof(Ray));
+  invocation.dispatch->services->trace_ray(invocation, arguments, &payload);
+}
+
+// Sets `ended` where the hit ends the shader: the caller returns at once. [DXR: ReportHit]
+template <class Attributes>
+inline bool report_hit(Invocation& invocation, bool& ended, float t, uint32_t hit_kind,
+                       const Attributes& attributes) {
+  const ReportHitResult result = invocation.dispatch->services->report_hit(
+      invocation, t, hit_kind, &attributes, sizeof(Attributes));
+  ended = ended || result == ReportHitResult::kEndSearch;
+  return result != ReportHitResult::kRejected;
+}
+
+template <class Data>
+inline void call_shader(Invocation& invocation, uint32_t shader_index, Data& data) {
+  invocation.dispatch->services->call_shader(invocation, shader_index, &data, sizeof(Data));
+}
+
+// Attributes arrive as bytes of the structure that ReportHit was given, or two floats of a
+// triangle.
+template <class Attributes>
+KAAMOS_INLINE Attributes load_attributes(const void* bytes) {
+  Attributes attributes;
+  __builtin_memcpy(&attributes, bytes, sizeof(attributes));
+  return attributes;
+}
+
+// The numbers of the IR's BarrierFlags.
+enum BarrierScope : uint32_t { kGroupMemory = 1, kDeviceMemory = 2, kGroupSync = 4 };
+
+inline void barrier(Invocation& invocation, ComputeGroup* group, uint32_t scope) {
+  __atomic_thread_fence(__ATOMIC_SEQ_CST);
+  if ((scope & kGroupSync) != 0 && group != nullptr) {
+    invocation.dispatch->services->group_barrier(*group);
+  }
+}
+
+}  // namespace kaamos::shader

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+//
+// Textures and typed buffers: HLSL's argument lists put into the ABI's structures, and texels into
+// HLSL's types. V is the result's type: a scalar or vector of up to four float, int, uint, float16,
+// int16 or uint16.
+#pragma once
+
+#include "kaamos/shader/abi.h"
+#include "kaamos/shader/convert.h"
+
+namespace kaamos::shader {
+namespace texture_access {
+
+// The 32-bit type that a texel holds for a component type.
+template <class T>
+using Wide = std::conditional_t<is_float<T>, float,
+                                std::conditional_t<std::is_signed_v<T>, int32_t, uint32_t>>;
+
+template <class V>
+KAAMOS_INLINE V from_texel(const Texel& texel) {
+  using T = scalar_of<V>;
+  V value{};
+  for (int i = 0; i < shape<V>::count; ++i) {
+    component(value, i) = op::Convert<T>::apply(__builtin_bit_cast(Wide<T>, texel.bits[i]));
+  }
+  return value;
+}
+
+template <class V>
+KAAMOS_INLINE Texel to_texel(const V& value) {
+  using T = scalar_of<V>;
+  Texel texel = {};
+  for (int i = 0; i < shape<V>::count; ++i) {
+    texel.bits[i] = __builtin_bit_cast(uint32_t, op::Convert<Wide<T>>::apply(component(value, i)));
+  }
+  return texel;
+}
+
+template <class V, class Out>
+KAAMOS_INLINE void copy(const V& from, Out* to, int limit) {
+  for (int i = 0; i < shape<V>::count && i < limit; ++i) {
+    to[i] = op::Convert<Out>::apply(component(from, i));
+  }
+}
+
+template <class Location, class Offset>
+KAAMOS_INLINE SampleArguments arguments(const Descriptor& texture, const Descriptor& sampler,
+                                        const Location& location, const Offset& offset) {
+  SampleArguments a = {};
+  a.texture = &texture;
+  a.sampler = &sampler;
+  copy(location, a.coordinates, 4);
+  copy(offset, a.offset, 3);
+  return a;
+}
+
+}  // namespace texture_access
+
+// ---------------------------------------------------------------------------------------------
+// Sampling. offset is an int scalar or vector of texels.
+
+template <class V, class Location, class Offset = int32_t>
+KAAMOS_INLINE V sample_level(const Invocation& invocation, const Descriptor& texture,
+                             const Descriptor& sampler, const Location& location, float lod,
+                             const Offset& offset = {}) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, offset);
+  a.lod = lod;
+  return texture_access::from_texel<V>(invocation.dispatch->services->sample_level(a));
+}
+
+template <class V, class Location, class Gradient, class Offset = int32_t>
+KAAMOS_INLINE V sample_gradient(const Invocation& invocation, const Descriptor& texture,
+                                const Descriptor& sampler, const Location& location,
+                                const Gradient& ddx, const Gradient& ddy,
+                                const Offset& offset = {}) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, offset);
+  texture_access::copy(ddx, a.ddx, 3);
+  texture_access::copy(ddy, a.ddy, 3);
+  return texture_access::from_texel<V>(invocation.dispatch->services->sample_gradient(a));
+}
+
+template <class V = float, class Location, class Offset = int32_t>
+KAAMOS_INLINE V sample_compare_level(const Invocation& invocation, const Descriptor& texture,
+                                     const Descriptor& sampler, const Location& location,
+                                     float comparison, float lod, const Offset& offset = {}) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, offset);
+  a.comparison = comparison;
+  a.lod = lod;
+  return splat<V>(
+      op::Convert<scalar_of<V>>::apply(invocation.dispatch->services->sample_compare_level(a)));
+}
+
+// component: 0 red .. 3 alpha
+template <class V, class Location, class Offset = int32_t>
+KAAMOS_INLINE V gather(const Invocation& invocation, const Descriptor& texture,
+                       const Descriptor& sampler, const Location& location, uint32_t component,
+                       const Offset& offset = {}) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, offset);
+  a.component = component;
+  return texture_access::from_texel<V>(invocation.dispatch->services->gather(a));
+}
+
+template <class V, class Location, class Offset = int32_t>
+KAAMOS_INLINE V gather_compare(const Invocation& invocation, const Descriptor& texture,
+                               const Descriptor& sampler, const Location& location,
+                               float comparison, const Offset& offset = {}) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, offset);
+  a.comparison = comparison;
+  return texture_access::from_texel<V>(invocation.dispatch->services->gather_compare(a));
+}
+
+// ---------------------------------------------------------------------------------------------
+// Texels. Coordinates are what the ABI wants: {x, y, z or array element, mip}.
+
+template <class V, class Offset = int32_t>
+KAAMOS_INLINE int4 texel_coordinates(const V& at, int32_t mip, const Offset& offset = {}) {
+  int32_t moved[3] = {};
+  texture_access::copy(offset, moved, 3);
+  int4 result = {{0, 0, 0, mip}};
+  for (int i = 0; i < shape<V>::count && i < 3; ++i) {
+    result.e[i] = op::Add::apply(static_cast<int32_t>(component(at, i)), moved[i]);
+  }
+  return result;
+}
+template <class V, class Offset = int32_t>
+KAAMOS_INLINE int4 texel_coordinates_1d_array(const V& at, int32_t mip, const Offset& offset = {}) {
+  const int4 plain = texel_coordinates(at, mip, offset);
+  return {{plain.e[0], 0, plain.e[1], plain.e[3]}};
+}
+
+template <class V>
+KAAMOS_INLINE V load_texel(const Invocation& invocation, const Descriptor& texture,
+                           const int4& coordinates) {
+  return texture_access::from_texel<V>(
+      invocation.dispatch->services->load_texel(texture, coordinates.e));
+}
+template <class V>
+KAAMOS_INLINE void store_texel(const Invocation& invocation, const Descriptor& texture,
+                               const int4& coordinates, const V& value) {
+  invocation.dispatch->services->store_texel(texture, coordinates.e,
+                                             texture_access::to_texel(value));
+}
+template <class T>
+KAAMOS_INLINE T* texel_address(const Invocation& invocation, const Descriptor& texture,
+                               const int4& coordinates) {
+  return static_cast<T*>(invocation.dispatch->services->texel_address(texture, coordinates.e));
+}
+
+template <class V>
+KAAMOS_INLINE V load_typed(const Invocation& invocation, const Descriptor& buffer,
+                           uint32_t element) {
+  return texture_access::from_texel<V>(invocation.dispatch->services->load_typed(buffer, element));
+}
+template <class V>
+KAAMOS_INLINE void store_typed(const Invocation& invocation, const Descriptor& buffer,
+                               uint32_t element, const V& value) {
+  invocation.dispatch->services->store_typed(buffer, element, texture_access::to_texel(value));
+}
+template <class T>
+KAAMOS_INLINE T* typed_address(const Invocation& invocation, const Descriptor& buffer,
+                               uint32_t element) {
+  return static_cast<T*>(invocation.dispatch->services->typed_address(buffer, element));
+}
+
+// Textures: {width, height, depth or elements, mips} of the mip. Buffers: {elements or bytes,
+// stride, 0, 0}. A root descriptor has no size: the largest number stands for it.
+inline uint4 dimensions(const Invocation& invocation, const Descriptor& descriptor, uint32_t mip) {
+  const auto clamped = [](uint64_t n) { return n > ~0u ? ~0u : static_cast<uint32_t>(n); };
+  switch (descriptor.kind) {
+    case DescriptorKind::kRawBuffer:
+      return {{clamped(descriptor.size_bytes), 1, 0, 0}};
+    case DescriptorKind::kStructuredBuffer: {
+      const uint32_t stride = descriptor.stride_bytes;
+      return {{stride != 0 ? clamped(descriptor.size_bytes / stride) : 0, stride, 0, 0}};
+    }
+    case DescriptorKind::kTypedBuffer:
+    case DescriptorKind::kTexture: {
+      const TextureDimensions d =
+          invocation.dispatch->services->texture_dimensions(descriptor, mip);
+      return {{d.width, d.height, d.depth_or_elements, d.mip_count}};
+    }
+    default:
+      return {};
+  }
+}
+
+}  // namespace kaamos::shader
