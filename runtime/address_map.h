@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// Which GPU virtual addresses are alive, and how their buffers are called. rtapi keeps it; a
+// backend looks up what it is about to read or write while it executes.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <string>
+
+#include <rtapi/resource.h>
+
+namespace kaamos::runtime {
+
+struct Allocation {
+  uint64_t address = 0;
+  uint64_t size_bytes = 0;
+  rtapi::HeapType heap = rtapi::HeapType::kDefault;
+  rtapi::ResourceFlags flags = rtapi::ResourceFlags::kNone;
+  bool acceleration_structure = false;  // created in that state
+  std::string name;                     // "" without a name
+};
+
+class AddressMap {
+ public:
+  void insert(Allocation allocation) {
+    std::unique_lock lock(mutex_);
+    allocations_[allocation.address] = std::move(allocation);
+  }
+  void erase(uint64_t address) {
+    std::unique_lock lock(mutex_);
+    allocations_.erase(address);
+  }
+  void rename(uint64_t address, std::string name) {
+    std::unique_lock lock(mutex_);
+    if (auto it = allocations_.find(address); it != allocations_.end()) {
+      it->second.name = std::move(name);
+    }
+  }
+
+  // The allocation that holds the byte at `address`.
+  std::optional<Allocation> find(uint64_t address) const {
+    std::shared_lock lock(mutex_);
+    const Allocation* a = locate(address);
+    return a ? std::optional<Allocation>(*a) : std::nullopt;
+  }
+  // True if [address, address + size_bytes) lies inside one allocation.
+  bool contains(uint64_t address, uint64_t size_bytes) const {
+    return bytes_from(address) >= size_bytes && bytes_from(address) > 0;
+  }
+  // Bytes from `address` to the end of its allocation; 0 if it is in none.
+  uint64_t bytes_from(uint64_t address) const {
+    std::shared_lock lock(mutex_);
+    const Allocation* a = locate(address);
+    return a ? a->address + a->size_bytes - address : 0;
+  }
+
+ private:
+  const Allocation* locate(uint64_t address) const {
+    auto it = allocations_.upper_bound(address);
+    if (it == allocations_.begin()) return nullptr;
+    const Allocation& a = std::prev(it)->second;
+    return address - a.address < a.size_bytes ? &a : nullptr;
+  }
+
+  mutable std::shared_mutex mutex_;
+  std::map<uint64_t, Allocation> allocations_;
+};
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// A recorded command list: plain structures in order. What the host gave was checked and copied
+// when it was recorded; whatever stands in GPU memory (tables, instance records, build inputs,
+// descriptors) is read when the command executes. References to objects keep them alive until then.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <kaamos/shader/abi.h>
+#include <rtapi/raytracing.h>
+#include <rtapi/resource.h>
+
+namespace kaamos::runtime {
+
+class BackendBuffer;
+class BackendTexture;
+class BackendPipeline;
+
+// 64 DWORDs of arguments take at most 64 * 8 bytes here, as tables are 8-byte handles. Always whole
+// and zero where nothing was set, so that a shader of another root signature reads no wild memory.
+inline constexpr uint32_t kRootArgumentBytes = 512;
+struct alignas(16) RootArguments {
+  std::array<uint8_t, kRootArgumentBytes> bytes = {};
+};
+
+// What DispatchRays and Dispatch share. Snapshots are shared by dispatches between which nothing
+// was set.
+struct DispatchState {
+  std::shared_ptr<const RootArguments> root_arguments;  // never null
+  // The heaps set on the list; [begin, end) of shader::Dispatch. Null: none set.
+  std::shared_ptr<BackendBuffer> view_heap;
+  std::shared_ptr<BackendBuffer> sampler_heap;
+};
+
+struct DispatchRaysCommand {
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  rtapi::DispatchRaysDesc desc;
+  uint64_t pipeline_stack_bytes = 0;  // at record time [DXR: SetPipelineStackSize]
+};
+
+struct DispatchCommand {
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  uint32_t groups[3] = {0, 0, 0};
+};
+
+struct BuildCommand {
+  uint64_t dest = 0;
+  uint64_t source = 0;  // 0 unless flags hold kPerformUpdate
+  uint64_t scratch = 0;
+  rtapi::RaytracingAccelerationStructureType type =
+      rtapi::RaytracingAccelerationStructureType::kTopLevel;
+  rtapi::RaytracingAccelerationStructureBuildFlags flags =
+      rtapi::RaytracingAccelerationStructureBuildFlags::kNone;
+  std::vector<rtapi::RaytracingGeometryDesc> geometries;  // bottom level, of one type
+  uint32_t instance_count = 0;                            // top level
+  rtapi::ElementsLayout instance_layout = rtapi::ElementsLayout::kArray;
+  uint64_t instance_descs = 0;
+  std::vector<rtapi::RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos;
+};
+
+struct EmitPostbuildInfoCommand {
+  rtapi::RaytracingAccelerationStructurePostbuildInfoDesc desc;
+  std::vector<uint64_t> sources;
+};
+
+struct CopyAccelerationStructureCommand {
+  uint64_t dest = 0;
+  uint64_t source = 0;
+  rtapi::RaytracingAccelerationStructureCopyMode mode =
+      rtapi::RaytracingAccelerationStructureCopyMode::kClone;
+};
+
+struct CopyBufferCommand {
+  std::shared_ptr<BackendBuffer> dest;
+  uint64_t dest_offset = 0;
+  std::shared_ptr<BackendBuffer> source;
+  uint64_t source_offset = 0;
+  uint64_t size_bytes = 0;
+};
+
+// Exactly one of texture and buffer is set.
+struct TextureCopyPlace {
+  std::shared_ptr<BackendTexture> texture;
+  uint32_t mip = 0;
+  uint32_t array_element = 0;
+  std::shared_ptr<BackendBuffer> buffer;
+  uint64_t offset = 0;             // bytes to texel (0,0,0) of the footprint
+  uint32_t row_pitch = 0;          // bytes
+  uint64_t slice_pitch = 0;        // bytes
+  uint32_t origin[3] = {0, 0, 0};  // texels: first one of the copy
+};
+
+// `extent` texels from one place to another; not both are buffers. Inside both, formats of equal
+// texel size: checked.
+struct CopyTextureCommand {
+  TextureCopyPlace dest;
+  TextureCopyPlace source;
+  uint32_t extent[3] = {0, 0, 0};
+};
+
+// Writes every element of an unordered access view: a typed, raw or structured buffer, or a
+// texture. The values are cut to the format as HLSL's typed stores do; raw and structured: DWORD
+// values[0].
+struct ClearUavCommand {
+  shader::Descriptor view;
+  bool is_float = false;
+  uint32_t values[4] = {0, 0, 0, 0};     // float: bit patterns
+  std::shared_ptr<const void> resource;  // keeps it alive
+};
+
+// Orders everything before it against everything after it. A backend that runs commands one after
+// another has nothing to do.
+struct BarrierCommand {
+  enum class Kind : uint8_t { kUav, kTransition } kind = Kind::kUav;
+  std::shared_ptr<BackendBuffer> buffer;  // both null: all resources
+  std::shared_ptr<BackendTexture> texture;
+  rtapi::ResourceStates before = rtapi::ResourceStates::kCommon;
+  rtapi::ResourceStates after = rtapi::ResourceStates::kCommon;
+};
+
+struct EventCommand {
+  bool begin = true;
+  std::string name;
+};
+
+using Command =
+    std::variant<DispatchRaysCommand, DispatchCommand, BuildCommand, EmitPostbuildInfoCommand,
+                 CopyAccelerationStructureCommand, CopyBufferCommand, CopyTextureCommand,
+                 ClearUavCommand, BarrierCommand, EventCommand>;
+
+}  // namespace kaamos::runtime
