@@ -3,19 +3,31 @@
 # and kaamos_add_test, which gives a GoogleTest executable its ctest labels.
 include_guard()
 
+# All of it is for this build only: the package exports the target empty, because the static libraries
+# that link it name it.
 add_library(kaamos_build_flags INTERFACE)
-target_compile_options(kaamos_build_flags INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+set_target_properties(kaamos_build_flags PROPERTIES EXPORT_NAME build_flags)
+function(kaamos_add_build_flags)
+  cmake_parse_arguments(arg "" "" "COMPILE;LINK" ${ARGN})
+  foreach(flag IN LISTS arg_COMPILE)
+    target_compile_options(kaamos_build_flags INTERFACE "$<BUILD_INTERFACE:${flag}>")
+  endforeach()
+  foreach(flag IN LISTS arg_LINK)
+    target_link_options(kaamos_build_flags INTERFACE "$<BUILD_INTERFACE:${flag}>")
+  endforeach()
+endfunction()
+kaamos_add_build_flags(COMPILE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
 if(KAAMOS_WERROR)
-  target_compile_options(kaamos_build_flags INTERFACE -Werror)
+  kaamos_add_build_flags(COMPILE -Werror)
 endif()
 if(KAAMOS_SANITIZE)
-  target_compile_options(kaamos_build_flags INTERFACE
-    -fsanitize=${KAAMOS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined)
-  target_link_options(kaamos_build_flags INTERFACE -fsanitize=${KAAMOS_SANITIZE})
+  kaamos_add_build_flags(
+    COMPILE -fsanitize=${KAAMOS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined
+    LINK -fsanitize=${KAAMOS_SANITIZE})
 endif()
 find_program(KAAMOS_MOLD mold)
 if(KAAMOS_MOLD AND NOT KAAMOS_SANITIZE)
-  target_link_options(kaamos_build_flags INTERFACE -fuse-ld=mold)
+  kaamos_add_build_flags(LINK -fuse-ld=mold)
 endif()
 find_program(KAAMOS_CCACHE ccache)
 if(KAAMOS_CCACHE)

@@ -1,1 +1,2 @@
+#!/usr/bin/env bash
 # SPDX-License-Identifier: MIT

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+# cmake --install and find_package(kaamos CONFIG). Called once, after every folder was added, so that
+# a library or a dependency that is new in the tree is in the package without a line here.
+include_guard()
+include(CMakePackageConfigHelpers)
+
+set(KAAMOS_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/kaamos")
+# Headers under these folders are included by their path below it.
+set(KAAMOS_PACKAGE_INCLUDE_DIRS "${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_INSTALL_INCLUDEDIR}/kaamos")
+
+# kaamos_collect_libraries(variable folder...): every library target of these folders and below.
+function(kaamos_collect_libraries result)
+  set(libraries)
+  foreach(folder IN LISTS ARGN)
+    get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+      get_target_property(type ${target} TYPE)
+      if(type MATCHES "^(STATIC|SHARED|INTERFACE|OBJECT)_LIBRARY$")
+        list(APPEND libraries ${target})
+      endif()
+    endforeach()
+    get_property(children DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+    kaamos_collect_libraries(nested ${children})
+    list(APPEND libraries ${nested})
+  endforeach()
+  set(${result} ${libraries} PARENT_SCOPE)
+endfunction()
+
+# The include folders of the source tree are for the build; an installed library has its own.
+function(kaamos_make_includes_relocatable target)
+  get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
+  set(relocatable)
+  foreach(folder IN LISTS folders)
+    if(folder AND NOT folder MATCHES "^\\$<(BUILD|INSTALL)_INTERFACE:")
+      set(folder "$<BUILD_INTERFACE:${folder}>")
+    endif()
+    list(APPEND relocatable ${folder})
+  endforeach()
+  list(FILTER relocatable EXCLUDE REGEX "NOTFOUND$")
+  foreach(folder IN LISTS KAAMOS_PACKAGE_INCLUDE_DIRS)
+    list(APPEND relocatable "$<INSTALL_INTERFACE:${folder}>")
+  endforeach()
+  set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${relocatable}")
+endfunction()
+
+# A library that find_library found has an absolute path here; elsewhere its name finds it.
+function(kaamos_make_links_relocatable target)
+  get_target_property(linked ${target} INTERFACE_LINK_LIBRARIES)
+  if(NOT linked)
+    return()
+  endif()
+  set(relocatable)
+  foreach(item IN LISTS linked)
+    if(item MATCHES "^(\\$<LINK_ONLY:)?(/[^>]*/lib([^/>]+)[.](a|so))>?$")
+      list(APPEND relocatable "$<BUILD_INTERFACE:${item}>" "$<INSTALL_INTERFACE:${CMAKE_MATCH_3}>")
+    else()
+      list(APPEND relocatable "${item}")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES INTERFACE_LINK_LIBRARIES "${relocatable}")
+endfunction()
+
+# kaamos_collect_dependencies(variable target...): find_dependency lines for what these targets link.
+# "TBB::tbb" comes from package TBB; Debian's Embree is the one whose target has no namespace.
+function(kaamos_collect_dependencies result)
+  set(lines)
+  foreach(target IN LISTS ARGN)
+    get_target_property(linked ${target} INTERFACE_LINK_LIBRARIES)
+    foreach(item IN LISTS linked)
+      string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" item "${item}")
+      if(item MATCHES "^embree[0-9]*$")
+        list(APPEND lines "find_dependency(embree)")
+      elseif(item MATCHES "^Boost::([a-z_]+)$")
+        list(APPEND lines "find_dependency(Boost COMPONENTS ${CMAKE_MATCH_1})")
+      elseif(item MATCHES "^kaamos::")
+        continue()
+      elseif(item MATCHES "^([A-Za-z0-9_]+)::")
+        list(APPEND lines "find_dependency(${CMAKE_MATCH_1})")
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES lines)
+  list(SORT lines)
+  list(JOIN lines "\n" text)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+function(kaamos_install_headers)
+  foreach(folder IN ITEMS rtapi/include runtime/shader/include)
+    if(IS_DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}")
+      install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    endif()
+  endforeach()
+  # Headers of the effects include each other as "effects/...", with which they keep working in
+  # include/kaamos; their shader files go with them.
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE)
+endfunction()
+
+function(kaamos_install_package)
+  kaamos_collect_libraries(libraries "${PROJECT_SOURCE_DIR}/runtime" "${PROJECT_SOURCE_DIR}/rtapi"
+    "${PROJECT_SOURCE_DIR}/effects")
+  foreach(library IN LISTS libraries)
+    string(REGEX REPLACE "^kaamos_" "" name ${library})
+    set_target_properties(${library} PROPERTIES EXPORT_NAME ${name})
+    kaamos_make_includes_relocatable(${library})
+    kaamos_make_links_relocatable(${library})
+  endforeach()
+  list(APPEND libraries kaamos_build_flags)
+  kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
+
+  set(programs)
+  foreach(program IN ITEMS kaamos-hlsl northlight)
+    if(TARGET ${program})
+      list(APPEND programs ${program})
+    endif()
+  endforeach()
+  install(TARGETS ${libraries} ${programs} EXPORT kaamosTargets
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    OBJECTS DESTINATION "${CMAKE_INSTALL_LIBDIR}/kaamos" RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(EXPORT kaamosTargets NAMESPACE kaamos:: DESTINATION "${KAAMOS_PACKAGE_DIR}")
+  kaamos_install_headers()
+
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/kaamosConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/kaamosConfig.cmake" INSTALL_DESTINATION "${KAAMOS_PACKAGE_DIR}"
+    PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
+  write_basic_package_version_file("${PROJECT_BINARY_DIR}/kaamosConfigVersion.cmake"
+    COMPATIBILITY SameMinorVersion)
+  install(FILES "${PROJECT_BINARY_DIR}/kaamosConfig.cmake" "${PROJECT_BINARY_DIR}/kaamosConfigVersion.cmake"
+    DESTINATION "${KAAMOS_PACKAGE_DIR}")
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/KaamosShaders.cmake" DESTINATION "${KAAMOS_PACKAGE_DIR}"
+    OPTIONAL)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+endfunction()

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: MIT
+# Installs the build into a scratch prefix, moves that prefix (a package must not know where it was
+# made), and configures, builds and runs the consumer project against it.
+function(run_step what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${what} failed (${status}): ${command}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+set(prefix "${WORK}/installed elsewhere")
+run_step("installing" ${CMAKE_COMMAND} --install "${BUILD}" --prefix "${WORK}/first")
+file(RENAME "${WORK}/first" "${prefix}")
+
+file(GLOB_RECURSE texts "${prefix}/*.cmake" "${prefix}/*.h" "${prefix}/*.hlsl*")
+foreach(text IN LISTS texts)
+  file(READ "${text}" content)
+  foreach(folder IN ITEMS "${SOURCE}/" "${BUILD}/" "${WORK}/first")
+    string(FIND "${content}" "${folder}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "the installed \"${text}\" names a folder of the build: \"${folder}\"")
+    endif()
+  endforeach()
+endforeach()
+
+string(REPLACE "," ";" expected "${EXPECTED}")
+run_step("configuring the consumer" ${CMAKE_COMMAND} -S "${CONSUMER}" -B "${WORK}/build" -G Ninja
+  "-DCMAKE_PREFIX_PATH=${prefix}" "-DKAAMOS_EXPECTED=${expected}" "-DCMAKE_CXX_COMPILER=${CXX}"
+  "-DCMAKE_CXX_FLAGS=${FLAGS}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${CCACHE}" -DCMAKE_BUILD_TYPE=Release)
+run_step("building the consumer" ${CMAKE_COMMAND} --build "${WORK}/build")
+run_step("running the consumer" "${WORK}/build/consumer")
+message(STATUS "${output}")
+file(REMOVE_RECURSE "${WORK}")

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used.
+set -euo pipefail
+rule=$1
+cd "$2"
+
+# Inputs of tests (testdata) break rules on purpose, and a line more would move the lines they expect.
+list_files() {
+  find . \( -name build -o -name out -o -name .git -o -name .cache -o -name testdata \) -prune -o \
+    -type f \( "$@" \) -printf '%P\n' | LC_ALL=C sort
+}
+code=(\( -name '*.cpp' -o -name '*.h' -o -name '*.hlsl' -o -name '*.hlsli' -o -name '*.sh' -o -name '*.awk'
+  -o -name '*.cmake' -o -name '*.cmake.in' -o -name CMakeLists.txt -o -path './scripts/*' -o -path './.ci/*' \)
+  ! -name '*.md')
+
+# Every source begins with its licence, after "#!" where there is one.
+check_spdx() {
+  list_files "${code[@]}" | xargs -r -d '\n' awk '
+    FNR == 1 && /^#!/ { next }
+    FNR <= 2 && !seen[FILENAME]++ {
+      if ($0 !~ /^(\/\/|#) SPDX-License-Identifier: MIT\r?$/)
+        print FILENAME ":" FNR ": does not begin with \"SPDX-License-Identifier: MIT\" in a comment"
+    }'
+  # awk never sees a line of an empty file.
+  list_files "${code[@]}" -empty | sed 's/$/:1: is empty/'
+}
+
+# Nothing knows the folders of one machine. Brackets keep the patterns from matching themselves.
+check_paths() {
+  list_files "${code[@]}" -o -name '*.md' -o -name '*.json' -o -name '*.txt' | xargs -r -d '\n' grep -nIHE \
+    '(^|[^A-Za-z0-9_.$}])([/]work/|[/]root/|[/]home/[a-z]|[/]tmp/[a-z]|[/]Users/[A-Za-z])' | sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a path of one machine/' || true
+}
+
+# What is left to do stands in an issue, not in a source.
+check_marks() {
+  list_files "${code[@]}" -o -name '*.md' |
+    xargs -r -d '\n' grep -nIHE '\b(TO[D]O|FIX[M]E|XX[X]|HA[C]K)\b' |
+    sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a left-over mark/' || true
+}
+
+# A folder that holds sources has a README.md of at most one page; folders that only continue the one
+# above them (src, include and what they hold, one folder per shader or scene) need none.
+check_readme() {
+  local folder lines
+  list_files "${code[@]}" | sed -n 's|^\([^.][^/]*/.*\)/[^/]*$|\1|p; s|^\([^./][^/]*\)/[^/]*$|\1|p' |
+    grep -vE '(^|/)(src|include|lib|shaders|consumer)(/|$)' | LC_ALL=C sort -u |
+    while read -r folder; do
+      if [[ ! -f $folder/README.md ]]; then
+        echo "$folder:1: has no README.md: what lives here, what it may include, where to start reading"
+        continue
+      fi
+      lines=$(wc -l <"$folder/README.md")
+      if ((lines > 60)) && [[ $folder != . ]]; then
+        echo "$folder/README.md:$lines: is longer than a page (60 lines)"
+      fi
+    done
+}
+
+# Past 500 lines, ask what second noun lives in the file. A warning, so it never fails.
+check_length() {
+  list_files "${code[@]}" | xargs -r -d '\n' wc -l |
+    awk '$2 != "total" && $1 > 500 { print "warning: " $2 ":" $1 ": has more than 500 lines" }' >&2
+}
+
+# Lines "package kind pattern" of package_uses.txt; kind is needed or optional.
+list_uses() { grep -vE '^(#|$)' tests/style/package_uses.txt; }
+list_cmake() { list_files \( -name CMakeLists.txt -o -name '*.cmake' \) ! -path './tests/package/consumer/*'; }
+
+# What CMake looks for comes from a package of scripts/packages.txt, or a fresh Debian could not build.
+check_listed() {
+  local file line text pattern
+  list_cmake | xargs -r -d '\n' grep -nHE '^ *(find_package|find_program|find_path|find_library|pkg_[a-z_]+) ?\(' |
+    while IFS=: read -r file line text; do
+      while read -r package kind pattern; do
+        if [[ $text =~ $pattern ]]; then
+          if [[ $kind == needed ]] && ! grep -qE "^${package//+/[+]} " scripts/packages.txt; then
+            echo "$file:$line: needs $package, which scripts/packages.txt does not list"
+          fi
+          continue 2
+        fi
+      done < <(list_uses)
+      echo "$file:$line: no line of tests/style/package_uses.txt says which package this is from:$text"
+    done
+}
+
+# Nobody installs what nothing uses.
+check_used() {
+  local package pattern
+  awk '!/^#/ && NF { print $1 }' scripts/packages.txt | while read -r package; do
+    pattern=$(list_uses | awk -v package="$package" '$1 == package { sub(/^[^ ]+ +[^ ]+ +/, ""); print; exit }')
+    if [[ -z $pattern ]]; then
+      echo "scripts/packages.txt:1: tests/style/package_uses.txt does not say what uses $package"
+    elif ! list_files \( -name CMakeLists.txt -o -name '*.cmake' -o -name 'CMakePresets.json' -o -name '*.cpp' \
+      -o -name '*.h' \) | xargs -r -d '\n' grep -qE -- "$pattern"; then
+      echo "scripts/packages.txt:1: nothing uses $package: no source matches \"$pattern\""
+    fi
+  done
+}
+
+case $rule in
+  spdx | paths | marks | readme | length | listed | used) ;;
+  *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
+esac
+found=$("check_$rule")
+if [[ -n $found ]]; then
+  printf '%s\n' "$found"
+  exit 1
+fi
+echo "rule $rule holds"

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// TODO: write it
+// A photoshop hackathon.
