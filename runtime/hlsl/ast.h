@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "ast_arena.h"
+#include "literal.h"
 #include "source.h"
 
 namespace kaamos::hlsl {
@@ -219,8 +220,6 @@ struct Expr {
 struct ErrorExpr : Expr {
   static constexpr ExprKind kKind = ExprKind::kError;
 };
-
-enum class LiteralSuffix : uint8_t { kNone, kU, kL, kUL, kF, kH };
 
 struct IntLiteralExpr : Expr {
   static constexpr ExprKind kKind = ExprKind::kIntLiteral;
