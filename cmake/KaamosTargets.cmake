@@ -3,6 +3,13 @@
 # and kaamos_add_test, which gives a GoogleTest executable its ctest labels.
 include_guard()
 
+# Older ones fail in the middle of the build, with messages that help nobody.
+if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+   OR (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14))
+  message(FATAL_ERROR "Kaamos needs g++ 12 or clang++ 14 or newer; ${CMAKE_CXX_COMPILER} is "
+    "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}. Set CXX to a newer one.")
+endif()
+
 # All of it is for this build only: the package exports the target empty, because the static libraries
 # that link it name it.
 add_library(kaamos_build_flags INTERFACE)

@@ -16,8 +16,11 @@ require_tools() {
   version_at_least "$version" "$cmake_minimum" ||
     die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
       "Debian 12 brings 3.25 as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
-  if [[ -z ${CXX:-} ]] && ! command -v c++ >/dev/null && ! command -v g++ >/dev/null &&
-    ! command -v clang++ >/dev/null; then
+  # CXX may hold options after the name.
+  if [[ -n ${CXX:-} ]]; then
+    command -v "${CXX%% *}" >/dev/null ||
+      die "CXX names a compiler that is not there: \"$CXX\"." "Unset CXX to use the system's, or correct it."
+  elif ! command -v c++ >/dev/null && ! command -v g++ >/dev/null && ! command -v clang++ >/dev/null; then
     die "there is no C++ compiler in PATH." "On Debian: apt-get install g++"
   fi
 }

@@ -245,6 +245,12 @@ missing_compiler_is_named() {
   expect 'apt-get install g++'
 }
 
+wrong_compiler_variable_is_named() {
+  command_ env CXX='g++-99 -m64' "$checkout/scripts/test"
+  expect_status 1
+  expect 'CXX names a compiler that is not there: "g++-99 -m64".'
+}
+
 missing_cmake_is_named() {
   rm "$bin/cmake"
   run_test
