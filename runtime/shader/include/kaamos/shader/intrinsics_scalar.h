@@ -215,7 +215,8 @@ struct ModfFraction {
 
 struct Fma {
   KAAMOS_INLINE static half apply(half x, half y, half z) {
-    // In double the product and the sum of halves are exact: one rounding.
+    // The product is exact in double, and the sum too wherever the half below and the half above
+    // are about equally near: the result is rounded once.
     return to_half(static_cast<double>(to_float(x)) * static_cast<double>(to_float(y)) +
                    static_cast<double>(to_float(z)));
   }
