@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+//
+// The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
+// structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
+// tables).
+//
+// The emitted unit: prelude as namespace `ks`, everything of the library in namespace `u`:
+// structs, constants, `u::Context` (one for each shader invocation: the ABI's Invocation, static
+// globals, how the shader ended), functions that take a Context, then entry functions of the ABI's
+// types and the tables.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/emit_names.h"
+#include "runtime/hlsl/ir.h"
+
+namespace kaamos::hlsl {
+
+class CppEmitter {
+ public:
+  CppEmitter(const ir::Module& module, const EmitCppOptions& options);
+  std::string run();
+
+ private:
+  // emit_types.cpp
+  std::string type(const ir::Type* type);
+  void emit_structs();
+  void emit_memory_functions();
+  std::string memory_read(const ir::Type* type, ir::Layout layout, bool row_major,
+                          const std::string& view, const std::string& offset);
+  std::string memory_write(const ir::Type* type, ir::Layout layout, bool row_major,
+                           const std::string& view, const std::string& offset,
+                           const std::string& text);
+  // Bytes of a value of the type as C++ stores it, near enough for stack sizes.
+  uint32_t stack_bytes(const ir::Type* type) const;
+
+  // emit_expressions.cpp
+  std::string value(const ir::Expr* expr);
+  std::string place(const ir::Expr* expr);  // an lvalue: what may stand left of "="
+  std::string literal(const ir::Expr& expr);
+  std::string scalar_literal(ir::Scalar scalar, uint64_t bits);
+  std::string construct(const ir::Expr& expr);
+  std::string unary(const ir::Expr& expr);
+  std::string binary(const ir::Expr& expr);
+  std::string element(const ir::Expr& expr, bool as_place);
+  std::string system_value(const ir::Expr& expr);
+  std::string binding(const ir::Expr& expr);
+  std::string load(const ir::Expr& expr);
+  std::string typed_load(const ir::Expr& expr);
+  std::string sample(const ir::Expr& expr);
+  std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
+  std::string variable(const ir::Variable* variable);
+  // Texel coordinates as the ABI wants them: {x, y, z or array element, mip}.
+  std::string texel_coordinates(const ir::Type* resource, const ir::Expr* coordinates,
+                                const ir::Expr* mip, const ir::Expr* offset);
+
+  // emit_statements.cpp
+  void block(const ir::Block& body);
+  void statement(const ir::Stmt& stmt);
+  void declare(const ir::Stmt& stmt);
+  void assign(const ir::Expr* target, const std::string& value);
+  void store(const ir::Stmt& stmt);
+  void atomic(const ir::Stmt& stmt);
+  void call_function(const ir::Stmt& stmt);
+  void trace_ray(const ir::Stmt& stmt);
+  void report_hit(const ir::Stmt& stmt);
+  void loop(const ir::Stmt& stmt);
+  void switch_(const ir::Stmt& stmt);
+  void end_shader();  // return from the function with any value
+
+  // emit_cpp.cpp
+  void emit_constants();
+  void emit_context();
+  void emit_functions();
+  void emit_signature(const ir::Function& function);
+  void emit_function(const ir::Function& function);
+  void emit_entry(size_t index);
+  void emit_compute_entry(size_t index);
+  void emit_static_initialisers(const ir::Function& function);
+  void emit_tables();
+  std::string entry_arguments(const ir::EntryPoint& entry);
+  void collect_static_use();
+
+  // The output.
+  void line(std::string_view text) {
+    out_.append(static_cast<size_t>(indent_) * 2, ' ');
+    out_ += text;
+    out_ += '\n';
+  }
+  void open(std::string_view text) {
+    line(text);
+    ++indent_;
+  }
+  void close(std::string_view text) {
+    --indent_;
+    line(text);
+  }
+  void at(const ir::Location& location);
+  void at_generated();
+
+  const ir::Module& module_;
+  const EmitCppOptions& options_;
+  std::string out_;
+  int indent_ = 0;
+
+  NameSet global_names_;  // namespace u
+  std::unordered_map<const ir::Struct*, std::string> struct_names_;
+  std::unordered_map<const ir::Struct*, std::vector<std::string>> field_names_;
+  std::unordered_map<const ir::Function*, std::string> function_names_;
+  std::unordered_map<const ir::Variable*, std::string> variable_names_;
+  ScopedNames local_names_;
+  // Static globals that a function and everything it calls can touch, in the module's order.
+  std::unordered_map<const ir::Function*, std::unordered_set<const ir::Variable*>> statics_;
+  std::unordered_map<const ir::Function*, uint32_t> stack_;
+  const ir::Function* current_ = nullptr;
+  // The innermost loops: number of the label that `continue` jumps to.
+  std::vector<int> loops_;
+  std::unordered_set<int> used_labels_;
+  int next_label_ = 0;
+};
+
+// Quoted for C and C++.
+std::string quote(std::string_view text);
+
+}  // namespace kaamos::hlsl

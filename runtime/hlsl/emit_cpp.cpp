@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT
+//
+// The unit as a whole: constants, the context, functions, entry functions and the library's tables.
+#include "runtime/hlsl/emit_cpp.h"
+
+#include <algorithm>
+
+#include "runtime/hlsl/cpp_emitter.h"
+
+namespace kaamos::hlsl {
+
+using namespace ir;
+
+std::string quote(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte >= 0x7F) {
+      // Octal: at most three digits, so that it ends by itself.
+      out += '\\';
+      out += static_cast<char>('0' + (byte >> 6));
+      out += static_cast<char>('0' + ((byte >> 3) & 7));
+      out += static_cast<char>('0' + (byte & 7));
+    } else {
+      out += c;
+    }
+  }
+  return out + "\"";
+}
+
+namespace {
+
+// What a statement refers to, whatever its kind.
+template <typename ExprVisitor, typename StmtVisitor>
+void visit(const Stmt& stmt, const ExprVisitor& on_expr, const StmtVisitor& on_stmt);
+
+template <typename ExprVisitor, typename StmtVisitor>
+void visit(const Block& block, const ExprVisitor& on_expr, const StmtVisitor& on_stmt) {
+  for (const Stmt* stmt : block) {
+    visit(*stmt, on_expr, on_stmt);
+  }
+}
+
+template <typename ExprVisitor>
+void visit_expr(const Expr* expr, const ExprVisitor& on_expr) {
+  if (expr == nullptr) {
+    return;
+  }
+  on_expr(*expr);
+  for (const Expr* operand : expr->operands) {
+    visit_expr(operand, on_expr);
+  }
+}
+
+template <typename ExprVisitor, typename StmtVisitor>
+void visit(const Stmt& stmt, const ExprVisitor& on_expr, const StmtVisitor& on_stmt) {
+  on_stmt(stmt);
+  for (const Expr* expr : {stmt.place, stmt.value, stmt.compare}) {
+    visit_expr(expr, on_expr);
+  }
+  for (const auto* list : {&stmt.operands, &stmt.arguments}) {
+    for (const Expr* expr : *list) {
+      visit_expr(expr, on_expr);
+    }
+  }
+  for (const Block* block : {&stmt.prelude, &stmt.body, &stmt.orelse, &stmt.step}) {
+    visit(*block, on_expr, on_stmt);
+  }
+  for (const SwitchCase& c : stmt.cases) {
+    visit(c.body, on_expr, on_stmt);
+  }
+}
+
+const char* stage_name(uint32_t stage) {
+  switch (stage) {
+    case kStageRayGeneration:
+      return "kRayGeneration";
+    case kStageIntersection:
+      return "kIntersection";
+    case kStageAnyHit:
+      return "kAnyHit";
+    case kStageClosestHit:
+      return "kClosestHit";
+    case kStageMiss:
+      return "kMiss";
+    case kStageCallable:
+      return "kCallable";
+    case kStageCompute:
+      return "kCompute";
+    default:
+      return "kLibrary";
+  }
+}
+
+const char* binding_type(ResourceKind kind) {
+  switch (kind) {
+    case ResourceKind::kConstantBuffer:
+      return "kConstantBuffer";
+    case ResourceKind::kByteAddressBuffer:
+    case ResourceKind::kRWByteAddressBuffer:
+      return "kRawBuffer";
+    case ResourceKind::kStructuredBuffer:
+    case ResourceKind::kRWStructuredBuffer:
+      return "kStructuredBuffer";
+    case ResourceKind::kBuffer:
+    case ResourceKind::kRWBuffer:
+      return "kTypedBuffer";
+    case ResourceKind::kSampler:
+      return "kSampler";
+    case ResourceKind::kSamplerComparison:
+      return "kComparisonSampler";
+    case ResourceKind::kAccelerationStructure:
+      return "kAccelerationStructure";
+    default:
+      return "kTexture";
+  }
+}
+
+const char* register_class_name(uint8_t register_class) {
+  constexpr const char* kNames[] = {"kShaderResource", "kUnorderedAccess", "kConstantBuffer",
+                                    "kSampler"};
+  return kNames[register_class & 3];
+}
+
+}  // namespace
+
+CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
+    : module_(module), options_(options) {}
+
+// Which static globals a function can touch, and how much stack it may need; callees stand before
+// callers in the module.
+void CppEmitter::collect_static_use() {
+  for (const Function* function : module_.functions) {
+    auto& statics = statics_[function];
+    uint32_t own = 0;
+    uint32_t deepest = 0;
+    const auto on_expr = [&](const Expr& expr) {
+      if (expr.kind == ExprKind::kVariable && expr.variable->storage == Storage::kStaticGlobal) {
+        statics.insert(expr.variable);
+      }
+    };
+    const auto on_stmt = [&](const Stmt& stmt) {
+      if (stmt.kind == StmtKind::kDeclare) {
+        own += stack_bytes(stmt.variable->type);
+      }
+      if (stmt.kind == StmtKind::kCall) {
+        statics.insert(statics_[stmt.function].begin(), statics_[stmt.function].end());
+        deepest = std::max(deepest, stack_[stmt.function]);
+      }
+    };
+    visit(function->body, on_expr, on_stmt);
+    for (const Variable* parameter : function->parameters) {
+      own += parameter->mode == ParameterMode::kIn ? stack_bytes(parameter->type) : 8;
+    }
+    stack_[function] = 16 + own + deepest;
+  }
+  // An initialiser may read other static globals.
+  for (auto& [function, statics] : statics_) {
+    for (bool grown = true; grown;) {
+      const size_t before = statics.size();
+      for (const Variable* variable :
+           std::vector<const Variable*>(statics.begin(), statics.end())) {
+        visit_expr(variable->initialiser, [&](const Expr& expr) {
+          if (expr.kind == ExprKind::kVariable &&
+              expr.variable->storage == Storage::kStaticGlobal) {
+            statics.insert(expr.variable);
+          }
+        });
+      }
+      grown = statics.size() != before;
+    }
+  }
+}
+
+void CppEmitter::emit_constants() {
+  for (const Variable* variable : module_.globals) {
+    if (variable->storage != Storage::kConstant) {
+      continue;
+    }
+    const std::string name = global_names_.add(variable->name);
+    variable_names_[variable] = name;
+    at(variable->location);
+    line("static const " + type(variable->type) + " " + name +
+         (variable->initialiser != nullptr ? " = " + value(variable->initialiser) : "{}") + ";");
+  }
+}
+
+void CppEmitter::emit_context() {
+  NameSet shared_names;
+  NameSet static_names;
+  at_generated();
+  open("struct Shared {");
+  for (const Variable* variable : module_.globals) {
+    if (variable->storage == Storage::kGroupShared) {
+      variable_names_[variable] = shared_names.add(variable->name);
+      line(type(variable->type) + " " + variable_names_[variable] + ";");
+    }
+  }
+  close("};");
+  open("struct Statics {");
+  for (const Variable* variable : module_.globals) {
+    if (variable->storage == Storage::kStaticGlobal) {
+      variable_names_[variable] = static_names.add(variable->name);
+      line(type(variable->type) + " " + variable_names_[variable] + ";");
+    }
+  }
+  close("};");
+  open("struct Context {");
+  line("ks::Invocation& invocation;");
+  line("ks::ComputeGroup* group = nullptr;");
+  line("Shared* shared = nullptr;");
+  line("bool ended = false;");
+  line("ks::AnyHitResult any_hit = ks::AnyHitResult::kAccept;");
+  line("Statics statics;");
+  line("explicit Context(ks::Invocation& i) : invocation(i) {}");
+  close("};");
+}
+
+void CppEmitter::emit_signature(const Function& function) {
+  std::string text = "static " + type(function.result) + " " + function_names_[&function] +
+                     "([[maybe_unused]] Context& ctx";
+  for (const Variable* parameter : function.parameters) {
+    variable_names_[parameter] = local_names_.declare(parameter->name);
+    text += ", " + type(parameter->type) + (parameter->mode == ParameterMode::kIn ? " " : "& ") +
+            variable_names_[parameter];
+  }
+  at(function.location);
+  open(text + ") {");
+}
+
+void CppEmitter::emit_function(const Function& function) {
+  current_ = &function;
+  local_names_.push();
+  emit_signature(function);
+  for (const Variable* parameter : function.parameters) {
+    if (parameter->mode == ParameterMode::kOut) {
+      line(variable_names_[parameter] + " = " + type(parameter->type) + "{};");
+    }
+  }
+  block(function.body);
+  at(function.end_location);
+  // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
+  if (function.result->kind != TypeKind::kVoid) {
+    line("return " + type(function.result) + "{};");
+    at(function.end_location);
+  }
+  close("}");
+  local_names_.pop();
+  current_ = nullptr;
+}
+
+void CppEmitter::emit_functions() {
+  for (const Function* function : module_.functions) {
+    function_names_[function] = global_names_.add(function->name);
+  }
+  for (const Function* function : module_.functions) {
+    emit_function(*function);
+  }
+}
+
+void CppEmitter::emit_static_initialisers(const Function& function) {
+  const auto& used = statics_[&function];
+  for (const Variable* variable : module_.globals) {
+    if (variable->storage != Storage::kStaticGlobal || used.count(variable) == 0) {
+      continue;
+    }
+    line(this->variable(variable) + " = " +
+         (variable->initialiser != nullptr ? value(variable->initialiser)
+                                           : type(variable->type) + "{}") +
+         ";");
+  }
+}
+
+std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
+  std::string out = "ctx";
+  for (size_t i = 0; i < entry.parameters.size(); ++i) {
+    const std::string t = type(entry.function->parameters[i]->type);
+    switch (entry.parameters[i]) {
+      case EntryParameter::kPayload:
+      case EntryParameter::kCallableData:
+        out += ", *static_cast<" + t + "*>(payload)";
+        break;
+      case EntryParameter::kAttributes:
+        out += ", ks::load_attributes<" + t + ">(attributes)";
+        break;
+      case EntryParameter::kDispatchThreadId:
+        out += ", ks::dispatch_thread_id<" + t + ">(group, size, thread)";
+        break;
+      case EntryParameter::kGroupId:
+        out += ", ks::group_value<" + t + ">(group.group_id)";
+        break;
+      case EntryParameter::kGroupThreadId:
+        out += ", ks::group_value<" + t + ">(thread)";
+        break;
+      case EntryParameter::kGroupIndex:
+        out += ", " + t + "(thread[0] + size[0] * (thread[1] + size[1] * thread[2]))";
+        break;
+    }
+  }
+  return out;
+}
+
+void CppEmitter::emit_compute_entry(size_t index) {
+  const EntryPoint& entry = module_.entry_points[index];
+  const std::string number = std::to_string(index);
+  const std::string size = std::to_string(entry.thread_group[0]) + ", " +
+                           std::to_string(entry.thread_group[1]) + ", " +
+                           std::to_string(entry.thread_group[2]);
+  open("static void thread_" + number +
+       "(ks::Invocation& invocation, ks::ComputeGroup& group, const uint32_t thread[3]) {");
+  line("[[maybe_unused]] constexpr uint32_t size[3] = {" + size + "};");
+  line("u::Context ctx(invocation);");
+  line("ctx.group = &group;");
+  line("ctx.shared = static_cast<u::Shared*>(group.shared);");
+  emit_static_initialisers(*entry.function);
+  line("u::" + function_names_[entry.function] + "(" + entry_arguments(entry) + ");");
+  close("}");
+  if (!entry.function->has_barrier) {
+    open("static void group_" + number + "(ks::Invocation& invocation, ks::ComputeGroup& group) {");
+    line("uint32_t thread[3];");
+    for (int axis = 2; axis >= 0; --axis) {
+      const std::string t = "thread[" + std::to_string(axis) + "]";
+      line("for (" + t + " = 0; " + t + " < " + std::to_string(entry.thread_group[axis]) + "u; ++" +
+           t + ")");
+    }
+    line("  thread_" + number + "(invocation, group, thread);");
+    close("}");
+  }
+  line("static const ks::ComputeDesc compute_" + number + " = {{" + size +
+       "}, sizeof(u::Shared), " +
+       (entry.function->has_barrier ? "nullptr, thread_" + number
+                                    : "group_" + number + ", nullptr") +
+       "};");
+}
+
+void CppEmitter::emit_entry(size_t index) {
+  const EntryPoint& entry = module_.entry_points[index];
+  if (entry.stage == kStageCompute) {
+    emit_compute_entry(index);
+    return;
+  }
+  const bool any_hit = entry.stage == kStageAnyHit;
+  std::string parameters = "ks::Invocation& invocation";
+  if (entry.stage & (kStageMiss | kStageCallable | kStageClosestHit | kStageAnyHit)) {
+    parameters += ", [[maybe_unused]] void* payload";
+  }
+  if (entry.stage & (kStageClosestHit | kStageAnyHit)) {
+    parameters += ", [[maybe_unused]] const void* attributes";
+  }
+  open(std::string("static ") + (any_hit ? "ks::AnyHitResult" : "void") + " entry_" +
+       std::to_string(index) + "(" + parameters + ") {");
+  line("u::Context ctx(invocation);");
+  if (entry.attributes != nullptr) {
+    // The backend's buffer; C++ may pad what counts as less in DXR.
+    line("static_assert(sizeof(" + type(entry.attributes) + ") <= 32);");
+  }
+  emit_static_initialisers(*entry.function);
+  line("u::" + function_names_[entry.function] + "(" + entry_arguments(entry) + ");");
+  if (any_hit) {
+    line("return ctx.any_hit;");
+  }
+  close("}");
+}
+
+void CppEmitter::emit_tables() {
+  const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
+  open("static const ks::BindingDesc bindings[] = {");
+  for (const Binding& b : module_.bindings) {
+    line("{" + quote(b.name) + ", ks::RegisterClass::" + register_class_name(b.register_class) +
+         ", ks::BindingType::" + binding_type(b.type->resource) + ", " + number(b.register_index) +
+         ", " + number(b.space) + ", " + number(b.count) + ", " + number(b.size_bytes) + ", " +
+         (b.automatic ? "true" : "false") + "},");
+  }
+  line("{}};");
+  --indent_;
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    std::string list = "static const uint32_t bindings_" + std::to_string(i) + "[] = {";
+    for (const uint32_t binding : module_.entry_points[i].bindings) {
+      list += number(binding) + ", ";
+    }
+    line(list + "0u};");
+  }
+  open("static const ks::ExportDesc exports[] = {");
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    const EntryPoint& e = module_.entry_points[i];
+    const std::string n = std::to_string(i);
+    const bool compute = e.stage == kStageCompute;
+    const bool callable = e.stage == kStageCallable;
+    const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
+    uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->may_call ? 2u : 0u) |
+                     (e.uses_view_heap ? 4u : 0u) | (e.uses_sampler_heap ? 8u : 0u);
+    line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
+         ", ks::Stage::" + stage_name(e.stage) + ", " +
+         (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +
+         (compute ? "&compute_" + n : "nullptr") + ", " + number(callable ? 0 : e.payload_bytes) +
+         ", " + storage + ", " + number(e.attribute_bytes) + ", " +
+         number(callable ? e.payload_bytes : 0) + ", " + number(stack_[e.function]) + ", " +
+         number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) + "},");
+  }
+  for (const LibraryFunction& f : module_.library_functions) {
+    line("{" + quote(f.name) + ", " + quote(f.mangled) +
+         ", ks::Stage::kLibrary, nullptr, nullptr, 0u, 0u, 0u, 0u, 0u, 0u, nullptr, 0u},");
+  }
+  line("{}};");
+  --indent_;
+  open("static const ks::SubobjectDesc subobjects[] = {");
+  for (const Subobject& s : module_.subobjects) {
+    const auto text = [&](size_t i) {
+      return i < s.strings.size() ? quote(s.strings[i]) : std::string("nullptr");
+    };
+    const auto n = [&](size_t i) { return number(i < s.values.size() ? s.values[i] : 0); };
+    line("{" + quote(s.name) + ", " + number(s.type) + ", {" + text(0) + ", " + text(1) + ", " +
+         text(2) + "}, {" + n(0) + ", " + n(1) + "}},");
+  }
+  line("{}};");
+  --indent_;
+  line("static const ks::LibraryDesc library = {ks::kAbiVersion, sizeof(ks::LibraryDesc), " +
+       quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
+       number(module_.entry_points.size() + module_.library_functions.size()) + ", bindings, " +
+       number(module_.bindings.size()) + ", subobjects, " + number(module_.subobjects.size()) +
+       "};");
+}
+
+std::string CppEmitter::run() {
+  line("// Generated by kaamos-hlsl from " + cpp_identifier(module_.name) + "; do not edit.");
+  line("#include <kaamos/shader/prelude.h>");
+  line("#include <kaamos/shader/views.h>");
+  line("namespace {");
+  // A namespace of its own lets several units stand in one file.
+  line("namespace unit_" + options_.entry_point + " {");
+  line("namespace ks = kaamos::shader;");
+  line("namespace u {");
+  for (const char* reserved : {"Shared", "Statics", "Context"}) {
+    global_names_.add(reserved);
+  }
+  collect_static_use();
+  emit_structs();
+  emit_memory_functions();
+  emit_constants();
+  emit_context();
+  emit_functions();
+  at_generated();
+  line("}  // namespace u");
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    emit_entry(i);
+  }
+  emit_tables();
+  line("}}");
+  line("extern \"C\" __attribute__((visibility(\"default\"))) const kaamos::shader::LibraryDesc* " +
+       options_.entry_point + "() { return &unit_" + options_.entry_point + "::library; }");
+  return std::move(out_);
+}
+
+std::string emit_cpp(const Module& module, const EmitCppOptions& options) {
+  return CppEmitter(module, options).run();
+}
+
+}  // namespace kaamos::hlsl
