@@ -68,7 +68,7 @@ KAAMOS_CONSTEXPR V splat(scalar_of<V> s) {
     return s;
   } else {
     V result{};
-    for (int i = 0; i < shape<V>::count; ++i) component(result, i) = s;
+    unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA { component(result, i) = s; });
     return result;
   }
 }
@@ -81,13 +81,15 @@ KAAMOS_CONSTEXPR V truncate(const From& from) {
     return from;
   } else if constexpr (shape<V>::is_matrix && shape<From>::is_matrix) {
     V result{};
-    for (int r = 0; r < shape<V>::rows; ++r) {
-      for (int c = 0; c < shape<V>::columns; ++c) result.e[r].e[c] = from.e[r].e[c];
-    }
+    unroll<shape<V>::rows>([&](int r) KAAMOS_INLINE_LAMBDA {
+      unroll<shape<V>::columns>([&](int c)
+                                    KAAMOS_INLINE_LAMBDA { result.e[r].e[c] = from.e[r].e[c]; });
+    });
     return result;
   } else {
     V result{};
-    for (int i = 0; i < shape<V>::count; ++i) component(result, i) = component(from, i);
+    unroll<shape<V>::count>(
+        [&](int i) KAAMOS_INLINE_LAMBDA { component(result, i) = component(from, i); });
     return result;
   }
 }
@@ -103,9 +105,9 @@ struct is_array<array<T, N>> : std::true_type {};
 template <int At, class V, class Part, class... Rest>
 KAAMOS_CONSTEXPR void fill(V& result, const Part& part, const Rest&... rest) {
   constexpr int kCount = shape<Part>::count;
-  for (int i = 0; i < kCount; ++i) {
+  unroll<kCount>([&](int i) KAAMOS_INLINE_LAMBDA {
     component(result, At + i) = op::Convert<scalar_of<V>>::apply(component(part, i));
-  }
+  });
   if constexpr (sizeof...(Rest) > 0) fill<At + kCount>(result, rest...);
 }
 

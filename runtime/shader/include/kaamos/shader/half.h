@@ -11,6 +11,9 @@
 #define KAAMOS_INLINE [[gnu::always_inline, gnu::artificial]] inline
 #define KAAMOS_CONSTEXPR [[gnu::always_inline, gnu::artificial]] inline constexpr
 
+// After a lambda's parameter list.
+#define KAAMOS_INLINE_LAMBDA __attribute__((always_inline))
+
 namespace kaamos::shader {
 
 struct half {

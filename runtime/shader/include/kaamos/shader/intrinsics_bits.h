@@ -198,14 +198,14 @@ template <class V>
 KAAMOS_CONSTEXPR bool any(const V& x) {
   const auto set = map<op::AnyBit>(x);
   bool result = false;
-  for (int i = 0; i < shape<V>::count; ++i) result |= component(set, i);
+  unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA { result |= component(set, i); });
   return result;
 }
 template <class V>
 KAAMOS_CONSTEXPR bool all(const V& x) {
   const auto set = map<op::AnyBit>(x);
   bool result = true;
-  for (int i = 0; i < shape<V>::count; ++i) result &= component(set, i);
+  unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA { result &= component(set, i); });
   return result;
 }
 

@@ -19,13 +19,13 @@ KAAMOS_CONSTEXPR Sum<T> widen(T x) {
   return Convert<Sum<T>>::apply(x);
 }
 
-// a[0] * b[0] + ... over n components that lie `stride` apart in b.
+// a[0] * b[0] + a[1] * b[1] + ...
 template <class T, int N>
 KAAMOS_CONSTEXPR Sum<T> dot_sum(const vec<T, N>& a, const vec<T, N>& b) {
   Sum<T> sum = Multiply::apply(widen(a.e[0]), widen(b.e[0]));
-  for (int i = 1; i < N; ++i) {
-    sum = Add::apply(sum, Multiply::apply(widen(a.e[i]), widen(b.e[i])));
-  }
+  unroll<N - 1>([&](int i) KAAMOS_INLINE_LAMBDA {
+    sum = Add::apply(sum, Multiply::apply(widen(a.e[i + 1]), widen(b.e[i + 1])));
+  });
   return sum;
 }
 template <class T>
@@ -136,31 +136,31 @@ KAAMOS_CONSTEXPR T mul(const vec<T, N>& a, const vec<T, N>& b) {
 template <class T, int R, int C>
 KAAMOS_CONSTEXPR vec<T, R> mul(const mat<T, R, C>& m, const vec<T, C>& v) {
   vec<T, R> result{};
-  for (int r = 0; r < R; ++r) result.e[r] = dot(m.e[r], v);
+  unroll<R>([&](int r) KAAMOS_INLINE_LAMBDA { result.e[r] = dot(m.e[r], v); });
   return result;
 }
 template <class T, int R, int C>
 KAAMOS_CONSTEXPR vec<T, C> mul(const vec<T, R>& v, const mat<T, R, C>& m) {
   using Row = vec<op::Sum<T>, C>;
   Row sum = mul_c(splat<Row>(op::widen(v.e[0])), convert<op::Sum<T>>(m.e[0]));
-  for (int r = 1; r < R; ++r) {
-    sum = add(sum, mul_c(splat<Row>(op::widen(v.e[r])), convert<op::Sum<T>>(m.e[r])));
-  }
+  unroll<R - 1>([&](int r) KAAMOS_INLINE_LAMBDA {
+    sum = add(sum, mul_c(splat<Row>(op::widen(v.e[r + 1])), convert<op::Sum<T>>(m.e[r + 1])));
+  });
   return convert<T>(sum);
 }
 template <class T, int R, int K, int C>
 KAAMOS_CONSTEXPR mat<T, R, C> mul(const mat<T, R, K>& a, const mat<T, K, C>& b) {
   mat<T, R, C> result{};
-  for (int r = 0; r < R; ++r) result.e[r] = mul(a.e[r], b);
+  unroll<R>([&](int r) KAAMOS_INLINE_LAMBDA { result.e[r] = mul(a.e[r], b); });
   return result;
 }
 
 template <class T, int R, int C>
 KAAMOS_CONSTEXPR mat<T, C, R> transpose(const mat<T, R, C>& m) {
   mat<T, C, R> result{};
-  for (int r = 0; r < R; ++r) {
-    for (int c = 0; c < C; ++c) result.e[c].e[r] = m.e[r].e[c];
-  }
+  unroll<R>([&](int r) KAAMOS_INLINE_LAMBDA {
+    unroll<C>([&](int c) KAAMOS_INLINE_LAMBDA { result.e[c].e[r] = m.e[r].e[c]; });
+  });
   return result;
 }
 
@@ -181,7 +181,7 @@ KAAMOS_CONSTEXPR T determinant_of(const mat<T, 3, 3>& m) {
 // By the 2x2 minors of the upper and of the lower two rows.
 template <class T>
 KAAMOS_CONSTEXPR T determinant_of(const mat<T, 4, 4>& m) {
-  const auto minor = [&m](int row, int i, int j) {
+  const auto minor = [&m](int row, int i, int j) KAAMOS_INLINE_LAMBDA {
     return m.e[row].e[i] * m.e[row + 1].e[j] - m.e[row].e[j] * m.e[row + 1].e[i];
   };
   return minor(0, 0, 1) * minor(2, 2, 3) - minor(0, 0, 2) * minor(2, 1, 3) +

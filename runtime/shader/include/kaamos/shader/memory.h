@@ -116,18 +116,20 @@ KAAMOS_INLINE void each(T& value, uint32_t at, const Visit& visit) {
 }
 template <Layout L, bool RowMajor, class T, int N, class Visit>
 KAAMOS_INLINE void each(vec<T, N>& value, uint32_t at, const Visit& visit) {
-  for (int i = 0; i < N; ++i) visit(value.e[i], at + i * static_cast<uint32_t>(sizeof(Stored<T>)));
+  unroll<N>([&](int i) KAAMOS_INLINE_LAMBDA {
+    visit(value.e[i], at + static_cast<uint32_t>(i) * static_cast<uint32_t>(sizeof(Stored<T>)));
+  });
 }
 template <Layout L, bool RowMajor, class T, int R, int C, class Visit>
 KAAMOS_INLINE void each(mat<T, R, C>& value, uint32_t at, const Visit& visit) {
   constexpr uint32_t kStride = Extent<mat<T, R, C>, L, RowMajor>::stride;
-  for (int r = 0; r < R; ++r) {
-    for (int c = 0; c < C; ++c) {
+  unroll<R>([&](int r) KAAMOS_INLINE_LAMBDA {
+    unroll<C>([&, r](int c) KAAMOS_INLINE_LAMBDA {
       const uint32_t line = static_cast<uint32_t>(RowMajor ? r : c);
       const uint32_t place = static_cast<uint32_t>(RowMajor ? c : r);
       visit(value.e[r].e[c], at + line * kStride + place * sizeof(Stored<T>));
-    }
-  }
+    });
+  });
 }
 template <Layout L, bool RowMajor, class T, uint32_t N, class Visit>
 KAAMOS_INLINE void each(array<T, N>& value, uint32_t at, const Visit& visit) {
@@ -138,7 +140,7 @@ KAAMOS_INLINE void each(array<T, N>& value, uint32_t at, const Visit& visit) {
 template <class V, Layout L, bool RowMajor, bool Checked>
 KAAMOS_INLINE V read_all(const Window& w) {
   V value{};
-  each<L, RowMajor>(value, 0, [&w](auto& scalar, uint32_t at) {
+  each<L, RowMajor>(value, 0, [&w](auto& scalar, uint32_t at) KAAMOS_INLINE_LAMBDA {
     scalar = read_scalar<std::remove_reference_t<decltype(scalar)>, Checked>(w, at);
   });
   return value;
@@ -146,7 +148,7 @@ KAAMOS_INLINE V read_all(const Window& w) {
 template <class V, Layout L, bool RowMajor, bool Checked>
 KAAMOS_INLINE void write_all(const Window& w, const V& value) {
   V copy = value;
-  each<L, RowMajor>(copy, 0, [&w](auto& scalar, uint32_t at) {
+  each<L, RowMajor>(copy, 0, [&w](auto& scalar, uint32_t at) KAAMOS_INLINE_LAMBDA {
     write_scalar<std::remove_reference_t<decltype(scalar)>, Checked>(w, at, scalar);
   });
 }

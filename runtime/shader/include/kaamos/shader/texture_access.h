@@ -20,9 +20,9 @@ template <class V>
 KAAMOS_INLINE V from_texel(const Texel& texel) {
   using T = scalar_of<V>;
   V value{};
-  for (int i = 0; i < shape<V>::count; ++i) {
+  unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA {
     component(value, i) = op::Convert<T>::apply(__builtin_bit_cast(Wide<T>, texel.bits[i]));
-  }
+  });
   return value;
 }
 
@@ -30,9 +30,9 @@ template <class V>
 KAAMOS_INLINE Texel to_texel(const V& value) {
   using T = scalar_of<V>;
   Texel texel = {};
-  for (int i = 0; i < shape<V>::count; ++i) {
+  unroll<shape<V>::count>([&](int i) KAAMOS_INLINE_LAMBDA {
     texel.bits[i] = __builtin_bit_cast(uint32_t, op::Convert<Wide<T>>::apply(component(value, i)));
-  }
+  });
   return texel;
 }
 

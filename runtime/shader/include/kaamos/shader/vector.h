@@ -131,9 +131,23 @@ KAAMOS_CONSTEXPR const T& component(const mat<T, R, C>& m, int i) {
   return m.e[i / C].e[i % C];
 }
 
+// Calls f(0) ... f(N - 1), N up to 16. A loop would do, but at -O2 gcc unrolls small loops only
+// after it has decided which aggregates stay in memory.
+template <int N, class F>
+KAAMOS_CONSTEXPR void unroll(const F& f) {
+  if constexpr (N > 4) {
+    f(0), f(1), f(2), f(3);
+    unroll<N - 4>([&f](int i) KAAMOS_INLINE_LAMBDA { f(i + 4); });
+  } else {
+    if constexpr (N > 0) f(0);
+    if constexpr (N > 1) f(1);
+    if constexpr (N > 2) f(2);
+    if constexpr (N > 3) f(3);
+  }
+}
+
 // ---------------------------------------------------------------------------------------------
-// Component-wise application of Op::apply. Written out for each size: at -O2 neither compiler
-// unrolls small loops early enough for its scalar replacement to see through them.
+// Component-wise application of Op::apply.
 
 template <class Op, class... T>
 KAAMOS_CONSTEXPR auto map(T... x) {
