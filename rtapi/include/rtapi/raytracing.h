@@ -80,9 +80,11 @@ struct RaytracingGeometryDesc {
   RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;
   RaytracingGeometryFlags Flags = RaytracingGeometryFlags::kNone;
   union {
-    RaytracingGeometryTrianglesDesc Triangles = {};
+    RaytracingGeometryTrianglesDesc Triangles;
     RaytracingGeometryAabbsDesc AABBs;
   };
+
+  RaytracingGeometryDesc() : Triangles() {}
 };
 
 // In GPU memory, 16-byte aligned. [DXR: D3D12_RAYTRACING_INSTANCE_DESC]
