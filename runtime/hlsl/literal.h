@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The value of a number as written in the source.
+// Values of numbers and strings as written in the source.
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "source.h"
 
 namespace kaamos::hlsl {
+
+class DiagnosticEngine;
 
 enum class LiteralSuffix : uint8_t { kNone, kU, kL, kUL, kF, kH };
 
@@ -13,7 +19,15 @@ struct NumberLiteral {
   bool is_decimal = true;                       // False for 0x.., 0b.. and 0.. (octal).
   LiteralSuffix suffix = LiteralSuffix::kNone;  // `ll` reads as kL, `ull` as kUL.
   uint64_t integer = 0;                         // Where !is_float.
-  double real = 0;                              // Where is_float.
+  double real = 0;  // Where is_float; with suffix f or h already rounded to float.
 };
+
+// Reads a number as DXC does, 1.#INF included. Reports what is wrong and then returns the best
+// guess, so that parsing goes on.
+NumberLiteral parse_number(std::string_view text, SourceLocation location,
+                           DiagnosticEngine& diagnostics);
+// `text` with its quotes; resolves the escapes.
+std::string parse_quoted(std::string_view text, SourceLocation location,
+                         DiagnosticEngine& diagnostics);
 
 }  // namespace kaamos::hlsl

@@ -42,8 +42,7 @@ struct ResolvedLocation {
 struct SourceText {
   std::string path;       // As found; what diagnostics show.
   std::string canonical;  // Names the file uniquely.
-  std::string text;      // std::string keeps a zero byte behind the last one: the lexer's sentinel.
-  bool is_once = false;  // #pragma once was seen.
+  std::string text;  // std::string keeps a zero byte behind the last one: the lexer's sentinel.
   std::vector<uint32_t> line_starts;  // Filled at the first question for a line.
 };
 
