@@ -158,7 +158,8 @@ void CppEmitter::collect_static_use() {
     stack_[function] = 16 + own + deepest;
   }
   // An initialiser may read other static globals.
-  for (auto& [function, statics] : statics_) {
+  for (auto& entry : statics_) {
+    auto& statics = entry.second;  // by name: clang 14 captures no structured binding
     for (bool grown = true; grown;) {
       const size_t before = statics.size();
       for (const Variable* variable :
