@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Whole files in and out. A file that is being replaced keeps its old content until the new one is
+// complete on disk, so an interrupted or failed run leaves earlier output untouched.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+
+namespace kaamos::effects {
+
+/// Reads a whole file. Errors: missing, a directory, unreadable, larger than `max_bytes`.
+Result<std::vector<std::uint8_t>> read_file(const std::string& path,
+                                            std::size_t max_bytes = std::size_t{4} << 30);
+
+/// Writes `bytes` to a temporary file beside `path` and renames it over `path`. The folder must
+/// exist. On any error (no permission, disk full, folder missing) the temporary file is removed and
+/// a previous `path` is left as it was.
+Status write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Materials, textures and samplers as the effects' shaders read them: bindless, one element of a
+// structured buffer per material, textures in an unbounded array. [Northlight deck: Bindless Access
+// to Materials]
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+
+namespace kaamos::effects {
+
+/// Slot of a texture within a material.
+enum TextureSlot : std::uint32_t {
+  kBaseColorTexture,          ///< sRGB; alpha is opacity
+  kMetallicRoughnessTexture,  ///< linear; G roughness, B metallic
+  kNormalTexture,             ///< linear; tangent space, +Y up
+  kEmissiveTexture,           ///< sRGB
+  kTextureSlotCount
+};
+
+enum MaterialFlags : std::uint32_t {
+  kMaterialMask = 1u << 0,         ///< alphaMode MASK: fully open below alpha_cutoff
+  kMaterialBlend = 1u << 1,        ///< alphaMode BLEND
+  kMaterialDoubleSided = 1u << 2,  ///< back faces are shaded, with the normal turned
+  /// Any-hit shaders of visibility rays test alpha against alpha_cutoff. Set for MASK, and for BLEND
+  /// whose base colour texture has alpha (cutoff 0.5: shadow and AO rays know only open or closed).
+  kMaterialAlphaTested = 1u << 3,
+};
+
+inline constexpr std::int32_t kNoTexture = -1;
+
+/// One element of the materials' StructuredBuffer; HLSL packs it without gaps, as C++ does.
+/// Colours are linear.
+struct MaterialConstants {
+  glm::vec4 base_color{1.0f};  ///< factor; alpha is opacity
+  glm::vec3 emissive{0.0f};    ///< factor, may exceed 1
+  float metallic = 0.0f;       ///< factor, 0..1
+  float roughness = 1.0f;      ///< factor, perceptual (alpha = roughness^2), 0..1
+  float alpha_cutoff = 0.5f;   ///< open where alpha < alpha_cutoff
+  float normal_scale = 1.0f;   ///< scales x and y of the normal texture
+  std::uint32_t flags = 0;     ///< MaterialFlags
+  /// Index into Scene::images per TextureSlot, or kNoTexture.
+  std::array<std::int32_t, kTextureSlotCount> image{kNoTexture, kNoTexture, kNoTexture, kNoTexture};
+  /// Index into Scene::samplers per TextureSlot; 0 where there is no texture.
+  std::array<std::uint32_t, kTextureSlotCount> sampler{};
+  /// KHR_texture_transform per TextureSlot: u' = dot(m.xy, uv) + offset.x, v' = dot(m.zw, uv) +
+  /// offset.y.
+  std::array<glm::vec4, kTextureSlotCount> uv_matrix{glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1),
+                                                     glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1)};
+  std::array<glm::vec2, kTextureSlotCount> uv_offset{};
+};
+static_assert(sizeof(MaterialConstants) == 176);
+static_assert(offsetof(MaterialConstants, image) == 48);
+static_assert(offsetof(MaterialConstants, uv_matrix) == 80);
+static_assert(offsetof(MaterialConstants, uv_offset) == 144);
+
+/// A material with its name, which the GPU does not see.
+struct Material {
+  std::string name;
+  MaterialConstants constants;
+};
+
+enum class Wrap : std::uint8_t { kRepeat, kMirror, kClamp };
+enum class Filter : std::uint8_t { kNearest, kLinear };
+
+/// glTF's sampler words; the defaults are glTF's.
+struct Sampler {
+  Wrap wrap_u = Wrap::kRepeat;
+  Wrap wrap_v = Wrap::kRepeat;
+  Filter min_filter = Filter::kLinear;
+  Filter mag_filter = Filter::kLinear;
+  Filter mip_filter = Filter::kLinear;
+  bool mipmapped = true;  ///< false: only level 0 is read
+
+  friend bool operator==(const Sampler&, const Sampler&) = default;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// A mesh: what becomes one bottom-level acceleration structure. Its geometries are the pieces of one
+// material each, as the chairs of the Northlight demo have five.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace kaamos::effects {
+
+/// One vertex as it lies in memory, for the build and for hit shaders alike: interleaved, so that a
+/// hit touches few cache lines and one root SRV serves all attributes. [Northlight deck: Root SRVs
+/// and Constants for Vertex Data]
+struct Vertex {
+  glm::vec3 position{0.0f};  ///< object space, metres
+  glm::vec3 normal{0.0f};    ///< object space, unit
+  glm::vec4 tangent{0.0f};   ///< xyz unit, w = +1 or -1: bitangent = w * cross(normal, tangent)
+  glm::vec2 uv{0.0f};        ///< v = 0 is the top row of an image
+};
+static_assert(sizeof(Vertex) == 48);
+
+/// Byte offsets of the attributes in a vertex, as hit constants pass them to shaders.
+inline constexpr std::uint32_t kVertexStride = sizeof(Vertex);
+inline constexpr std::uint32_t kPositionOffset = offsetof(Vertex, position);
+inline constexpr std::uint32_t kNormalOffset = offsetof(Vertex, normal);
+inline constexpr std::uint32_t kTangentOffset = offsetof(Vertex, tangent);
+inline constexpr std::uint32_t kUvOffset = offsetof(Vertex, uv);
+
+/// Root constants of a hit group's local root signature: how to read the two root SRVs of a
+/// geometry, and its material. 32 bytes.
+struct HitConstants {
+  std::uint32_t vertex_stride = kVertexStride;
+  std::uint32_t normal_offset = kNormalOffset;
+  std::uint32_t tangent_offset = kTangentOffset;
+  std::uint32_t uv_offset = kUvOffset;
+  std::uint32_t index_size_bytes = 4;  ///< 2 or 4
+  std::uint32_t material_id = 0;
+  std::uint32_t mesh_id = 0;
+  std::uint32_t geometry_id = 0;
+};
+static_assert(sizeof(HitConstants) == 32);
+
+/// A range of a mesh with one material: one geometry of the bottom level.
+struct Geometry {
+  std::uint32_t first_vertex = 0;  ///< in Mesh::vertices; indices count from here
+  std::uint32_t vertex_count = 0;
+  /// Where the indices start in Mesh::indices: a multiple of 4. A shader may read 4-byte words up to
+  /// the next multiple of 4 after the last index.
+  std::uint32_t index_offset_bytes = 0;
+  std::uint32_t index_count = 0;  ///< a multiple of 3
+  std::uint32_t index_size_bytes = 4;  ///< 2 or 4
+  std::uint32_t material = 0;     ///< in Scene::materials
+  bool alpha_tested = false;      ///< any-hit shaders must run: not opaque
+};
+
+struct Bounds {
+  glm::dvec3 min{1e300};
+  glm::dvec3 max{-1e300};
+  bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  void add(const glm::dvec3& point);
+  glm::dvec3 center() const { return 0.5 * (min + max); }
+  glm::dvec3 size() const { return empty() ? glm::dvec3(0.0) : max - min; }
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vertex> vertices;
+  std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian
+  std::vector<Geometry> geometries;
+
+  /// Appends a piece. Indices count from 0 = vertices[0] of the piece and must lie in it; they are
+  /// stored with 16 bits where the piece has at most 65,536 vertices.
+  void add_geometry(std::span<const Vertex> piece, std::span<const std::uint32_t> piece_indices,
+                    std::uint32_t material, bool alpha_tested);
+  /// Index `i` of a geometry, relative to its first vertex.
+  std::uint32_t index(const Geometry& geometry, std::uint32_t i) const;
+  /// Corner 0..2 of a triangle of a geometry.
+  const Vertex& corner(const Geometry& geometry, std::uint32_t triangle, std::uint32_t corner) const;
+  std::uint64_t triangle_count() const;
+  /// Of the finite positions.
+  Bounds bounds() const;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "effects/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kaamos::effects {
+namespace {
+
+bool finite(const glm::dmat4& m) {
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r)
+      if (!std::isfinite(m[c][r])) return false;
+  return true;
+}
+
+bool unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) < 1e-3f; }
+
+}  // namespace
+
+glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction) {
+  if (direction.y >= 0.0f) {
+    // The square root keeps the bright band near the horizon narrow, as real skies have it.
+    return glm::mix(sky.horizon, sky.zenith, std::sqrt(std::min(direction.y, 1.0f)));
+  }
+  return glm::mix(sky.horizon, sky.ground, std::min(1.0f, -direction.y * 8.0f));
+}
+
+glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up) {
+  glm::dvec3 back = eye - target;
+  const double distance = glm::length(back);
+  back = distance > 0.0 ? back / distance : glm::dvec3(0, 0, 1);
+  glm::dvec3 right = glm::cross(up, back);
+  if (glm::length(right) < 1e-9) {
+    // The view runs along `up`: any other axis tells which way the picture's right is.
+    right = glm::cross(std::abs(back.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1), back);
+  }
+  right = glm::normalize(right);
+  const glm::dvec3 true_up = glm::cross(back, right);
+  return glm::dmat4(glm::dvec4(right, 0), glm::dvec4(true_up, 0), glm::dvec4(back, 0),
+                    glm::dvec4(eye, 1));
+}
+
+std::uint64_t instanced_triangle_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Instance& instance : scene.instances)
+    count += scene.meshes[instance.mesh].triangle_count();
+  return count;
+}
+
+std::uint64_t unique_triangle_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Mesh& mesh : scene.meshes) count += mesh.triangle_count();
+  return count;
+}
+
+Bounds scene_bounds(const Scene& scene) {
+  std::vector<Bounds> boxes;
+  for (const Mesh& mesh : scene.meshes) boxes.push_back(mesh.bounds());
+  Bounds all;
+  for (const Instance& instance : scene.instances) {
+    const Bounds& box = boxes[instance.mesh];
+    if (box.empty()) continue;
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec4 p((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
+                         (corner & 4) ? box.max.z : box.min.z, 1.0);
+      all.add(glm::dvec3(instance.transform * p));
+    }
+  }
+  return all;
+}
+
+Camera framing_camera(const Bounds& bounds) {
+  Camera camera;
+  camera.name = "framing";
+  camera.vertical_fov = 0.75;
+  const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
+  const double radius = std::max(1e-6, 0.5 * glm::length(bounds.size()));
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(0.55, 0.42, 1.0));
+  // The bounding sphere touches the upper and lower edge of the picture; 0.85 because real contents
+  // fill their sphere badly.
+  const double distance = 0.85 * radius / std::sin(0.5 * camera.vertical_fov);
+  camera.camera_to_world = look_at(center + direction * distance, center);
+  camera.near_plane = distance * 1e-3;
+  return camera;
+}
+
+Sun default_sun() {
+  Sun sun;
+  sun.direction_to_sun = glm::normalize(glm::vec3(0.45f, 0.8f, 0.55f));
+  sun.irradiance = glm::vec3(3.2f, 3.0f, 2.7f);
+  return sun;
+}
+
+Sky default_sky() {
+  Sky sky;
+  sky.zenith = glm::vec3(0.22f, 0.38f, 0.75f);
+  sky.horizon = glm::vec3(0.75f, 0.82f, 0.92f);
+  sky.ground = glm::vec3(0.24f, 0.22f, 0.2f);
+  return sky;
+}
+
+namespace {
+
+/// Collects where a check stands, so that each message names its place.
+class Checker {
+ public:
+  explicit Checker(const Scene& scene) : scene_(scene) {}
+  Status run();
+
+ private:
+  void mesh(const Mesh& mesh);
+  void geometry(const Mesh& mesh, const Geometry& geometry, const std::string& where);
+  void material(const Material& material);
+  void image(const TextureImage& image);
+  void instance(const Instance& instance);
+  void rest();
+  void require(bool rule, const std::string& where, const std::string& what) {
+    if (!rule && first_.empty()) first_ = where + ": " + what;
+  }
+
+  const Scene& scene_;
+  std::string first_;
+};
+
+std::string quoted(const char* noun, const std::string& name) {
+  return std::string(noun) + " \"" + name + "\"";
+}
+
+void Checker::geometry(const Mesh& mesh, const Geometry& g, const std::string& where) {
+  require(g.index_size_bytes == 2 || g.index_size_bytes == 4, where,
+          "index size is " + std::to_string(g.index_size_bytes) + " bytes, 2 or 4 are allowed");
+  require(g.index_offset_bytes % 4 == 0, where, "index offset is not a multiple of 4 bytes");
+  require(g.index_count % 3 == 0, where, "index count is not a multiple of 3");
+  const std::uint64_t end =
+      g.index_offset_bytes + std::uint64_t{g.index_count} * g.index_size_bytes;
+  require((end + 3) / 4 * 4 <= mesh.indices.size(), where,
+          "indices end at byte " + std::to_string(end) + " of " +
+              std::to_string(mesh.indices.size()));
+  require(std::uint64_t{g.first_vertex} + g.vertex_count <= mesh.vertices.size(), where,
+          "vertices end at " + std::to_string(std::uint64_t{g.first_vertex} + g.vertex_count) +
+              " of " + std::to_string(mesh.vertices.size()));
+  require(g.material < scene_.materials.size(), where,
+          "material " + std::to_string(g.material) + " of " +
+              std::to_string(scene_.materials.size()));
+  if (!first_.empty()) return;
+  for (std::uint32_t i = 0; i < g.index_count; ++i) {
+    const std::uint32_t index = mesh.index(g, i);
+    if (index >= g.vertex_count)
+      return require(false, where,
+                     "index " + std::to_string(i) + " is " + std::to_string(index) +
+                         ", the geometry has " + std::to_string(g.vertex_count) + " vertices");
+  }
+}
+
+void Checker::mesh(const Mesh& mesh) {
+  const std::string where = quoted("mesh", mesh.name);
+  require(!mesh.geometries.empty(), where, "has no geometry");
+  for (std::size_t i = 0; i < mesh.geometries.size(); ++i)
+    geometry(mesh, mesh.geometries[i], where + ", geometry " + std::to_string(i));
+}
+
+void Checker::material(const Material& material) {
+  const std::string where = quoted("material", material.name);
+  for (std::uint32_t slot = 0; slot < kTextureSlotCount; ++slot) {
+    const std::int32_t id = material.constants.image[slot];
+    require(id == kNoTexture || (id >= 0 && static_cast<std::size_t>(id) < scene_.images.size()),
+            where, "image " + std::to_string(id) + " of " + std::to_string(scene_.images.size()));
+    require(material.constants.sampler[slot] < scene_.samplers.size(), where,
+            "sampler " + std::to_string(material.constants.sampler[slot]) + " of " +
+                std::to_string(scene_.samplers.size()));
+  }
+}
+
+void Checker::image(const TextureImage& image) {
+  const std::string where = quoted("image", image.name);
+  require(image.width > 0 && image.height > 0 && !image.mips.empty(), where, "is empty");
+  for (std::size_t level = 0; level < image.mips.size(); ++level) {
+    const std::size_t wanted = std::size_t{std::max(1u, image.width >> level)} *
+                               std::max(1u, image.height >> level) * 4;
+    require(image.mips[level].size() == wanted, where,
+            "mip " + std::to_string(level) + " has " + std::to_string(image.mips[level].size()) +
+                " bytes, " + std::to_string(wanted) + " expected");
+  }
+}
+
+void Checker::instance(const Instance& instance) {
+  const std::string where = quoted("instance", instance.name);
+  require(instance.mesh < scene_.meshes.size(), where,
+          "mesh " + std::to_string(instance.mesh) + " of " + std::to_string(scene_.meshes.size()));
+  require(finite(instance.transform), where, "transform is not finite");
+  const glm::dmat4& m = instance.transform;
+  require(m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0, where,
+          "transform is not affine");
+}
+
+void Checker::rest() {
+  require(!scene_.materials.empty(), "scene", "has no material");
+  require(!scene_.samplers.empty(), "scene", "has no sampler");
+  require(!scene_.cameras.empty(), "scene", "has no camera");
+  for (const Camera& camera : scene_.cameras) {
+    const std::string where = quoted("camera", camera.name);
+    require(finite(camera.camera_to_world), where, "transform is not finite");
+    require(camera.vertical_fov > 0.0 && camera.vertical_fov < 3.14159, where,
+            "field of view is " + std::to_string(camera.vertical_fov) + ", 0..pi is allowed");
+  }
+  for (const Light& light : scene_.lights)
+    require(unit(light.direction), quoted("light", light.name), "direction is not a unit vector");
+  if (scene_.sun)
+    require(unit(scene_.sun->direction_to_sun) && scene_.sun->angular_radius >= 0.0f, "sun",
+            "direction is not a unit vector or angular radius is negative");
+}
+
+Status Checker::run() {
+  for (const Mesh& item : scene_.meshes) mesh(item);
+  for (const Material& item : scene_.materials) material(item);
+  for (const TextureImage& item : scene_.images) image(item);
+  for (const Instance& item : scene_.instances) instance(item);
+  rest();
+  return first_.empty() ? Status() : Status::failure("scene \"" + scene_.name + "\": " + first_);
+}
+
+}  // namespace
+
+Status validate(const Scene& scene) { return Checker(scene).run(); }
+
+}  // namespace kaamos::effects

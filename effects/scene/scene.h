@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. Plain data on the
+// host; acceleration structures and buffers are made from it later. Right-handed, +Y up, metres,
+// linear colours. World positions and transforms are double, because the scene is made relative to
+// the camera before it is rounded to float.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+#include "effects/scene/material.h"
+#include "effects/scene/mesh.h"
+#include "effects/scene/texture_image.h"
+
+namespace kaamos::effects {
+
+/// Bits of an instance's inclusion mask.
+enum InstanceMask : std::uint8_t {
+  kMaskOpaque = 0x01,           ///< opaque and alpha-tested
+  kMaskTransparent = 0x02,      ///< see-through all over (glass)
+  kMaskNoContactShadow = 0x04,
+  kMaskFirstPerson = 0x08,
+  kMaskEmissiveProxy = 0x10,
+};
+
+struct Instance {
+  std::string name;
+  std::uint32_t mesh = 0;           ///< in Scene::meshes
+  glm::dmat4 transform{1.0};        ///< object to world, affine
+  std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
+};
+
+enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
+
+/// A local light, or a directional one besides the sun. [KHR_lights_punctual]
+struct Light {
+  std::string name;
+  LightType type = LightType::kPoint;
+  glm::vec3 color{1.0f};
+  float intensity = 1.0f;             ///< lux for directional, candela for point and spot
+  glm::dvec3 position{0.0};
+  glm::vec3 direction{0, -1, 0};      ///< the way the light travels, unit
+  float range = 0.0f;                 ///< metres; 0 = unlimited
+  float inner_cone_angle = 0.0f;      ///< half angles of a spot
+  float outer_cone_angle = 0.785398f;
+  float radius = 0.02f;               ///< of the sphere that soft shadows sample, metres
+};
+
+/// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]
+inline constexpr float kSunAngularRadius = 0.2655f * 3.14159265f / 180.0f;
+
+struct Sun {
+  glm::vec3 direction_to_sun{0, 1, 0};  ///< unit
+  glm::vec3 irradiance{3.0f};           ///< on a surface that faces the sun, relative units
+  float angular_radius = kSunAngularRadius;
+};
+
+/// Radiance of the sky: from horizon to zenith above, ground below.
+struct Sky {
+  glm::vec3 zenith{0.0f};
+  glm::vec3 horizon{0.0f};
+  glm::vec3 ground{0.0f};
+};
+
+/// Radiance of the sky towards a unit direction.
+glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction);
+
+/// A perspective camera.
+struct Camera {
+  std::string name;
+  glm::dmat4 camera_to_world{1.0};  ///< rigid; looks along -Z, +Y is up in the picture
+  double vertical_fov = 0.9;        ///< full angle, 0..pi exclusive
+  double near_plane = 0.05;
+
+  glm::dvec3 position() const { return glm::dvec3(camera_to_world[3]); }
+  glm::dvec3 forward() const { return -glm::dvec3(camera_to_world[2]); }
+};
+
+/// Camera transform that stands at `eye` and looks at `target`. Any `up` is taken, also one along
+/// the view.
+glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
+                   const glm::dvec3& up = glm::dvec3(0, 1, 0));
+
+struct Scene {
+  std::string name;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<Material> materials;  ///< at least one
+  std::vector<TextureImage> images;
+  std::vector<Sampler> samplers;    ///< at least one
+  std::vector<Camera> cameras;      ///< at least one; the first is the default
+  std::optional<Sun> sun;
+  std::vector<Light> lights;
+  Sky sky;
+  float exposure = 1.0f;            ///< radiance times this goes to the tone curve
+};
+
+/// Triangles after instancing.
+std::uint64_t instanced_triangle_count(const Scene& scene);
+/// Triangles of the meshes, each counted once.
+std::uint64_t unique_triangle_count(const Scene& scene);
+/// World bounds of all instances: exact to the transformed boxes of the meshes, so never too small.
+Bounds scene_bounds(const Scene& scene);
+
+/// First broken rule of the data, named by place and value: ids in range, index ranges inside their
+/// buffers, finite transforms, mip sizes, unit directions. A valid scene can be uploaded unchecked.
+Status validate(const Scene& scene);
+
+/// A camera that frames `bounds` seen from the front, the right and a little above.
+Camera framing_camera(const Bounds& bounds);
+/// The sun and sky that a scene without lights gets.
+Sun default_sun();
+Sky default_sky();
+
+}  // namespace kaamos::effects
