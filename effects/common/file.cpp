@@ -78,8 +78,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
 
 Status write_file_atomically(const std::string& path, std::span<const std::uint8_t> bytes) {
   static std::atomic<unsigned> counter{0};
-  const std::string temporary = path + ".tmp-" + std::to_string(::getpid()) + "-" +
-                                std::to_string(counter.fetch_add(1));
+  const std::string temporary =
+      path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter.fetch_add(1));
   FileDescriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.get() < 0) return file_error("write", path, errno);
   int error = write_all(file.get(), bytes);

@@ -25,8 +25,9 @@ enum MaterialFlags : std::uint32_t {
   kMaterialMask = 1u << 0,         ///< alphaMode MASK: fully open below alpha_cutoff
   kMaterialBlend = 1u << 1,        ///< alphaMode BLEND
   kMaterialDoubleSided = 1u << 2,  ///< back faces are shaded, with the normal turned
-  /// Any-hit shaders of visibility rays test alpha against alpha_cutoff. Set for MASK, and for BLEND
-  /// whose base colour texture has alpha (cutoff 0.5: shadow and AO rays know only open or closed).
+  /// Any-hit shaders of visibility rays test alpha against alpha_cutoff. Set for MASK, and for
+  /// BLEND whose base colour texture has alpha (cutoff 0.5: shadow and AO rays know only open or
+  /// closed).
   kMaterialAlphaTested = 1u << 3,
 };
 

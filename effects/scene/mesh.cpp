@@ -37,10 +37,10 @@ void Mesh::add_geometry(std::span<const Vertex> piece, std::span<const std::uint
 
 std::uint32_t Mesh::index(const Geometry& geometry, std::uint32_t i) const {
   std::uint32_t value = 0;
-  std::memcpy(&value,
-              indices.data() + geometry.index_offset_bytes +
-                  std::size_t{i} * geometry.index_size_bytes,
-              geometry.index_size_bytes);
+  std::memcpy(
+      &value,
+      indices.data() + geometry.index_offset_bytes + std::size_t{i} * geometry.index_size_bytes,
+      geometry.index_size_bytes);
   return value;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh: what becomes one bottom-level acceleration structure. Its geometries are the pieces of one
-// material each, as the chairs of the Northlight demo have five.
+// A mesh: what becomes one bottom-level acceleration structure. Its geometries are the pieces of
+// one material each, as the chairs of the Northlight demo have five.
 #pragma once
 
 #include <cstddef>
@@ -48,13 +48,13 @@ static_assert(sizeof(HitConstants) == 32);
 struct Geometry {
   std::uint32_t first_vertex = 0;  ///< in Mesh::vertices; indices count from here
   std::uint32_t vertex_count = 0;
-  /// Where the indices start in Mesh::indices: a multiple of 4. A shader may read 4-byte words up to
-  /// the next multiple of 4 after the last index.
+  /// Where the indices start in Mesh::indices: a multiple of 4. A shader may read 4-byte words up
+  /// to the next multiple of 4 after the last index.
   std::uint32_t index_offset_bytes = 0;
-  std::uint32_t index_count = 0;  ///< a multiple of 3
+  std::uint32_t index_count = 0;       ///< a multiple of 3
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4
-  std::uint32_t material = 0;     ///< in Scene::materials
-  bool alpha_tested = false;      ///< any-hit shaders must run: not opaque
+  std::uint32_t material = 0;          ///< in Scene::materials
+  bool alpha_tested = false;           ///< any-hit shaders must run: not opaque
 };
 
 struct Bounds {
@@ -79,7 +79,8 @@ struct Mesh {
   /// Index `i` of a geometry, relative to its first vertex.
   std::uint32_t index(const Geometry& geometry, std::uint32_t i) const;
   /// Corner 0..2 of a triangle of a geometry.
-  const Vertex& corner(const Geometry& geometry, std::uint32_t triangle, std::uint32_t corner) const;
+  const Vertex& corner(const Geometry& geometry, std::uint32_t triangle,
+                       std::uint32_t corner) const;
   std::uint64_t triangle_count() const;
   /// Of the finite positions.
   Bounds bounds() const;

@@ -14,7 +14,9 @@ bool finite(const glm::dmat4& m) {
   return true;
 }
 
-bool unit(const glm::vec3& v) { return std::abs(glm::dot(v, v) - 1.0f) < 1e-3f; }
+bool unit(const glm::vec3& v) {
+  return std::abs(glm::dot(v, v) - 1.0f) < 1e-3f;
+}
 
 }  // namespace
 
@@ -39,6 +41,17 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
   const glm::dvec3 true_up = glm::cross(back, right);
   return glm::dmat4(glm::dvec4(right, 0), glm::dvec4(true_up, 0), glm::dvec4(back, 0),
                     glm::dvec4(eye, 1));
+}
+
+glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin) {
+  glm::dmat4 m = instance.transform;
+  m[3] -= glm::dvec4(origin, 0.0);
+  // glm's mat3x4 has three columns of four: its columns are the rows that are wanted.
+  return glm::mat3x4(glm::transpose(m));
+}
+
+bool is_mirrored(const Instance& instance) {
+  return glm::determinant(glm::dmat3(instance.transform)) < 0.0;
 }
 
 std::uint64_t instanced_triangle_count(const Scene& scene) {
@@ -134,15 +147,15 @@ void Checker::geometry(const Mesh& mesh, const Geometry& g, const std::string& w
   require(g.index_count % 3 == 0, where, "index count is not a multiple of 3");
   const std::uint64_t end =
       g.index_offset_bytes + std::uint64_t{g.index_count} * g.index_size_bytes;
-  require((end + 3) / 4 * 4 <= mesh.indices.size(), where,
-          "indices end at byte " + std::to_string(end) + " of " +
-              std::to_string(mesh.indices.size()));
+  require(
+      (end + 3) / 4 * 4 <= mesh.indices.size(), where,
+      "indices end at byte " + std::to_string(end) + " of " + std::to_string(mesh.indices.size()));
   require(std::uint64_t{g.first_vertex} + g.vertex_count <= mesh.vertices.size(), where,
           "vertices end at " + std::to_string(std::uint64_t{g.first_vertex} + g.vertex_count) +
               " of " + std::to_string(mesh.vertices.size()));
-  require(g.material < scene_.materials.size(), where,
-          "material " + std::to_string(g.material) + " of " +
-              std::to_string(scene_.materials.size()));
+  require(
+      g.material < scene_.materials.size(), where,
+      "material " + std::to_string(g.material) + " of " + std::to_string(scene_.materials.size()));
   if (!first_.empty()) return;
   for (std::uint32_t i = 0; i < g.index_count; ++i) {
     const std::uint32_t index = mesh.index(g, i);
@@ -176,8 +189,8 @@ void Checker::image(const TextureImage& image) {
   const std::string where = quoted("image", image.name);
   require(image.width > 0 && image.height > 0 && !image.mips.empty(), where, "is empty");
   for (std::size_t level = 0; level < image.mips.size(); ++level) {
-    const std::size_t wanted = std::size_t{std::max(1u, image.width >> level)} *
-                               std::max(1u, image.height >> level) * 4;
+    const std::size_t wanted =
+        std::size_t{std::max(1u, image.width >> level)} * std::max(1u, image.height >> level) * 4;
     require(image.mips[level].size() == wanted, where,
             "mip " + std::to_string(level) + " has " + std::to_string(image.mips[level].size()) +
                 " bytes, " + std::to_string(wanted) + " expected");
@@ -222,6 +235,8 @@ Status Checker::run() {
 
 }  // namespace
 
-Status validate(const Scene& scene) { return Checker(scene).run(); }
+Status validate(const Scene& scene) {
+  return Checker(scene).run();
+}
 
 }  // namespace kaamos::effects

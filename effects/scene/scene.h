@@ -20,8 +20,8 @@ namespace kaamos::effects {
 
 /// Bits of an instance's inclusion mask.
 enum InstanceMask : std::uint8_t {
-  kMaskOpaque = 0x01,           ///< opaque and alpha-tested
-  kMaskTransparent = 0x02,      ///< see-through all over (glass)
+  kMaskOpaque = 0x01,       ///< opaque and alpha-tested
+  kMaskTransparent = 0x02,  ///< see-through all over (glass)
   kMaskNoContactShadow = 0x04,
   kMaskFirstPerson = 0x08,
   kMaskEmissiveProxy = 0x10,
@@ -36,18 +36,28 @@ struct Instance {
 
 enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
 
+/// The upper three rows of the transform, as a DXR instance record and HLSL's ObjectToWorld3x4()
+/// have them, relative to `origin`: subtracted in double, so that float keeps its digits for what
+/// is near the camera. [effects-spec B0.1]
+glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin = glm::dvec3(0.0));
+
+/// True where the transform mirrors. Fronts of all meshes are counter-clockwise seen from outside
+/// in object space; DXR takes facing from object space too, so mirrored instances need no other
+/// flag than the rest, but glTF's fronts of a mirrored node are the other side.
+bool is_mirrored(const Instance& instance);
+
 /// A local light, or a directional one besides the sun. [KHR_lights_punctual]
 struct Light {
   std::string name;
   LightType type = LightType::kPoint;
   glm::vec3 color{1.0f};
-  float intensity = 1.0f;             ///< lux for directional, candela for point and spot
+  float intensity = 1.0f;  ///< lux for directional, candela for point and spot
   glm::dvec3 position{0.0};
-  glm::vec3 direction{0, -1, 0};      ///< the way the light travels, unit
-  float range = 0.0f;                 ///< metres; 0 = unlimited
-  float inner_cone_angle = 0.0f;      ///< half angles of a spot
+  glm::vec3 direction{0, -1, 0};  ///< the way the light travels, unit
+  float range = 0.0f;             ///< metres; 0 = unlimited
+  float inner_cone_angle = 0.0f;  ///< half angles of a spot
   float outer_cone_angle = 0.785398f;
-  float radius = 0.02f;               ///< of the sphere that soft shadows sample, metres
+  float radius = 0.02f;  ///< of the sphere that soft shadows sample, metres
 };
 
 /// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]
@@ -91,12 +101,12 @@ struct Scene {
   std::vector<Instance> instances;
   std::vector<Material> materials;  ///< at least one
   std::vector<TextureImage> images;
-  std::vector<Sampler> samplers;    ///< at least one
-  std::vector<Camera> cameras;      ///< at least one; the first is the default
+  std::vector<Sampler> samplers;  ///< at least one
+  std::vector<Camera> cameras;    ///< at least one; the first is the default
   std::optional<Sun> sun;
   std::vector<Light> lights;
   Sky sky;
-  float exposure = 1.0f;            ///< radiance times this goes to the tone curve
+  float exposure = 1.0f;  ///< radiance times this goes to the tone curve
 };
 
 /// Triangles after instancing.

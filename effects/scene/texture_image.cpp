@@ -58,7 +58,8 @@ std::vector<std::uint8_t> downsample(const TextureImage& image, std::uint32_t le
       }
       const glm::vec3 color = alpha > 0.0f ? weighted / alpha : plain / count;
       std::uint8_t* p = &out[(std::size_t{y} * dw + x) * 4];
-      for (int k = 0; k < 3; ++k) p[k] = to_byte(image.srgb ? srgb_from_linear(color[k]) : color[k]);
+      for (int k = 0; k < 3; ++k)
+        p[k] = to_byte(image.srgb ? srgb_from_linear(color[k]) : color[k]);
       p[3] = to_byte(alpha / count);
     }
   }
@@ -79,8 +80,7 @@ float coverage_scale(const TextureImage& image, std::uint32_t level, float cutof
 }  // namespace
 
 float srgb_from_linear(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear
-                              : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
 float linear_from_srgb(float encoded) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Blue-noise tiles: neighbouring pixels get values far apart, so that the error of few samples
+// shows as fine grain. Made here, by void and cluster [Ulichney 1993].
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace kaamos::effects {
+
+inline constexpr std::uint32_t kBlueNoiseSize = 128;
+
+/// A dither array of size * size: every rank 0..size*size-1 once, such that for every n the cells
+/// of rank < n are spread evenly over the torus. The same on every machine: all energies are
+/// integers. `size` is a power of two of 8..256.
+std::vector<std::uint32_t> void_and_cluster(std::uint32_t size, std::uint32_t seed);
+
+/// kBlueNoiseSize^2 pairs of independent tiles with values in (0, 1), row by row. Made at the first
+/// call (well under a second) and kept.
+const std::vector<glm::vec2>& blue_noise_tile();
+
+/// What a shader does with the tile; value for value that of effects/shaders/sampling.hlsli.
+/// Sample `index` of dimension pair `pair` in a pixel: the pixel's tile value, shifted by the
+/// scrambled Sobol point on the torus. [GDC 2018 talk: noise tile plus Sobol offset, wrapped]
+glm::vec2 pixel_sample(std::uint32_t x, std::uint32_t y, std::uint32_t index, std::uint32_t pair,
+                       std::uint32_t seed);
+
+}  // namespace kaamos::effects

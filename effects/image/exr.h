@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// OpenEXR files with named layers.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+#include "effects/image/image.h"
+
+namespace kaamos::effects {
+
+/// One layer. The nameless layer is what viewers show first.
+struct ExrLayer {
+  std::string name;
+  FloatImage image;
+  bool half = false;  ///< stored with 16 bits: values above 65,504 become infinite
+  /// One per channel of the image; empty: Y, then RGB and RGBA for 3 and 4 channels, XY for 2.
+  std::vector<std::string> channels = {};
+};
+
+struct ExrFile {
+  std::vector<ExrLayer> layers;
+  /// Text attributes: how the picture was made (seed, sample count, ...).
+  std::map<std::string, std::string> attributes = {};
+};
+
+/// Writes all layers into one file; channels are named LAYER.CHANNEL as viewers expect. An earlier
+/// file at `path` stays as it was on any error. Errors: no layer, layers of different size, a layer
+/// name twice, names for another number of channels than there are.
+Status write_exr(const std::string& path, const ExrFile& file);
+
+/// Reads every layer of a scan-line or tiled single-part file as floats. Channels of a layer stand
+/// in the order RGBA, XYZ or else alphabetical.
+Result<ExrFile> read_exr(const std::string& path);
+
+/// The layer of that name, or null.
+const ExrLayer* find_layer(const ExrFile& file, const std::string& name);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// PNG files.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+#include "effects/image/image.h"
+
+namespace kaamos::effects {
+
+/// The bytes of a PNG file, 8 bits per channel. Errors: a side of 0 or above 65,535, channels other
+/// than 1, 3 or 4, values of another size than width * height * channels.
+Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image);
+
+/// Writes a PNG; an earlier file at `path` stays as it was on any error (a full disk among them).
+Status write_png(const std::string& path, const ByteImage& image);
+
+/// Reads a PNG of any kind as 4 channels.
+Result<ByteImage> read_png(const std::string& path);
+
+}  // namespace kaamos::effects

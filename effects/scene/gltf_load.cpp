@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "effects/scene/gltf_load.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <exception>
+#include <string_view>
+
+#include "effects/common/file.h"
+#include "effects/scene/gltf_reader.h"
+
+namespace kaamos::effects {
+namespace {
+
+constexpr std::array<std::string_view, 4> kKnownExtensions = {
+    "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength",
+    "KHR_mesh_quantization"};
+
+/// Depth of nested arrays and objects that is read: far more than glTF has, and little enough for
+/// the parser's recursion over extensions.
+constexpr int kMaxJsonDepth = 128;
+
+/// Keeps the encoded bytes of images that come by URI, undecoded. For those in a buffer view
+/// nothing is touched: the pointer handed in there is not checked against the buffer.
+bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void* user) {
+  auto& kept = *static_cast<std::vector<std::vector<std::uint8_t>>*>(user);
+  if (index < 0) return false;
+  if (kept.size() <= static_cast<std::size_t>(index))
+    kept.resize(static_cast<std::size_t>(index) + 1);
+  if (image->bufferView < 0 && size > 0)
+    kept[static_cast<std::size_t>(index)].assign(bytes, bytes + size);
+  return true;
+}
+
+bool is_glb(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+/// True where no array or object stands deeper than kMaxJsonDepth.
+bool shallow(std::string_view json) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kMaxJsonDepth) return false;
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+  return true;
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// The JSON text of a file: all of a .gltf, the first chunk of a .glb.
+Result<std::string_view> json_text(std::span<const std::uint8_t> bytes) {
+  const auto view = [&](std::size_t offset, std::size_t size) {
+    return std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, size);
+  };
+  if (!is_glb(bytes)) {
+    const std::size_t first = view(0, bytes.size()).find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first == std::string_view::npos || bytes[first] != '{')
+      return Status::failure("is neither a .gltf (JSON) nor a .glb file");
+    return view(0, bytes.size());
+  }
+  std::uint32_t chunk = 0;
+  if (bytes.size() < 20)
+    return Status::failure("is cut: " + std::to_string(bytes.size()) +
+                           " bytes, a .glb has at least 20");
+  std::memcpy(&chunk, bytes.data() + 12, 4);
+  if (chunk > bytes.size() - 20)
+    return Status::failure("is cut: its JSON needs " + std::to_string(chunk) +
+                           " bytes, the file has " + std::to_string(bytes.size() - 20) +
+                           " after the header");
+  return view(20, chunk);
+}
+
+Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tinygltf::Model& model,
+             std::vector<std::vector<std::uint8_t>>& images, std::vector<std::string>& warnings) {
+  if (bytes.size() > 0xFFFFFF00u) return Status::failure("is larger than 4 GB");
+  const Result<std::string_view> json = json_text(bytes);
+  if (!json.ok()) return Status::failure(json.error());
+  if (!shallow(json.value()))
+    return Status::failure("its JSON is nested deeper than " + std::to_string(kMaxJsonDepth) +
+                           " levels");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(keep_encoded, &images);
+  std::string error, warning;
+  bool parsed = false;
+  if (is_glb(bytes)) {
+    // The binary chunk's check in tinygltf 2.7 leaves out the chunk header's 8 bytes, so a cut file
+    // is read that far past its end.
+    std::vector<std::uint8_t> padded(bytes.begin(), bytes.end());
+    padded.resize(bytes.size() + 16, 0);
+    parsed = loader.LoadBinaryFromMemory(&model, &error, &warning, padded.data(),
+                                         static_cast<unsigned int>(bytes.size()), folder);
+  } else {
+    parsed = loader.LoadASCIIFromString(&model, &error, &warning, json.value().data(),
+                                        static_cast<unsigned int>(json.value().size()), folder);
+  }
+  if (!warning.empty()) warnings.push_back(one_line(warning));
+  if (!parsed) return Status::failure(error.empty() ? "cannot be parsed" : one_line(error));
+  images.resize(model.images.size());
+  return {};
+}
+
+Status check_extensions(const tinygltf::Model& model) {
+  for (const std::string& name : model.extensionsRequired)
+    if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())
+      return Status::failure("requires the extension " + name +
+                             ", which is not supported: export the file without it");
+  return {};
+}
+
+float luminance(const glm::vec3& c) {
+  return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+/// Sun, sky, camera and exposure where the file says nothing of them.
+void complete(Scene& scene) {
+  const auto sun = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.type == LightType::kDirectional && light.intensity > 0.0f &&
+           luminance(light.color) > 0.0f;
+  });
+  scene.sun = default_sun();
+  scene.sky = default_sky();
+  if (sun != scene.lights.end()) {
+    scene.sun->direction_to_sun = -sun->direction;
+    scene.sun->irradiance = sun->color * sun->intensity;
+    // Files give lux or any other unit: the sky follows the sun, and the exposure takes both back.
+    const float scale = luminance(scene.sun->irradiance) / luminance(default_sun().irradiance);
+    scene.sky.zenith *= scale;
+    scene.sky.horizon *= scale;
+    scene.sky.ground *= scale;
+    scene.exposure = 1.0f / scale;
+    scene.lights.erase(sun);
+  }
+  if (scene.cameras.empty()) scene.cameras.push_back(framing_camera(scene_bounds(scene)));
+}
+
+/// Drops meshes that no instance shows: those of other scenes of the file, and the bind poses of
+/// skinned ones.
+void drop_unused_meshes(Scene& scene) {
+  std::vector<std::uint32_t> new_id(scene.meshes.size(), 0);
+  std::vector<bool> used(scene.meshes.size(), false);
+  for (const Instance& instance : scene.instances) used[instance.mesh] = true;
+  std::vector<Mesh> kept;
+  for (std::size_t id = 0; id < used.size(); ++id) {
+    if (!used[id]) continue;
+    new_id[id] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(std::move(scene.meshes[id]));
+  }
+  scene.meshes = std::move(kept);
+  for (Instance& instance : scene.instances) instance.mesh = new_id[instance.mesh];
+}
+
+Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name,
+                         const std::string& folder) {
+  LoadedScene loaded;
+  loaded.scene.name = name;
+  tinygltf::Model model;
+  std::vector<std::vector<std::uint8_t>> images;
+  Status status = parse(bytes, folder, model, images, loaded.warnings);
+  if (status.ok()) status = check_extensions(model);
+  GltfReader reader{model, images, loaded.scene, loaded.warnings};
+  if (status.ok()) status = read_gltf_materials(reader);
+  if (status.ok()) status = read_gltf_meshes(reader);
+  if (status.ok()) status = read_gltf_nodes(reader);
+  if (!status.ok()) return status;
+  if (loaded.scene.instances.empty())
+    return Status::failure("shows no triangles: no node of its scene has a mesh made of triangles");
+  if (!model.animations.empty()) loaded.warnings.push_back("animations are left out");
+  drop_unused_meshes(loaded.scene);
+  complete(loaded.scene);
+  status = validate(loaded.scene);
+  if (!status.ok()) return status;
+  return loaded;
+}
+
+}  // namespace
+
+std::string gltf_part(const char* noun, std::size_t index, const std::string& name) {
+  std::string text = std::string(noun) + " " + std::to_string(index);
+  if (!name.empty()) text += " \"" + name + "\"";
+  return text;
+}
+
+Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const std::string& name,
+                                     const std::string& folder) {
+  const auto failed = [&](const std::string& text) {
+    return Status::failure("cannot load \"" + name + "\": " + text);
+  };
+  // The parser throws on JSON of the wrong kind and when memory runs out.
+  try {
+    Result<LoadedScene> loaded = load(bytes, name, folder);
+    if (!loaded.ok()) return failed(loaded.error());
+    return loaded;
+  } catch (const std::exception& error) {
+    return failed(one_line(error.what()));
+  }
+}
+
+Result<LoadedScene> load_gltf(const std::string& path) {
+  const Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (!bytes.ok()) return Status::failure(bytes.error());
+  const std::size_t slash = path.find_last_of('/');
+  return load_gltf_memory(bytes.value(), path,
+                          slash == std::string::npos ? "." : path.substr(0, slash + 1));
+}
+
+}  // namespace kaamos::effects

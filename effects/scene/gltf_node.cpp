@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+// The node hierarchy of a glTF file: instances, lights and cameras with world transforms.
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "effects/scene/gltf_accessor.h"
+#include "effects/scene/gltf_reader.h"
+
+namespace kaamos::effects {
+namespace {
+
+class NodeReader {
+ public:
+  explicit NodeReader(GltfReader& reader) : reader_(reader), model_(reader.model) {}
+  Status run();
+
+ private:
+  Status roots(std::vector<int>& out) const;
+  Status walk(const std::vector<int>& roots);
+  Status local_transform(const tinygltf::Node& node, const std::string& where,
+                         glm::dmat4& out) const;
+  Status contents(std::size_t id);
+  Status mesh(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
+  Status skinned(const tinygltf::Node& node, const std::string& where);
+  Status joint_matrices(const tinygltf::Skin& skin, const std::string& where,
+                        std::vector<glm::dmat4>& out) const;
+  Status camera(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
+  Status light(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
+  std::string where(std::size_t id) const { return gltf_part("node", id, model_.nodes[id].name); }
+
+  GltfReader& reader_;
+  const tinygltf::Model& model_;
+  std::vector<glm::dmat4> world_;
+  std::vector<bool> visited_;
+  std::vector<std::size_t> order_;
+};
+
+Status id_error(const std::string& where, const char* noun, int id, std::size_t count) {
+  return Status::failure(where + ": names " + noun + " " + std::to_string(id) + " of " +
+                         std::to_string(count));
+}
+
+bool in_range(int id, std::size_t count) {
+  return id >= 0 && static_cast<std::size_t>(id) < count;
+}
+
+/// The axis without its length; `fallback` where it has none.
+glm::dvec3 axis(const glm::dmat4& m, int column, const glm::dvec3& fallback) {
+  const glm::dvec3 v(m[column]);
+  const double length = glm::length(v);
+  return length > 0.0 && std::isfinite(length) ? v / length : fallback;
+}
+
+Status NodeReader::roots(std::vector<int>& out) const {
+  if (model_.defaultScene >= 0 || !model_.scenes.empty()) {
+    const int id = std::max(0, model_.defaultScene);
+    if (!in_range(id, model_.scenes.size()))
+      return id_error("the file", "scene", id, model_.scenes.size());
+    out = model_.scenes[static_cast<std::size_t>(id)].nodes;
+    return {};
+  }
+  // Without a scene everything is shown: all nodes that are nobody's child.
+  std::vector<bool> child(model_.nodes.size(), false);
+  for (const tinygltf::Node& node : model_.nodes)
+    for (const int id : node.children)
+      if (in_range(id, child.size())) child[static_cast<std::size_t>(id)] = true;
+  for (std::size_t id = 0; id < child.size(); ++id)
+    if (!child[id]) out.push_back(static_cast<int>(id));
+  return {};
+}
+
+Status NodeReader::local_transform(const tinygltf::Node& node, const std::string& where,
+                                   glm::dmat4& out) const {
+  const auto allowed = [](std::size_t size, std::size_t full) { return size == 0 || size == full; };
+  if (!allowed(node.matrix.size(), 16) || !allowed(node.translation.size(), 3) ||
+      !allowed(node.rotation.size(), 4) || !allowed(node.scale.size(), 3))
+    return Status::failure(where +
+                           ": matrix, translation, rotation or scale has the wrong number "
+                           "of elements, 16, 3, 4 and 3 are allowed");
+  glm::dmat4 m(1.0);
+  if (!node.matrix.empty()) {
+    for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
+    m[0][3] = m[1][3] = m[2][3] = 0.0;
+    m[3][3] = 1.0;
+  } else {
+    if (!node.rotation.empty()) {
+      const auto& r = node.rotation;
+      const glm::dquat q(r[3], r[0], r[1], r[2]);
+      const double length = glm::length(q);
+      if (length > 0.0 && std::isfinite(length)) m = glm::mat4_cast(q / length);
+    }
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t i = static_cast<std::size_t>(c);
+      if (!node.scale.empty()) m[c] *= node.scale[i];
+      if (!node.translation.empty()) m[3][c] = node.translation[i];
+    }
+  }
+  for (int i = 0; i < 16; ++i)
+    if (!std::isfinite(m[i / 4][i % 4]))
+      return Status::failure(where + ": its transform is not finite");
+  out = m;
+  return {};
+}
+
+/// Fills world_ and order_, parents first. No recursion: a deep chain must not end the stack.
+Status NodeReader::walk(const std::vector<int>& start) {
+  struct Step {
+    int id;
+    glm::dmat4 parent;
+  };
+  std::vector<Step> open;
+  for (auto id = start.rbegin(); id != start.rend(); ++id) open.push_back({*id, glm::dmat4(1.0)});
+  while (!open.empty()) {
+    const Step step = open.back();
+    open.pop_back();
+    if (!in_range(step.id, model_.nodes.size()))
+      return id_error("the node hierarchy", "node", step.id, model_.nodes.size());
+    const std::size_t id = static_cast<std::size_t>(step.id);
+    if (visited_[id])
+      return Status::failure(where(id) +
+                             ": is reached twice; a node has one parent at most and no "
+                             "cycles are allowed");
+    visited_[id] = true;
+    glm::dmat4 local(1.0);
+    const Status status = local_transform(model_.nodes[id], where(id), local);
+    if (!status.ok()) return status;
+    world_[id] = step.parent * local;
+    order_.push_back(id);
+    const std::vector<int>& children = model_.nodes[id].children;
+    for (auto child = children.rbegin(); child != children.rend(); ++child)
+      open.push_back({*child, world_[id]});
+  }
+  return {};
+}
+
+/// Glass is kept apart from what shadow and occlusion rays meet.
+std::uint8_t mask_of(const Scene& scene, const Mesh& mesh) {
+  for (const Geometry& geometry : mesh.geometries) {
+    const std::uint32_t flags = scene.materials[geometry.material].constants.flags;
+    if (!(flags & kMaterialBlend) || (flags & kMaterialAlphaTested)) return kMaskOpaque;
+  }
+  return kMaskTransparent;
+}
+
+Status NodeReader::mesh(const tinygltf::Node& node, const std::string& where,
+                        const glm::dmat4& world) {
+  if (!in_range(node.mesh, model_.meshes.size()))
+    return id_error(where, "mesh", node.mesh, model_.meshes.size());
+  const int id = reader_.mesh_ids[static_cast<std::size_t>(node.mesh)];
+  if (id < 0) return {};
+  if (node.skin >= 0) return skinned(node, where);
+  Instance instance;
+  instance.name = node.name.empty() ? where : node.name;
+  instance.mesh = static_cast<std::uint32_t>(id);
+  instance.transform = world;
+  instance.mask = mask_of(reader_.scene, reader_.scene.meshes[instance.mesh]);
+  const double determinant = glm::determinant(glm::dmat3(world));
+  if (determinant == 0.0 || !std::isfinite(determinant)) {
+    reader_.warn(where + ": its transform is singular; the instance is left out");
+    return {};
+  }
+  reader_.scene.instances.push_back(std::move(instance));
+  return {};
+}
+
+Status NodeReader::joint_matrices(const tinygltf::Skin& skin, const std::string& where,
+                                  std::vector<glm::dmat4>& out) const {
+  std::vector<float> inverse;
+  if (skin.inverseBindMatrices >= 0) {
+    Result<std::vector<float>> read =
+        read_floats(model_, skin.inverseBindMatrices, 16, where + ", inverse bind matrices");
+    if (!read.ok()) return Status::failure(read.error());
+    inverse = std::move(read.value());
+    if (inverse.size() < skin.joints.size() * 16)
+      return Status::failure(where + ": has " + std::to_string(skin.joints.size()) +
+                             " joints and " + std::to_string(inverse.size() / 16) +
+                             " inverse bind matrices");
+  }
+  for (std::size_t j = 0; j < skin.joints.size(); ++j) {
+    if (!in_range(skin.joints[j], model_.nodes.size()))
+      return id_error(where, "joint node", skin.joints[j], model_.nodes.size());
+    glm::dmat4 bind(1.0);
+    if (!inverse.empty())
+      for (int i = 0; i < 16; ++i)
+        bind[i / 4][i % 4] = static_cast<double>(inverse[16 * j + static_cast<std::size_t>(i)]);
+    out.push_back(world_[static_cast<std::size_t>(skin.joints[j])] * bind);
+  }
+  return {};
+}
+
+Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where) {
+  if (!in_range(node.skin, model_.skins.size()))
+    return id_error(where, "skin", node.skin, model_.skins.size());
+  std::vector<glm::dmat4> joints;
+  const Status status = joint_matrices(model_.skins[static_cast<std::size_t>(node.skin)],
+                                       where + ", skin " + std::to_string(node.skin), joints);
+  if (!status.ok()) return status;
+  Result<Mesh> posed = read_skinned_mesh(reader_, node.mesh, joints);
+  if (!posed.ok()) return Status::failure(posed.error());
+  Instance instance;
+  instance.name = node.name.empty() ? where : node.name;
+  instance.mesh = static_cast<std::uint32_t>(reader_.scene.meshes.size());
+  instance.mask = mask_of(reader_.scene, posed.value());
+  posed.value().name += " (posed)";
+  reader_.scene.meshes.push_back(std::move(posed.value()));
+  reader_.scene.instances.push_back(std::move(instance));
+  return {};
+}
+
+Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
+                          const glm::dmat4& world) {
+  if (!in_range(node.camera, model_.cameras.size()))
+    return id_error(where, "camera", node.camera, model_.cameras.size());
+  const tinygltf::Camera& from = model_.cameras[static_cast<std::size_t>(node.camera)];
+  const double fov = from.perspective.yfov;
+  if (from.type != "perspective" || !(fov > 0.0) || !(fov < 3.14159)) {
+    reader_.warn(where +
+                 ": its camera is not perspective with a field of view of 0..pi and is "
+                 "left out");
+    return {};
+  }
+  Camera to;
+  to.name = from.name.empty() ? node.name : from.name;
+  to.vertical_fov = fov;
+  if (from.perspective.znear > 0.0 && std::isfinite(from.perspective.znear))
+    to.near_plane = from.perspective.znear;
+  // Scale and shear of the parents must not reach the picture: the view is built anew from where
+  // the camera looks.
+  const glm::dvec3 eye(world[3]);
+  to.camera_to_world = look_at(eye, eye - axis(world, 2, {0, 0, 1}), axis(world, 1, {0, 1, 0}));
+  reader_.scene.cameras.push_back(to);
+  return {};
+}
+
+Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
+                         const glm::dmat4& world) {
+  const auto found = node.extensions.find("KHR_lights_punctual");
+  if (found == node.extensions.end() || !found->second.Has("light") ||
+      !found->second.Get("light").IsNumber())
+    return {};
+  const int id = found->second.Get("light").GetNumberAsInt();
+  if (!in_range(id, model_.lights.size()))
+    return id_error(where, "light", id, model_.lights.size());
+  const tinygltf::Light& from = model_.lights[static_cast<std::size_t>(id)];
+  Light to;
+  to.name = from.name.empty() ? node.name : from.name;
+  if (from.type == "directional") {
+    to.type = LightType::kDirectional;
+  } else if (from.type == "spot") {
+    to.type = LightType::kSpot;
+  } else if (from.type != "point") {
+    return Status::failure(where + ", light " + std::to_string(id) + ": type is \"" + from.type +
+                           "\", directional, point and spot are allowed");
+  }
+  for (int i = 0; i < 3 && static_cast<std::size_t>(i) < from.color.size(); ++i)
+    to.color[i] = std::max(0.0f, static_cast<float>(from.color[static_cast<std::size_t>(i)]));
+  to.intensity = std::isfinite(from.intensity) && from.intensity >= 0.0
+                     ? static_cast<float>(from.intensity)
+                     : 1.0f;
+  to.range = static_cast<float>(std::max(0.0, from.range));
+  to.outer_cone_angle = static_cast<float>(std::clamp(from.spot.outerConeAngle, 0.0, 1.5707963));
+  to.inner_cone_angle =
+      std::clamp(static_cast<float>(from.spot.innerConeAngle), 0.0f, to.outer_cone_angle);
+  to.position = glm::dvec3(world[3]);
+  to.direction = glm::vec3(-axis(world, 2, {0, 0, 1}));
+  reader_.scene.lights.push_back(to);
+  return {};
+}
+
+Status NodeReader::contents(std::size_t id) {
+  const tinygltf::Node& node = model_.nodes[id];
+  const std::string place = where(id);
+  Status status;
+  if (node.mesh >= 0) status = mesh(node, place, world_[id]);
+  if (status.ok() && node.camera >= 0) status = camera(node, place, world_[id]);
+  if (status.ok()) status = light(node, place, world_[id]);
+  return status;
+}
+
+Status NodeReader::run() {
+  world_.assign(model_.nodes.size(), glm::dmat4(1.0));
+  visited_.assign(model_.nodes.size(), false);
+  std::vector<int> start;
+  Status status = roots(start);
+  if (status.ok()) status = walk(start);
+  for (std::size_t i = 0; status.ok() && i < order_.size(); ++i) status = contents(order_[i]);
+  return status;
+}
+
+}  // namespace
+
+Status read_gltf_nodes(GltfReader& reader) {
+  return NodeReader(reader).run();
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The stages of the glTF loader. Only gltf_*.cpp include this.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// What the stages share: the parsed file, the scene that grows, what was left out.
+struct GltfReader {
+  const tinygltf::Model& model;
+  /// Per image of the file: its still encoded bytes where it came by URI, else empty.
+  const std::vector<std::vector<std::uint8_t>>& encoded_images;
+  Scene& scene;
+  std::vector<std::string>& warnings;
+  /// Per mesh of the file: its place in Scene::meshes, or -1 where it has no triangles.
+  std::vector<int> mesh_ids = {};
+
+  void warn(std::string text) { warnings.push_back(std::move(text)); }
+};
+
+/// `noun 3 "name"`, as messages name a part of a file.
+std::string gltf_part(const char* noun, std::size_t index, const std::string& name);
+
+/// Scene::materials holds one per material of the file, then the default material.
+Status read_gltf_materials(GltfReader& reader);
+/// One mesh per mesh of the file that has triangles.
+Status read_gltf_meshes(GltfReader& reader);
+/// Instances, lights and cameras of the default scene's nodes.
+Status read_gltf_nodes(GltfReader& reader);
+
+/// A mesh in the pose that the joints have in the file, in world space. `joints` are the nodes'
+/// object-to-world transforms times the inverse bind matrices.
+Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, const std::vector<glm::dmat4>& joints);
+
+}  // namespace kaamos::effects

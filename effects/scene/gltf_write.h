@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Scenes as .glb files that any glTF viewer reads.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "effects/common/result.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// The bytes of a .glb: meshes, materials with their pictures as PNG, instances, cameras, lights,
+/// the sun as the first directional light. glTF has no place for the sky, the sun's angular radius,
+/// exposure and instance masks; they do not come back when the file is loaded.
+Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene);
+
+/// Writes the file; an earlier one at `path` stays as it was on any error.
+Status write_glb(const std::string& path, const Scene& scene);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// The meshes of the lounge. Only lounge*.cpp include this.
+#pragma once
+
+#include <cstdint>
+
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects::lounge {
+
+/// Materials by their place in Scene::materials.
+enum MaterialId : std::uint32_t {
+  kFloor,
+  kWall,
+  kCeiling,
+  kWood,
+  kDarkWood,
+  kBrass,
+  kBlackMetal,
+  kRubber,
+  kTealFabric,
+  kRedFabric,
+  kSandFabric,
+  kPiping,
+  kRug,
+  kPaper,
+  kCover,
+  kPorcelain,
+  kSoil,
+  kStem,
+  kLeaf,
+  kDomeShell,
+  kDomeLine,
+  kLampShade,
+  kTerrace,
+  kMaterialCount
+};
+
+/// Room inside: x -6..6, z -5..5, y 0..4.
+inline constexpr double kRoomX = 6.0;
+inline constexpr double kRoomZ = 5.0;
+inline constexpr double kRoomHeight = 4.0;
+/// Opening in the ceiling under the dome.
+inline constexpr double kDomeRadius = 2.3;
+
+Mesh room();
+Mesh dome();
+Mesh rug();
+Mesh chair();
+Mesh small_sofa();
+Mesh round_sofa();
+Mesh table();
+Mesh magazine();
+Mesh floor_lamp();
+Mesh plant();
+
+/// Materials, pictures and samplers.
+void add_materials(Scene& scene);
+/// The leaf: outline, cuts and holes in alpha, veins in colour.
+TextureImage leaf_texture();
+
+}  // namespace kaamos::effects::lounge

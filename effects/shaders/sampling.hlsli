@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// Random numbers and sampling routines. effects/common/sampling.h, sobol.h and blue_noise.h hold the
+// same functions for the host, value for value.
+#ifndef KAAMOS_SAMPLING_HLSLI
+#define KAAMOS_SAMPLING_HLSLI
+
+// One step of a permuted congruential generator as a hash. [O'Neill 2014; Jarzynski & Olano 2020]
+uint PcgHash(uint v) {
+  const uint state = v * 747796405u + 2891336453u;
+  const uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return (word >> 22u) ^ word;
+}
+
+uint HashCombine(uint seed, uint v) { return PcgHash(seed ^ PcgHash(v)); }
+
+// The upper 24 bits as a float in [0, 1).
+float UnitFloat(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.0f); }
+
+// First and second dimension of the Sobol sequence as 32-bit fractions.
+uint Sobol0(uint index) { return reversebits(index); }
+
+uint Sobol1(uint index) {
+  // Pascal's triangle modulo 2 in five steps.
+  uint x = index;
+  x ^= (x & 0xAAAAAAAAu) >> 1u;
+  x ^= (x & 0xCCCCCCCCu) >> 2u;
+  x ^= (x & 0xF0F0F0F0u) >> 4u;
+  x ^= (x & 0xFF00FF00u) >> 8u;
+  x ^= (x & 0xFFFF0000u) >> 16u;
+  return reversebits(x);
+}
+
+// Nested uniform scrambling by a hash. [Laine & Karras 2011, constants of Vegdahl 2021]
+uint OwenScramble(uint fraction, uint seed) {
+  uint x = reversebits(fraction);
+  x ^= x * 0x3D20ADEAu;
+  x += seed;
+  x *= (seed >> 16u) | 1u;
+  x ^= x * 0x05526C56u;
+  x ^= x * 0x53A22864u;
+  return reversebits(x);
+}
+
+// Point `index` of a scrambled and shuffled sequence. [Burley 2020]
+float2 SobolOwen(uint index, uint seed) {
+  const uint shuffled = OwenScramble(index, seed);
+  return float2(UnitFloat(OwenScramble(Sobol0(shuffled), PcgHash(seed ^ 0x9E3779B9u))),
+                UnitFloat(OwenScramble(Sobol1(shuffled), PcgHash(seed ^ 0x85EBCA6Bu))));
+}
+
+static const uint kBlueNoiseSize = 128u;
+
+// Where a pixel's value for a dimension pair stands in the blue-noise tile (a StructuredBuffer of
+// kBlueNoiseSize * kBlueNoiseSize float2).
+uint BlueNoiseIndex(uint2 pixel, uint pair, uint seed) {
+  const uint h = HashCombine(seed, pair);
+  const uint mask = kBlueNoiseSize - 1u;
+  return ((pixel.y + ((h >> 16u) & mask)) & mask) * kBlueNoiseSize +
+         ((pixel.x + (h & mask)) & mask);
+}
+
+// Sample `index` of a dimension pair: the pixel's tile value shifted by the Sobol point, wrapped.
+// [GDC 2018 talk]
+float2 PixelSample(float2 tile_value, uint index, uint pair, uint seed) {
+  const float2 u = tile_value + SobolOwen(index, PcgHash(HashCombine(seed, pair)));
+  return u - floor(u);
+}
+
+// Unit disk, area preserving. [effects-spec B0.4]
+float2 SampleDisk(float2 u) {
+  const float r = sqrt(u.x);
+  const float phi = 6.2831853f * u.y;
+  return float2(r * cos(phi), r * sin(phi));
+}
+
+// Direction about +Z with density cos(theta) / pi.
+float3 SampleCosineHemisphere(float2 u) {
+  return float3(SampleDisk(u), sqrt(max(0.0f, 1.0f - u.x)));
+}
+
+// The direction `local` about +Z turned to lie about the unit vector `n`. [Duff et al. 2017]
+float3 ToWorld(float3 local, float3 n) {
+  const float s = n.z >= 0.0f ? 1.0f : -1.0f;
+  const float a = -1.0f / (s + n.z);
+  const float b = n.x * n.y * a;
+  const float3 t = float3(1.0f + s * n.x * n.x * a, s * b, -s * n.x);
+  const float3 v = float3(b, s + n.y * n.y * a, -n.y);
+  return t * local.x + v * local.y + n * local.z;
+}
+
+// Direction to a point of the sun's disk.
+float3 SampleSun(float2 u, float3 direction_to_sun, float tan_angular_radius) {
+  return normalize(ToWorld(float3(SampleDisk(u) * tan_angular_radius, 1.0f), direction_to_sun));
+}
+
+#endif
