@@ -74,7 +74,9 @@ bool is_less(Value a, Value b) {
 class ConditionParser {
  public:
   ConditionParser(Preprocessor& preprocessor, std::string_view directive)
-      : preprocessor_(preprocessor), directive_(directive) {}
+      : preprocessor_(preprocessor),
+        directive_(directive),
+        errors_before_(preprocessor.diagnostics().error_count()) {}
 
   bool parse(SourceLocation directive_location) {
     advance();
@@ -95,12 +97,12 @@ class ConditionParser {
   }
   void advance() { token_ = preprocessor_.next_expanded(); }
 
-  // The first error counts; the rest of the expression is not read.
+  // The first error counts, be it one of a macro's call; the rest of the expression is not read.
   void report(DiagnosticId id, SourceLocation location,
               std::initializer_list<std::string_view> arguments) {
-    if (!failed_ && !preprocessor_.is_fatal()) {
-      preprocessor_.diagnostics().report(id, location, arguments);
-    }
+    bool is_first = !failed_ && !preprocessor_.is_fatal() &&
+                    preprocessor_.diagnostics().error_count() == errors_before_;
+    if (is_first) preprocessor_.diagnostics().report(id, location, arguments);
     failed_ = true;
   }
 
@@ -261,9 +263,8 @@ class ConditionParser {
   }
 
   Value number() {
-    uint32_t errors = preprocessor_.diagnostics().error_count();
     NumberLiteral literal = parse_number(token_.text, token_.location, preprocessor_.diagnostics());
-    if (preprocessor_.diagnostics().error_count() != errors) failed_ = true;
+    if (preprocessor_.diagnostics().error_count() != errors_before_) failed_ = true;
     if (literal.is_float) {
       report(DiagnosticId::kConditionFloat, token_.location, {token_.text, directive_});
     }
@@ -298,6 +299,7 @@ class ConditionParser {
 
   Preprocessor& preprocessor_;
   std::string_view directive_;
+  uint32_t errors_before_;
   Token token_;
   uint32_t depth_ = 0;
   bool failed_ = false;
