@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/shader/texture/format_codec.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -9,6 +8,16 @@
 #include "kaamos/shader/half.h"
 
 namespace kaamos::shader {
+
+const std::array<float, 256> kSrgbToLinear = [] {
+  std::array<float, 256> table{};
+  for (int i = 0; i < 256; ++i) {
+    const double x = i / 255.0;
+    table[i] = static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
+  }
+  return table;
+}();
+
 namespace {
 
 constexpr uint32_t bits_of(float value) {
@@ -180,15 +189,6 @@ void encode_a8(uint8_t* at, const Texel& texel) {
 
 // ---------------------------------------------------------------------------------------------
 // sRGB
-
-const std::array<float, 256> kSrgbToLinear = [] {
-  std::array<float, 256> table{};
-  for (int i = 0; i < 256; ++i) {
-    const double x = i / 255.0;
-    table[i] = static_cast<float>(x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4));
-  }
-  return table;
-}();
 
 // Blue first, or red first; alpha is linear.
 template <int Red, int Blue, bool Alpha>
@@ -366,10 +366,6 @@ constexpr std::array<FormatCodec, kFormatCount> kCodecs = [] {
 
 const FormatCodec& format_codec(uint32_t dxgi_format) {
   return kCodecs[dxgi_format < kFormatCount ? dxgi_format : 0];
-}
-
-float srgb_to_linear(uint8_t value) {
-  return kSrgbToLinear[value];
 }
 
 uint8_t linear_to_srgb(float value) {

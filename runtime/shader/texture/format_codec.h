@@ -4,6 +4,7 @@
 // [D3D11.3 3.2.3 data conversion; DXGI_FORMAT]
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "kaamos/shader/abi.h"
@@ -28,7 +29,10 @@ struct FormatCodec {
 const FormatCodec& format_codec(uint32_t dxgi_format);
 
 // sRGB to linear for every byte: the formula's value rounded to float. [D3D11.3 3.2.3.7]
-float srgb_to_linear(uint8_t value);
+extern const std::array<float, 256> kSrgbToLinear;
+inline float srgb_to_linear(uint8_t value) {
+  return kSrgbToLinear[value];
+}
 // Linear to sRGB, rounded to nearest; NaN gives 0.
 uint8_t linear_to_srgb(float value);
 

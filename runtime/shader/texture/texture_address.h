@@ -42,14 +42,21 @@ inline int32_t addressed_texel(AddressMode mode, int32_t i, int32_t size) {
   }
 }
 
+// std::floor is a call on x86-64 without SSE 4.1, and took a sixth of a bilinear sample's time.
+inline float fast_floor(float x) {
+  if (!(std::fabs(x) < 0x1p23f)) return x;  // whole already, or NaN
+  const float truncated = static_cast<float>(static_cast<int32_t>(x));
+  return truncated > x ? truncated - 1.0f : truncated;
+}
+
 // A coordinate in units of the texture's size, brought near to [0, 1] where the mode repeats, so
 // that large ones keep their fraction. NaN and what cannot be reduced become 0. [D3D11.3: NaN is 0]
 inline float reduced_coordinate(AddressMode mode, float u) {
   if (mode == AddressMode::kMirror) {
-    u -= 2.0f * std::floor(u * 0.5f);
+    u -= 2.0f * fast_floor(u * 0.5f);
   } else if (mode != AddressMode::kClamp && mode != AddressMode::kBorder &&
              mode != AddressMode::kMirrorOnce) {
-    u -= std::floor(u);
+    u -= fast_floor(u);
   }
   return u == u ? u : 0.0f;
 }
@@ -70,7 +77,7 @@ struct LinearTaps {
 
 inline LinearTaps linear_taps(AddressMode mode, float u, int32_t size, int32_t offset) {
   const float x = reduced_coordinate(mode, u) * static_cast<float>(size) - 0.5f;
-  const float whole = std::floor(x);
+  const float whole = fast_floor(x);
   const float weight = x - whole;
   const int32_t i = offset_index(whole, offset);
   return {addressed_texel(mode, i, size), addressed_texel(mode, i + 1, size),
@@ -78,7 +85,7 @@ inline LinearTaps linear_taps(AddressMode mode, float u, int32_t size, int32_t o
 }
 
 inline int32_t point_tap(AddressMode mode, float u, int32_t size, int32_t offset) {
-  const float x = std::floor(reduced_coordinate(mode, u) * static_cast<float>(size));
+  const float x = fast_floor(reduced_coordinate(mode, u) * static_cast<float>(size));
   return addressed_texel(mode, offset_index(x, offset), size);
 }
 

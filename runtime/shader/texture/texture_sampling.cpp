@@ -16,13 +16,17 @@ namespace {
 
 constexpr uint32_t kR32G32B32A32Float = 2;
 constexpr uint32_t kR8G8B8A8Unorm = 28;
+constexpr uint32_t kR8G8B8A8UnormSrgb = 29;
 
 // Filter numbers. [D3D12_ENCODE_BASIC_FILTER]
 constexpr uint32_t kMipLinear = 1, kMagLinear = 4, kMinLinear = 16;
 enum class Reduction : uint32_t { kStandard = 0, kComparison = 1, kMinimum = 2, kMaximum = 3 };
 
+// A texel on its way through the filter, four floats (or the bits of integers) in one register.
+using Channels = float __attribute__((vector_size(16)));
+using Bytes4 = uint8_t __attribute__((vector_size(4)));
 struct Color {
-  float c[4];
+  Channels c;
 };
 
 bool is_cube(TextureDimension dimension) {
@@ -103,7 +107,7 @@ class Sampling {
 
   Texel result(const Color& color) const {
     Texel texel;
-    for (int i = 0; i < 4; ++i) texel.bits[i] = std::bit_cast<uint32_t>(color.c[i]);
+    __builtin_memcpy(texel.bits, &color.c, sizeof(texel.bits));
     return compare_ ? texel : swizzled(view_, codec_.number, texel);
   }
 
@@ -154,7 +158,8 @@ class Sampling {
   Color texel(const TextureMip& mip, int32_t x, int32_t y, int32_t slice) const;
   Color border() const;
   Color compared(const Color& color) const {
-    return {{passes(sampler_.comparison, reference_, color.c[0]) ? 1.0f : 0.0f, 0, 0, 0}};
+    const bool pass = passes(sampler_.comparison, reference_, color.c[0]);
+    return Color{Channels{pass ? 1.0f : 0.0f, 0, 0, 0}};
   }
   Color blend(const Color& a, const Color& b, float weight) const;
 
@@ -185,40 +190,39 @@ Color Sampling::border() const {
 }
 
 // Indices are in range or kBorderTexel.
-Color Sampling::texel(const TextureMip& mip, int32_t x, int32_t y, int32_t slice) const {
-  if (x < 0 || y < 0 || slice < 0) return border();
+[[gnu::always_inline]] inline Color Sampling::texel(const TextureMip& mip, int32_t x, int32_t y,
+                                                    int32_t slice) const {
+  if ((x | y | slice) < 0) return border();
   const uint8_t* at = mip.texels + static_cast<uint64_t>(slice) * mip.slice_pitch +
                       static_cast<uint64_t>(y) * mip.row_pitch +
                       static_cast<uint64_t>(x) * codec_.bytes;
   Color color;
-  // The two most frequent formats without an indirect call.
+  // The most frequent formats without an indirect call.
   if (view_.format == kR8G8B8A8Unorm) {
-    for (int i = 0; i < 4; ++i) color.c[i] = static_cast<float>(at[i]) / 255.0f;
+    Bytes4 bytes;
+    __builtin_memcpy(&bytes, at, sizeof(bytes));
+    color.c = __builtin_convertvector(bytes, Channels) / 255.0f;
+  } else if (view_.format == kR8G8B8A8UnormSrgb) {
+    color.c = Channels{srgb_to_linear(at[0]), srgb_to_linear(at[1]), srgb_to_linear(at[2]),
+                       static_cast<float>(at[3]) / 255.0f};
   } else if (view_.format == kR32G32B32A32Float) {
-    __builtin_memcpy(color.c, at, sizeof(color.c));
+    __builtin_memcpy(&color.c, at, sizeof(color.c));
   } else {
     const Texel decoded = codec_.decode(at);
-    __builtin_memcpy(color.c, decoded.bits, sizeof(color.c));
+    __builtin_memcpy(&color.c, decoded.bits, sizeof(color.c));
   }
   return compare_ ? compared(color) : color;
 }
 
 // A weight of 0 leaves a NaN or an infinity of the other texel out.
-Color Sampling::blend(const Color& a, const Color& b, float weight) const {
-  Color result = a;
-  if (weight == 0.0f) return result;
+[[gnu::always_inline]] inline Color Sampling::blend(const Color& a, const Color& b,
+                                                    float weight) const {
+  if (weight == 0.0f) return a;
+  if (reduction_ == Reduction::kStandard) return Color{a.c + weight * (b.c - a.c)};
+  Color result;
   for (int i = 0; i < 4; ++i) {
-    switch (reduction_) {
-      case Reduction::kMinimum:
-        result.c[i] = std::fmin(a.c[i], b.c[i]);
-        break;
-      case Reduction::kMaximum:
-        result.c[i] = std::fmax(a.c[i], b.c[i]);
-        break;
-      default:
-        result.c[i] = a.c[i] + weight * (b.c[i] - a.c[i]);
-        break;
-    }
+    result.c[i] =
+        reduction_ == Reduction::kMinimum ? std::fmin(a.c[i], b.c[i]) : std::fmax(a.c[i], b.c[i]);
   }
   return result;
 }
@@ -236,7 +240,7 @@ Color Sampling::linear_rows(const Place& place, int32_t z, const LinearTaps& x,
 
 Color Sampling::on_mip(uint32_t level, bool linear) const {
   const TextureMip& mip = view_.mips[level];
-  if (!has_texels(mip)) return {};
+  if (!has_texels(mip)) return Color{Channels{}};
   const auto size = [](uint32_t n) { return static_cast<int32_t>(n); };
   const int32_t* offset = arguments_.offset;
   const bool is_1d = axes_.spatial == 1, is_3d = axes_.spatial == 3;
@@ -301,7 +305,7 @@ void Sampling::cube_taps(const TextureMip& mip, Color taps[4], float weights[2])
   // Three faces meet in a corner: the fourth texel is the mean of the others.
   Color mean = {};
   for (int i = 0; i < 4; ++i) {
-    for (int c = 0; c < 4 && i != corner; ++c) mean.c[c] += taps[i].c[c] / 3.0f;
+    if (i != corner) mean.c += taps[i].c / 3.0f;
   }
   taps[corner] = reduction_ == Reduction::kStandard && blends_ ? mean : taps[corner ^ 1];
 }
