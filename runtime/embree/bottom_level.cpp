@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/bottom_level.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "runtime/embree/build_inputs.h"
+#include "runtime/embree/instance_node.h"
+
+namespace kaamos::embree {
+namespace {
+
+using rtapi::HasAny;
+using rtapi::RaytracingGeometryDesc;
+using rtapi::RaytracingGeometryFlags;
+using rtapi::RaytracingGeometryType;
+
+const char* text_of(RTCError error) {
+  switch (error) {
+    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
+    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
+    case RTC_ERROR_UNSUPPORTED_CPU: return "unsupported CPU";
+    case RTC_ERROR_CANCELLED: return "cancelled";
+    default: return "unknown error";
+  }
+}
+
+// The error that Embree kept since the last call, if any.
+rtapi::Status embree_status(RTCDevice device, const char* what) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_NONE) return {};
+  return rtapi::Error{"KA0792",
+                      error == RTC_ERROR_OUT_OF_MEMORY ? rtapi::ErrorCode::kOutOfMemory
+                                                       : rtapi::ErrorCode::kFailed,
+                      std::string("KA0792 bottom level could not be built: Embree reports ") +
+                          text_of(error) + " (" + what + ")."};
+}
+
+RTCSceneFlags scene_flags(BuildFlags flags, bool robust) {
+  int bits = shim::kSceneFlagQueryFilter;
+  if (robust) bits |= RTC_SCENE_FLAG_ROBUST;
+  if (HasAny(flags, BuildFlags::kAllowUpdate)) bits |= RTC_SCENE_FLAG_DYNAMIC;
+  if (HasAny(flags, BuildFlags::kMinimizeMemory)) bits |= RTC_SCENE_FLAG_COMPACT;
+  return static_cast<RTCSceneFlags>(bits);
+}
+
+// HIGH is never used: under ROBUST it equals MEDIUM, and its spatial splits would call an any-hit
+// shader twice for one triangle.
+RTCBuildQuality geometry_quality(BuildFlags flags) {
+  return HasAny(flags, BuildFlags::kPreferFastBuild) ? RTC_BUILD_QUALITY_LOW
+                                                     : RTC_BUILD_QUALITY_MEDIUM;
+}
+RTCBuildQuality scene_quality(BuildFlags flags) {
+  // LOW selects the two-level builder, which is the one that can refit.
+  return HasAny(flags, BuildFlags::kPreferFastBuild | BuildFlags::kAllowUpdate)
+             ? RTC_BUILD_QUALITY_LOW
+             : RTC_BUILD_QUALITY_MEDIUM;
+}
+
+uint32_t class_of(const GeometryInfo& info) {
+  if (info.type == RaytracingGeometryType::kTriangles) {
+    return info.opaque ? kTriangleOpaque : kTriangleNonOpaque;
+  }
+  return info.opaque ? kProceduralOpaque : kProceduralNonOpaque;
+}
+
+void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
+  const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+  const PaddedBounds box = padded_bounds(info.boxes[arguments->primID]);
+  RTCBounds& out = *arguments->bounds_o;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const bool active = box.active;
+  out.lower_x = active ? box.lower[0] : kInfinity;
+  out.lower_y = active ? box.lower[1] : kInfinity;
+  out.lower_z = active ? box.lower[2] : kInfinity;
+  out.upper_x = active ? box.upper[0] : -kInfinity;
+  out.upper_y = active ? box.upper[1] : -kInfinity;
+  out.upper_z = active ? box.upper[2] : -kInfinity;
+}
+
+std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint32_t index) {
+  auto info = std::make_unique<GeometryInfo>();
+  info->type = desc.Type;
+  info->index = index;
+  info->opaque = HasAny(desc.Flags, RaytracingGeometryFlags::kOpaque);
+  info->no_duplicate_any_hit =
+      HasAny(desc.Flags, RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation);
+  info->primitives = static_cast<uint32_t>(primitive_count(desc));
+  if (desc.Type == RaytracingGeometryType::kTriangles) {
+    info->vertex_format = desc.Triangles.VertexFormat;
+    info->index_format = desc.Triangles.IndexFormat;
+    info->transformed = desc.Triangles.Transform3x4 != 0;
+    info->vertices = desc.Triangles.VertexCount;
+  }
+  return info;
+}
+
+void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc,
+                std::vector<rtapi::RaytracingAabb>& boxes) {
+  boxes.resize(desc.AABBCount);
+  for (uint64_t i = 0; i < desc.AABBCount; ++i) boxes[i] = aabb_at(desc, i);
+}
+
+bool in_embree_range(const float* values, uint64_t count) {
+  bool inside = true;
+  for (uint64_t i = 0; i < count; ++i) inside &= std::fabs(values[i]) < shim::kLargestCoordinate;
+  return inside;
+}
+
+rtapi::Status update_error(uint32_t geometry, const std::string& what) {
+  return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
+                      "KA0793 update changes more than DXR allows: geometry " +
+                          std::to_string(geometry) + ", " + what +
+                          ". Only vertex data, transforms and boxes may change; build anew."};
+}
+
+}  // namespace
+
+BottomLevel::~BottomLevel() {
+  if (scene_ != nullptr) rtcReleaseScene(scene_);
+}
+
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
+    const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries,
+    BuildFlags flags) {
+  std::shared_ptr<BottomLevel> level(new BottomLevel);
+  level->flags_ = flags;
+  if (auto s = level->create_scene(context); !s) return s.error();
+  if (auto s = level->add_geometries(context, geometries, nullptr); !s) return s.error();
+  if (auto s = level->commit(context); !s) return s.error();
+  return level;
+}
+
+rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
+    const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries) const {
+  std::shared_ptr<BottomLevel> level(new BottomLevel);
+  level->flags_ = flags_;
+  if (auto s = level->create_scene(context); !s) return s.error();
+  if (auto s = level->add_geometries(context, geometries, this); !s) return s.error();
+  if (auto s = level->commit(context); !s) return s.error();
+  return level;
+}
+
+rtapi::Status BottomLevel::create_scene(const BuildContext& context) {
+  rtcGetDeviceError(context.device);  // forgets what an earlier build left
+  scene_ = rtcNewScene(context.device);
+  if (scene_ == nullptr) return embree_status(context.device, "new scene");
+  rtcSetSceneFlags(scene_, scene_flags(flags_, context.robust));
+  rtcSetSceneBuildQuality(scene_, scene_quality(flags_));
+  return {};
+}
+
+rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
+                                          std::span<const RaytracingGeometryDesc> geometries,
+                                          const BottomLevel* indices_of) {
+  for (uint32_t i = 0; i < geometries.size(); ++i) {
+    const RaytracingGeometryDesc& desc = geometries[i];
+    if (primitive_count(desc) > rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
+      return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
+                          "KA0794 too many primitives: geometry " + std::to_string(i) + " has " +
+                              std::to_string(primitive_count(desc)) +
+                              ", a bottom level holds at most 2^29."};
+    }
+    auto info = describe(desc, i);
+    if (desc.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+      procedural_ = true;
+      if (auto s = add_boxes(context, desc.AABBs, std::move(info)); !s) return s;
+      continue;
+    }
+    const uint32_t* indices = nullptr;
+    if (indices_of != nullptr && info->primitives != 0 && info->vertices != 0) {
+      indices = static_cast<const uint32_t*>(rtcGetGeometryBufferData(
+          rtcGetGeometry(indices_of->scene_, i), RTC_BUFFER_TYPE_INDEX, 0));
+    }
+    if (auto s = add_triangles(context, desc.Triangles, std::move(info), indices); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
+                                         const rtapi::RaytracingGeometryTrianglesDesc& desc,
+                                         std::unique_ptr<GeometryInfo> info,
+                                         const uint32_t* indices) {
+  GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
+  // An empty geometry keeps its GeometryIndex, and needs nothing of Embree.
+  if (user->primitives == 0 || user->vertices == 0) return {};
+  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (geometry == nullptr) return embree_status(context.device, "new geometry");
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, user->vertices));
+  auto* triangles = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, user->primitives));
+  if (vertices == nullptr || triangles == nullptr) {
+    rtcReleaseGeometry(geometry);
+    return embree_status(context.device, "buffers");
+  }
+  decode_vertices(desc, vertices);
+  if (indices != nullptr) {
+    std::memcpy(triangles, indices, uint64_t{user->primitives} * 12);
+  } else {
+    out_of_range_triangles_ += decode_indices(desc, triangles);
+  }
+  rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
+  rtcSetGeometryMask(geometry, class_of(*user));
+  rtcSetGeometryUserData(geometry, user);
+  if (!user->opaque) {
+    rtcSetGeometryIntersectFilterFunction(geometry, filter_triangle);
+    rtcSetGeometryOccludedFilterFunction(geometry, filter_triangle);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, user->index);
+  rtcReleaseGeometry(geometry);
+  return embree_status(context.device, "triangles");
+}
+
+rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
+                                     const rtapi::RaytracingGeometryAabbsDesc& desc,
+                                     std::unique_ptr<GeometryInfo> info) {
+  GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
+  if (user->primitives == 0) return {};
+  copy_boxes(desc, user->boxes);
+  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
+  if (geometry == nullptr) return embree_status(context.device, "new geometry");
+  rtcSetGeometryUserPrimitiveCount(geometry, user->primitives);
+  rtcSetGeometryUserData(geometry, user);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of_box, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_procedural);
+  rtcSetGeometryOccludedFunction(geometry, occlude_procedural);
+  rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
+  rtcSetGeometryMask(geometry, class_of(*user));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, user->index);
+  rtcReleaseGeometry(geometry);
+  return embree_status(context.device, "boxes");
+}
+
+rtapi::Status BottomLevel::commit(const BuildContext& context) {
+  rtcCommitScene(scene_);
+  if (auto s = embree_status(context.device, "commit"); !s) return s;
+  rtcGetSceneBounds(scene_, &bounds_);
+  empty_ = !(bounds_.lower_x <= bounds_.upper_x && bounds_.lower_y <= bounds_.upper_y &&
+             bounds_.lower_z <= bounds_.upper_z);
+  return {};
+}
+
+rtapi::Status BottomLevel::check_update(std::span<const RaytracingGeometryDesc> geometries,
+                                        BuildFlags flags) const {
+  constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
+  if (!HasAny(flags_, BuildFlags::kAllowUpdate)) {
+    return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
+                        "KA0793 update of a bottom level that was built without ALLOW_UPDATE."};
+  }
+  if ((flags & ~kMayDiffer) != (flags_ & ~kMayDiffer)) {
+    return rtapi::Error{
+        "KA0793", rtapi::ErrorCode::kInvalidArgument,
+        "KA0793 update with build flags " + std::to_string(static_cast<uint32_t>(flags)) +
+            " of a bottom level built with " + std::to_string(static_cast<uint32_t>(flags_)) +
+            ": only ALLOW_UPDATE and PERFORM_UPDATE may differ."};
+  }
+  if (geometries.size() != geometries_.size()) {
+    return update_error(static_cast<uint32_t>(geometries.size()),
+                        "the geometry count was " + std::to_string(geometries_.size()));
+  }
+  for (uint32_t i = 0; i < geometries.size(); ++i) {
+    const GeometryInfo& was = *geometries_[i];
+    const auto is = describe(geometries[i], i);
+    if (is->type != was.type) return update_error(i, "its type");
+    if (is->primitives != was.primitives || is->vertices != was.vertices) {
+      return update_error(i, "its counts: " + std::to_string(was.primitives) + " primitives and " +
+                                 std::to_string(was.vertices) + " vertices before, now " +
+                                 std::to_string(is->primitives) + " and " +
+                                 std::to_string(is->vertices));
+    }
+    if (is->vertex_format != was.vertex_format || is->index_format != was.index_format) {
+      return update_error(i, "its formats");
+    }
+    if (is->opaque != was.opaque || is->no_duplicate_any_hit != was.no_duplicate_any_hit) {
+      return update_error(i, "its flags");
+    }
+    if (is->transformed != was.transformed) return update_error(i, "Transform3x4 null or not");
+  }
+  return {};
+}
+
+rtapi::Status BottomLevel::update(const BuildContext& context,
+                                  std::span<const RaytracingGeometryDesc> geometries) {
+  rtcGetDeviceError(context.device);
+  for (uint32_t i = 0; i < geometries.size(); ++i) {
+    GeometryInfo& info = *geometries_[i];
+    if (info.primitives == 0 || (!procedural_ && info.vertices == 0)) continue;
+    RTCGeometry geometry = rtcGetGeometry(scene_, i);
+    RTCBuildQuality quality = RTC_BUILD_QUALITY_REFIT;
+    if (info.type == RaytracingGeometryType::kTriangles) {
+      auto* vertices =
+          static_cast<float*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+      const uint64_t count = 3 * uint64_t{info.vertices};
+      // A refit keeps what the build dropped, and would keep what has to be dropped now.
+      const bool was_inside = in_embree_range(vertices, count);
+      decode_vertices(geometries[i].Triangles, vertices);
+      if (!was_inside || !in_embree_range(vertices, count)) quality = geometry_quality(flags_);
+      rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    } else {
+      copy_boxes(geometries[i].AABBs, info.boxes);
+      // Inactive boxes may come and go: they were no part of the tree.
+      quality = geometry_quality(flags_);
+    }
+    rtcSetGeometryBuildQuality(geometry, quality);
+    rtcCommitGeometry(geometry);
+  }
+  return commit(context);
+}
+
+}  // namespace kaamos::embree

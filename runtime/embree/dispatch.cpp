@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/dispatch.h"
+
+#include <immintrin.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "runtime/embree/fault.h"
+#include "runtime/embree/ray_state.h"
+#include "runtime/embree/services.h"
+
+namespace kaamos::embree {
+namespace {
+
+// 16 x 16 cells keep the rays of a tile close together; flat grids get tiles of the same count.
+constexpr uint32_t kTileEdge = 16;
+constexpr uint32_t kTileCells = kTileEdge * kTileEdge;
+
+struct Grid {
+  uint32_t size[3];
+  uint32_t tile[3];
+  uint32_t tiles[3];
+
+  Grid(uint32_t width, uint32_t height, uint32_t depth) : size{width, height, depth} {
+    tile[0] = std::min(width, height < kTileEdge ? kTileCells / std::max(height, 1u) : kTileEdge);
+    tile[1] = std::min(height, kTileCells / std::max(tile[0], 1u));
+    tile[2] = std::min(depth, kTileCells / std::max(tile[0] * tile[1], 1u));
+    for (int i = 0; i < 3; ++i) {
+      tiles[i] = size[i] == 0 ? 0 : (size[i] - 1) / std::max(tile[i], 1u) + 1;
+    }
+  }
+  uint64_t tile_count() const { return uint64_t{tiles[0]} * tiles[1] * tiles[2]; }
+};
+
+struct Tile {
+  Worker* worker;
+  const Grid* grid;
+  const ShaderRecord* record;
+  uint32_t first[3];
+  uint32_t last[3];  // one past
+};
+
+void run_tile(void* argument) {
+  const Tile& tile = *static_cast<const Tile*>(argument);
+  const Shader& shader = *tile.record->target->shader;
+  Worker& worker = *tile.worker;
+  const RunningShader running(worker, shader);
+  const auto entry = shader.as<shader::RayGenerationFn>();
+  shader::Invocation invocation;
+  worker.index = invocation.index;
+  for (uint32_t z = tile.first[2]; z < tile.last[2]; ++z) {
+    for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
+      for (uint32_t x = tile.first[0]; x < tile.last[0]; ++x) {
+        invocation.dispatch = &worker.dispatch->abi;
+        invocation.slots = shader.slots;
+        invocation.local_arguments = tile.record->local_arguments();
+        invocation.ray = nullptr;
+        invocation.index[0] = x;
+        invocation.index[1] = y;
+        invocation.index[2] = z;
+        invocation.depth = 0;
+        invocation.backend = &worker;
+        entry(invocation);
+      }
+    }
+  }
+}
+
+void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& record,
+               uint64_t begin, uint64_t end) {
+  const FloatMode float_mode;
+  Worker worker;
+  worker.dispatch = &dispatch;
+  worker.stack_left = dispatch.stack_bytes;
+  for (uint64_t i = begin; i < end && !dispatch.removed.load(std::memory_order_relaxed); ++i) {
+    Tile tile = {&worker, &grid, &record, {}, {}};
+    const uint64_t position[3] = {i % grid.tiles[0], i / grid.tiles[0] % grid.tiles[1],
+                                  i / grid.tiles[0] / grid.tiles[1]};
+    for (int axis = 0; axis < 3; ++axis) {
+      tile.first[axis] = static_cast<uint32_t>(position[axis]) * grid.tile[axis];
+      tile.last[axis] = std::min(grid.size[axis], tile.first[axis] + grid.tile[axis]);
+    }
+    if (!run_guarded(worker, run_tile, &tile)) record_removal(worker);
+  }
+  worker.index = nullptr;
+  end_worker(worker);
+}
+
+// The one record of the ray generation table: no stride, no index. [DXR: Shader tables]
+ShaderRecord ray_generation_record(const RaytracingPipeline& pipeline,
+                                   const rtapi::GpuVirtualAddressRange& range) {
+  const RecordTable table(range.StartAddress, std::max<uint64_t>(range.SizeInBytes, 32), 0,
+                          RecordKind::kRayGeneration, pipeline.lookup());
+  return table.at(0);
+}
+
+RecordTable table_of(const RaytracingPipeline& pipeline,
+                     const rtapi::GpuVirtualAddressRangeAndStride& range, RecordKind kind) {
+  return RecordTable(range.StartAddress, range.SizeInBytes, range.StrideInBytes, kind,
+                     pipeline.lookup());
+}
+
+struct RecordRead {
+  const RaytracingPipeline* pipeline;
+  const rtapi::GpuVirtualAddressRange* range;
+  ShaderRecord record;
+};
+
+}  // namespace
+
+FloatMode::FloatMode() : saved_(_mm_getcsr()) {
+  constexpr uint32_t kFlushToZero = 0x8000;
+  constexpr uint32_t kDenormalsAreZero = 0x0040;
+  constexpr uint32_t kAllMasked = 0x1F80;
+  _mm_setcsr(kAllMasked | kFlushToZero | kDenormalsAreZero);
+}
+
+FloatMode::~FloatMode() { _mm_setcsr(saved_); }
+
+void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch) {
+  shader::Dispatch& abi = dispatch.abi;
+  abi.services = &services();
+  abi.root_arguments = state.root_arguments->bytes.data();
+  abi.backend = &dispatch;
+  const auto range = [](const std::shared_ptr<runtime::BackendBuffer>& heap,
+                        const shader::Descriptor*& begin, const shader::Descriptor*& end) {
+    if (heap == nullptr) return;
+    begin = reinterpret_cast<const shader::Descriptor*>(heap->host());
+    end = begin + heap->size_bytes() / sizeof(shader::Descriptor);
+  };
+  range(state.view_heap, abi.view_heap_begin, abi.view_heap_end);
+  range(state.sampler_heap, abi.sampler_heap_begin, abi.sampler_heap_end);
+}
+
+DispatchResult end_dispatch(DispatchState& dispatch) {
+  DispatchResult result;
+  result.counters = dispatch.counters;
+  result.unknown_structure = dispatch.unknown_structure;
+  if (dispatch.removed) {
+    const std::string id = dispatch.removal.message.substr(0, 6);
+    result.status =
+        rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, std::move(dispatch.removal.message)};
+  }
+  return result;
+}
+
+void end_worker(Worker& worker) {
+  const std::lock_guard lock(worker.dispatch->mutex);
+  worker.dispatch->counters.add(worker.counters);
+}
+
+DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+                             const runtime::DispatchRaysCommand& command,
+                             const std::string& label) {
+  const auto& pipeline = static_cast<const RaytracingPipeline&>(*command.pipeline);
+  const rtapi::DispatchRaysDesc& desc = command.desc;
+  DispatchState dispatch;
+  begin_dispatch(command.state, dispatch);
+  dispatch.abi.dimensions[0] = desc.Width;
+  dispatch.abi.dimensions[1] = desc.Height;
+  dispatch.abi.dimensions[2] = desc.Depth;
+  dispatch.hit_table = table_of(pipeline, desc.HitGroupTable, RecordKind::kHitGroup);
+  dispatch.miss_table = table_of(pipeline, desc.MissShaderTable, RecordKind::kMiss);
+  dispatch.callable_table =
+      table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable);
+  dispatch.max_recursion_depth = pipeline.linked().max_recursion_depth;
+  dispatch.pipeline_flags = static_cast<uint32_t>(pipeline.linked().flags);
+  if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
+  dispatch.memory = environment.memory;
+  dispatch.label = label.c_str();
+
+  // The tables may lie anywhere: even the first read of one is guarded.
+  RecordRead read = {&pipeline, &desc.RayGenerationShaderRecord, {&kNothing, nullptr}};
+  Worker worker;
+  worker.dispatch = &dispatch;
+  const auto read_record = [](void* argument) {
+    auto& r = *static_cast<RecordRead*>(argument);
+    r.record = ray_generation_record(*r.pipeline, *r.range);
+  };
+  if (!run_guarded(worker, read_record, &read)) record_removal(worker);
+  const Grid grid(desc.Width, desc.Height, desc.Depth);
+  // A NULL ray generation shader runs nothing.
+  if (read.record.target->shader == nullptr || grid.tile_count() == 0) {
+    return end_dispatch(dispatch);
+  }
+  environment.arena->execute([&] {
+    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, grid.tile_count()),
+                      [&](const tbb::blocked_range<uint64_t>& tiles) {
+                        run_tiles(dispatch, grid, read.record, tiles.begin(), tiles.end());
+                      });
+  });
+  return end_dispatch(dispatch);
+}
+
+}  // namespace kaamos::embree

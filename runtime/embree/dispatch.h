@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// DispatchRays and Dispatch on the threads of the device.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <rtapi/result.h>
+
+#include "runtime/embree/state_object.h"
+#include "runtime/embree/worker.h"
+
+namespace tbb::detail::d1 {
+class task_arena;
+}
+
+namespace kaamos::embree {
+
+// What a dispatch needs of its device.
+struct DispatchEnvironment {
+  tbb::detail::d1::task_arena* arena = nullptr;
+  const Memory* memory = nullptr;
+};
+
+// What came of it. An error removes the device: KA0890 to KA0893.
+struct DispatchResult {
+  rtapi::Status status;
+  Counters counters;
+  uint64_t unknown_structure = 0;  // rays were traced against it, and missed; 0: none
+};
+
+// Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.
+DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+                             const runtime::DispatchRaysCommand& command,
+                             const std::string& label);
+
+// Every thread group once. [compute.cpp]
+DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+                                const runtime::DispatchCommand& command,
+                                const std::string& label);
+
+// Common to both: fills in what shaders see of the list's state.
+void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch);
+DispatchResult end_dispatch(DispatchState& dispatch);
+// Adds a worker's counters to its dispatch.
+void end_worker(Worker& worker);
+
+// Denormals are zero in shaders, as D3D's fp32 rules have it, and in Embree, which they would slow
+// down. For one thread, until the end of the scope.
+class FloatMode {
+ public:
+  FloatMode();
+  ~FloatMode();
+  FloatMode(const FloatMode&) = delete;
+  FloatMode& operator=(const FloatMode&) = delete;
+
+ private:
+  uint32_t saved_;
+};
+
+}  // namespace kaamos::embree

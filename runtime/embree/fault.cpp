@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/fault.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <mutex>
+
+namespace kaamos::embree {
+namespace {
+
+constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+struct sigaction previous_actions[std::size(kSignals)];
+
+// The guarded run of this thread; null outside of shaders.
+thread_local Worker* guarded_worker = nullptr;
+
+// A fault near the end of the stack is an overflow: the guard page, or what a large frame skipped.
+constexpr uintptr_t kNearStackEnd = 1u << 20;
+
+uintptr_t stack_pointer_of(const void* context) {
+  const auto* machine = static_cast<const ucontext_t*>(context);
+#if defined(__x86_64__)
+  return static_cast<uintptr_t>(machine->uc_mcontext.gregs[REG_RSP]);
+#elif defined(__aarch64__)
+  return static_cast<uintptr_t>(machine->uc_mcontext.sp);
+#else
+  return 0;
+#endif
+}
+
+// Not ours: to whoever had the signal before.
+void forward(int signal_number, siginfo_t* info, void* context) {
+  const auto* slot = std::find(std::begin(kSignals), std::end(kSignals), signal_number);
+  const struct sigaction& previous = previous_actions[slot - std::begin(kSignals)];
+  if ((previous.sa_flags & SA_SIGINFO) != 0 && previous.sa_sigaction != nullptr) {
+    previous.sa_sigaction(signal_number, info, context);
+  } else if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) {
+    previous.sa_handler(signal_number);
+  } else {
+    // Restored, the default takes the instruction that faulted, when it runs again.
+    sigaction(signal_number, &previous, nullptr);
+    if (info->si_code <= 0) raise(signal_number);
+  }
+}
+
+void on_signal(int signal_number, siginfo_t* info, void* context) {
+  Worker* worker = guarded_worker;
+  if (worker == nullptr || info->si_code <= 0) return forward(signal_number, info, context);
+  worker->fault_signal = signal_number;
+  worker->fault_address = reinterpret_cast<uintptr_t>(info->si_addr);
+  worker->fault_reason = shader::RemovalReason::kFault;
+  const uintptr_t stack = stack_pointer_of(context);
+  const bool memory_fault = signal_number == SIGSEGV || signal_number == SIGBUS;
+  if (memory_fault && stack < worker->stack_limit + 4096 &&
+      worker->fault_address + kNearStackEnd > stack &&
+      worker->fault_address < stack + kNearStackEnd) {
+    worker->fault_reason = shader::RemovalReason::kStackOverflow;
+  }
+  siglongjmp(*worker->jump, 1);
+}
+
+void install_handlers() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    struct sigaction action = {};
+    action.sa_sigaction = on_signal;
+    // NODEFER: the handler leaves by a jump that does not restore the mask.
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < std::size(kSignals); ++i) {
+      sigaction(kSignals[i], &action, &previous_actions[i]);
+    }
+  });
+}
+
+// The handler's own stack: that of the shader may be used up.
+class SignalStack {
+ public:
+  SignalStack() {
+    stack_t current = {};
+    if (sigaltstack(nullptr, &current) == 0 && (current.ss_flags & SS_DISABLE) == 0) return;
+    memory_ = std::malloc(kBytes);
+    if (memory_ == nullptr) return;
+    stack_t stack = {};
+    stack.ss_sp = memory_;
+    stack.ss_size = kBytes;
+    sigaltstack(&stack, nullptr);
+  }
+  ~SignalStack() {
+    if (memory_ == nullptr) return;
+    stack_t none = {};
+    none.ss_flags = SS_DISABLE;
+    sigaltstack(&none, nullptr);
+    std::free(memory_);
+  }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+
+ private:
+  static constexpr size_t kBytes = 64 * 1024;
+  void* memory_ = nullptr;
+};
+
+uintptr_t find_stack_limit() {
+  pthread_attr_t attributes;
+  if (pthread_getattr_np(pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  size_t bytes = 0;
+  pthread_attr_getstack(&attributes, &lowest, &bytes);
+  pthread_attr_destroy(&attributes);
+  // Embree's traversal of two levels takes some 20 KiB, a shader rarely more.
+  const size_t reserve = std::min<size_t>(bytes / 4, 256 * 1024);
+  return reinterpret_cast<uintptr_t>(lowest) + reserve;
+}
+
+const char* name_of(int signal_number) {
+  switch (signal_number) {
+    case SIGSEGV: return "access to memory that is not there (SIGSEGV)";
+    case SIGBUS: return "bus error (SIGBUS)";
+    case SIGFPE: return "integer division (SIGFPE)";
+    case SIGILL: return "illegal instruction (SIGILL)";
+    default: return "fault";
+  }
+}
+
+std::string hexadecimal(uintptr_t value) {
+  char text[2 + 2 * sizeof(value) + 1];
+  std::snprintf(text, sizeof(text), "0x%llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+std::string message_of(const Worker& worker) {
+  const std::string limit = std::to_string(worker.dispatch->max_recursion_depth);
+  switch (worker.fault_reason) {
+    case shader::RemovalReason::kRecursionDepth:
+      return "KA0890 TraceRay past the recursion limit: the pipeline declares "
+             "MaxTraceRecursionDepth " +
+             limit + " and a shader at that depth called TraceRay";
+    case shader::RemovalReason::kStackOverflow:
+      return "KA0891 the shader stack is used up: calls are nested too deep";
+    case shader::RemovalReason::kFault:
+      return std::string("KA0892 shader code failed: ") + name_of(worker.fault_signal) +
+             " at address " + hexadecimal(worker.fault_address) +
+             ". A root descriptor, a table handle or a record argument may name memory that is not "
+             "there";
+    default: return "KA0893 the shader asked for the device's removal";
+  }
+}
+
+}  // namespace
+
+uintptr_t stack_limit_of_this_thread() {
+  thread_local const uintptr_t limit = find_stack_limit();
+  return limit;
+}
+
+bool run_guarded(Worker& worker, void (*body)(void*), void* argument) {
+  install_handlers();
+  thread_local const SignalStack signal_stack;
+  worker.stack_limit = stack_limit_of_this_thread();
+  sigjmp_buf jump;
+  worker.jump = &jump;
+  // The mask is not saved: one system call per tile less.
+  if (sigsetjmp(jump, 0) != 0) {
+    guarded_worker = nullptr;
+    worker.jump = nullptr;
+    return false;
+  }
+  guarded_worker = &worker;
+  body(argument);
+  guarded_worker = nullptr;
+  worker.jump = nullptr;
+  return true;
+}
+
+bool run_guarded_on_fiber(Worker& worker, void (*body)(void*), void* argument) {
+  sigjmp_buf jump;
+  if (sigsetjmp(jump, 0) != 0) return false;
+  worker.jump = &jump;
+  body(argument);
+  return true;
+}
+
+void remove_device(Worker& worker, shader::RemovalReason reason) {
+  worker.fault_reason = reason;
+  siglongjmp(*worker.jump, 1);
+}
+
+void record_removal(Worker& worker) {
+  DispatchState& dispatch = *worker.dispatch;
+  std::string message = message_of(worker) + " (" + dispatch.label;
+  if (worker.running != nullptr) message += std::string(", shader \"") + worker.running->name + "\"";
+  if (worker.index != nullptr) {
+    message += " at (" + std::to_string(worker.index[0]) + "," + std::to_string(worker.index[1]) +
+               "," + std::to_string(worker.index[2]) + ")";
+  }
+  message += ").";
+  const std::lock_guard lock(dispatch.mutex);
+  if (dispatch.removed.exchange(true)) return;
+  dispatch.removal = {worker.fault_reason, std::move(message)};
+}
+
+}  // namespace kaamos::embree

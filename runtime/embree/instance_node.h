@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// What a traversal needs of an instance, in two cache lines, and the ray transform.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+
+#include "runtime/embree/embree_shim.h"
+
+namespace kaamos::embree {
+
+// D3D12_RAYTRACING_INSTANCE_FLAGS
+enum InstanceFlags : uint32_t {
+  kInstanceTriangleCullDisable = 1,
+  kInstanceTriangleFrontCounterclockwise = 2,
+  kInstanceForceOpaque = 4,
+  kInstanceForceNonOpaque = 8,
+};
+
+// Opacity by instance or ray, instead of the geometry's. [DXR: Ray flags]
+enum class OpacityOverride : uint8_t { kNone = 0, kOpaque = 1, kNonOpaque = 2 };
+
+// Mask bits of Embree's geometries: one class each, so that the culling and skipping flags of a ray
+// become bits that Embree tests at no cost.
+enum GeometryClass : uint32_t {
+  kTriangleOpaque = 1,
+  kTriangleNonOpaque = 2,
+  kProceduralOpaque = 4,
+  kProceduralNonOpaque = 8,
+  kAllClasses = 15,
+};
+
+struct alignas(64) InstanceNode {
+  float world_to_object_columns[4][4];  // fourth lanes are 0: they carry t and time of a ray
+  RTCScene scene;                       // null: inactive
+  uint8_t mask;                         // InstanceMask; 0 also for inactive instances
+  uint8_t flags;                        // InstanceFlags
+  OpacityOverride opacity;
+  bool procedural;
+  uint32_t contribution;  // InstanceContributionToHitGroupIndex, 24 bits
+  float object_to_world[12];
+};
+static_assert(sizeof(InstanceNode) == 128);
+
+struct ObjectRay {
+  __m128 origin;     // fourth lane 0
+  __m128 direction;  // fourth lane 0
+};
+
+inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128 direction) {
+  const __m128 x = _mm_load_ps(node.world_to_object_columns[0]);
+  const __m128 y = _mm_load_ps(node.world_to_object_columns[1]);
+  const __m128 z = _mm_load_ps(node.world_to_object_columns[2]);
+  const __m128 w = _mm_load_ps(node.world_to_object_columns[3]);
+  const auto lane = [](__m128 v, auto index) {
+    constexpr int i = decltype(index)::value;
+    return _mm_shuffle_ps(v, v, _MM_SHUFFLE(i, i, i, i));
+  };
+  struct X { static constexpr int value = 0; };
+  struct Y { static constexpr int value = 1; };
+  struct Z { static constexpr int value = 2; };
+  const auto linear = [&](__m128 v) {
+    return _mm_add_ps(_mm_add_ps(_mm_mul_ps(x, lane(v, X{})), _mm_mul_ps(y, lane(v, Y{}))),
+                      _mm_mul_ps(z, lane(v, Z{})));
+  };
+  return {_mm_add_ps(linear(origin), w), linear(direction)};
+}
+
+// Whether Embree may be called with it: finite, and below its limit. The fourth lanes must be too.
+inline bool is_traceable(const ObjectRay& ray) {
+  const __m128 absolute = _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF));
+  const __m128 limit = _mm_set1_ps(shim::kLargestCoordinate);
+  const __m128 origin_inside = _mm_cmple_ps(_mm_and_ps(ray.origin, absolute), limit);
+  const __m128 direction_inside = _mm_cmple_ps(_mm_and_ps(ray.direction, absolute), limit);
+  return _mm_movemask_ps(_mm_and_ps(origin_inside, direction_inside)) == 15;
+}
+
+}  // namespace kaamos::embree

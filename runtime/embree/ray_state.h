@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+//
+// One TraceRay in flight. Lives on the stack of trace_ray; Embree's callbacks reach it through the
+// query context, which is its first member.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "kaamos/shader/abi.h"
+#include "runtime/embree/fault.h"
+#include "runtime/embree/instance_node.h"
+#include "runtime/embree/top_level.h"
+#include "runtime/embree/worker.h"
+
+namespace kaamos::embree {
+
+// RAY_FLAG [DXR: Ray flags]
+enum RayFlags : uint32_t {
+  kRayForceOpaque = 0x1,
+  kRayForceNonOpaque = 0x2,
+  kRayAcceptFirstHitAndEndSearch = 0x4,
+  kRaySkipClosestHitShader = 0x8,
+  kRayCullBackFacingTriangles = 0x10,
+  kRayCullFrontFacingTriangles = 0x20,
+  kRayCullOpaque = 0x40,
+  kRayCullNonOpaque = 0x80,
+  kRaySkipTriangles = 0x100,
+  kRaySkipProceduralPrimitives = 0x200,
+};
+
+inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
+inline constexpr uint32_t kHitKindTriangleBackFace = 255;
+inline constexpr uint32_t kMaxAttributeBytes = 32;
+
+struct RayState {
+  shim::QueryContext query;  // first: see embree_shim.h
+  Worker* worker;
+  const TopLevel* top_level;
+  const InstanceNode* instance;  // being traversed
+  const shader::TraceRayArguments* arguments;
+  const shader::Invocation* caller;
+  void* payload;
+
+  uint32_t ray_flags;       // with the pipeline's flags
+  uint32_t inclusion_mask;  // 8 bits
+  const uint8_t* classes;   // GeometryClass bits to visit, by OpacityOverride of the instance
+  OpacityOverride opacity;  // by the ray's flags
+  bool ended;               // the search is over: Embree's ray holds kEndedSearch
+
+  float t_min;       // of the DXR interval, 0 or more
+  float t_max;
+  float t_near;      // of the open interval of triangles, as Embree's closed one
+  float t_far;
+  // Of the last hit that a filter or ReportHit committed; opaque triangles are committed by Embree
+  // alone. A triangle at the same t is outside the open interval. [DXR: Ray extents]
+  float committed_t;
+
+  uint32_t procedural_hit_kind;
+  alignas(16) uint8_t procedural_attributes[kMaxAttributeBytes];
+};
+
+inline RayState& ray_state_of(void* context) { return *reinterpret_cast<RayState*>(context); }
+
+// An invocation of a hit, miss or intersection shader.
+struct RayInvocation : shader::Invocation {
+  shader::RaySystemValues values;
+};
+
+// Opacity by the order geometry, instance, ray; each replaces what is before it.
+// [DXR: TraceRay control flow]
+inline bool is_opaque(const RayState& state, bool geometry_opaque) {
+  OpacityOverride opacity = state.opacity;
+  if (opacity == OpacityOverride::kNone) opacity = state.instance->opacity;
+  if (opacity == OpacityOverride::kNone) return geometry_opaque;
+  return opacity == OpacityOverride::kOpaque;
+}
+
+inline ShaderRecord hit_record(const RayState& state, const InstanceNode& instance,
+                               uint32_t geometry_index) {
+  return state.worker->dispatch->hit_table.at(hit_record_index(
+      state.arguments->ray_contribution_to_hit_group_index,
+      state.arguments->multiplier_for_geometry_contribution, geometry_index,
+      instance.contribution));
+}
+
+// Front faces are clockwise as seen from the ray's origin, in object space and whatever the
+// instance's transform does; in Embree's terms its unnormalised normal points against the ray.
+// [DXR: D3D12_RAYTRACING_INSTANCE_FLAGS]
+inline uint32_t triangle_hit_kind(const InstanceNode& instance, const float normal[3],
+                                  const float object_direction[3]) {
+  const float side = normal[0] * object_direction[0] + normal[1] * object_direction[1] +
+                     normal[2] * object_direction[2];
+  const bool clockwise = side < 0;
+  const bool flipped = (instance.flags & kInstanceTriangleFrontCounterclockwise) != 0;
+  return clockwise != flipped ? kHitKindTriangleFrontFace : kHitKindTriangleBackFace;
+}
+
+// ROBUST scenes accept barycentrics that are off by rounding; shaders get them inside the triangle.
+inline void clamp_barycentrics(float& u, float& v) {
+  u = u > 0 ? (u < 1 ? u : 1.0f) : 0.0f;
+  v = v > 0 ? (v < 1 - u ? v : 1 - u) : 0.0f;
+}
+
+// Everything of an invocation but what is a hit's.
+inline void begin_invocation(const RayState& state, const Shader& shader,
+                             const ShaderRecord& record, float t_current,
+                             RayInvocation& invocation) {
+  const shader::Invocation& caller = *state.caller;
+  invocation.dispatch = caller.dispatch;
+  invocation.slots = shader.slots;
+  invocation.local_arguments = record.local_arguments();
+  invocation.ray = &invocation.values;
+  invocation.index[0] = caller.index[0];
+  invocation.index[1] = caller.index[1];
+  invocation.index[2] = caller.index[2];
+  invocation.depth = caller.depth + 1;
+  invocation.backend = caller.backend;
+  invocation.values.ray = state.arguments->ray;
+  invocation.values.t_current = t_current;
+  invocation.values.ray_flags = state.arguments->ray_flags;
+}
+
+inline void set_hit_values(const RayState& state, const InstanceNode& instance, uint32_t geometry,
+                           uint32_t primitive, uint32_t hit_kind,
+                           shader::RaySystemValues& values) {
+  const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
+  const InstanceDetail& detail = state.top_level->detail(index);
+  values.hit_kind = hit_kind;
+  values.instance_index = index;
+  values.instance_id = detail.id;
+  values.geometry_index = geometry;
+  values.primitive_index = primitive;
+  values.object_to_world = instance.object_to_world;
+  values.world_to_object = detail.world_to_object;
+}
+
+// Takes a shader's share of the pipeline's stack while it runs, and names it for fault messages.
+class RunningShader {
+ public:
+  RunningShader(Worker& worker, const Shader& shader) : worker_(worker), caller_(worker.running) {
+    worker.running = &shader;
+    if (worker.stack_left < shader.stack_bytes) {
+      remove_device(worker, shader::RemovalReason::kStackOverflow);
+    }
+    worker.stack_left -= shader.stack_bytes;
+  }
+  ~RunningShader() {
+    worker_.stack_left += worker_.running->stack_bytes;
+    worker_.running = caller_;
+  }
+  RunningShader(const RunningShader&) = delete;
+  RunningShader& operator=(const RunningShader&) = delete;
+
+ private:
+  Worker& worker_;
+  const Shader* caller_;
+};
+
+}  // namespace kaamos::embree

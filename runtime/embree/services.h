@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kaamos/shader/abi.h"
+
+namespace kaamos::embree {
+
+// What shaders of this backend may call; one table for all dispatches.
+const shader::Services& services();
+
+}  // namespace kaamos::embree

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/shader_record.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace kaamos::embree {
+namespace {
+
+// Beyond this many records (8 MiB of cells) identifiers are looked up at every use.
+constexpr uint64_t kMaxCachedRecords = uint64_t{1} << 20;
+
+bool is_null_identifier(const uint8_t* identifier) {
+  uint64_t words[4];
+  std::memcpy(words, identifier, sizeof(words));
+  return (words[0] | words[1] | words[2] | words[3]) == 0;
+}
+
+}  // namespace
+
+const RecordTarget kNothing = {};
+
+RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_bytes,
+                         RecordKind kind, TargetLookup lookup)
+    : start_(reinterpret_cast<const uint8_t*>(start)),
+      stride_bytes_(stride_bytes),
+      kind_(kind),
+      lookup_(lookup) {
+  if (start == 0 || size_bytes < kIdentifierBytes) return;
+  count_ = stride_bytes == 0 ? 1 : (size_bytes - kIdentifierBytes) / stride_bytes + 1;
+  const uint64_t wanted = std::min(count_, kMaxCachedRecords);
+  // calloc: the pages of a large table that no ray reaches are never touched.
+  cache_.reset(static_cast<Cell*>(std::calloc(wanted, sizeof(Cell))));
+  cached_ = cache_ ? wanted : 0;
+}
+
+ShaderRecord RecordTable::resolve(uint64_t slot, const uint8_t* address) const {
+  const RecordTarget* target = nullptr;
+  if (!is_null_identifier(address)) target = lookup_.find(lookup_.self, address);
+  if (target == nullptr || target->kind != kind_) target = &kNothing;
+  // Threads that meet here at once store the same value.
+  if (slot < cached_) cache_.get()[slot].store(target, std::memory_order_relaxed);
+  return {target, address};
+}
+
+}  // namespace kaamos::embree

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// Shader tables: from a record's index to the code that runs. Tables are plain memory that is read
+// while the dispatch executes [DXR: Shader tables]; each record's 32-byte identifier is looked up
+// once per dispatch, when a ray first reaches it, so that records nobody reaches may hold anything.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+#include "kaamos/shader/abi.h"
+
+namespace kaamos::embree {
+
+// Bytes of a shader identifier, at the start of every record. [DXR: Shader identifier]
+inline constexpr uint64_t kIdentifierBytes = 32;
+
+// One linked export: code and where its bindings come from.
+struct Shader {
+  const char* name = "";
+  shader::AnyFn entry = nullptr;
+  const shader::BindingSlot* slots = nullptr;
+  uint32_t stack_bytes = 0;  // what it takes of the pipeline's stack
+
+  template <typename Function>
+  Function as() const {
+    return reinterpret_cast<Function>(entry);
+  }
+};
+
+enum class RecordKind : uint32_t { kNone, kRayGeneration, kMiss, kHitGroup, kCallable };
+
+// What a shader identifier stands for. Null members run nothing, so that kNothing below serves for
+// null identifiers, records out of bounds and identifiers of another kind of shader alike.
+struct RecordTarget {
+  RecordKind kind = RecordKind::kNone;
+  bool procedural = false;          // hit groups: D3D12_HIT_GROUP_TYPE_PROCEDURAL_PRIMITIVE
+  const Shader* shader = nullptr;   // ray generation, miss, callable
+  const Shader* any_hit = nullptr;  // hit groups
+  const Shader* closest_hit = nullptr;
+  const Shader* intersection = nullptr;
+};
+
+extern const RecordTarget kNothing;
+
+// Finds what an identifier stands for by a compare of all 32 bytes; null where it is unknown.
+struct TargetLookup {
+  const RecordTarget* (*find)(const void* self, const uint8_t* identifier) = nullptr;
+  const void* self = nullptr;
+};
+
+struct ShaderRecord {
+  const RecordTarget* target;  // never null
+  const uint8_t* address;      // null where target is kNothing
+
+  const uint8_t* local_arguments() const { return address + kIdentifierBytes; }
+};
+
+// One table of a dispatch; shared by its threads.
+class RecordTable {
+ public:
+  RecordTable() = default;
+  // start, size_bytes, stride_bytes as in D3D12_GPU_VIRTUAL_ADDRESS_RANGE_AND_STRIDE.
+  RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_bytes, RecordKind kind,
+              TargetLookup lookup);
+
+  // A stride of 0 makes every index the first record [DXR: Shader record stride]; an index past
+  // size_bytes runs nothing [DXR: Out of bounds shader table indexing].
+  ShaderRecord at(uint64_t index) const {
+    const uint64_t slot = stride_bytes_ == 0 ? 0 : index;
+    if (slot >= count_) return {&kNothing, nullptr};
+    const uint8_t* address = start_ + slot * stride_bytes_;
+    if (slot < cached_) {
+      const RecordTarget* target = cache_.get()[slot].load(std::memory_order_relaxed);
+      if (target != nullptr) return {target, address};
+    }
+    return resolve(slot, address);
+  }
+
+  // Records inside size_bytes; 1 for a stride of 0.
+  uint64_t count() const { return count_; }
+
+ private:
+  using Cell = std::atomic<const RecordTarget*>;
+  struct Free {
+    void operator()(Cell* cells) const { std::free(cells); }
+  };
+
+  ShaderRecord resolve(uint64_t slot, const uint8_t* address) const;
+
+  const uint8_t* start_ = nullptr;
+  uint64_t stride_bytes_ = 0;
+  uint64_t count_ = 0;
+  uint64_t cached_ = 0;
+  RecordKind kind_ = RecordKind::kNone;
+  TargetLookup lookup_;
+  std::unique_ptr<Cell, Free> cache_;
+};
+
+// Index of a hit record: three masked terms, summed without masking, in 64 bits.
+// [DXR: Hit group table indexing]
+inline uint64_t hit_record_index(uint32_t ray_contribution, uint32_t multiplier,
+                                 uint32_t geometry_index, uint32_t instance_contribution) {
+  return uint64_t{ray_contribution & 0xFu} + uint64_t{multiplier & 0xFu} * geometry_index +
+         (instance_contribution & 0xFFFFFFu);
+}
+
+}  // namespace kaamos::embree

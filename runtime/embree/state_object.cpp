@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/state_object.h"
+
+#include <utility>
+
+namespace kaamos::embree {
+namespace {
+
+RecordKind kind_of(runtime::RecordKind kind) {
+  switch (kind) {
+    case runtime::RecordKind::kRayGeneration: return RecordKind::kRayGeneration;
+    case runtime::RecordKind::kMiss: return RecordKind::kMiss;
+    case runtime::RecordKind::kCallable: return RecordKind::kCallable;
+    case runtime::RecordKind::kHitGroup: return RecordKind::kHitGroup;
+  }
+  return RecordKind::kNone;
+}
+
+Shader flatten(const runtime::LinkedShader& shader) {
+  return {shader.name.c_str(), shader.code->entry, shader.slots.data(),
+          static_cast<uint32_t>(shader.stack_bytes)};
+}
+
+}  // namespace
+
+RaytracingPipeline::RaytracingPipeline(std::shared_ptr<const runtime::LinkedPipeline> linked)
+    : linked_(std::move(linked)) {
+  for (const auto& record : linked_->records) {
+    RecordTarget target;
+    target.kind = kind_of(record->kind);
+    target.procedural = record->hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
+    target.shader = add(record->shader);
+    target.any_hit = add(record->any_hit);
+    target.closest_hit = add(record->closest_hit);
+    target.intersection = add(record->intersection);
+    targets_.emplace(record.get(), target);
+  }
+}
+
+const Shader* RaytracingPipeline::add(const runtime::LinkedShader* shader) {
+  if (shader == nullptr) return nullptr;
+  return &shaders_.emplace(shader, flatten(*shader)).first->second;
+}
+
+const RecordTarget* RaytracingPipeline::find(const void* self, const uint8_t* identifier) {
+  const auto& pipeline = *static_cast<const RaytracingPipeline*>(self);
+  const runtime::LinkedRecord* record = pipeline.linked_->identifiers.find(identifier);
+  if (record == nullptr) return nullptr;
+  const auto target = pipeline.targets_.find(record);
+  return target == pipeline.targets_.end() ? nullptr : &target->second;
+}
+
+ComputePipeline::ComputePipeline(std::shared_ptr<const runtime::LinkedCompute> linked)
+    : linked_(std::move(linked)), shader_(flatten(linked_->shader)) {}
+
+}  // namespace kaamos::embree

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// Ray tracing and compute pipelines as they run here: linked exports flattened to what a call needs.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <unordered_map>
+
+#include "runtime/backend.h"
+#include "runtime/embree/shader_record.h"
+
+namespace kaamos::embree {
+
+class RaytracingPipeline final : public runtime::BackendPipeline {
+ public:
+  explicit RaytracingPipeline(std::shared_ptr<const runtime::LinkedPipeline> linked);
+
+  const runtime::LinkedPipeline& linked() const { return *linked_; }
+  TargetLookup lookup() const { return {find, this}; }
+
+ private:
+  static const RecordTarget* find(const void* self, const uint8_t* identifier);
+  const Shader* add(const runtime::LinkedShader* shader);
+
+  std::shared_ptr<const runtime::LinkedPipeline> linked_;
+  std::unordered_map<const runtime::LinkedShader*, Shader> shaders_;  // nodes do not move
+  std::unordered_map<const runtime::LinkedRecord*, RecordTarget> targets_;
+};
+
+class ComputePipeline final : public runtime::BackendPipeline {
+ public:
+  explicit ComputePipeline(std::shared_ptr<const runtime::LinkedCompute> linked);
+
+  const shader::ComputeDesc& compute() const { return *linked_->shader.code->compute; }
+  const Shader& shader() const { return shader_; }
+
+ private:
+  std::shared_ptr<const runtime::LinkedCompute> linked_;
+  Shader shader_;
+};
+
+}  // namespace kaamos::embree

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+//
+// A top level: one Embree user geometry whose primitives are the instances. Against Embree's own
+// instances it costs the same to trace, less to build, does not abort on singular matrices, has
+// bounds with room for rounding, and lets each instance have its own flags. Numbers: README.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <rtapi/raytracing.h>
+#include <rtapi/result.h>
+
+#include "runtime/embree/bottom_level.h"
+#include "runtime/embree/instance_node.h"
+
+namespace kaamos::embree {
+
+// What only shaders need of an instance.
+struct InstanceDetail {
+  float world_to_object[12];  // 3x4, row-major
+  uint32_t id;                // InstanceID, 24 bits
+};
+
+// Finds the bottom level at an address; null if none is there.
+using FindBottomLevel = std::shared_ptr<const BottomLevel> (*)(const void* self, uint64_t address);
+
+class TopLevel {
+ public:
+  // `instances` in the order of the input: its index is InstanceIndex. Instances without a bottom
+  // level, with a singular or non-finite matrix, or of an empty bottom level are never hit, and
+  // keep their index. `notes` gets a line for each that is unusable and is not plainly inactive.
+  static rtapi::Result<std::shared_ptr<TopLevel>> build(
+      const BuildContext& context, std::span<const rtapi::RaytracingInstanceDesc> instances,
+      FindBottomLevel find, const void* find_self, std::vector<std::string>& notes);
+  ~TopLevel();
+  TopLevel(const TopLevel&) = delete;
+  TopLevel& operator=(const TopLevel&) = delete;
+
+  RTCScene scene() const { return scene_; }  // null: nothing can be hit
+  bool has_procedurals() const { return has_procedurals_; }
+  uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
+  const InstanceNode* nodes() const { return nodes_.data(); }
+  const InstanceDetail& detail(uint32_t index) const { return details_[index]; }
+
+ private:
+  TopLevel() = default;
+  void add_instance(const rtapi::RaytracingInstanceDesc& desc, FindBottomLevel find,
+                    const void* find_self, std::vector<RTCBounds>& bounds,
+                    std::vector<std::string>& notes);
+
+  RTCScene scene_ = nullptr;
+  bool has_procedurals_ = false;
+  std::vector<InstanceNode> nodes_;
+  std::vector<InstanceDetail> details_;
+  std::vector<std::shared_ptr<const BottomLevel>> bottom_levels_;  // kept alive, each once
+};
+
+// world_to_object of a 3x4 row-major matrix, inverted in double; false if singular, or if it or the
+// inverse is not finite in float.
+bool invert_transform(const float matrix[12], float inverse[12]);
+
+// Callbacks of the traversal. [traverse.cpp]
+void intersect_instance(const RTCIntersectFunctionNArguments* arguments);
+void occlude_instance(const RTCOccludedFunctionNArguments* arguments);
+
+}  // namespace kaamos::embree

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+//
+// TraceRay: guard, traverse, then run the closest-hit or the miss shader.
+#include "runtime/embree/trace.h"
+
+#include <bit>
+#include <cfloat>
+#include <limits>
+
+#include "runtime/embree/fault.h"
+#include "runtime/embree/memory.h"
+#include "runtime/embree/ray_state.h"
+
+namespace kaamos::embree {
+namespace {
+
+using shader::TraceRayArguments;
+
+// GeometryClass bits that a ray visits, by its four flags that cull or skip classes (bits 6 to 9)
+// and by the instance's opacity. CULL_OPAQUE looks at the opacity after the instance's override.
+// [DXR: Ray flags]
+struct ClassTable {
+  uint8_t classes[16][3];
+
+  constexpr ClassTable() : classes{} {
+    for (uint32_t flags = 0; flags < 16; ++flags) {
+      uint32_t skipped = 0;
+      if ((flags & 4) != 0) skipped |= kTriangleOpaque | kTriangleNonOpaque;
+      if ((flags & 8) != 0) skipped |= kProceduralOpaque | kProceduralNonOpaque;
+      const uint32_t all = kAllClasses & ~skipped;
+      const bool cull_opaque = (flags & 1) != 0;
+      const bool cull_non_opaque = (flags & 2) != 0;
+      uint32_t by_geometry = all;
+      if (cull_opaque) by_geometry &= ~uint32_t{kTriangleOpaque | kProceduralOpaque};
+      if (cull_non_opaque) by_geometry &= ~uint32_t{kTriangleNonOpaque | kProceduralNonOpaque};
+      classes[flags][static_cast<int>(OpacityOverride::kNone)] = static_cast<uint8_t>(by_geometry);
+      classes[flags][static_cast<int>(OpacityOverride::kOpaque)] =
+          static_cast<uint8_t>(cull_opaque ? 0 : all);
+      classes[flags][static_cast<int>(OpacityOverride::kNonOpaque)] =
+          static_cast<uint8_t>(cull_non_opaque ? 0 : all);
+    }
+  }
+};
+constexpr ClassTable kClassTable;
+
+// The open interval of triangles as a closed one. Denormals are flushed to zero, so that the
+// smallest t above 0 is FLT_MIN. [DXR: Ray extents]
+float next_above(float t) {
+  return t < FLT_MIN ? FLT_MIN : std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1);
+}
+float next_below(float t) {
+  return t <= FLT_MIN ? 0.0f : std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1);
+}
+
+// What Embree may be given: all else, NaN included, is a miss. [embree-notes 2.3]
+bool is_valid(const shader::RayDesc& ray) {
+  const ObjectRay spatial = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
+                             _mm_setr_ps(ray.direction[0], ray.direction[1], ray.direction[2], 0)};
+  return is_traceable(spatial) && ray.t_min <= ray.t_max && ray.t_min <= FLT_MAX;
+}
+
+const TopLevel* find_top_level(Worker& worker, uint64_t address) {
+  if (address == worker.cached_address) return worker.cached_top_level.get();
+  worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
+  worker.cached_address = address;
+  if (worker.cached_top_level == nullptr && address != 0) {
+    worker.dispatch->unknown_structure.store(address, std::memory_order_relaxed);
+  }
+  return worker.cached_top_level.get();
+}
+
+void begin_query(RayState& state, const TraceRayArguments& arguments, const TopLevel* top_level) {
+  const uint32_t flags =
+      arguments.ray_flags | state.worker->dispatch->pipeline_flags;
+  shim::init(state.query);
+  state.top_level = top_level;
+  state.instance = nullptr;
+  state.ray_flags = flags;
+  state.inclusion_mask = arguments.instance_inclusion_mask & 0xFFu;
+  state.classes = kClassTable.classes[(flags >> 6) & 15];
+  state.opacity = (flags & kRayForceOpaque) != 0      ? OpacityOverride::kOpaque
+                  : (flags & kRayForceNonOpaque) != 0 ? OpacityOverride::kNonOpaque
+                                                      : OpacityOverride::kNone;
+  state.ended = false;
+  // A negative TMin is undefined in DXR; here it is 0.
+  state.t_min = arguments.ray.t_min > 0 ? arguments.ray.t_min : 0.0f;
+  state.t_max = arguments.ray.t_max;
+  state.t_near = next_above(state.t_min);
+  state.t_far = next_below(state.t_max);
+  state.committed_t = std::numeric_limits<float>::infinity();
+}
+
+void begin_embree_ray(const RayState& state, RTCRay& ray) {
+  const shader::RayDesc& desc = state.arguments->ray;
+  const bool closed = state.top_level->has_procedurals();
+  ray.org_x = desc.origin[0];
+  ray.org_y = desc.origin[1];
+  ray.org_z = desc.origin[2];
+  ray.tnear = closed ? state.t_min : state.t_near;
+  ray.dir_x = desc.direction[0];
+  ray.dir_y = desc.direction[1];
+  ray.dir_z = desc.direction[2];
+  ray.time = 0;
+  ray.tfar = closed ? state.t_max : state.t_far;
+  ray.mask = kAllClasses;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+// Whether only the existence of a hit counts. Forced-opaque rays without a closest-hit shader are
+// such rays too, as long as no intersection shader could see the difference.
+bool asks_visibility(const RayState& state) {
+  if ((state.ray_flags & kRaySkipClosestHitShader) == 0) return false;
+  return (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0 ||
+         ((state.ray_flags & kRayForceOpaque) != 0 && !state.top_level->has_procedurals());
+}
+
+void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
+  const InstanceNode& instance = state.top_level->nodes()[ray_hit.hit.instID[0]];
+  const ShaderRecord record = hit_record(state, instance, ray_hit.hit.geomID);
+  if (record.target->closest_hit == nullptr) return;
+  const Shader& shader = *record.target->closest_hit;
+  ++state.worker->counters.closest_hit_calls;
+
+  RayInvocation invocation;
+  // A search that was ended early has lost its t in Embree's ray.
+  const float t = state.ended ? state.committed_t : ray_hit.ray.tfar;
+  begin_invocation(state, shader, record, t, invocation);
+  const void* attributes = state.procedural_attributes;
+  uint32_t hit_kind = state.procedural_hit_kind;
+  float barycentrics[2];
+  if (!instance.procedural) {
+    const ObjectRay object = to_object_space(instance, _mm_load_ps(&ray_hit.ray.org_x),
+                                             _mm_load_ps(&ray_hit.ray.dir_x));
+    alignas(16) float direction[4];
+    _mm_store_ps(direction, object.direction);
+    hit_kind = triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
+    barycentrics[0] = ray_hit.hit.u;
+    barycentrics[1] = ray_hit.hit.v;
+    clamp_barycentrics(barycentrics[0], barycentrics[1]);
+    attributes = barycentrics;
+  }
+  set_hit_values(state, instance, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind,
+                 invocation.values);
+  const RunningShader running(*state.worker, shader);
+  shader.as<shader::ClosestHitFn>()(invocation, state.payload, attributes);
+}
+
+void run_miss(RayState& state) {
+  ++state.worker->counters.misses;
+  const uint32_t index = state.arguments->miss_shader_index & 0xFFFFu;
+  const ShaderRecord record = state.worker->dispatch->miss_table.at(index);
+  if (record.target->shader == nullptr) return;
+  const Shader& shader = *record.target->shader;
+  ++state.worker->counters.miss_calls;
+  RayInvocation invocation;
+  begin_invocation(state, shader, record, state.arguments->ray.t_max, invocation);
+  const RunningShader running(*state.worker, shader);
+  shader.as<shader::MissFn>()(invocation, state.payload);
+}
+
+}  // namespace
+
+void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload) {
+  Worker& worker = worker_of(caller);
+  check_stack(worker);
+  // Ray generation is depth 0; at the declared depth TraceRay removes the device.
+  // [DXR: Ray recursion limit]
+  if (caller.depth >= worker.dispatch->max_recursion_depth) {
+    remove_device(worker, shader::RemovalReason::kRecursionDepth);
+  }
+  ++worker.counters.rays;
+  RayState state;
+  state.worker = &worker;
+  state.arguments = &arguments;
+  state.caller = &caller;
+  state.payload = payload;
+  const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
+  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(arguments.ray)) {
+    return run_miss(state);
+  }
+  begin_query(state, arguments, top_level);
+
+  RTCRayHit ray_hit;
+  begin_embree_ray(state, ray_hit.ray);
+  if (asks_visibility(state)) {
+    ++worker.counters.visibility_rays;
+    shim::occluded(top_level->scene(), state.query, &ray_hit.ray);
+    if (ray_hit.ray.tfar >= 0) return run_miss(state);
+    ++worker.counters.hits;
+    return;
+  }
+  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  shim::intersect(top_level->scene(), state.query, &ray_hit);
+  if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return run_miss(state);
+  ++worker.counters.hits;
+  if ((state.ray_flags & kRaySkipClosestHitShader) == 0) run_closest_hit(state, ray_hit);
+}
+
+}  // namespace kaamos::embree

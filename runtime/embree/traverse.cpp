@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// The instance level of a traversal: Embree calls one of these for each instance whose box a ray
+// meets. Decides by the instance's mask and flags what the ray sees of it, takes the ray to object
+// space, and traverses the bottom level with it.
+#include "runtime/embree/ray_state.h"
+
+namespace kaamos::embree {
+namespace {
+
+// Facing flags, or opacity that is not the geometry's, concern hits that have no filter of their
+// own: then every hit goes through the filter.
+void select_filter(RayState& state, const InstanceNode& node) {
+  const OpacityOverride opacity =
+      state.opacity != OpacityOverride::kNone ? state.opacity : node.opacity;
+  constexpr uint32_t kFacingFlags = kRayCullBackFacingTriangles | kRayCullFrontFacingTriangles;
+  const bool culls_facing =
+      (state.ray_flags & kFacingFlags) != 0 && (node.flags & kInstanceTriangleCullDisable) == 0;
+  const bool all_hits = culls_facing || opacity == OpacityOverride::kNonOpaque;
+  shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
+}
+
+// In a top level with procedural instances Embree gets the closed interval, which triangles must
+// not see [DXR: Ray extents].
+template <typename Committed>
+void select_interval(const RayState& state, const InstanceNode& node, Committed committed,
+                     RTCRay& ray) {
+  if (!state.top_level->has_procedurals()) return;
+  ray.tnear = node.procedural ? state.t_min : state.t_near;
+  if (!committed()) ray.tfar = node.procedural ? state.t_max : state.t_far;
+}
+
+// Calls trace with the ray in object space; puts the world-space ray back afterwards.
+template <typename Committed, typename Trace>
+void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed committed,
+                    Trace trace) {
+  if (state.ended) return;
+  const InstanceNode& node = state.top_level->nodes()[index];
+  if ((node.mask & state.inclusion_mask) == 0) return;
+  const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
+  if (classes == 0) return;
+
+  const __m128 world_origin = _mm_load_ps(&ray.org_x);     // w: tnear
+  const __m128 world_direction = _mm_load_ps(&ray.dir_x);  // w: time
+  const ObjectRay object = to_object_space(node, world_origin, world_direction);
+  if (!is_traceable(object)) return;
+  const float t_near = ray.tnear;
+  _mm_store_ps(&ray.org_x, object.origin);
+  _mm_store_ps(&ray.dir_x, object.direction);
+  ray.tnear = t_near;
+  ray.mask = classes;
+  state.instance = &node;
+  shim::set_instance(state.query, index);
+  select_filter(state, node);
+  select_interval(state, node, committed, ray);
+
+  trace(node.scene);
+
+  _mm_store_ps(&ray.org_x, world_origin);
+  _mm_store_ps(&ray.dir_x, world_direction);
+  ray.mask = kAllClasses;
+  shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
+  if (state.top_level->has_procedurals() && !committed()) ray.tfar = state.t_max;
+}
+
+}  // namespace
+
+void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  const float t_before = ray_hit->ray.tfar;
+  const auto committed = [&] { return ray_hit->hit.geomID != RTC_INVALID_GEOMETRY_ID; };
+  visit_instance(state, arguments->primID, ray_hit->ray, committed,
+                 [&](RTCScene scene) { shim::intersect(scene, state.query, ray_hit); });
+  shim::set_hit(arguments, ray_hit->ray.tfar != t_before);
+}
+
+void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
+  const auto committed = [&] { return ray->tfar < 0; };
+  visit_instance(state, arguments->primID, *ray, committed,
+                 [&](RTCScene scene) { shim::occluded(scene, state.query, ray); });
+  shim::set_hit(arguments, committed());
+}
+
+}  // namespace kaamos::embree

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// The state of a running dispatch: what all its threads share (DispatchState), and what one thread
+// has while it runs one tile or thread group (Worker). Reached from a shader's Invocation by its
+// backend pointer.
+#pragma once
+
+#include <csetjmp>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "kaamos/shader/abi.h"
+#include "runtime/embree/shader_record.h"
+
+namespace kaamos::embree {
+
+class TopLevel;
+class Memory;
+
+// What a dispatch did. Added up per tile, in any order: integers, so the order does not matter.
+struct Counters {
+  uint64_t rays = 0;             // TraceRay calls
+  uint64_t visibility_rays = 0;  // of these, the ones that only asked whether there is a hit
+  uint64_t hits = 0;
+  uint64_t misses = 0;
+  uint64_t any_hit_calls = 0;
+  uint64_t closest_hit_calls = 0;
+  uint64_t intersection_calls = 0;
+  uint64_t miss_calls = 0;
+  uint64_t callable_calls = 0;
+
+  void add(const Counters& other) {
+    rays += other.rays;
+    visibility_rays += other.visibility_rays;
+    hits += other.hits;
+    misses += other.misses;
+    any_hit_calls += other.any_hit_calls;
+    closest_hit_calls += other.closest_hit_calls;
+    intersection_calls += other.intersection_calls;
+    miss_calls += other.miss_calls;
+    callable_calls += other.callable_calls;
+  }
+};
+
+// Why a device was removed: the first fault of a dispatch.
+struct Removal {
+  shader::RemovalReason reason = shader::RemovalReason::kOther;
+  std::string message;
+};
+
+struct DispatchState {
+  shader::Dispatch abi;
+  RecordTable hit_table;
+  RecordTable miss_table;
+  RecordTable callable_table;
+  uint32_t max_recursion_depth = 0;  // MaxTraceRecursionDepth
+  uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
+  uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
+  const Memory* memory = nullptr;
+  const char* label = "";  // "DispatchRays 3 of the command list": for messages
+
+  std::atomic<bool> removed = false;
+  std::atomic<uint64_t> unknown_structure = 0;  // an address that a ray was traced against
+  std::mutex mutex;  // guards the members below
+  Removal removal;
+  Counters counters;
+};
+
+struct Worker {
+  DispatchState* dispatch = nullptr;
+  // The acceleration structure of the last ray. Address 0 is the null structure.
+  uint64_t cached_address = 0;
+  std::shared_ptr<const TopLevel> cached_top_level;
+  uint64_t stack_left = UINT64_MAX;  // bytes of the pipeline's stack [DXR: Pipeline stack]
+  uintptr_t stack_limit = 0;         // a shader call below it would run out of stack
+  const Shader* running = nullptr;   // the shader that is executing: for messages
+  const uint32_t* index = nullptr;   // its DispatchRaysIndex or thread group
+  sigjmp_buf* jump = nullptr;        // where a fault ends the tile
+  // Set by the signal handler or by remove_device before the jump.
+  shader::RemovalReason fault_reason = shader::RemovalReason::kOther;
+  int fault_signal = 0;
+  uintptr_t fault_address = 0;
+  Counters counters;
+};
+
+inline Worker& worker_of(const shader::Invocation& invocation) {
+  return *static_cast<Worker*>(invocation.backend);
+}
+
+}  // namespace kaamos::embree
