@@ -50,7 +50,6 @@ void run_tile(void* argument) {
   const RunningShader running(worker, shader);
   const auto entry = shader.as<shader::RayGenerationFn>();
   shader::Invocation invocation;
-  worker.index = invocation.index;
   for (uint32_t z = tile.first[2]; z < tile.last[2]; ++z) {
     for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
       for (uint32_t x = tile.first[0]; x < tile.last[0]; ++x) {
@@ -58,9 +57,9 @@ void run_tile(void* argument) {
         invocation.slots = shader.slots;
         invocation.local_arguments = tile.record->local_arguments();
         invocation.ray = nullptr;
-        invocation.index[0] = x;
-        invocation.index[1] = y;
-        invocation.index[2] = z;
+        invocation.index[0] = worker.index[0] = x;
+        invocation.index[1] = worker.index[1] = y;
+        invocation.index[2] = worker.index[2] = z;
         invocation.depth = 0;
         invocation.backend = &worker;
         entry(invocation);
@@ -85,7 +84,6 @@ void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& re
     }
     if (!run_guarded(worker, run_tile, &tile)) record_removal(worker);
   }
-  worker.index = nullptr;
   end_worker(worker);
 }
 

@@ -3,6 +3,8 @@
 // DispatchRays and Dispatch on the threads of the device.
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <memory>
 #include <string>
 
@@ -11,15 +13,11 @@
 #include "runtime/embree/state_object.h"
 #include "runtime/embree/worker.h"
 
-namespace tbb::detail::d1 {
-class task_arena;
-}
-
 namespace kaamos::embree {
 
 // What a dispatch needs of its device.
 struct DispatchEnvironment {
-  tbb::detail::d1::task_arena* arena = nullptr;
+  tbb::task_arena* arena = nullptr;
   const Memory* memory = nullptr;
 };
 

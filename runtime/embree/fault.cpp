@@ -196,10 +196,10 @@ void remove_device(Worker& worker, shader::RemovalReason reason) {
 void record_removal(Worker& worker) {
   DispatchState& dispatch = *worker.dispatch;
   std::string message = message_of(worker) + " (" + dispatch.label;
-  if (worker.running != nullptr) message += std::string(", shader \"") + worker.running->name + "\"";
-  if (worker.index != nullptr) {
-    message += " at (" + std::to_string(worker.index[0]) + "," + std::to_string(worker.index[1]) +
-               "," + std::to_string(worker.index[2]) + ")";
+  if (worker.running != nullptr) {
+    message += std::string(", shader \"") + worker.running->name + "\" at (" +
+               std::to_string(worker.index[0]) + "," + std::to_string(worker.index[1]) + "," +
+               std::to_string(worker.index[2]) + ")";
   }
   message += ").";
   const std::lock_guard lock(dispatch.mutex);

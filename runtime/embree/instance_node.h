@@ -49,23 +49,20 @@ struct ObjectRay {
   __m128 direction;  // fourth lane 0
 };
 
+// The linear part of world_to_object; the fourth lane of `v` does not count.
+inline __m128 to_object_vector(const InstanceNode& node, __m128 v) {
+  const __m128 x = _mm_shuffle_ps(v, v, _MM_SHUFFLE(0, 0, 0, 0));
+  const __m128 y = _mm_shuffle_ps(v, v, _MM_SHUFFLE(1, 1, 1, 1));
+  const __m128 z = _mm_shuffle_ps(v, v, _MM_SHUFFLE(2, 2, 2, 2));
+  const auto& columns = node.world_to_object_columns;
+  return _mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(columns[0]), x),
+                               _mm_mul_ps(_mm_load_ps(columns[1]), y)),
+                    _mm_mul_ps(_mm_load_ps(columns[2]), z));
+}
+
 inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128 direction) {
-  const __m128 x = _mm_load_ps(node.world_to_object_columns[0]);
-  const __m128 y = _mm_load_ps(node.world_to_object_columns[1]);
-  const __m128 z = _mm_load_ps(node.world_to_object_columns[2]);
-  const __m128 w = _mm_load_ps(node.world_to_object_columns[3]);
-  const auto lane = [](__m128 v, auto index) {
-    constexpr int i = decltype(index)::value;
-    return _mm_shuffle_ps(v, v, _MM_SHUFFLE(i, i, i, i));
-  };
-  struct X { static constexpr int value = 0; };
-  struct Y { static constexpr int value = 1; };
-  struct Z { static constexpr int value = 2; };
-  const auto linear = [&](__m128 v) {
-    return _mm_add_ps(_mm_add_ps(_mm_mul_ps(x, lane(v, X{})), _mm_mul_ps(y, lane(v, Y{}))),
-                      _mm_mul_ps(z, lane(v, Z{})));
-  };
-  return {_mm_add_ps(linear(origin), w), linear(direction)};
+  return {_mm_add_ps(to_object_vector(node, origin), _mm_load_ps(node.world_to_object_columns[3])),
+          to_object_vector(node, direction)};
 }
 
 // Whether Embree may be called with it: finite, and below its limit. The fourth lanes must be too.

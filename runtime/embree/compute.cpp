@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+//
+// Thread groups. A kernel that was split at its barriers, or has none, is one call per group. The
+// others run each thread of a group on a fiber: a barrier goes back to the group's loop, which
+// resumes the next thread, and so lets none pass before all have arrived.
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <boost/context/fiber.hpp>
+#include <boost/context/protected_fixedsize_stack.hpp>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "runtime/embree/compute.h"
+#include "runtime/embree/dispatch.h"
+#include "runtime/embree/fault.h"
+
+namespace kaamos::embree {
+namespace {
+
+namespace context = boost::context;
+
+constexpr size_t kFiberStackBytes = 128 * 1024;
+
+// Keeps the stacks of finished fibers for the next group of this thread.
+class StackPool {
+ public:
+  ~StackPool() {
+    for (context::stack_context& stack : free_) allocator_.deallocate(stack);
+  }
+  context::stack_context allocate() {
+    if (free_.empty()) return allocator_.allocate();
+    const context::stack_context stack = free_.back();
+    free_.pop_back();
+    return stack;
+  }
+  void deallocate(context::stack_context& stack) { free_.push_back(stack); }
+
+ private:
+  context::protected_fixedsize_stack allocator_{kFiberStackBytes};
+  std::vector<context::stack_context> free_;
+};
+
+struct PooledStack {
+  StackPool* pool;
+  context::stack_context allocate() { return pool->allocate(); }
+  void deallocate(context::stack_context& stack) { pool->deallocate(stack); }
+};
+
+struct GroupRun;
+
+// One thread of a group.
+struct FiberThread {
+  GroupRun* run = nullptr;
+  uint32_t thread_id[3] = {0, 0, 0};
+  shader::Invocation invocation;
+  context::fiber fiber;      // suspended at its start or at a barrier; empty when finished
+  context::fiber scheduler;  // where it goes at a barrier
+  sigjmp_buf* jump = nullptr;
+};
+
+struct GroupRun {
+  Worker* worker = nullptr;
+  const ComputePipeline* pipeline = nullptr;
+  shader::ComputeGroup group;
+  shader::Invocation invocation;
+  FiberThread* current = nullptr;
+  bool failed = false;
+};
+
+void run_group(void* argument) {
+  auto& run = *static_cast<GroupRun*>(argument);
+  run.pipeline->compute().group(run.invocation, run.group);
+}
+
+void run_thread(void* argument) {
+  auto& thread = *static_cast<FiberThread*>(argument);
+  thread.run->pipeline->compute().thread(thread.invocation, thread.run->group, thread.thread_id);
+}
+
+context::fiber start_thread(FiberThread& thread, StackPool& pool) {
+  return context::fiber(std::allocator_arg, PooledStack{&pool},
+                        [&thread](context::fiber&& scheduler) {
+                          thread.scheduler = std::move(scheduler);
+                          Worker& worker = *thread.run->worker;
+                          if (!run_guarded_on_fiber(worker, run_thread, &thread) &&
+                              !thread.run->failed) {
+                            thread.run->failed = true;
+                            record_removal(worker);
+                          }
+                          return std::move(thread.scheduler);
+                        });
+}
+
+// Runs in the guard of the group, whose fault would be ours, not the shader's.
+void run_fibers(void* argument) {
+  auto& run = *static_cast<GroupRun*>(argument);
+  thread_local StackPool pool;
+  const uint32_t* size = run.pipeline->compute().thread_group;
+  const size_t count = size_t{size[0]} * size[1] * size[2];
+  std::vector<FiberThread> threads(count);
+  sigjmp_buf* const outer = run.worker->jump;
+  for (size_t i = 0; i < count; ++i) {
+    FiberThread& thread = threads[i];
+    thread.run = &run;
+    thread.thread_id[0] = static_cast<uint32_t>(i % size[0]);
+    thread.thread_id[1] = static_cast<uint32_t>(i / size[0] % size[1]);
+    thread.thread_id[2] = static_cast<uint32_t>(i / size[0] / size[1]);
+    thread.invocation = run.invocation;
+    thread.fiber = start_thread(thread, pool);
+  }
+  for (size_t alive = count; alive != 0;) {
+    alive = 0;
+    for (FiberThread& thread : threads) {
+      if (!thread.fiber) continue;
+      run.current = &thread;
+      thread.fiber = std::move(thread.fiber).resume();
+      run.worker->jump = outer;
+      if (thread.fiber) ++alive;
+    }
+  }
+}
+
+struct ComputeJob {
+  DispatchState* dispatch;
+  const ComputePipeline* pipeline;
+  const uint32_t* groups;
+};
+
+void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
+  const FloatMode float_mode;
+  const shader::ComputeDesc& compute = job.pipeline->compute();
+  // 16 bytes more: a kernel without groupshared memory still gets a pointer.
+  const size_t shared_words = compute.shared_bytes / 16 + 1;
+  struct alignas(16) Word {
+    uint8_t bytes[16];
+  };
+  const auto shared = std::make_unique<Word[]>(shared_words);
+  Worker worker;
+  worker.dispatch = job.dispatch;
+  worker.running = &job.pipeline->shader();
+  for (uint64_t i = begin; i < end && !job.dispatch->removed.load(std::memory_order_relaxed);
+       ++i) {
+    GroupRun run;
+    run.worker = &worker;
+    run.pipeline = job.pipeline;
+    run.group.group_id[0] = static_cast<uint32_t>(i % job.groups[0]);
+    run.group.group_id[1] = static_cast<uint32_t>(i / job.groups[0] % job.groups[1]);
+    run.group.group_id[2] = static_cast<uint32_t>(i / job.groups[0] / job.groups[1]);
+    std::memset(shared.get(), 0, shared_words * sizeof(Word));
+    run.group.shared = shared.get();
+    run.group.backend = &run;
+    run.invocation.dispatch = &job.dispatch->abi;
+    run.invocation.slots = job.pipeline->shader().slots;
+    run.invocation.backend = &worker;
+    for (int axis = 0; axis < 3; ++axis) {
+      worker.index[axis] = run.invocation.index[axis] = run.group.group_id[axis];
+    }
+    if (!run_guarded(worker, compute.group != nullptr ? run_group : run_fibers, &run)) {
+      record_removal(worker);
+    }
+  }
+  end_worker(worker);
+}
+
+}  // namespace
+
+void group_barrier(shader::ComputeGroup& group) {
+  auto& run = *static_cast<GroupRun*>(group.backend);
+  FiberThread& thread = *run.current;
+  sigjmp_buf* const own = run.worker->jump;
+  thread.scheduler = std::move(thread.scheduler).resume();
+  run.worker->jump = own;
+  // Another thread of the group failed: this one ends as well, on its own stack.
+  if (run.failed) remove_device(*run.worker, run.worker->fault_reason);
+}
+
+DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+                                const runtime::DispatchCommand& command,
+                                const std::string& label) {
+  const auto& pipeline = static_cast<const ComputePipeline&>(*command.pipeline);
+  DispatchState dispatch;
+  begin_dispatch(command.state, dispatch);
+  std::memcpy(dispatch.abi.dimensions, command.groups, sizeof(command.groups));
+  dispatch.memory = environment.memory;
+  dispatch.label = label.c_str();
+  const uint64_t count =
+      uint64_t{command.groups[0]} * command.groups[1] * command.groups[2];
+  const ComputeJob job = {&dispatch, &pipeline, command.groups};
+  if (count != 0) {
+    environment.arena->execute([&] {
+      tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count),
+                        [&](const tbb::blocked_range<uint64_t>& groups) {
+                          run_groups(job, groups.begin(), groups.end());
+                        });
+    });
+  }
+  return end_dispatch(dispatch);
+}
+
+}  // namespace kaamos::embree

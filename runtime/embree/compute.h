@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "kaamos/shader/abi.h"
+
+namespace kaamos::embree {
+
+// Services::group_barrier: returns when all threads of the group have come to a barrier or ended.
+void group_barrier(shader::ComputeGroup& group);
+
+}  // namespace kaamos::embree

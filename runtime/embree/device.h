@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// The Embree backend as rtapi sees it.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "runtime/backend.h"
+#include "runtime/embree/dispatch.h"
+#include "runtime/embree/memory.h"
+
+namespace kaamos::embree {
+
+class Device final : public runtime::BackendDevice {
+ public:
+  static rtapi::Result<std::unique_ptr<runtime::BackendDevice>> create(
+      const rtapi::DeviceDesc& desc, const runtime::Context& context);
+  ~Device() override;
+
+  const rtapi::DeviceInfo& info() const override { return info_; }
+  rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(
+      const rtapi::BufferDesc& desc) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
+      const rtapi::TextureDesc& desc) override;
+  rtapi::Result<uint64_t> create_texture_view(runtime::BackendTexture& texture,
+                                              const runtime::TextureViewDesc& desc) override;
+  rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override;
+  bool supports_format(rtapi::Format format, bool unordered_access) const override;
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
+      std::shared_ptr<const runtime::LinkedPipeline> pipeline) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_compute_pipeline(
+      std::shared_ptr<const runtime::LinkedCompute> pipeline) override;
+  rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
+      rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
+      std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      uint32_t instance_count) const override;
+  rtapi::Status execute(std::span<const runtime::Command> commands) override;
+  rtapi::RaytracingStatistics statistics() const override;
+  void reset_statistics() override;
+
+  // What the commands' code needs; see execute.cpp and build.cpp.
+  const runtime::Context& context() const { return context_; }
+  Memory& memory() { return *memory_; }
+  BuildContext build_context() const { return {embree_, robust_}; }
+  // Bytes that Embree holds for this device.
+  int64_t embree_bytes() const { return embree_bytes_.load(); }
+  DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get()}; }
+  tbb::task_arena& arena() { return arena_; }
+  void add_counters(const Counters& counters);
+  void warn(const char* id, const std::string& text) const;
+
+ private:
+  Device(const rtapi::DeviceDesc& desc, const runtime::Context& context);
+  static bool count_bytes(void* self, ssize_t bytes, bool post);
+  // Embree as Kaamos needs it, or why it is not.
+  rtapi::Status check_embree() const;
+
+  rtapi::DeviceInfo info_;
+  runtime::Context context_;
+  bool robust_ = true;
+  std::optional<tbb::global_control> parallelism_;  // more threads than the machine has
+  tbb::task_arena arena_;
+  RTCDevice embree_ = nullptr;
+  std::atomic<int64_t> embree_bytes_ = 0;
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();
+  mutable std::mutex statistics_mutex_;
+  Counters counters_;
+};
+
+}  // namespace kaamos::embree

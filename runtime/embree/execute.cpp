@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// The command stream, one command after another: nothing overlaps, so barriers have nothing to do.
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "runtime/embree/acceleration_structure.h"
+#include "runtime/embree/device.h"
+#include "runtime/embree/texture.h"
+
+namespace kaamos::embree {
+namespace {
+
+class Executor {
+ public:
+  explicit Executor(Device& device) : device_(device) {}
+
+  rtapi::Status operator()(const runtime::DispatchRaysCommand& command) {
+    return finish(dispatch_rays(device_.dispatch_environment(), command, label("DispatchRays")));
+  }
+  rtapi::Status operator()(const runtime::DispatchCommand& command) {
+    return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
+  }
+  rtapi::Status operator()(const runtime::BuildCommand& command) {
+    return build(device_, command);
+  }
+  rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
+    return emit_postbuild_info(device_, command.desc, command.sources);
+  }
+  rtapi::Status operator()(const runtime::CopyAccelerationStructureCommand& command) {
+    return copy(device_, command);
+  }
+  rtapi::Status operator()(const runtime::CopyBufferCommand& command);
+  rtapi::Status operator()(const runtime::CopyTextureCommand& command);
+  rtapi::Status operator()(const runtime::ClearUavCommand& command);
+  rtapi::Status operator()(const runtime::BarrierCommand&) { return {}; }
+  rtapi::Status operator()(const runtime::EventCommand& command) {
+    if (command.begin) {
+      events_.push_back(command.name);
+    } else if (!events_.empty()) {
+      events_.pop_back();
+    }
+    return {};
+  }
+
+  void next() { ++index_; }
+
+ private:
+  std::string label(const char* what) const {
+    std::string text = std::string(what) + ", command " + std::to_string(index_);
+    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
+    return text;
+  }
+  rtapi::Status finish(DispatchResult result);
+
+  Device& device_;
+  size_t index_ = 0;
+  std::vector<std::string> events_;
+};
+
+rtapi::Status Executor::finish(DispatchResult result) {
+  device_.add_counters(result.counters);
+  if (result.unknown_structure != 0) {
+    device_.warn("KA0894", "rays were traced against address " +
+                               std::to_string(result.unknown_structure) +
+                               ", where no top level stands, and missed (command " +
+                               std::to_string(index_) +
+                               "). Was it built, and not overwritten or freed since?");
+  }
+  return std::move(result.status);
+}
+
+rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
+  device_.memory().evict(command.dest->address() + command.dest_offset, command.size_bytes);
+  std::memmove(command.dest->host() + command.dest_offset,
+               command.source->host() + command.source_offset, command.size_bytes);
+  return {};
+}
+
+// Either side of a texture copy as rows in memory.
+struct Rows {
+  uint8_t* first = nullptr;
+  uint64_t row_pitch = 0;
+  uint64_t slice_pitch = 0;
+};
+
+uint32_t texel_bytes_of(const runtime::TextureCopyPlace& place) {
+  return place.texture ? static_cast<const Texture&>(*place.texture).texel_bytes() : 0;
+}
+
+Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t texel_bytes) {
+  if (place.texture != nullptr) {
+    const auto s =
+        static_cast<const Texture&>(*place.texture).subresource(place.mip, place.array_element);
+    return {s.at(place.origin, texel_bytes), s.row_pitch, s.slice_pitch};
+  }
+  uint8_t* first = place.buffer->host() + place.offset + place.origin[2] * place.slice_pitch +
+                   uint64_t{place.origin[1]} * place.row_pitch +
+                   uint64_t{place.origin[0]} * texel_bytes;
+  return {first, place.row_pitch, place.slice_pitch};
+}
+
+rtapi::Status Executor::operator()(const runtime::CopyTextureCommand& command) {
+  const uint32_t texel_bytes =
+      std::max(texel_bytes_of(command.dest), texel_bytes_of(command.source));
+  const Rows dest = rows_of(command.dest, texel_bytes);
+  const Rows source = rows_of(command.source, texel_bytes);
+  for (uint32_t z = 0; z < command.extent[2]; ++z) {
+    for (uint32_t y = 0; y < command.extent[1]; ++y) {
+      std::memmove(dest.first + z * dest.slice_pitch + y * dest.row_pitch,
+                   source.first + z * source.slice_pitch + y * source.row_pitch,
+                   uint64_t{command.extent[0]} * texel_bytes);
+    }
+  }
+  return {};
+}
+
+rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
+  const shader::Descriptor& view = command.view;
+  if (view.kind != shader::DescriptorKind::kRawBuffer &&
+      view.kind != shader::DescriptorKind::kStructuredBuffer) {
+    return {};
+  }
+  device_.memory().evict(view.address, view.size_bytes);
+  auto* words = reinterpret_cast<uint32_t*>(view.address);
+  std::fill_n(words, view.size_bytes / 4, command.values[0]);
+  return {};
+}
+
+}  // namespace
+
+rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
+  Executor executor(*this);
+  for (const runtime::Command& command : commands) {
+    if (auto s = std::visit(executor, command); !s) return s;
+    executor.next();
+  }
+  return {};
+}
+
+}  // namespace kaamos::embree

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/services.h"
+
+#include "runtime/embree/compute.h"
+#include "runtime/embree/fault.h"
+#include "runtime/embree/intersection.h"
+#include "runtime/embree/trace.h"
+
+namespace kaamos::embree {
+namespace {
+
+void remove(shader::Invocation& invocation, shader::RemovalReason reason) {
+  remove_device(worker_of(invocation), reason);
+}
+
+shader::Services make_services() {
+  shader::Services table = {};
+  table.trace_ray = trace_ray;
+  table.report_hit = report_hit;
+  table.call_shader = call_shader;
+  table.group_barrier = group_barrier;
+  table.remove_device = remove;
+  return table;
+}
+
+}  // namespace
+
+const shader::Services& services() {
+  static const shader::Services table = make_services();
+  return table;
+}
+
+}  // namespace kaamos::embree
