@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+//
+// A backend device with shaders written in C++ on the shader ABI: what the tests of this folder and
+// the conformance tests run on, without a compiler and without rtapi's front.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/backend.h"
+
+namespace kaamos::embree::testing {
+
+// -------------------------------------------------------------------------------------------------
+// Shaders: what a ray came to is written into its payload.
+
+inline constexpr uint32_t kSentinel = 0xDEADBEEF;
+
+enum class End : uint32_t { kNothing = 0, kClosestHit = 1, kMiss = 2 };
+
+struct Payload {
+  End end = End::kNothing;
+  uint32_t calls = 0;            // of closest-hit and miss shaders
+  uint32_t record = kSentinel;   // the record's root constant, of the last of them
+  shader::RaySystemValues values;
+  float object_to_world[12] = {};
+  float world_to_object[12] = {};
+  uint32_t attributes[8] = {};
+  uint32_t depth = 0;
+  uint32_t any_hits = 0;         // any-hit calls
+  uint32_t any_hit_record = kSentinel;
+  uint32_t any_hit_kind = 0;
+  float any_hit_t = 0;
+  float smallest_any_hit_t = 1e30f;
+  uint32_t any_hit_primitives = 0;  // bit i: primitive i was asked about
+  uint32_t user = 0;
+};
+
+// Store the system values, and the record's constant.
+void closest_hit(shader::Invocation& invocation, void* payload, const void* attributes);
+void miss(shader::Invocation& invocation, void* payload);
+// Count, and answer as named.
+shader::AnyHitResult any_hit_accept(shader::Invocation&, void* payload, const void*);
+shader::AnyHitResult any_hit_ignore(shader::Invocation&, void* payload, const void*);
+shader::AnyHitResult any_hit_end(shader::Invocation&, void* payload, const void*);
+
+// Reports Scene::reports in order and keeps the answers. One thread only.
+struct Report {
+  float t;
+  uint32_t hit_kind = 0;
+  uint32_t attributes[8] = {};
+};
+struct ReportLog {
+  std::vector<Report> reports;
+  std::vector<shader::ReportHitResult> results;
+  std::vector<float> t_current;  // RayTCurrent after each report
+  uint32_t calls = 0;
+  std::vector<uint32_t> primitives;
+};
+ReportLog& report_log();
+void report_all(shader::Invocation& invocation);
+
+// -------------------------------------------------------------------------------------------------
+// Pipelines and tables
+
+
+// Builds a linked pipeline by hand.
+class PipelineBuilder {
+ public:
+  explicit PipelineBuilder(uint32_t max_recursion_depth = 1);
+  rtapi::ShaderIdentifier ray_generation(shader::RayGenerationFn entry);
+  rtapi::ShaderIdentifier miss(shader::MissFn entry);
+  rtapi::ShaderIdentifier callable(shader::CallableFn entry, uint64_t stack_bytes = 0);
+  // Null functions are absent; with an intersection shader it is a procedural group.
+  rtapi::ShaderIdentifier hit_group(shader::ClosestHitFn closest_hit, shader::AnyHitFn any_hit,
+                                    shader::IntersectionFn intersection = nullptr);
+  void set_flags(rtapi::RaytracingPipelineFlags flags) { pipeline_->flags = flags; }
+  std::shared_ptr<const runtime::LinkedPipeline> linked() const { return pipeline_; }
+
+ private:
+  const runtime::LinkedShader* add_shader(shader::Stage stage, shader::AnyFn entry,
+                                          uint64_t stack_bytes = 0);
+  rtapi::ShaderIdentifier add_record(runtime::LinkedRecord record);
+  std::shared_ptr<runtime::LinkedPipeline> pipeline_;
+};
+
+// One record: an identifier (all zero: NULL) and the constant that follows it.
+struct Record {
+  rtapi::ShaderIdentifier identifier = {};
+  uint32_t constant = 0;
+};
+
+inline constexpr rtapi::ShaderIdentifier kNullIdentifier = {};
+
+// -------------------------------------------------------------------------------------------------
+// Scenes
+
+struct Vertex {
+  float x, y, z;
+};
+
+struct GeometryInput {
+  std::vector<Vertex> vertices;          // triangles
+  std::vector<uint32_t> indices;         // empty: not indexed
+  std::vector<rtapi::RaytracingAabb> boxes;  // procedural, if not empty
+  rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kNone;
+  std::vector<float> transform;  // 12 floats, or empty
+};
+
+inline constexpr auto kOpaque = rtapi::RaytracingGeometryFlags::kOpaque;
+inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
+
+// A triangle that is hit at (0, 0, z) by a ray along +z; clockwise from -z, so a front face.
+GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
+GeometryInput box_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
+rtapi::RaytracingInstanceDesc instance_of(uint64_t bottom_level);
+// Along +z from (x, y, 0) with t in (0, 100).
+shader::TraceRayArguments ray_along_z(uint64_t top_level, float x = 0, float y = 0);
+
+class Harness {
+ public:
+  explicit Harness(uint32_t threads = 1);
+  ~Harness();
+
+  runtime::BackendDevice& device() { return *device_; }
+  runtime::AddressMap& addresses() { return addresses_; }
+
+  // Buffers live as long as the harness, or until free().
+  std::shared_ptr<runtime::BackendBuffer> buffer(uint64_t bytes);
+  void free(std::shared_ptr<runtime::BackendBuffer>& buffer);
+  template <typename T>
+  uint64_t upload(const std::vector<T>& values) {
+    auto block = buffer(values.empty() ? 1 : values.size() * sizeof(T));
+    std::memcpy(block->host(), values.data(), values.size() * sizeof(T));
+    return block->address();
+  }
+
+  rtapi::RaytracingGeometryDesc geometry(const GeometryInput& input);
+  runtime::BuildCommand bottom_level_command(
+      const std::vector<GeometryInput>& geometries,
+      rtapi::RaytracingAccelerationStructureBuildFlags flags =
+          rtapi::RaytracingAccelerationStructureBuildFlags::kNone);
+  runtime::BuildCommand top_level_command(
+      const std::vector<rtapi::RaytracingInstanceDesc>& instances);
+  // Return the address; 0 and a failed expectation if the build fails.
+  uint64_t bottom_level(const std::vector<GeometryInput>& geometries,
+                        rtapi::RaytracingAccelerationStructureBuildFlags flags =
+                            rtapi::RaytracingAccelerationStructureBuildFlags::kNone);
+  uint64_t top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);
+  // One instance of one bottom level of these geometries.
+  uint64_t scene(const std::vector<GeometryInput>& geometries, uint32_t instance_flags = 0);
+
+  // Tables of this pipeline for the next dispatches.
+  void set_pipeline(const PipelineBuilder& builder, rtapi::ShaderIdentifier ray_generation);
+  void set_hit_table(const std::vector<Record>& records, uint64_t stride_bytes = 64);
+  void set_miss_table(const std::vector<Record>& records, uint64_t stride_bytes = 64);
+  void set_callable_table(const std::vector<Record>& records, uint64_t stride_bytes = 64);
+  rtapi::DispatchRaysDesc& desc() { return desc_; }
+  void set_pipeline_stack_bytes(uint64_t bytes) { pipeline_stack_bytes_ = bytes; }
+
+  // Runs ray generation with `root` as the bytes of the root arguments.
+  rtapi::Status dispatch(uint32_t width, uint32_t height, uint32_t depth, const void* root,
+                         size_t root_bytes);
+
+  // The usual pipeline: `closest_hit`, `miss` and this any-hit shader; table of 64 equal hit groups
+  // whose constants are their indices, 8 miss records with 1000 + index.
+  void use_standard_pipeline(shader::AnyHitFn any_hit = nullptr,
+                             shader::IntersectionFn intersection = nullptr,
+                             uint32_t max_recursion_depth = 1);
+  // Traces the rays, one cell each, and returns their payloads.
+  std::vector<Payload> trace(const std::vector<shader::TraceRayArguments>& rays);
+  Payload trace(const shader::TraceRayArguments& ray) { return trace(std::vector{ray}).front(); }
+
+  rtapi::Status execute(runtime::Command command);
+
+  std::vector<rtapi::Message> messages;
+
+ private:
+  rtapi::GpuVirtualAddressRangeAndStride table(const std::vector<Record>& records,
+                                               uint64_t stride_bytes);
+  runtime::AddressMap addresses_;
+  runtime::Context context_;
+  std::unique_ptr<runtime::BackendDevice> device_;
+  std::vector<std::shared_ptr<runtime::BackendBuffer>> buffers_;
+  std::shared_ptr<runtime::BackendPipeline> pipeline_;
+  rtapi::DispatchRaysDesc desc_;
+  uint64_t pipeline_stack_bytes_ = 0;
+};
+
+// Ray generation of Harness::trace.
+void trace_job(shader::Invocation& invocation);
+
+}  // namespace kaamos::embree::testing
