@@ -20,7 +20,9 @@ using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
 
 constexpr uint64_t kHeaderBytes = 256;
 
-uint64_t round_up(uint64_t bytes) { return (bytes + 255) / 256 * 256; }
+uint64_t round_up(uint64_t bytes) {
+  return (bytes + 255) / 256 * 256;
+}
 
 // Embree's bytes for one triangle, measured on a million of them, and rounded up: SAH trees take
 // 67, Morton ones 94, dynamic ones 102; then 12 bytes for its indices.
@@ -29,7 +31,9 @@ uint64_t triangle_bytes(BuildFlags flags) {
   return HasAny(flags, BuildFlags::kMinimizeMemory) ? 72 : 96;
 }
 
-std::string at(uint64_t address) { return "at address " + std::to_string(address); }
+std::string at(uint64_t address) {
+  return "at address " + std::to_string(address);
+}
 
 rtapi::Error build_error(const char* id, const std::string& what) {
   return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
@@ -54,12 +58,11 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_instances(
   const bool pointers = command.instance_layout == rtapi::ElementsLayout::kArrayOfPointers;
   const uint64_t wanted = uint64_t{command.instance_count} * (pointers ? 8 : kBytes);
   if (!addresses.contains(command.instance_descs, wanted)) {
-    return build_error("KA0796", "instance descs outside their buffer: " +
-                                     std::to_string(command.instance_count) + " of them " +
-                                     at(command.instance_descs) + " need " +
-                                     std::to_string(wanted) + " bytes, there are " +
-                                     std::to_string(addresses.bytes_from(command.instance_descs)) +
-                                     ".");
+    return build_error(
+        "KA0796", "instance descs outside their buffer: " + std::to_string(command.instance_count) +
+                      " of them " + at(command.instance_descs) + " need " + std::to_string(wanted) +
+                      " bytes, there are " +
+                      std::to_string(addresses.bytes_from(command.instance_descs)) + ".");
   }
   if (!pointers) {
     std::memcpy(instances.data(), reinterpret_cast<const void*>(command.instance_descs), wanted);
@@ -99,13 +102,18 @@ rtapi::Status build_top_level(Device& device, const runtime::BuildCommand& comma
 rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     Device& device, const runtime::BuildCommand& command) {
   auto source = device.memory().find(command.source);
-  if (source == nullptr || (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
-    return build_error("KA0793", "update from a source that is no acceleration structure of this "
-                                 "type, " + at(command.source) + ".");
+  if (source == nullptr ||
+      (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
+    return build_error("KA0793",
+                       "update from a source that is no acceleration structure of this "
+                       "type, " +
+                           at(command.source) + ".");
   }
   if (!HasAny(source->flags, BuildFlags::kAllowUpdate)) {
-    return build_error("KA0793", "update of an acceleration structure that was built without "
-                                 "ALLOW_UPDATE, " + at(command.source) + ".");
+    return build_error("KA0793",
+                       "update of an acceleration structure that was built without "
+                       "ALLOW_UPDATE, " +
+                           at(command.source) + ".");
   }
   if (command.type == Type::kTopLevel && source->instance_count != command.instance_count) {
     return build_error("KA0793", "update of a top level changes NumDescs from " +
@@ -150,11 +158,14 @@ rtapi::Status write_info(Device& device, uint64_t address, InfoType type,
   uint64_t values[2] = {0, 0};
   bytes = type == InfoType::kSerialization ? 16 : 8;
   switch (type) {
-    case InfoType::kCompactedSize: values[0] = structure.compacted_bytes; break;
-    case InfoType::kCurrentSize: values[0] = structure.size_bytes; break;
+    case InfoType::kCompactedSize:
+      values[0] = structure.compacted_bytes;
+      break;
+    case InfoType::kCurrentSize:
+      values[0] = structure.size_bytes;
+      break;
     default:
-      device.warn("KA0799", "postbuild info type " +
-                                std::to_string(static_cast<uint32_t>(type)) +
+      device.warn("KA0799", "postbuild info type " + std::to_string(static_cast<uint32_t>(type)) +
                                 " is not supported on the Embree backend and gives 0.");
       break;
   }
@@ -204,10 +215,10 @@ rtapi::Status build(Device& device, const runtime::BuildCommand& command) {
   structure.flags = command.flags & ~BuildFlags::kPerformUpdate;
   // An update takes the memory of its source, compacted or not. [DXR: BUILD_FLAGS PERFORM_UPDATE]
   structure.size_bytes =
-      source != nullptr ? source->size_bytes
-                        : estimate_sizes(command.type, command.flags, command.geometries,
-                                         command.instance_count)
-                              .ResultDataMaxSizeInBytes;
+      source != nullptr
+          ? source->size_bytes
+          : estimate_sizes(command.type, command.flags, command.geometries, command.instance_count)
+                .ResultDataMaxSizeInBytes;
   if (auto s = check_destination(device, command.dest, structure.size_bytes); !s) return s;
 
   const int64_t before = device.embree_bytes();
@@ -233,8 +244,8 @@ rtapi::Status build(Device& device, const runtime::BuildCommand& command) {
 rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureCommand& command) {
   const auto source = device.memory().find(command.source);
   if (source == nullptr) {
-    return build_error("KA0796", "copy of what is no acceleration structure, " +
-                                     at(command.source) + ".");
+    return build_error("KA0796",
+                       "copy of what is no acceleration structure, " + at(command.source) + ".");
   }
   if (command.mode != CopyMode::kClone && command.mode != CopyMode::kCompact) {
     device.warn("KA0799", "acceleration structure copy mode " +
@@ -246,8 +257,10 @@ rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureComma
   result.address = command.dest;
   if (command.mode == CopyMode::kCompact) {
     if (!HasAny(source->flags, BuildFlags::kAllowCompaction)) {
-      return build_error("KA0796", "compaction of an acceleration structure that was built without "
-                                   "ALLOW_COMPACTION, " + at(command.source) + ".");
+      return build_error("KA0796",
+                         "compaction of an acceleration structure that was built without "
+                         "ALLOW_COMPACTION, " +
+                             at(command.source) + ".");
     }
     result.size_bytes = source->compacted_bytes;
   }
@@ -265,8 +278,8 @@ rtapi::Status emit_postbuild_info(
   for (const uint64_t source : sources) {
     const auto structure = device.memory().find(source);
     if (structure == nullptr) {
-      return build_error("KA0796", "postbuild info of what is no acceleration structure, " +
-                                       at(source) + ".");
+      return build_error(
+          "KA0796", "postbuild info of what is no acceleration structure, " + at(source) + ".");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(device, address, desc.InfoType, *structure, bytes); !s) return s;

@@ -20,12 +20,18 @@ using rtapi::RaytracingGeometryType;
 
 const char* text_of(RTCError error) {
   switch (error) {
-    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory";
-    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
-    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
-    case RTC_ERROR_UNSUPPORTED_CPU: return "unsupported CPU";
-    case RTC_ERROR_CANCELLED: return "cancelled";
-    default: return "unknown error";
+    case RTC_ERROR_OUT_OF_MEMORY:
+      return "out of memory";
+    case RTC_ERROR_INVALID_ARGUMENT:
+      return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION:
+      return "invalid operation";
+    case RTC_ERROR_UNSUPPORTED_CPU:
+      return "unsupported CPU";
+    case RTC_ERROR_CANCELLED:
+      return "cancelled";
+    default:
+      return "unknown error";
   }
 }
 
@@ -33,11 +39,11 @@ const char* text_of(RTCError error) {
 rtapi::Status embree_status(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return {};
-  return rtapi::Error{"KA0792",
-                      error == RTC_ERROR_OUT_OF_MEMORY ? rtapi::ErrorCode::kOutOfMemory
-                                                       : rtapi::ErrorCode::kFailed,
-                      std::string("KA0792 bottom level could not be built: Embree reports ") +
-                          text_of(error) + " (" + what + ")."};
+  return rtapi::Error{
+      "KA0792",
+      error == RTC_ERROR_OUT_OF_MEMORY ? rtapi::ErrorCode::kOutOfMemory : rtapi::ErrorCode::kFailed,
+      std::string("KA0792 bottom level could not be built: Embree reports ") + text_of(error) +
+          " (" + what + ")."};
 }
 
 RTCSceneFlags scene_flags(BuildFlags flags, bool robust) {
@@ -159,7 +165,8 @@ rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
                                           const BottomLevel* indices_of) {
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     const RaytracingGeometryDesc& desc = geometries[i];
-    if (primitive_count(desc) > rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
+    if (primitive_count(desc) >
+        rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
       return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
                           "KA0794 too many primitives: geometry " + std::to_string(i) + " has " +
                               std::to_string(primitive_count(desc)) +

@@ -57,8 +57,7 @@ class BottomLevel {
   // An updated copy; this one stays as it is. Indices are taken from the copy that was made when
   // this was built. [DXR: Acceleration structure update constraints]
   rtapi::Result<std::shared_ptr<BottomLevel>> updated_copy(
-      const BuildContext& context,
-      std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
+      const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
 
   RTCScene scene() const { return scene_; }
   bool procedural() const { return procedural_; }
@@ -92,7 +91,8 @@ class BottomLevel {
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
 };
 
-// Callbacks of the traversal, which a build gives to its geometries. [any_hit.cpp, intersection.cpp]
+// Callbacks of the traversal, which a build gives to its geometries. [any_hit.cpp,
+// intersection.cpp]
 void filter_triangle(const RTCFilterFunctionNArguments* arguments);        // of non-opaque ones
 void filter_every_triangle(const RTCFilterFunctionNArguments* arguments);  // of a query
 void intersect_procedural(const RTCIntersectFunctionNArguments* arguments);

@@ -68,20 +68,34 @@ struct VertexFormat {
 
 VertexFormat vertex_format(Format format) {
   switch (format) {
-    case Format::kR32G32Float: return {decode_float<2>, 8};
-    case Format::kR32G32B32Float: return {decode_float<3>, 12};
-    case Format::kR16G16Float: return {decode_half<2>, 4};
-    case Format::kR16G16B16A16Float: return {decode_half<3>, 6};
-    case Format::kR16G16Snorm: return {decode_norm<int16_t, 2>, 4};
-    case Format::kR16G16B16A16Snorm: return {decode_norm<int16_t, 3>, 6};
-    case Format::kR16G16Unorm: return {decode_norm<uint16_t, 2>, 4};
-    case Format::kR16G16B16A16Unorm: return {decode_norm<uint16_t, 3>, 6};
-    case Format::kR10G10B10A2Unorm: return {decode_unorm10, 4};
-    case Format::kR8G8Unorm: return {decode_norm<uint8_t, 2>, 2};
-    case Format::kR8G8B8A8Unorm: return {decode_norm<uint8_t, 3>, 3};
-    case Format::kR8G8Snorm: return {decode_norm<int8_t, 2>, 2};
-    case Format::kR8G8B8A8Snorm: return {decode_norm<int8_t, 3>, 3};
-    default: return {};
+    case Format::kR32G32Float:
+      return {decode_float<2>, 8};
+    case Format::kR32G32B32Float:
+      return {decode_float<3>, 12};
+    case Format::kR16G16Float:
+      return {decode_half<2>, 4};
+    case Format::kR16G16B16A16Float:
+      return {decode_half<3>, 6};
+    case Format::kR16G16Snorm:
+      return {decode_norm<int16_t, 2>, 4};
+    case Format::kR16G16B16A16Snorm:
+      return {decode_norm<int16_t, 3>, 6};
+    case Format::kR16G16Unorm:
+      return {decode_norm<uint16_t, 2>, 4};
+    case Format::kR16G16B16A16Unorm:
+      return {decode_norm<uint16_t, 3>, 6};
+    case Format::kR10G10B10A2Unorm:
+      return {decode_unorm10, 4};
+    case Format::kR8G8Unorm:
+      return {decode_norm<uint8_t, 2>, 2};
+    case Format::kR8G8B8A8Unorm:
+      return {decode_norm<uint8_t, 3>, 3};
+    case Format::kR8G8Snorm:
+      return {decode_norm<int8_t, 2>, 2};
+    case Format::kR8G8B8A8Snorm:
+      return {decode_norm<int8_t, 3>, 3};
+    default:
+      return {};
   }
 }
 
@@ -90,7 +104,9 @@ uint64_t vertex_stride(const RaytracingGeometryTrianglesDesc& desc) {
   return desc.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
 }
 
-uint32_t index_bytes(Format format) { return format == Format::kR16Uint ? 2 : 4; }
+uint32_t index_bytes(Format format) {
+  return format == Format::kR16Uint ? 2 : 4;
+}
 
 rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uint64_t bytes,
                       uint64_t available) {
@@ -106,8 +122,7 @@ rtapi::Status check_range(uint32_t geometry, const char* what, uint64_t address,
                           const runtime::AddressMap& addresses) {
   if (bytes == 0) return {};
   const uint64_t available = addresses.bytes_from(address);
-  return bytes <= available ? rtapi::Status{}
-                            : outside(geometry, what, address, bytes, available);
+  return bytes <= available ? rtapi::Status{} : outside(geometry, what, address, bytes, available);
 }
 
 // Bytes from the first element to the end of the last; saturated.
@@ -126,9 +141,8 @@ rtapi::Status check_triangles(const RaytracingGeometryTrianglesDesc& desc, uint3
     return rtapi::Error{
         "KA0791", rtapi::ErrorCode::kInvalidArgument,
         "KA0791 format not allowed in a build: geometry " + std::to_string(index) +
-            " has DXGI vertex format " +
-            std::to_string(static_cast<uint32_t>(desc.VertexFormat)) + " and index format " +
-            std::to_string(static_cast<uint32_t>(desc.IndexFormat)) +
+            " has DXGI vertex format " + std::to_string(static_cast<uint32_t>(desc.VertexFormat)) +
+            " and index format " + std::to_string(static_cast<uint32_t>(desc.IndexFormat)) +
             "; allowed are the vertex formats of D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC, and "
             "R16_UINT, R32_UINT or UNKNOWN for indices."};
   }
@@ -173,8 +187,8 @@ void decode_vertices(const RaytracingGeometryTrianglesDesc& desc, float* xyz) {
     format.decode(in, p);
     for (int row = 0; row < 3; ++row) {
       xyz[row] = m == nullptr ? p[row]
-                              : m[4 * row] * p[0] + m[4 * row + 1] * p[1] +
-                                    m[4 * row + 2] * p[2] + m[4 * row + 3];
+                              : m[4 * row] * p[0] + m[4 * row + 1] * p[1] + m[4 * row + 2] * p[2] +
+                                    m[4 * row + 3];
     }
   }
 }

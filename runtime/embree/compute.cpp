@@ -81,17 +81,16 @@ void run_thread(void* argument) {
 }
 
 context::fiber start_thread(FiberThread& thread, StackPool& pool) {
-  return context::fiber(std::allocator_arg, PooledStack{&pool},
-                        [&thread](context::fiber&& scheduler) {
-                          thread.scheduler = std::move(scheduler);
-                          Worker& worker = *thread.run->worker;
-                          if (!run_guarded_on_fiber(worker, run_thread, &thread) &&
-                              !thread.run->failed) {
-                            thread.run->failed = true;
-                            record_removal(worker);
-                          }
-                          return std::move(thread.scheduler);
-                        });
+  return context::fiber(
+      std::allocator_arg, PooledStack{&pool}, [&thread](context::fiber&& scheduler) {
+        thread.scheduler = std::move(scheduler);
+        Worker& worker = *thread.run->worker;
+        if (!run_guarded_on_fiber(worker, run_thread, &thread) && !thread.run->failed) {
+          thread.run->failed = true;
+          record_removal(worker);
+        }
+        return std::move(thread.scheduler);
+      });
 }
 
 // Runs in the guard of the group, whose fault would be ours, not the shader's.
@@ -141,8 +140,7 @@ void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
   Worker worker;
   worker.dispatch = job.dispatch;
   worker.running = &job.pipeline->shader();
-  for (uint64_t i = begin; i < end && !job.dispatch->removed.load(std::memory_order_relaxed);
-       ++i) {
+  for (uint64_t i = begin; i < end && !job.dispatch->removed.load(std::memory_order_relaxed); ++i) {
     GroupRun run;
     run.worker = &worker;
     run.pipeline = job.pipeline;
@@ -178,16 +176,14 @@ void group_barrier(shader::ComputeGroup& group) {
 }
 
 DispatchResult dispatch_compute(const DispatchEnvironment& environment,
-                                const runtime::DispatchCommand& command,
-                                const std::string& label) {
+                                const runtime::DispatchCommand& command, const std::string& label) {
   const auto& pipeline = static_cast<const ComputePipeline&>(*command.pipeline);
   DispatchState dispatch;
   begin_dispatch(command.state, dispatch);
   std::memcpy(dispatch.abi.dimensions, command.groups, sizeof(command.groups));
   dispatch.memory = environment.memory;
   dispatch.label = label.c_str();
-  const uint64_t count =
-      uint64_t{command.groups[0]} * command.groups[1] * command.groups[2];
+  const uint64_t count = uint64_t{command.groups[0]} * command.groups[1] * command.groups[2];
   const ComputeJob job = {&dispatch, &pipeline, command.groups};
   if (count != 0) {
     environment.arena->execute([&] {

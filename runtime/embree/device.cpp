@@ -8,7 +8,7 @@
 
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/state_object.h"
-#include "runtime/embree/texture.h"
+#include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
 namespace {
@@ -32,7 +32,9 @@ std::string embree_version() {
          std::to_string(RTC_VERSION_PATCH);
 }
 
-uint32_t hardware_threads() { return std::max(std::thread::hardware_concurrency(), 1u); }
+uint32_t hardware_threads() {
+  return std::max(std::thread::hardware_concurrency(), 1u);
+}
 
 rtapi::DeviceInfo device_info() {
   rtapi::DeviceInfo info;
@@ -44,7 +46,9 @@ rtapi::DeviceInfo device_info() {
   return info;
 }
 
-std::vector<rtapi::DeviceInfo> enumerate() { return {device_info()}; }
+std::vector<rtapi::DeviceInfo> enumerate() {
+  return {device_info()};
+}
 
 int arena_threads(uint32_t wanted) {
   return static_cast<int>(wanted == 0 ? hardware_threads() : std::min(wanted, 1024u));
@@ -133,13 +137,27 @@ rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_buffer(
 
 rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_texture(
     const rtapi::TextureDesc& desc) {
-  std::shared_ptr<Texture> texture = Texture::create(desc);
+  std::shared_ptr<Texture> texture = Texture::create(desc, views_);
   if (texture == nullptr) {
     return out_of_memory("texture \"" + desc.Name + "\"",
                          uint64_t{desc.Width} * desc.Height * desc.DepthOrArraySize *
                              rtapi::GetFormatInfo(desc.Format).bytes);
   }
   return std::shared_ptr<runtime::BackendTexture>(std::move(texture));
+}
+
+rtapi::Result<uint64_t> Device::create_texture_view(runtime::BackendTexture& texture,
+                                                    const runtime::TextureViewDesc& desc) {
+  return reinterpret_cast<uint64_t>(static_cast<Texture&>(texture).view(desc));
+}
+
+rtapi::Result<uint64_t> Device::create_sampler(const rtapi::SamplerDesc& desc) {
+  return reinterpret_cast<uint64_t>(views_->sampler(sampler_state_of(desc)));
+}
+
+bool Device::supports_format(rtapi::Format format, bool unordered_access) const {
+  const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
+  return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
 }
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_raytracing_pipeline(

@@ -15,6 +15,7 @@
 #include "runtime/backend.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
+#include "runtime/embree/texture.h"
 
 namespace kaamos::embree {
 
@@ -69,6 +70,7 @@ class Device final : public runtime::BackendDevice {
   tbb::task_arena arena_;
   RTCDevice embree_ = nullptr;
   std::atomic<int64_t> embree_bytes_ = 0;
+  std::shared_ptr<ViewPool> views_ = std::make_shared<ViewPool>();
   std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();
   mutable std::mutex statistics_mutex_;
   Counters counters_;

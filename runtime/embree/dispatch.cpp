@@ -116,7 +116,9 @@ FloatMode::FloatMode() : saved_(_mm_getcsr()) {
   _mm_setcsr(kAllMasked | kFlushToZero | kDenormalsAreZero);
 }
 
-FloatMode::~FloatMode() { _mm_setcsr(saved_); }
+FloatMode::~FloatMode() {
+  _mm_setcsr(saved_);
+}
 
 void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch) {
   shader::Dispatch& abi = dispatch.abi;
@@ -162,8 +164,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   dispatch.abi.dimensions[2] = desc.Depth;
   dispatch.hit_table = table_of(pipeline, desc.HitGroupTable, RecordKind::kHitGroup);
   dispatch.miss_table = table_of(pipeline, desc.MissShaderTable, RecordKind::kMiss);
-  dispatch.callable_table =
-      table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable);
+  dispatch.callable_table = table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable);
   dispatch.max_recursion_depth = pipeline.linked().max_recursion_depth;
   dispatch.pipeline_flags = static_cast<uint32_t>(pipeline.linked().flags);
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;

@@ -30,13 +30,11 @@ struct DispatchResult {
 
 // Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.
 DispatchResult dispatch_rays(const DispatchEnvironment& environment,
-                             const runtime::DispatchRaysCommand& command,
-                             const std::string& label);
+                             const runtime::DispatchRaysCommand& command, const std::string& label);
 
 // Every thread group once. [compute.cpp]
 DispatchResult dispatch_compute(const DispatchEnvironment& environment,
-                                const runtime::DispatchCommand& command,
-                                const std::string& label);
+                                const runtime::DispatchCommand& command, const std::string& label);
 
 // Common to both: fills in what shaders see of the list's state.
 void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch);

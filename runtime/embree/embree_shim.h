@@ -33,8 +33,7 @@ struct QueryContext {
 
 #if KAAMOS_EMBREE_MAJOR >= 4
 
-inline constexpr RTCSceneFlags kSceneFlagQueryFilter =
-    RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+inline constexpr RTCSceneFlags kSceneFlagQueryFilter = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 
 inline void init(QueryContext& query) {
   rtcInitRayQueryContext(&query.base);
@@ -55,8 +54,8 @@ inline void intersect(RTCScene scene, QueryContext& query, RTCRayHit* ray_hit) {
   arguments.context = &query.base;
   arguments.filter = query.all_hits_filter;
   if (query.all_hits_filter != nullptr) {
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags |
-                                                    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.flags =
+        static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
   }
   rtcIntersect1(scene, ray_hit, &arguments);
 }
@@ -67,8 +66,8 @@ inline void occluded(RTCScene scene, QueryContext& query, RTCRay* ray) {
   arguments.context = &query.base;
   arguments.filter = query.all_hits_filter;
   if (query.all_hits_filter != nullptr) {
-    arguments.flags = static_cast<RTCRayQueryFlags>(arguments.flags |
-                                                    RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+    arguments.flags =
+        static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
   }
   rtcOccluded1(scene, ray, &arguments);
 }
@@ -83,13 +82,17 @@ void set_hit(const Arguments* arguments, bool hit) {
 
 inline constexpr RTCSceneFlags kSceneFlagQueryFilter = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 
-inline void init(QueryContext& query) { rtcInitIntersectContext(&query.base); }
+inline void init(QueryContext& query) {
+  rtcInitIntersectContext(&query.base);
+}
 
 // A filter that sees the hits of all geometries, or null.
 inline void set_all_hits_filter(QueryContext& query, RTCFilterFunctionN filter) {
   query.base.filter = filter;
 }
-inline bool has_all_hits_filter(const QueryContext& query) { return query.base.filter != nullptr; }
+inline bool has_all_hits_filter(const QueryContext& query) {
+  return query.base.filter != nullptr;
+}
 
 inline void intersect(RTCScene scene, QueryContext& query, RTCRayHit* ray_hit) {
   rtcIntersect1(scene, &query.base, ray_hit);

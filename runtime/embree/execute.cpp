@@ -22,9 +22,7 @@ class Executor {
   rtapi::Status operator()(const runtime::DispatchCommand& command) {
     return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
   }
-  rtapi::Status operator()(const runtime::BuildCommand& command) {
-    return build(device_, command);
-  }
+  rtapi::Status operator()(const runtime::BuildCommand& command) { return build(device_, command); }
   rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
     return emit_postbuild_info(device_, command.desc, command.sources);
   }
@@ -62,11 +60,10 @@ class Executor {
 rtapi::Status Executor::finish(DispatchResult result) {
   device_.add_counters(result.counters);
   if (result.unknown_structure != 0) {
-    device_.warn("KA0894", "rays were traced against address " +
-                               std::to_string(result.unknown_structure) +
-                               ", where no top level stands, and missed (command " +
-                               std::to_string(index_) +
-                               "). Was it built, and not overwritten or freed since?");
+    device_.warn("KA0894",
+                 "rays were traced against address " + std::to_string(result.unknown_structure) +
+                     ", where no top level stands, and missed (command " + std::to_string(index_) +
+                     "). Was it built, and not overwritten or freed since?");
   }
   return std::move(result.status);
 }
@@ -117,14 +114,10 @@ rtapi::Status Executor::operator()(const runtime::CopyTextureCommand& command) {
 }
 
 rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
-  const shader::Descriptor& view = command.view;
-  if (view.kind != shader::DescriptorKind::kRawBuffer &&
-      view.kind != shader::DescriptorKind::kStructuredBuffer) {
-    return {};
+  if (command.view.kind != shader::DescriptorKind::kTexture) {
+    device_.memory().evict(command.view.address, command.view.size_bytes);
   }
-  device_.memory().evict(view.address, view.size_bytes);
-  auto* words = reinterpret_cast<uint32_t*>(view.address);
-  std::fill_n(words, view.size_bytes / 4, command.values[0]);
+  clear_view(command.view, command.is_float, command.values);
   return {};
 }
 

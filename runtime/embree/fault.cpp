@@ -122,11 +122,16 @@ uintptr_t find_stack_limit() {
 
 const char* name_of(int signal_number) {
   switch (signal_number) {
-    case SIGSEGV: return "access to memory that is not there (SIGSEGV)";
-    case SIGBUS: return "bus error (SIGBUS)";
-    case SIGFPE: return "integer division (SIGFPE)";
-    case SIGILL: return "illegal instruction (SIGILL)";
-    default: return "fault";
+    case SIGSEGV:
+      return "access to memory that is not there (SIGSEGV)";
+    case SIGBUS:
+      return "bus error (SIGBUS)";
+    case SIGFPE:
+      return "integer division (SIGFPE)";
+    case SIGILL:
+      return "illegal instruction (SIGILL)";
+    default:
+      return "fault";
   }
 }
 
@@ -150,7 +155,8 @@ std::string message_of(const Worker& worker) {
              " at address " + hexadecimal(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is not "
              "there";
-    default: return "KA0893 the shader asked for the device's removal";
+    default:
+      return "KA0893 the shader asked for the device's removal";
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Nothing that a shader does may end the process: a fault in its code (SIGSEGV, SIGBUS, SIGFPE,
-// SIGILL), a stack overflow, or a recursion too deep ends the tile that it ran in, and the device is
-// removed with a message that names the shader and the pixel.
+// SIGILL), a stack overflow, or a recursion too deep ends the tile that it ran in, and the device
+// is removed with a message that names the shader and the pixel.
 #pragma once
 
 #include <cstdint>

@@ -55,9 +55,9 @@ inline __m128 to_object_vector(const InstanceNode& node, __m128 v) {
   const __m128 y = _mm_shuffle_ps(v, v, _MM_SHUFFLE(1, 1, 1, 1));
   const __m128 z = _mm_shuffle_ps(v, v, _MM_SHUFFLE(2, 2, 2, 2));
   const auto& columns = node.world_to_object_columns;
-  return _mm_add_ps(_mm_add_ps(_mm_mul_ps(_mm_load_ps(columns[0]), x),
-                               _mm_mul_ps(_mm_load_ps(columns[1]), y)),
-                    _mm_mul_ps(_mm_load_ps(columns[2]), z));
+  return _mm_add_ps(
+      _mm_add_ps(_mm_mul_ps(_mm_load_ps(columns[0]), x), _mm_mul_ps(_mm_load_ps(columns[1]), y)),
+      _mm_mul_ps(_mm_load_ps(columns[2]), z));
 }
 
 inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128 direction) {

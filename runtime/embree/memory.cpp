@@ -20,7 +20,9 @@ struct Header {
 };
 constexpr uint64_t kMagic = 0x53414B414D4F5341;
 
-uint64_t rounded(uint64_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
+uint64_t rounded(uint64_t bytes) {
+  return (bytes + kAlignment - 1) / kAlignment * kAlignment;
+}
 
 }  // namespace
 
@@ -58,8 +60,8 @@ void Memory::place(AccelerationStructure structure) {
   const Header header = {kMagic, next_id_++};
   std::memcpy(reinterpret_cast<void*>(address), &header, sizeof(header));
   if (structure.bottom_level) ++owners_[structure.bottom_level.get()];
-  structures_[address] = {
-      header.id, std::make_shared<const AccelerationStructure>(std::move(structure))};
+  structures_[address] = {header.id,
+                          std::make_shared<const AccelerationStructure>(std::move(structure))};
 }
 
 void Memory::evict(uint64_t address, uint64_t size_bytes) {

@@ -2,8 +2,8 @@
 //
 // Memory of buffers, and which acceleration structures stand where in it. A GPU virtual address is
 // the host address. A structure is the bytes of an address range: a small header in them says that
-// it is still there, so that writing over them ends it, as does a later build or copy to any part of
-// the range, or the end of the buffer. [DXR: Data rules]
+// it is still there, so that writing over them ends it, as does a later build or copy to any part
+// of the range, or the end of the buffer. [DXR: Data rules]
 #pragma once
 
 #include <cstdint>

@@ -4,8 +4,9 @@
 // query context, which is its first member.
 #pragma once
 
+#include <bit>
+#include <cfloat>
 #include <cstdint>
-#include <cstring>
 
 #include "kaamos/shader/abi.h"
 #include "runtime/embree/fault.h"
@@ -48,9 +49,9 @@ struct RayState {
   OpacityOverride opacity;  // by the ray's flags
   bool ended;               // the search is over: Embree's ray holds kEndedSearch
 
-  float t_min;       // of the DXR interval, 0 or more
+  float t_min;  // of the DXR interval, 0 or more
   float t_max;
-  float t_near;      // of the open interval of triangles, as Embree's closed one
+  float t_near;  // of the open interval of triangles, as Embree's closed one
   float t_far;
   // Of the last hit that a filter or ReportHit committed; opaque triangles are committed by Embree
   // alone. A triangle at the same t is outside the open interval. [DXR: Ray extents]
@@ -60,7 +61,9 @@ struct RayState {
   alignas(16) uint8_t procedural_attributes[kMaxAttributeBytes];
 };
 
-inline RayState& ray_state_of(void* context) { return *reinterpret_cast<RayState*>(context); }
+inline RayState& ray_state_of(void* context) {
+  return *reinterpret_cast<RayState*>(context);
+}
 
 // An invocation of a hit, miss or intersection shader.
 struct RayInvocation : shader::Invocation {
@@ -78,10 +81,10 @@ inline bool is_opaque(const RayState& state, bool geometry_opaque) {
 
 inline ShaderRecord hit_record(const RayState& state, const InstanceNode& instance,
                                uint32_t geometry_index) {
-  return state.worker->dispatch->hit_table.at(hit_record_index(
-      state.arguments->ray_contribution_to_hit_group_index,
-      state.arguments->multiplier_for_geometry_contribution, geometry_index,
-      instance.contribution));
+  return state.worker->dispatch->hit_table.at(
+      hit_record_index(state.arguments->ray_contribution_to_hit_group_index,
+                       state.arguments->multiplier_for_geometry_contribution, geometry_index,
+                       instance.contribution));
 }
 
 // Front faces are clockwise as seen from the ray's origin, in object space and whatever the
@@ -100,6 +103,15 @@ inline uint32_t triangle_hit_kind(const InstanceNode& instance, const float norm
 inline void clamp_barycentrics(float& u, float& v) {
   u = u > 0 ? (u < 1 ? u : 1.0f) : 0.0f;
   v = v > 0 ? (v < 1 - u ? v : 1 - u) : 0.0f;
+}
+
+// The open interval of triangles as Embree's closed one. Denormals are flushed to zero, so that the
+// smallest t above 0 is FLT_MIN. [DXR: Ray extents]
+inline float next_above(float t) {
+  return t < FLT_MIN ? FLT_MIN : std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1);
+}
+inline float next_below(float t) {
+  return t <= FLT_MIN ? 0.0f : std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1);
 }
 
 // Everything of an invocation but what is a hit's.
@@ -122,8 +134,7 @@ inline void begin_invocation(const RayState& state, const Shader& shader,
 }
 
 inline void set_hit_values(const RayState& state, const InstanceNode& instance, uint32_t geometry,
-                           uint32_t primitive, uint32_t hit_kind,
-                           shader::RaySystemValues& values) {
+                           uint32_t primitive, uint32_t hit_kind, shader::RaySystemValues& values) {
   const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
   const InstanceDetail& detail = state.top_level->detail(index);
   values.hit_kind = hit_kind;

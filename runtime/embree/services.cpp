@@ -5,6 +5,7 @@
 #include "runtime/embree/fault.h"
 #include "runtime/embree/intersection.h"
 #include "runtime/embree/trace.h"
+#include "runtime/shader/texture/texture_sampling.h"
 
 namespace kaamos::embree {
 namespace {
@@ -20,6 +21,7 @@ shader::Services make_services() {
   table.call_shader = call_shader;
   table.group_barrier = group_barrier;
   table.remove_device = remove;
+  shader::set_texture_services(table);
   return table;
 }
 

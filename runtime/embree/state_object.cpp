@@ -8,10 +8,14 @@ namespace {
 
 RecordKind kind_of(runtime::RecordKind kind) {
   switch (kind) {
-    case runtime::RecordKind::kRayGeneration: return RecordKind::kRayGeneration;
-    case runtime::RecordKind::kMiss: return RecordKind::kMiss;
-    case runtime::RecordKind::kCallable: return RecordKind::kCallable;
-    case runtime::RecordKind::kHitGroup: return RecordKind::kHitGroup;
+    case runtime::RecordKind::kRayGeneration:
+      return RecordKind::kRayGeneration;
+    case runtime::RecordKind::kMiss:
+      return RecordKind::kMiss;
+    case runtime::RecordKind::kCallable:
+      return RecordKind::kCallable;
+    case runtime::RecordKind::kHitGroup:
+      return RecordKind::kHitGroup;
   }
   return RecordKind::kNone;
 }

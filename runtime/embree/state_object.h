@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Ray tracing and compute pipelines as they run here: linked exports flattened to what a call needs.
+// Ray tracing and compute pipelines as they run here: linked exports flattened to what a call
+// needs.
 #pragma once
 
 #include <deque>

@@ -2,31 +2,93 @@
 #include "runtime/embree/texture.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "runtime/embree/memory.h"
+#include "runtime/shader/texture/format_codec.h"
+#include "runtime/shader/texture/texel_access.h"
 
 namespace kaamos::embree {
+namespace {
 
-Texture::Texture(const rtapi::TextureDesc& desc)
-    : desc_(desc), texel_bytes_(rtapi::GetFormatInfo(desc.Format).bytes) {
-  const bool volume = desc.Dimension == rtapi::ResourceDimension::kTexture3D;
-  array_size_ = volume ? 1 : desc.DepthOrArraySize;
+constexpr size_t kKeptAfterEnd = 4096;  // views, of some 650 bytes
+
+// Bits of a UINT clear in a normalized format: each channel takes the low bits of its value.
+shader::Texel raw_channels(const shader::FormatCodec& codec, rtapi::FormatInfo info,
+                           const uint32_t values[4]) {
+  shader::Texel texel = {};
+  for (int i = 0; i < 4; ++i) {
+    uint8_t element[16] = {};
+    const uint32_t bytes = info.channel_bits / 8;
+    if (i * bytes < sizeof(element)) std::memcpy(element + i * bytes, &values[i], bytes);
+    if (codec.decode != nullptr) texel.bits[i] = codec.decode(element).bits[i];
+  }
+  return texel;
+}
+
+void clear_texture(const shader::Descriptor& descriptor, const shader::TextureView& view,
+                   const shader::Texel& value) {
+  for (uint32_t mip = 0; mip < view.mip_count; ++mip) {
+    const shader::TextureMip& m = view.mips[mip];
+    const uint32_t slices =
+        view.dimension == shader::TextureDimension::k3D ? m.depth : view.slice_count;
+    for (uint32_t z = 0; z < slices; ++z) {
+      for (uint32_t y = 0; y < m.height; ++y) {
+        for (uint32_t x = 0; x < m.width; ++x) {
+          const int32_t coordinates[4] = {static_cast<int32_t>(x), static_cast<int32_t>(y),
+                                          static_cast<int32_t>(z), static_cast<int32_t>(mip)};
+          shader::store_texel(descriptor, coordinates, value);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+shader::TextureView* ViewPool::create() {
+  const std::lock_guard lock(mutex_);
+  if (ended_.size() <= kKeptAfterEnd) return &views_.emplace_back();
+  shader::TextureView* view = ended_.front();
+  ended_.pop_front();
+  return view;
+}
+
+void ViewPool::end(shader::TextureView* view) {
+  const std::lock_guard lock(mutex_);
+  *view = {};
+  ended_.push_back(view);
+}
+
+const shader::SamplerState* ViewPool::sampler(const shader::SamplerState& state) {
+  const std::lock_guard lock(mutex_);
+  for (const shader::SamplerState& known : samplers_) {
+    if (std::memcmp(&known, &state, sizeof(state)) == 0) return &known;
+  }
+  return &samplers_.emplace_back(state);
+}
+
+Texture::Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool)
+    : desc_(desc), pool_(std::move(pool)), texel_bytes_(rtapi::GetFormatInfo(desc.Format).bytes) {
+  array_size_ = is_volume() ? 1 : desc.DepthOrArraySize;
   for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
     mip_offsets_.push_back(element_bytes_);
     const uint64_t width = std::max(desc.Width >> mip, 1u);
     const uint64_t height = std::max(desc.Height >> mip, 1u);
-    const uint64_t depth = volume ? std::max(desc.DepthOrArraySize >> mip, 1) : 1;
+    const uint64_t depth = is_volume() ? std::max(desc.DepthOrArraySize >> mip, 1) : 1;
     element_bytes_ += (width * height * depth * texel_bytes_ + 15) / 16 * 16;
   }
 }
 
-std::shared_ptr<Texture> Texture::create(const rtapi::TextureDesc& desc) {
-  std::shared_ptr<Texture> texture(new Texture(desc));
+std::shared_ptr<Texture> Texture::create(const rtapi::TextureDesc& desc,
+                                         std::shared_ptr<ViewPool> pool) {
+  std::shared_ptr<Texture> texture(new Texture(desc, std::move(pool)));
   texture->memory_ = Memory::allocate(texture->element_bytes_ * texture->array_size_);
   return texture->memory_ != nullptr ? texture : nullptr;
 }
 
 Texture::~Texture() {
+  for (const auto& [desc, view] : views_) pool_->end(view);
   if (memory_ != nullptr) Memory::release(memory_, element_bytes_ * array_size_);
 }
 
@@ -35,11 +97,86 @@ Texture::Subresource Texture::subresource(uint32_t mip, uint32_t array_element) 
   result.texels = memory_ + array_element * element_bytes_ + mip_offsets_[mip];
   result.extent[0] = std::max(desc_.Width >> mip, 1u);
   result.extent[1] = std::max(desc_.Height >> mip, 1u);
-  const bool volume = desc_.Dimension == rtapi::ResourceDimension::kTexture3D;
-  result.extent[2] = volume ? std::max<uint32_t>(desc_.DepthOrArraySize >> mip, 1u) : 1;
+  result.extent[2] = is_volume() ? std::max<uint32_t>(desc_.DepthOrArraySize >> mip, 1u) : 1;
   result.row_pitch = uint64_t{result.extent[0]} * texel_bytes_;
   result.slice_pitch = result.row_pitch * result.extent[1];
   return result;
+}
+
+const shader::TextureView* Texture::view(const runtime::TextureViewDesc& desc) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [known, view] : views_) {
+    if (known == desc) return view;
+  }
+  shader::TextureView* view = pool_->create();
+  fill(desc, *view);
+  views_.emplace_back(desc, view);
+  return view;
+}
+
+void Texture::fill(const runtime::TextureViewDesc& desc, shader::TextureView& view) const {
+  view = {};
+  view.format = static_cast<uint32_t>(desc.format);
+  view.dimension = static_cast<shader::TextureDimension>(desc.dimension);
+  view.unordered_access = desc.unordered_access;
+  std::memcpy(view.swizzle, desc.swizzle, sizeof(view.swizzle));
+  view.min_lod = desc.min_lod;
+  view.slice_count = is_volume() ? 1 : desc.slice_count;
+  const uint32_t mips = std::min(
+      {desc.mip_count, uint32_t{desc_.MipLevels} - desc.first_mip, shader::kMaxTextureMips});
+  for (uint32_t mip = 0; mip < mips; ++mip) {
+    const Subresource s = subresource(desc.first_mip + mip, is_volume() ? 0 : desc.first_slice);
+    shader::TextureMip& m = view.mips[mip];
+    m.texels = s.texels;
+    m.width = s.extent[0];
+    m.height = s.extent[1];
+    m.depth = s.extent[2];
+    m.row_pitch = static_cast<uint32_t>(s.row_pitch);
+    m.slice_pitch = is_volume() ? s.slice_pitch : element_bytes_;
+    if (is_volume() && desc.unordered_access) {
+      m.texels += desc.first_slice * s.slice_pitch;
+      m.depth = std::min(desc.slice_count, m.depth - std::min(desc.first_slice, m.depth));
+    }
+  }
+  view.mip_count = mips;
+}
+
+shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc) {
+  shader::SamplerState state;
+  state.filter = static_cast<uint32_t>(desc.Filter);
+  state.address[0] = static_cast<uint32_t>(desc.AddressU);
+  state.address[1] = static_cast<uint32_t>(desc.AddressV);
+  state.address[2] = static_cast<uint32_t>(desc.AddressW);
+  state.mip_lod_bias = desc.MipLODBias;
+  state.max_anisotropy = desc.MaxAnisotropy;
+  state.comparison = static_cast<uint32_t>(desc.ComparisonFunc);
+  std::copy(std::begin(desc.BorderColor), std::end(desc.BorderColor), state.border_color);
+  state.min_lod = desc.MinLOD;
+  state.max_lod = desc.MaxLOD;
+  return state;
+}
+
+void clear_view(const shader::Descriptor& descriptor, bool is_float, const uint32_t values[4]) {
+  if (descriptor.kind == shader::DescriptorKind::kRawBuffer ||
+      descriptor.kind == shader::DescriptorKind::kStructuredBuffer) {
+    std::fill_n(reinterpret_cast<uint32_t*>(descriptor.address), descriptor.size_bytes / 4,
+                values[0]);
+    return;
+  }
+  const shader::TextureView* view = shader::texture_view(descriptor);
+  const uint32_t format = view != nullptr ? view->format : descriptor.format;
+  const shader::FormatCodec& codec = shader::format_codec(format);
+  const auto info = rtapi::GetFormatInfo(static_cast<rtapi::Format>(format));
+  shader::Texel value = {{values[0], values[1], values[2], values[3]}};
+  if (!is_float && codec.normalized && info.channel_bits != 0) {
+    value = raw_channels(codec, info, values);
+  }
+  if (view != nullptr) return clear_texture(descriptor, *view, value);
+  if (descriptor.kind != shader::DescriptorKind::kTypedBuffer || codec.bytes == 0) return;
+  const uint64_t elements = descriptor.size_bytes / codec.bytes;
+  for (uint64_t i = 0; i < elements; ++i) {
+    shader::store_typed(descriptor, static_cast<uint32_t>(i), value);
+  }
 }
 
 }  // namespace kaamos::embree

@@ -1,20 +1,41 @@
 // SPDX-License-Identifier: MIT
 //
-// Textures in host memory, and the views that descriptors name.
+// Textures in host memory, and the view and sampler objects that descriptors name.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "runtime/backend.h"
+#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::embree {
+
+// Memory of view objects. A view that ended reads as null for as long as possible: its memory is
+// used again only after many others have ended.
+class ViewPool {
+ public:
+  shader::TextureView* create();
+  void end(shader::TextureView* view);
+  // Lives as long as the pool; equal states are one.
+  const shader::SamplerState* sampler(const shader::SamplerState& state);
+
+ private:
+  std::mutex mutex_;
+  std::deque<shader::TextureView> views_;
+  std::deque<shader::TextureView*> ended_;
+  std::deque<shader::SamplerState> samplers_;
+};
 
 class Texture final : public runtime::BackendTexture {
  public:
   // Null without memory.
-  static std::shared_ptr<Texture> create(const rtapi::TextureDesc& desc);
+  static std::shared_ptr<Texture> create(const rtapi::TextureDesc& desc,
+                                         std::shared_ptr<ViewPool> pool);
   ~Texture() override;
 
   struct Subresource {
@@ -28,20 +49,29 @@ class Texture final : public runtime::BackendTexture {
     }
   };
 
-  const rtapi::TextureDesc& desc() const { return desc_; }
   uint32_t texel_bytes() const { return texel_bytes_; }
   Subresource subresource(uint32_t mip, uint32_t array_element) const;
-  uint32_t array_size() const { return array_size_; }
+  // What Descriptor::address says; equal descs share one.
+  const shader::TextureView* view(const runtime::TextureViewDesc& desc);
 
  private:
-  explicit Texture(const rtapi::TextureDesc& desc);
+  Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool);
+  bool is_volume() const { return desc_.Dimension == rtapi::ResourceDimension::kTexture3D; }
+  void fill(const runtime::TextureViewDesc& desc, shader::TextureView& view) const;
 
   rtapi::TextureDesc desc_;
+  std::shared_ptr<ViewPool> pool_;
   uint32_t texel_bytes_ = 0;
   uint32_t array_size_ = 1;
   uint64_t element_bytes_ = 0;  // one array element with all its mips
   uint8_t* memory_ = nullptr;
   std::vector<uint64_t> mip_offsets_;
+  std::mutex mutex_;
+  std::vector<std::pair<runtime::TextureViewDesc, shader::TextureView*>> views_;
 };
+
+shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc);
+// Writes `values` to every element of a view. [D3D12: ClearUnorderedAccessViewUint, -Float]
+void clear_view(const shader::Descriptor& view, bool is_float, const uint32_t values[4]);
 
 }  // namespace kaamos::embree

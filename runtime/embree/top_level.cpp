@@ -110,8 +110,9 @@ void TopLevel::add_instance(const rtapi::RaytracingInstanceDesc& desc, FindBotto
     notes.push_back("instance " + std::to_string(index) + ": " + what);
   };
   if (level == nullptr) {
-    return note("no bottom level stands at its address; it is inactive. Was it built, and not "
-                "overwritten or freed since?");
+    return note(
+        "no bottom level stands at its address; it is inactive. Was it built, and not "
+        "overwritten or freed since?");
   }
   if (level->empty()) return;
   if (!invert_transform(node.object_to_world, detail.world_to_object)) {

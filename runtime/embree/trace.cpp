@@ -3,7 +3,6 @@
 // TraceRay: guard, traverse, then run the closest-hit or the miss shader.
 #include "runtime/embree/trace.h"
 
-#include <bit>
 #include <cfloat>
 #include <limits>
 
@@ -43,15 +42,6 @@ struct ClassTable {
 };
 constexpr ClassTable kClassTable;
 
-// The open interval of triangles as a closed one. Denormals are flushed to zero, so that the
-// smallest t above 0 is FLT_MIN. [DXR: Ray extents]
-float next_above(float t) {
-  return t < FLT_MIN ? FLT_MIN : std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1);
-}
-float next_below(float t) {
-  return t <= FLT_MIN ? 0.0f : std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1);
-}
-
 // What Embree may be given: all else, NaN included, is a miss. [embree-notes 2.3]
 bool is_valid(const shader::RayDesc& ray) {
   const ObjectRay spatial = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
@@ -70,8 +60,7 @@ const TopLevel* find_top_level(Worker& worker, uint64_t address) {
 }
 
 void begin_query(RayState& state, const TraceRayArguments& arguments, const TopLevel* top_level) {
-  const uint32_t flags =
-      arguments.ray_flags | state.worker->dispatch->pipeline_flags;
+  const uint32_t flags = arguments.ray_flags | state.worker->dispatch->pipeline_flags;
   shim::init(state.query);
   state.top_level = top_level;
   state.instance = nullptr;
@@ -130,8 +119,8 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
   if (!instance.procedural) {
-    const ObjectRay object = to_object_space(instance, _mm_load_ps(&ray_hit.ray.org_x),
-                                             _mm_load_ps(&ray_hit.ray.dir_x));
+    const ObjectRay object =
+        to_object_space(instance, _mm_load_ps(&ray_hit.ray.org_x), _mm_load_ps(&ray_hit.ray.dir_x));
     alignas(16) float direction[4];
     _mm_store_ps(direction, object.direction);
     hit_kind = triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);

@@ -20,19 +20,18 @@ void select_filter(RayState& state, const InstanceNode& node) {
   shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
 }
 
-// In a top level with procedural instances Embree gets the closed interval, which triangles must
-// not see [DXR: Ray extents].
-template <typename Committed>
-void select_interval(const RayState& state, const InstanceNode& node, Committed committed,
-                     RTCRay& ray) {
-  if (!state.top_level->has_procedurals()) return;
-  ray.tnear = node.procedural ? state.t_min : state.t_near;
-  if (!committed()) ray.tfar = node.procedural ? state.t_max : state.t_far;
+// In a top level with procedural instances Embree's ray has the closed interval. Triangles must see
+// the open one, which also ends just before a hit that is already there [DXR: Ray extents].
+void enter_interval(const RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
+  if (node.procedural) return;
+  ray.tnear = state.t_near;
+  ray.tfar = committed ? next_below(ray.tfar) : state.t_far;
 }
 
 // Calls trace with the ray in object space; puts the world-space ray back afterwards.
-template <typename Committed, typename Trace>
-void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed committed,
+// `committed` says whether there was a hit before, `hit_here` whether this instance was hit.
+template <typename HitHere, typename Trace>
+void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
                     Trace trace) {
   if (state.ended) return;
   const InstanceNode& node = state.top_level->nodes()[index];
@@ -45,6 +44,8 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed comm
   const ObjectRay object = to_object_space(node, world_origin, world_direction);
   if (!is_traceable(object)) return;
   const float t_near = ray.tnear;
+  const float t_far = ray.tfar;
+  const bool mixed = state.top_level->has_procedurals();
   _mm_store_ps(&ray.org_x, object.origin);
   _mm_store_ps(&ray.dir_x, object.direction);
   ray.tnear = t_near;
@@ -52,7 +53,7 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed comm
   state.instance = &node;
   shim::set_instance(state.query, index);
   select_filter(state, node);
-  select_interval(state, node, committed, ray);
+  if (mixed) enter_interval(state, node, committed, ray);
 
   trace(node.scene);
 
@@ -60,7 +61,7 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed comm
   _mm_store_ps(&ray.dir_x, world_direction);
   ray.mask = kAllClasses;
   shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
-  if (state.top_level->has_procedurals() && !committed()) ray.tfar = state.t_max;
+  if (mixed && !hit_here()) ray.tfar = t_far;
 }
 
 }  // namespace
@@ -68,20 +69,22 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, Committed comm
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
   RayState& state = ray_state_of(arguments->context);
   auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  const float t_before = ray_hit->ray.tfar;
-  const auto committed = [&] { return ray_hit->hit.geomID != RTC_INVALID_GEOMETRY_ID; };
-  visit_instance(state, arguments->primID, ray_hit->ray, committed,
+  RTCHit& hit = ray_hit->hit;
+  const uint32_t index = arguments->primID;
+  // Each instance is visited once, so that its index is new in the hit.
+  const auto hit_here = [&] { return hit.instID[0] == index; };
+  visit_instance(state, index, ray_hit->ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
                  [&](RTCScene scene) { shim::intersect(scene, state.query, ray_hit); });
-  shim::set_hit(arguments, ray_hit->ray.tfar != t_before);
+  shim::set_hit(arguments, hit_here());
 }
 
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
   RayState& state = ray_state_of(arguments->context);
   auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
-  const auto committed = [&] { return ray->tfar < 0; };
-  visit_instance(state, arguments->primID, *ray, committed,
+  const auto hit_here = [&] { return ray->tfar < 0; };
+  visit_instance(state, arguments->primID, *ray, false, hit_here,
                  [&](RTCScene scene) { shim::occluded(scene, state.query, ray); });
-  shim::set_hit(arguments, committed());
+  shim::set_hit(arguments, hit_here());
 }
 
 }  // namespace kaamos::embree

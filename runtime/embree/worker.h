@@ -5,8 +5,8 @@
 // backend pointer.
 #pragma once
 
-#include <csetjmp>
 #include <atomic>
+#include <csetjmp>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -64,7 +64,7 @@ struct DispatchState {
 
   std::atomic<bool> removed = false;
   std::atomic<uint64_t> unknown_structure = 0;  // an address that a ray was traced against
-  std::mutex mutex;  // guards the members below
+  std::mutex mutex;                             // guards the members below
   Removal removal;
   Counters counters;
 };

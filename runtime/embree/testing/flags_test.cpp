@@ -34,8 +34,8 @@ TEST(Flg12, OpacityIsGeometryThenInstanceThenRay) {
         const Payload payload = trace_flags(h, scene, ray);
         EXPECT_EQ(payload.end, End::kClosestHit);
         EXPECT_EQ(payload.any_hits, opaque ? 0u : 1u)
-            << "geometry " << static_cast<uint32_t>(geometry) << " instance " << instance
-            << " ray " << ray;
+            << "geometry " << static_cast<uint32_t>(geometry) << " instance " << instance << " ray "
+            << ray;
       }
     }
   }
@@ -126,7 +126,8 @@ TEST(Flg24, FacingCullsComeBeforeAnyHitAndSpareBoxes) {
     EXPECT_EQ(payload.end, End::kMiss);
     EXPECT_EQ(payload.any_hits, 0u);
     EXPECT_EQ(trace_flags(h, front, kRayCullBackFacingTriangles).end, End::kClosestHit);
-    const uint64_t back = h.scene({triangle_at(3, opacity)}, kInstanceTriangleFrontCounterclockwise);
+    const uint64_t back =
+        h.scene({triangle_at(3, opacity)}, kInstanceTriangleFrontCounterclockwise);
     EXPECT_EQ(trace_flags(h, back, kRayCullBackFacingTriangles).end, End::kMiss);
     EXPECT_EQ(trace_flags(h, back, kRayCullFrontFacingTriangles).end, End::kClosestHit);
     const uint64_t box = h.scene({box_at(3, opacity)});
@@ -157,8 +158,8 @@ TEST(Flg26, SkipFlagsDropAWholeClass) {
   Harness h;
   h.use_standard_pipeline(nullptr, report_all);
   report_log() = {{{5.5f, 1, {}}}, {}, {}, 0, {}};
-  const uint64_t scene = h.top_level({instance_of(h.bottom_level({triangle_at(3)})),
-                                      instance_of(h.bottom_level({box_at(5)}))});
+  const uint64_t scene = h.top_level(
+      {instance_of(h.bottom_level({triangle_at(3)})), instance_of(h.bottom_level({box_at(5)}))});
   EXPECT_EQ(trace_flags(h, scene, 0).values.t_current, 3.0f);
   EXPECT_EQ(trace_flags(h, scene, kRaySkipTriangles).values.t_current, 5.5f);
   report_log().calls = 0;
@@ -186,7 +187,8 @@ TEST(Flg30And31, TheMaskIsAnAndOfEightBits) {
   for (uint32_t mask : {0u, 1u, 2u, 0x40u, 0x80u, 0xA5u, 0xFFu}) {
     instance.InstanceMask = mask;
     const uint64_t scene = h.top_level({instance});
-    for (const uint32_t inclusion : {0u, 1u, 2u, 4u, 8u, 0x40u, 0x80u, 0xFFu, 0x100u, 0xFFFFFF00u}) {
+    for (const uint32_t inclusion :
+         {0u, 1u, 2u, 4u, 8u, 0x40u, 0x80u, 0xFFu, 0x100u, 0xFFFFFF00u}) {
       auto ray = ray_along_z(scene);
       ray.instance_inclusion_mask = inclusion;
       EXPECT_EQ(h.trace(ray).end, (mask & inclusion & 0xFF) != 0 ? End::kClosestHit : End::kMiss)
@@ -220,9 +222,8 @@ TEST(Flg33, AnIgnoredHitDoesNotEndTheSearch) {
   const Payload payload = trace_flags(h, scene, kRayAcceptFirstHitAndEndSearch);
   EXPECT_EQ(payload.end, End::kClosestHit);
   EXPECT_EQ(payload.values.t_current, 5.0f);
-  const Payload nothing = trace_flags(
-      h, h.scene({triangle_at(3, kNonOpaque)}),
-      kRayAcceptFirstHitAndEndSearch | kRaySkipClosestHitShader);
+  const Payload nothing = trace_flags(h, h.scene({triangle_at(3, kNonOpaque)}),
+                                      kRayAcceptFirstHitAndEndSearch | kRaySkipClosestHitShader);
   EXPECT_EQ(nothing.end, End::kMiss);
   EXPECT_EQ(nothing.any_hits, 1u);
 }

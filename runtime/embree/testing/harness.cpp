@@ -226,7 +226,10 @@ std::shared_ptr<runtime::BackendBuffer> Harness::buffer(uint64_t bytes) {
     ADD_FAILURE() << created.error().message;
     return nullptr;
   }
-  addresses_.insert({(*created)->address(), bytes});
+  runtime::Allocation allocation;
+  allocation.address = (*created)->address();
+  allocation.size_bytes = bytes;
+  addresses_.insert(std::move(allocation));
   buffers_.push_back(*created);
   return *created;
 }
@@ -301,8 +304,7 @@ uint64_t Harness::scene(const std::vector<GeometryInput>& geometries, uint32_t i
   return top_level({instance});
 }
 
-void Harness::set_pipeline(const PipelineBuilder& builder,
-                           rtapi::ShaderIdentifier ray_generation) {
+void Harness::set_pipeline(const PipelineBuilder& builder, rtapi::ShaderIdentifier ray_generation) {
   auto created = device_->create_raytracing_pipeline(builder.linked());
   ASSERT_TRUE(created.ok());
   pipeline_ = *created;

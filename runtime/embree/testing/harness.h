@@ -23,14 +23,14 @@ enum class End : uint32_t { kNothing = 0, kClosestHit = 1, kMiss = 2 };
 
 struct Payload {
   End end = End::kNothing;
-  uint32_t calls = 0;            // of closest-hit and miss shaders
-  uint32_t record = kSentinel;   // the record's root constant, of the last of them
+  uint32_t calls = 0;           // of closest-hit and miss shaders
+  uint32_t record = kSentinel;  // the record's root constant, of the last of them
   shader::RaySystemValues values;
   float object_to_world[12] = {};
   float world_to_object[12] = {};
   uint32_t attributes[8] = {};
   uint32_t depth = 0;
-  uint32_t any_hits = 0;         // any-hit calls
+  uint32_t any_hits = 0;  // any-hit calls
   uint32_t any_hit_record = kSentinel;
   uint32_t any_hit_kind = 0;
   float any_hit_t = 0;
@@ -65,7 +65,6 @@ void report_all(shader::Invocation& invocation);
 
 // -------------------------------------------------------------------------------------------------
 // Pipelines and tables
-
 
 // Builds a linked pipeline by hand.
 class PipelineBuilder {
@@ -103,8 +102,8 @@ struct Vertex {
 };
 
 struct GeometryInput {
-  std::vector<Vertex> vertices;          // triangles
-  std::vector<uint32_t> indices;         // empty: not indexed
+  std::vector<Vertex> vertices;              // triangles
+  std::vector<uint32_t> indices;             // empty: not indexed
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural, if not empty
   rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kNone;
   std::vector<float> transform;  // 12 floats, or empty

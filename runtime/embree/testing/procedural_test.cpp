@@ -167,9 +167,8 @@ TEST(Sv05, RayTCurrentByStage) {
   Harness h;
   h.use_standard_pipeline(any_hit_accept, report_all);
   // Intersection: the closest hit so far, a triangle's; any-hit: the candidate's.
-  const uint64_t scene =
-      h.top_level({instance_of(h.bottom_level({triangle_at(2)})),
-                   instance_of(h.bottom_level({box_at(1, kNonOpaque)}))});
+  const uint64_t scene = h.top_level({instance_of(h.bottom_level({triangle_at(2)})),
+                                      instance_of(h.bottom_level({box_at(1, kNonOpaque)}))});
   set_reports({{50, 1, {}}});
   auto ray = ray_along_z(scene);
   EXPECT_EQ(h.trace(ray).values.t_current, 2.0f);

@@ -17,8 +17,8 @@ GeometryInput shifted_triangle(float x, rtapi::RaytracingGeometryFlags flags = k
 
 // Four geometries side by side at x = 0, 10, 20, 30, in an instance of this contribution.
 uint64_t row_of_geometries(Harness& h, uint32_t contribution, uint32_t flags = 0) {
-  auto instance = instance_of(h.bottom_level({shifted_triangle(0), shifted_triangle(10),
-                                              shifted_triangle(20), shifted_triangle(30)}));
+  auto instance = instance_of(h.bottom_level(
+      {shifted_triangle(0), shifted_triangle(10), shifted_triangle(20), shifted_triangle(30)}));
   instance.InstanceContributionToHitGroupIndex = contribution;
   instance.Flags = flags;
   return h.top_level({instance});
