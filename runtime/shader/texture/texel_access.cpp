@@ -56,7 +56,9 @@ void* texel_address(const Descriptor& texture, const int32_t coordinates[4]) {
   const TextureView* view = texture_view(texture);
   if (view == nullptr || !view->unordered_access) return nullptr;
   const FormatCodec& codec = format_codec(view->format);
-  return is_r32(codec) ? addressed(*view, codec.bytes, coordinates) : nullptr;
+  if (!is_r32(codec)) return nullptr;
+  uint8_t* texel = addressed(*view, codec.bytes, coordinates);
+  return reinterpret_cast<uintptr_t>(texel) % 4 == 0 ? texel : nullptr;
 }
 
 Texel load_typed(const Descriptor& buffer, uint32_t element) {
