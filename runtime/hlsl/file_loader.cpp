@@ -70,6 +70,10 @@ std::optional<LoadedFile> DiskFileLoader::load(const std::string& path, std::str
   }
   // A folder is no file: the next folder of the search may hold one of that name.
   if (fs::is_directory(found, failure)) return std::nullopt;
+  if (!fs::is_regular_file(found, failure)) {
+    if (error) *error = "it is a device or a pipe, not a file";
+    return std::nullopt;
+  }
   uintmax_t size = fs::file_size(found, failure);
   if (!failure && size > kMaxBytes) {
     if (error) {
@@ -80,8 +84,9 @@ std::optional<LoadedFile> DiskFileLoader::load(const std::string& path, std::str
   }
   std::ifstream stream(found, std::ios::binary);
   LoadedFile file;
-  if (stream) file.text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream || stream.bad()) {
+  if (!failure) file.text.resize(size);
+  stream.read(file.text.data(), static_cast<std::streamsize>(file.text.size()));
+  if (failure || !stream) {
     if (error) *error = "the file cannot be read; are its permissions right?";
     return std::nullopt;
   }

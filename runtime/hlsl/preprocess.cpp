@@ -2,6 +2,8 @@
 // The main loop: files in, tokens of the language out.
 #include "preprocess.h"
 
+#include <utility>
+
 #include "preprocessor.h"
 
 namespace kaamos::hlsl {
@@ -98,6 +100,7 @@ TokenList Preprocessor::run(SourceText* main) {
       if (token.is(TokenKind::kEndOfFile)) break;
     }
   }
+  finish_string();
   bool has_end = !output_.tokens.empty() && output_.tokens.back().is(TokenKind::kEndOfFile);
   if (!has_end) output_.tokens.emplace_back();
   return std::move(output_);
@@ -111,6 +114,8 @@ void Preprocessor::read_definitions(SourceText* text) {
 
 // Preprocessing token to token [C++: translation phase 7].
 void Preprocessor::emit(Token token) {
+  if (token.is(TokenKind::kStringLiteral)) return emit_string(token);
+  finish_string();
   switch (token.kind) {
     case TokenKind::kIdentifier:
       token.kind = identifiers_[token.value].keyword;
@@ -122,8 +127,6 @@ void Preprocessor::emit(Token token) {
       output_.numbers.push_back(number);
       break;
     }
-    case TokenKind::kStringLiteral:
-      return emit_string(token);
     case TokenKind::kCharacter:
       diagnostics_.report(DiagnosticId::kCharacterNotSupported, token.location, {token.text});
       token.kind = TokenKind::kIntLiteral;
@@ -146,15 +149,17 @@ void Preprocessor::emit(Token token) {
   output_.tokens.push_back(token);
 }
 
-void Preprocessor::emit_string(Token token) {
-  std::string value = parse_quoted(token.text, token.location, diagnostics_);
-  if (!output_.tokens.empty() && output_.tokens.back().is(TokenKind::kStringLiteral)) {
-    Token& previous = output_.tokens.back();
-    previous.text = sources_.keep(std::string(previous.text) + value);
-    return;
-  }
-  token.text = sources_.keep(std::move(value));
-  output_.tokens.push_back(token);
+// Adjacent strings become one, which gets its text when another token follows.
+void Preprocessor::emit_string(const Token& token) {
+  if (!is_joining_) output_.tokens.push_back(token);
+  is_joining_ = true;
+  joined_ += parse_quoted(token.text, token.location, diagnostics_);
+}
+
+void Preprocessor::finish_string() {
+  if (!is_joining_) return;
+  output_.tokens.back().text = sources_.keep(std::exchange(joined_, {}));
+  is_joining_ = false;
 }
 
 void Preprocessor::fatal() {

@@ -18,6 +18,103 @@ bool equal_bodies(const Macro& a, const Macro& b) {
          std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(), equal);
 }
 
+// Takes the tokens of a body apart; stops at the first error.
+class BodyReader {
+ public:
+  BodyReader(Macro& macro, const std::vector<Token>& tokens, uint32_t va_args, uint32_t va_opt,
+             DiagnosticEngine& diagnostics)
+      : macro_(macro),
+        tokens_(tokens),
+        va_args_(va_args),
+        va_opt_(va_opt),
+        diagnostics_(diagnostics) {}
+
+  bool read() {
+    while (next_ < tokens_.size() && is_valid_) read_item();
+    if (is_valid_ && begin_ != kNone) {
+      fail(DiagnosticId::kVaOptMalformed, macro_.body[begin_].token, {});
+    }
+    return is_valid_;
+  }
+
+ private:
+  static constexpr size_t kNone = SIZE_MAX;
+
+  void fail(DiagnosticId id, const Token& token,
+            std::initializer_list<std::string_view> arguments) {
+    diagnostics_.report(id, token.location, arguments);
+    is_valid_ = false;
+  }
+
+  // The number of parameters where it is none of them.
+  size_t parameter_of(const Token& token) const {
+    if (!token.is(TokenKind::kIdentifier)) return macro_.parameters.size();
+    auto found = std::find(macro_.parameters.begin(), macro_.parameters.end(), token.value);
+    return static_cast<size_t>(found - macro_.parameters.begin());
+  }
+
+  void read_item() {
+    const Token& token = tokens_[next_++];
+    MacroItem item;
+    item.token = token;
+    size_t parameter = parameter_of(token);
+    bool is_name = token.is(TokenKind::kIdentifier);
+    if (is_name && token.value == va_opt_ && macro_.is_variadic) {
+      read_va_opt(item);
+    } else if (parameter < macro_.parameters.size()) {
+      item.role = MacroItem::kParameter;
+      item.parameter = static_cast<uint32_t>(parameter);
+    } else if (is_name && (token.value == va_args_ || token.value == va_opt_)) {
+      fail(DiagnosticId::kVaArgsOutsideVariadic, token, {token.text});
+    } else if (token.is(TokenKind::kHash) && macro_.is_function_like) {
+      read_stringize(item);
+    } else if (token.is(TokenKind::kHashHash)) {
+      item.role = MacroItem::kPaste;
+    } else if (begin_ != kNone && token.is(TokenKind::kLeftParen)) {
+      ++parens_;
+    } else if (begin_ != kNone && token.is(TokenKind::kRightParen) && parens_-- == 0) {
+      item.role = MacroItem::kVaOptEnd;
+      macro_.body[begin_].end = static_cast<uint32_t>(macro_.body.size());
+      begin_ = kNone;
+    }
+    macro_.body.push_back(item);
+  }
+
+  void read_va_opt(MacroItem& item) {
+    if (begin_ != kNone) return fail(DiagnosticId::kVaOptNested, item.token, {});
+    if (next_ == tokens_.size() || !tokens_[next_].is(TokenKind::kLeftParen)) {
+      return fail(DiagnosticId::kVaOptMalformed, item.token, {});
+    }
+    item.role = MacroItem::kVaOptBegin;
+    begin_ = macro_.body.size();
+    parens_ = 0;
+    ++next_;
+  }
+
+  void read_stringize(MacroItem& item) {
+    Token operand;
+    operand.kind = TokenKind::kEndOfDirective;
+    if (next_ < tokens_.size()) operand = tokens_[next_++];
+    size_t parameter = parameter_of(operand);
+    if (parameter == macro_.parameters.size()) {
+      return fail(DiagnosticId::kStringizeNeedsParameter, item.token,
+                  {macro_.name, describe(operand)});
+    }
+    item.role = MacroItem::kStringize;
+    item.parameter = static_cast<uint32_t>(parameter);
+  }
+
+  Macro& macro_;
+  const std::vector<Token>& tokens_;
+  const uint32_t va_args_;
+  const uint32_t va_opt_;
+  DiagnosticEngine& diagnostics_;
+  size_t next_ = 0;
+  size_t begin_ = kNone;  // Index of the open __VA_OPT__ in the body.
+  uint32_t parens_ = 0;   // Open within it.
+  bool is_valid_ = true;
+};
+
 }  // namespace
 
 Macro* Preprocessor::make_builtin(std::string_view name, BuiltinMacro builtin) {
@@ -106,67 +203,8 @@ bool Preprocessor::read_body(Macro& macro) {
     tokens.push_back(token);
   }
   if (!tokens.empty()) tokens[0].flags &= static_cast<uint8_t>(~Token::kSpaceBefore);
-  return classify_body(macro, tokens) && check_pastes(macro);
-}
-
-bool Preprocessor::classify_body(Macro& macro, const Tokens& tokens) {
-  auto parameter_of = [&](const Token& token) {
-    if (!token.is(TokenKind::kIdentifier)) return macro.parameters.size();
-    auto found = std::find(macro.parameters.begin(), macro.parameters.end(), token.value);
-    return static_cast<size_t>(found - macro.parameters.begin());
-  };
-  auto fail = [&](DiagnosticId id, const Token& token,
-                  std::initializer_list<std::string_view> arguments) {
-    diagnostics_.report(id, token.location, arguments);
-    return false;
-  };
-  constexpr size_t kNone = SIZE_MAX;
-  size_t va_opt = kNone;  // Index of the open __VA_OPT__ in the body.
-  uint32_t parens = 0;    // Open within it.
-  for (size_t i = 0; i < tokens.size(); ++i) {
-    const Token& token = tokens[i];
-    MacroItem item;
-    item.token = token;
-    size_t parameter = parameter_of(token);
-    bool is_name = token.is(TokenKind::kIdentifier);
-    if (is_name && token.value == va_opt_ && macro.is_variadic) {
-      if (va_opt != kNone) return fail(DiagnosticId::kVaOptNested, token, {});
-      if (i + 1 == tokens.size() || !tokens[i + 1].is(TokenKind::kLeftParen)) {
-        return fail(DiagnosticId::kVaOptMalformed, token, {});
-      }
-      item.role = MacroItem::kVaOptBegin;
-      va_opt = macro.body.size();
-      parens = 0;
-      ++i;
-    } else if (is_name && parameter == macro.parameters.size() &&
-               (token.value == va_args_ || token.value == va_opt_)) {
-      return fail(DiagnosticId::kVaArgsOutsideVariadic, token, {token.text});
-    } else if (parameter < macro.parameters.size()) {
-      item.role = MacroItem::kParameter;
-      item.parameter = static_cast<uint32_t>(parameter);
-    } else if (token.is(TokenKind::kHash) && macro.is_function_like) {
-      Token operand = i + 1 < tokens.size() ? tokens[i + 1] : Token{};
-      if (i + 1 == tokens.size()) operand.kind = TokenKind::kEndOfDirective;
-      size_t target = parameter_of(operand);
-      if (target == macro.parameters.size()) {
-        return fail(DiagnosticId::kStringizeNeedsParameter, token, {macro.name, describe(operand)});
-      }
-      item.role = MacroItem::kStringize;
-      item.parameter = static_cast<uint32_t>(target);
-      ++i;
-    } else if (token.is(TokenKind::kHashHash)) {
-      item.role = MacroItem::kPaste;
-    } else if (va_opt != kNone && token.is(TokenKind::kLeftParen)) {
-      ++parens;
-    } else if (va_opt != kNone && token.is(TokenKind::kRightParen) && parens-- == 0) {
-      item.role = MacroItem::kVaOptEnd;
-      macro.body[va_opt].end = static_cast<uint32_t>(macro.body.size());
-      va_opt = kNone;
-    }
-    macro.body.push_back(item);
-  }
-  if (va_opt != kNone) return fail(DiagnosticId::kVaOptMalformed, macro.body[va_opt].token, {});
-  return true;
+  BodyReader reader(macro, tokens, va_args_, va_opt_, diagnostics_);
+  return reader.read() && check_pastes(macro);
 }
 
 // `##` needs an operand on both sides, also within __VA_OPT__.

@@ -23,12 +23,10 @@ void Preprocessor::run_directive(const Token& hash, const Token& name) {
   std::string_view text = name.text;
   if (name.is(TokenKind::kEndOfDirective)) return finish_directive();
   if (name.is(TokenKind::kNumber)) return directive_line("line", name);
-  if (!collecting_.empty() && (text == "include" || text == "define" || text == "undef")) {
-    if (text == "include") {
-      diagnostics_.report(DiagnosticId::kIncludeInArguments, name.location,
-                          {text, collecting_.back()});
-      return finish_directive();
-    }
+  if (text == "include" && !collecting_.empty()) {
+    diagnostics_.report(DiagnosticId::kIncludeInArguments, name.location,
+                        {text, collecting_.back()});
+    return finish_directive();
   }
   if (text == "define") return directive_define();
   if (text == "include") return directive_include(name);
@@ -106,7 +104,8 @@ void Preprocessor::directive_line(std::string_view name, std::optional<Token> nu
   }
   Token path = next_expanded();
   std::optional<std::string> shown;
-  if (path.is(TokenKind::kStringLiteral)) {
+  bool is_empty = path.text == "\"\"";
+  if (path.is(TokenKind::kStringLiteral) && !is_empty) {
     shown = parse_quoted(path.text, path.location, diagnostics_);
   } else if (!path.is(TokenKind::kEndOfDirective)) {
     diagnostics_.report(DiagnosticId::kLineNameExpected, path.location, {describe(path)});

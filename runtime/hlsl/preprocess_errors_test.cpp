@@ -77,6 +77,7 @@ const Case kCases[] = {
     {"LineZero", "#line 0", "main.hlsl:1:7 KA2042"},
     {"LineTooLarge", "#line 2147483648", "main.hlsl:1:7 KA2042"},
     {"LineName", "#line 3 foo", "main.hlsl:1:9 KA2043"},
+    {"LineNameEmpty", "#line 3 \"\"\nx", "main.hlsl:1:9 KA2043", "x"},
     {"UnknownPragma", "#pragma unicorn(1)\nx", "main.hlsl:1:9 KA2044", "x"},
     {"PackMatrix", "#pragma pack_matrix(diagonal)\nx", "main.hlsl:1:21 KA2045", "x"},
     {"PackMatrixNoParen", "#pragma pack_matrix row_major", "main.hlsl:1:21 KA2045"},

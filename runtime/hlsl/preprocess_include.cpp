@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // #include and __has_include: reading the name, finding the file.
+#include <algorithm>
+
 #include "file_loader.h"
 #include "preprocessor.h"
 
@@ -26,7 +28,12 @@ std::string joined(std::string folder, std::string_view name) {
 // "name", <name> or a macro that gives one of them; reads it and leaves the rest of the line.
 std::optional<Preprocessor::IncludeName> Preprocessor::read_include_name(const Token& directive) {
   Token token;
-  if (lexer().read_angled_name(token)) return IncludeName{std::string(token.text), true};
+  // Only the file itself has `<name>` as it was written; out of a macro it comes in pieces.
+  bool is_from_file = std::all_of(frames_.begin(), frames_.end(), [](const Frame& frame) {
+    return frame.next == frame.tokens.size();
+  });
+  if (is_from_file && lexer().read_angled_name(token))
+    return IncludeName{std::string(token.text), true};
   Tokens tokens;
   for (;;) {
     token = next_expanded();

@@ -264,6 +264,10 @@ TEST(Include, HasInclude) {
                    "!__has_include(<q.h>)\nyes\n#endif",
                    {{"q.h", ""}}),
             "yes");
+  EXPECT_EQ(expand("#define H(x) __has_include(x) || __has_include(\"q.h\")\n#if H(<z.h>)\nyes\n"
+                   "#endif",
+                   {{"q.h", ""}}),
+            "yes");
 }
 
 TEST(Include, TokensDoNotRunTogether) {

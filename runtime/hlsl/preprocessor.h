@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The preprocessor's inner state; users include preprocess.h. Directives are in
-// preprocess_directive.cpp, #include in preprocess_include.cpp, #if in preprocess_condition.cpp,
-// #define in preprocess_define.cpp, expansion in preprocess_macro.cpp and
-// preprocess_substitute.cpp.
+// The preprocessor's inner state; users include preprocess.h. What is where:
+// preprocess.cpp files in, tokens out; _directive directives, _conditional #if and the groups left
+// out, _condition its expression, _include #include, _define #define, _macro calls and their
+// arguments, _substitute bodies with arguments put in.
 #pragma once
 
 #include <deque>
@@ -100,7 +100,8 @@ class Preprocessor {
   std::vector<SourceText*> define_options() const;
   void read_definitions(SourceText* text);
   void emit(Token token);
-  void emit_string(Token token);
+  void emit_string(const Token& token);
+  void finish_string();
   Token read_file_token();
   bool enter_file(SourceText* text, SourceLocation included_from, std::string folder);
   void leave_file();
@@ -142,7 +143,6 @@ class Preprocessor {
   void directive_define();
   bool read_parameters(Macro& macro);
   bool read_body(Macro& macro);
-  bool classify_body(Macro& macro, const Tokens& tokens);
   bool check_pastes(const Macro& macro);
   void set_macro(uint32_t identifier, std::unique_ptr<Macro> macro);
   Macro* make_builtin(std::string_view name, BuiltinMacro builtin);
@@ -178,6 +178,8 @@ class Preprocessor {
   std::unordered_set<const SourceText*> once_;  // #pragma once was seen.
   std::optional<Token> pending_;                // #pragma pack_matrix, to be handed out next.
   TokenList output_;
+  std::string joined_;  // Of the adjacent strings at the end of the output.
+  bool is_joining_ = false;
   std::vector<std::string_view> collecting_;  // Names of macros whose arguments are being read.
   bool is_isolated_ = false;  // An argument is expanded by itself: nothing follows the frames.
   bool is_fatal_ = false;

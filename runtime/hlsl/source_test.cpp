@@ -69,6 +69,13 @@ TEST_F(DiskTest, TooLargeFileIsAnError) {
   EXPECT_EQ(error, "the file has 67108865 bytes; at most 67108864 are allowed");
 }
 
+TEST(Disk, DeviceIsAnError) {
+  DiskFileLoader loader;
+  std::string error;
+  EXPECT_FALSE(loader.load("/dev/zero", &error));
+  EXPECT_EQ(error, "it is a device or a pipe, not a file");
+}
+
 TEST_F(DiskTest, PreprocessesFromDisk) {
   write("main.hlsl", "#include \"Inc\\A.hlsli\"\n#include \"inc/a.hlsli\"\n#include <b.hlsli>\n");
   write("inc/a.hlsli", "#pragma once\na\n");
