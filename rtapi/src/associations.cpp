@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// Second stage: which config and root signature belongs to which export.
+// [DXR: Subobject association behavior]
+#include <algorithm>
+
+#include "rtapi/src/state_object_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+bool Names(const ExplicitAssociation& association, const Subject& subject) {
+  return std::any_of(association.exports.begin(), association.exports.end(),
+                     [&](const std::string& name) { return subject.answers_to(name); });
+}
+
+// The explicit association of a category with a subject, from one level: the state object itself, or
+// any library in it. Several are fine if they agree.
+Result<DefinitionPtr> FindExplicit(const Parts& parts, const Subject& subject, Category category,
+                                   bool in_state_object) {
+  const ExplicitAssociation* first = nullptr;
+  for (const ExplicitAssociation& a : parts.explicit_associations) {
+    if (a.definition->category != category || (a.library_scope < 0) != in_state_object) continue;
+    if (!Names(a, subject)) continue;
+    if (first && !SameDefinition(*first->definition, *a.definition)) {
+      return MakeError(Id::kAssociationConflict, Quoted(subject.name), " is associated with two ",
+                       CategoryName(category), "s: ", first->definition->where, " (by ",
+                       first->where, ") and ", a.definition->where, " (by ", a.where, ")");
+    }
+    if (!first) first = &a;
+  }
+  return first ? first->definition : nullptr;
+}
+
+// The default of a scope, or null. An association with an empty list beats subobjects that are in
+// no association; where several different ones are left, none counts.
+DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
+  for (const auto* candidates : {&scope.by_empty, &scope.implicit}) {
+    DefinitionPtr found;
+    bool ambiguous = false;
+    for (const DefinitionPtr& d : *candidates) {
+      if (d->category != category) continue;
+      if (found && !SameDefinition(*found, *d)) ambiguous = true;
+      found = d;
+    }
+    if (ambiguous) return nullptr;
+    if (found) return found;
+  }
+  return nullptr;
+}
+
+Result<Associated> Resolve(const Parts& parts, const Subject& subject, Category category) {
+  const auto own = FindExplicit(parts, subject, category, true);
+  if (!own.ok()) return own.error();
+  const Associated& given = subject.associations[static_cast<size_t>(category)];
+  if (given.definition) {  // by its collection: final
+    if (*own && !SameDefinition(**own, *given.definition)) {
+      return MakeError(Id::kAssociationConflict, Quoted(subject.name), " got its ",
+                       CategoryName(category), " (", given.definition->where,
+                       ") in its collection, which ", (*own)->where,
+                       " cannot replace; associate it when the collection is made");
+    }
+    return given;
+  }
+  if (*own) return Associated{*own, Strength::kExplicit};
+  if (auto d = FindDefault(parts.own_scope, category)) return Associated{d, Strength::kDefault};
+  const auto in_libraries = FindExplicit(parts, subject, category, false);
+  if (!in_libraries.ok()) return in_libraries.error();
+  if (*in_libraries) return Associated{*in_libraries, Strength::kExplicit};
+  if (subject.library_scope >= 0) {
+    const auto& scope = parts.library_scopes[static_cast<size_t>(subject.library_scope)];
+    if (auto d = FindDefault(scope, category)) return Associated{d, Strength::kDefault};
+  }
+  return Associated{};
+}
+
+// Every name in an explicit association of a pipeline exists. Libraries may speak of their own
+// functions that an export list left out.
+Status CheckNamesExist(const Parts& parts) {
+  for (const ExplicitAssociation& a : parts.explicit_associations) {
+    for (const std::string& name : a.exports) {
+      const bool known =
+          std::any_of(parts.subjects.begin(), parts.subjects.end(),
+                      [&](const SubjectPtr& s) { return s->answers_to(name); });
+      if (known) continue;
+      if (a.library_scope >= 0) {
+        const auto& library = parts.libraries[static_cast<size_t>(a.library_scope)];
+        const auto& exports = library.GetExports();
+        if (std::any_of(exports.begin(), exports.end(), [&](const ShaderExportInfo& e) {
+              return e.Name == name || e.MangledName == name;
+            })) {
+          continue;
+        }
+      }
+      return MakeError(Id::kAssociationUnknownExport, a.where, " associates ",
+                       CategoryName(a.definition->category), " with ", Quoted(name),
+                       ", which is no export of this state object");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status AssociateAll(Parts& parts) {
+  if (!parts.is_collection()) {
+    if (Status s = CheckNamesExist(parts); !s.ok()) return s;
+  }
+  for (const SubjectPtr& subject : parts.subjects) {
+    for (size_t c = 0; c < kCategories; ++c) {
+      auto associated = Resolve(parts, *subject, static_cast<Category>(c));
+      if (!associated.ok()) return associated.error();
+      subject->associations[c] = *associated;
+    }
+  }
+  return {};
+}
+
+}  // namespace rtapi::detail

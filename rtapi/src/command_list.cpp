@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+//
+// State and dispatches of command lists. Acceleration structures and copies have files of their own.
+#include <rtapi/command_list.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "rtapi/src/command_list_impl.h"
+#include "rtapi/src/pipeline_state_impl.h"
+#include "rtapi/src/root_signature_impl.h"
+#include "rtapi/src/state_object_impl.h"
+
+namespace rtapi {
+
+namespace detail {
+
+bool CommandListImpl::CheckOpen(const char* call) {
+  if (open) return true;
+  Fail(MakeError(Id::kListNotOpen, call, " on a closed command list; call Reset first"));
+  return false;
+}
+
+runtime::RootArguments& CommandListImpl::WritableArguments() {
+  if (arguments.use_count() > 1) arguments = std::make_shared<runtime::RootArguments>(*arguments);
+  return *arguments;
+}
+
+runtime::DispatchState CommandListImpl::Snapshot() {
+  runtime::DispatchState state;
+  state.root_arguments = arguments;
+  if (view_heap) state.view_heap = view_heap.impl()->memory;
+  if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
+  return state;
+}
+
+namespace {
+
+// The parameter, if it exists and is of the type that the call sets.
+const RootParameter* FindParameter(CommandListImpl& list, const char* call, uint32_t index,
+                                   RootParameterType type) {
+  if (!list.CheckOpen(call)) return nullptr;
+  if (!list.root_signature) {
+    list.Fail(MakeError(Id::kRootSignatureNotSet, call, ": call SetComputeRootSignature first"));
+    return nullptr;
+  }
+  const auto& parameters = list.root_signature.GetDesc().Parameters;
+  if (index >= parameters.size()) {
+    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
+                        "; the root signature has ", parameters.size()));
+    return nullptr;
+  }
+  if (parameters[index].ParameterType != type) {
+    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " has type ",
+                        static_cast<uint32_t>(parameters[index].ParameterType),
+                        ", this call sets type ", static_cast<uint32_t>(type)));
+    return nullptr;
+  }
+  return &parameters[index];
+}
+
+void WriteArgument(CommandListImpl& list, uint32_t parameter, uint32_t extra_bytes,
+                   const void* value, size_t bytes) {
+  const size_t offset = list.root_signature.GetArgumentOffset(parameter) + extra_bytes;
+  if (offset + bytes > runtime::kRootArgumentBytes) return;  // 64 DWORDs always fit
+  std::memcpy(list.WritableArguments().bytes.data() + offset, value, bytes);
+}
+
+void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootParameterType type,
+                 GpuVirtualAddress address) {
+  if (!list || !FindParameter(*list, call, index, type)) return;
+  const uint32_t alignment = type == RootParameterType::kCbv ? 256 : 4;
+  // 0 is a null descriptor: an acceleration structure that every ray misses.
+  if (address % alignment != 0 || (address != 0 && !list->device->addresses.find(address))) {
+    list->Fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
+                         list->device->DescribeAddress(address),
+                         "; it must lie in a live buffer, at a multiple of ", alignment));
+    return;
+  }
+  WriteArgument(*list, index, 0, &address, sizeof address);
+}
+
+bool SameGlobal(const RootSignature& a, const RootSignature& b) { return SameDefinition(a, b); }
+
+Status CheckTable(const DeviceImpl& device, const GpuVirtualAddressRangeAndStride& table,
+                  const char* name) {
+  if (table.StartAddress % kRaytracingShaderTableByteAlignment != 0) {
+    return MakeError(Id::kShaderTableLayout, name, " starts at ",
+                     device.DescribeAddress(table.StartAddress), "; it must be a multiple of 64");
+  }
+  if (table.StrideInBytes % kRaytracingShaderRecordByteAlignment != 0 ||
+      table.StrideInBytes > kRaytracingMaxShaderRecordStride) {
+    return MakeError(Id::kShaderTableLayout, name, " has a stride of ", table.StrideInBytes,
+                     " bytes; allowed are multiples of 32 up to 4096");
+  }
+  if (table.StartAddress != 0 && table.SizeInBytes != 0 &&
+      !device.addresses.contains(table.StartAddress, table.SizeInBytes)) {
+    return MakeError(Id::kShaderTableMemory, name, ": ", table.SizeInBytes, " bytes at ",
+                     device.DescribeAddress(table.StartAddress), " do not lie in one live buffer");
+  }
+  return {};
+}
+
+Status CheckDispatchRays(const DeviceImpl& device, const DispatchRaysDesc& desc) {
+  const auto& raygen = desc.RayGenerationShaderRecord;
+  if (raygen.StartAddress == 0 || raygen.SizeInBytes < kShaderIdentifierSizeInBytes) {
+    return MakeError(Id::kShaderTableLayout, "RayGenerationShaderRecord has ", raygen.SizeInBytes,
+                     " bytes at ", device.DescribeAddress(raygen.StartAddress),
+                     "; a record has at least 32 bytes");
+  }
+  const std::pair<const char*, GpuVirtualAddressRangeAndStride> tables[] = {
+      {"RayGenerationShaderRecord", {raygen.StartAddress, raygen.SizeInBytes, 0}},
+      {"MissShaderTable", desc.MissShaderTable},
+      {"HitGroupTable", desc.HitGroupTable},
+      {"CallableShaderTable", desc.CallableShaderTable}};
+  for (const auto& [name, table] : tables) {
+    if (Status s = CheckTable(device, table, name); !s.ok()) return s;
+  }
+  // 2^30 threads in all; the first two factors cannot overflow 64 bits.
+  const uint64_t plane = uint64_t{desc.Width} * desc.Height;
+  if (desc.Depth != 0 && plane > kRaytracingMaxRayGenerationShaderThreads / desc.Depth) {
+    return MakeError(Id::kDispatchTooLarge, "DispatchRays of ", desc.Width, "x", desc.Height, "x",
+                     desc.Depth, "; allowed are 2^30 threads");
+  }
+  return {};
+}
+
+}  // namespace
+
+}  // namespace detail
+
+using namespace detail;
+
+namespace {
+const std::vector<Error> kNoErrors;
+}
+
+Status CommandList::Reset() {
+  if (!impl_) return MakeError(Id::kNullHandle, "Reset of an empty command list handle");
+  if (Status s = impl_->device->removed(); !s.ok()) return s;
+  CommandListImpl fresh;
+  fresh.device = impl_->device;
+  *impl_ = std::move(fresh);
+  return {};
+}
+
+Status CommandList::Close() {
+  if (!impl_) return MakeError(Id::kNullHandle, "Close of an empty command list handle");
+  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close of a closed command list");
+  if (impl_->open_events > 0) {
+    impl_->Fail(MakeError(Id::kEvents, impl_->open_events, " BeginEvent without EndEvent"));
+  }
+  impl_->open = false;
+  if (impl_->errors.empty()) return {};
+  return impl_->errors.front();
+}
+
+const std::vector<Error>& CommandList::GetErrors() const {
+  return impl_ ? impl_->errors : kNoErrors;
+}
+bool CommandList::is_open() const { return impl_ && impl_->open; }
+
+void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
+  if (!impl_ || !impl_->CheckOpen("SetDescriptorHeaps")) return;
+  DescriptorHeap views, samplers;
+  for (const DescriptorHeap& heap : heaps) {
+    if (Status s = CheckHandle(impl_->device, heap, "SetDescriptorHeaps: a heap"); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    const DescriptorHeapDesc& desc = heap.GetDesc();
+    if (!HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible)) {
+      return impl_->Fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+                                   " was created without kShaderVisible"));
+    }
+    DescriptorHeap& slot = desc.Type == DescriptorHeapType::kSampler ? samplers : views;
+    if (slot) {
+      return impl_->Fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+                                   " is the second of its type; one of each can be set"));
+    }
+    slot = heap;
+  }
+  impl_->view_heap = views;
+  impl_->sampler_heap = samplers;
+}
+
+void CommandList::SetComputeRootSignature(const RootSignature& signature) {
+  if (!impl_ || !impl_->CheckOpen("SetComputeRootSignature")) return;
+  if (Status s = CheckHandle(impl_->device, signature, "SetComputeRootSignature: the signature");
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (signature.is_local()) {
+    return impl_->Fail(MakeError(Id::kRootSignatureKind,
+                                 "SetComputeRootSignature takes a global root signature; local "
+                                 "arguments stand in shader records"));
+  }
+  if (impl_->root_signature && SameGlobal(impl_->root_signature, signature)) return;
+  impl_->root_signature = signature;
+  impl_->arguments = std::make_shared<runtime::RootArguments>();
+}
+
+void CommandList::SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value,
+                                              uint32_t dest_offset) {
+  SetComputeRoot32BitConstants(parameter, 1, &value, dest_offset);
+}
+
+void CommandList::SetComputeRoot32BitConstants(uint32_t parameter, uint32_t count,
+                                               const void* values, uint32_t dest_offset) {
+  if (!impl_) return;
+  const auto* p = FindParameter(*impl_, "SetComputeRoot32BitConstants", parameter,
+                                RootParameterType::k32BitConstants);
+  if (!p) return;
+  const uint32_t total = p->Constants.Num32BitValues;
+  if ((count != 0 && !values) || dest_offset > total || count > total - dest_offset) {
+    return impl_->Fail(MakeError(Id::kRootConstantsRange, "SetComputeRoot32BitConstants: values ",
+                                 dest_offset, "..", uint64_t{dest_offset} + count,
+                                 " of parameter ", parameter, ", which has ", total,
+                                 values ? "" : "; the pointer is null"));
+  }
+  if (count == 0) return;
+  WriteArgument(*impl_, parameter, dest_offset * 4, values, size_t{count} * 4);
+}
+
+void CommandList::SetComputeRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address) {
+  SetRootView(impl_.get(), "SetComputeRootConstantBufferView", parameter, RootParameterType::kCbv,
+              address);
+}
+void CommandList::SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address) {
+  SetRootView(impl_.get(), "SetComputeRootShaderResourceView", parameter, RootParameterType::kSrv,
+              address);
+}
+void CommandList::SetComputeRootUnorderedAccessView(uint32_t parameter,
+                                                    GpuVirtualAddress address) {
+  SetRootView(impl_.get(), "SetComputeRootUnorderedAccessView", parameter, RootParameterType::kUav,
+              address);
+}
+
+void CommandList::SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base) {
+  if (!impl_) return;
+  const auto* p = FindParameter(*impl_, "SetComputeRootDescriptorTable", parameter,
+                                RootParameterType::kDescriptorTable);
+  if (!p) return;
+  const bool samplers =
+      p->DescriptorTable.Ranges.front().RangeType == DescriptorRangeType::kSampler;
+  const DescriptorHeap& heap = samplers ? impl_->sampler_heap : impl_->view_heap;
+  const uint64_t start = heap.GetGPUDescriptorHandleForHeapStart().ptr;
+  const uint64_t offset = base.ptr - start;
+  const bool inside = heap && base.ptr >= start && offset % kDescriptorHandleIncrementSize == 0 &&
+                      offset / kDescriptorHandleIncrementSize < heap.GetDesc().NumDescriptors;
+  if (!inside) {
+    return impl_->Fail(MakeError(
+        Id::kDescriptorTableHandle, "SetComputeRootDescriptorTable: parameter ", parameter,
+        " is handle ", Hex(base.ptr), ", which is in no ",
+        samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
+        heap ? "" : "; call SetDescriptorHeaps first"));
+  }
+  WriteArgument(*impl_, parameter, 0, &base.ptr, sizeof base.ptr);
+}
+
+void CommandList::SetPipelineState(const PipelineState& pipeline) {
+  if (!impl_ || !impl_->CheckOpen("SetPipelineState")) return;
+  if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState: the pipeline"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  impl_->compute_pipeline = pipeline;
+  impl_->raytracing_pipeline = {};
+}
+
+void CommandList::SetPipelineState1(const StateObject& pipeline) {
+  if (!impl_ || !impl_->CheckOpen("SetPipelineState1")) return;
+  if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState1: the state object");
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (pipeline.GetType() != StateObjectType::kRaytracingPipeline) {
+    return impl_->Fail(MakeError(Id::kPipelineNotSet,
+                                 "SetPipelineState1 takes a ray tracing pipeline, this is a "
+                                 "collection"));
+  }
+  impl_->raytracing_pipeline = pipeline;
+  impl_->compute_pipeline = {};
+}
+
+void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
+  if (!impl_ || !impl_->CheckOpen("DispatchRays")) return;
+  if (!impl_->raytracing_pipeline) {
+    return impl_->Fail(MakeError(Id::kPipelineNotSet, "DispatchRays without a ray tracing "
+                                 "pipeline; call SetPipelineState1 first"));
+  }
+  StateObjectImpl& pipeline = *impl_->raytracing_pipeline.impl();
+  // Some ray generation shader must go with the signature that is set; which one runs stands in
+  // GPU memory.
+  const auto& globals = pipeline.global_root_signatures;
+  const bool fits = globals.empty() ||
+                    std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
+                      return !g || SameGlobal(g, impl_->root_signature);
+                    });
+  if (!fits) {
+    return impl_->Fail(MakeError(
+        Id::kPipelineRootSignature, "DispatchRays: ",
+        impl_->root_signature ? "the compute root signature that is set"
+                              : "no compute root signature is set; it",
+        " is that of no ray generation shader of the pipeline. Call SetComputeRootSignature with "
+        "the state object's global root signature"));
+  }
+  if (Status s = CheckDispatchRays(*impl_->device, desc); !s.ok()) return impl_->Fail(s.error());
+  impl_->Record(runtime::DispatchRaysCommand{pipeline.pipeline, impl_->Snapshot(), desc,
+                                             pipeline.stack_bytes.load()});
+}
+
+void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
+  if (!impl_ || !impl_->CheckOpen("Dispatch")) return;
+  if (!impl_->compute_pipeline) {
+    return impl_->Fail(MakeError(Id::kPipelineNotSet,
+                                 "Dispatch without a compute pipeline; call SetPipelineState "
+                                 "first"));
+  }
+  const PipelineStateImpl& pipeline = *impl_->compute_pipeline.impl();
+  if (!SameGlobal(pipeline.root_signature, impl_->root_signature)) {
+    return impl_->Fail(MakeError(Id::kPipelineRootSignature, "Dispatch: the compute root signature ",
+                                 impl_->root_signature ? "that is set" : "is not set; it",
+                                 " is not that of pipeline ", Quoted(pipeline.name)));
+  }
+  if (std::max({x, y, z}) > kCsDispatchMaxThreadGroupsPerDimension) {
+    return impl_->Fail(MakeError(Id::kDispatchTooLarge, "Dispatch of ", x, "x", y, "x", z,
+                                 " groups; allowed are 65535 each"));
+  }
+  runtime::DispatchCommand command;
+  command.pipeline = pipeline.pipeline;
+  command.state = impl_->Snapshot();
+  command.groups[0] = x;
+  command.groups[1] = y;
+  command.groups[2] = z;
+  impl_->Record(std::move(command));
+}
+
+void CommandList::BeginEvent(std::string name) {
+  if (!impl_ || !impl_->CheckOpen("BeginEvent")) return;
+  ++impl_->open_events;
+  impl_->Record(runtime::EventCommand{true, std::move(name)});
+}
+
+void CommandList::EndEvent() {
+  if (!impl_ || !impl_->CheckOpen("EndEvent")) return;
+  if (impl_->open_events == 0) {
+    return impl_->Fail(MakeError(Id::kEvents, "EndEvent without BeginEvent"));
+  }
+  --impl_->open_events;
+  impl_->Record(runtime::EventCommand{false, {}});
+}
+
+Result<CommandList> Device::CreateCommandList() const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateCommandList on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  auto list = std::make_shared<CommandListImpl>();
+  list->device = impl_;
+  return CommandList(std::move(list));
+}
+
+}  // namespace rtapi

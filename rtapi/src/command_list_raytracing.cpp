@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// Builds, copies and queries of acceleration structures.
+#include "rtapi/src/command_list_impl.h"
+
+namespace rtapi {
+
+using namespace detail;
+
+void CommandList::BuildRaytracingAccelerationStructure(
+    const BuildRaytracingAccelerationStructureDesc& desc,
+    std::span<const RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos) {
+  static constexpr char kCall[] = "BuildRaytracingAccelerationStructure";
+  if (!impl_ || !impl_->CheckOpen(kCall)) return;
+  const DeviceImpl& device = *impl_->device;
+  if (Status s = CheckBuildInputs(device, desc.Inputs); !s.ok()) return impl_->Fail(s.error());
+  runtime::BuildCommand command;
+  command.geometries = CopyGeometryDescs(desc.Inputs);
+  if (Status s = CheckBuildAddresses(device, desc, command.geometries); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  uint32_t seen = 0;
+  for (const auto& info : postbuild_infos) {
+    if (Status s = CheckPostbuildInfo(device, info, 1); !s.ok()) return impl_->Fail(s.error());
+    const uint32_t bit = 1u << static_cast<uint32_t>(info.InfoType);
+    if (seen & bit) {
+      return impl_->Fail(MakeError(Id::kPostbuildInfo, kCall, ": InfoType ",
+                                   static_cast<uint32_t>(info.InfoType),
+                                   " is asked for twice; once per build"));
+    }
+    seen |= bit;
+  }
+  const bool top = desc.Inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
+  command.dest = desc.DestAccelerationStructureData;
+  command.source = desc.SourceAccelerationStructureData;
+  command.scratch = desc.ScratchAccelerationStructureData;
+  command.type = desc.Inputs.Type;
+  command.flags = desc.Inputs.Flags;
+  if (top) {
+    command.instance_count = desc.Inputs.NumDescs;
+    command.instance_layout = desc.Inputs.DescsLayout;
+    command.instance_descs = desc.Inputs.InstanceDescs;
+  }
+  command.postbuild_infos.assign(postbuild_infos.begin(), postbuild_infos.end());
+  impl_->Record(std::move(command));
+}
+
+void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
+    const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
+    std::span<const GpuVirtualAddress> sources) {
+  if (!impl_ || !impl_->CheckOpen("EmitRaytracingAccelerationStructurePostbuildInfo")) return;
+  const DeviceImpl& device = *impl_->device;
+  if (Status s = CheckPostbuildInfo(device, desc, sources.size()); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (Status s = CheckStructureAddress(device, sources[i], Text("source ", i)); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+  }
+  impl_->Record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
+}
+
+void CommandList::CopyRaytracingAccelerationStructure(GpuVirtualAddress dest,
+                                                      GpuVirtualAddress source,
+                                                      RaytracingAccelerationStructureCopyMode mode) {
+  using Mode = RaytracingAccelerationStructureCopyMode;
+  if (!impl_ || !impl_->CheckOpen("CopyRaytracingAccelerationStructure")) return;
+  const DeviceImpl& device = *impl_->device;
+  if (mode != Mode::kClone && mode != Mode::kCompact) {
+    Error error = MakeError(Id::kAccelerationStructureCopy, "mode ", static_cast<uint32_t>(mode),
+                            mode <= Mode::kDeserialize ? " is not supported yet; kClone (0) and "
+                                                         "kCompact (1) are"
+                                                       : " is undefined");
+    if (mode <= Mode::kDeserialize) error.code = ErrorCode::kUnsupported;
+    return impl_->Fail(std::move(error));
+  }
+  if (Status s = CheckStructureAddress(device, source, "source"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (Status s = CheckStructureAddress(device, dest, "dest"); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  if (source == dest) {
+    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "source and dest are both ",
+                                 device.DescribeAddress(dest), "; they must not overlap"));
+  }
+  impl_->Record(runtime::CopyAccelerationStructureCommand{dest, source, mode});
+}
+
+}  // namespace rtapi

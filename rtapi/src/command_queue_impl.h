@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <variant>
+#include <vector>
+
+#include <rtapi/command_queue.h>
+
+#include "rtapi/src/command_list_impl.h"
+
+namespace rtapi::detail {
+
+struct FenceImpl {
+  std::shared_ptr<DeviceImpl> device;
+
+  uint64_t value() const;
+  // Sets the value and lets queues go on that wait for it.
+  void Signal(uint64_t value);
+  // True if the fence has reached `value`; else `queue` is woken by a later Signal.
+  bool ReachedOrWake(uint64_t value, const std::weak_ptr<struct CommandQueueImpl>& queue);
+
+  mutable std::mutex mutex;
+  std::condition_variable changed;
+  uint64_t current = 0;
+  std::vector<std::weak_ptr<CommandQueueImpl>> waiting;
+};
+
+// Work runs on the thread that submits it, at once, unless the queue waits for a fence: then on the
+// thread whose signal ends the wait. A backend uses all cores for one command, so that a thread of
+// the queue's own would gain nothing and lose the call stack in a debugger.
+struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
+  struct Execute {
+    std::shared_ptr<const CommandVector> commands;
+  };
+  struct SignalFence {
+    std::shared_ptr<FenceImpl> fence;
+    uint64_t value;
+  };
+  struct WaitFence {
+    std::shared_ptr<FenceImpl> fence;
+    uint64_t value;
+  };
+  using Operation = std::variant<Execute, SignalFence, WaitFence>;
+
+  std::shared_ptr<DeviceImpl> device;
+
+  void Submit(Operation operation);
+  void Drain();
+
+ private:
+  void Run(const Operation& operation);
+
+  std::mutex mutex_;
+  std::deque<Operation> pending_;
+  bool draining_ = false;
+  bool again_ = false;  // somebody asked for a drain while one was running
+};
+
+}  // namespace rtapi::detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+//
+// What the handles of device.h, resource.h and descriptor.h point to.
+#pragma once
+
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <rtapi/device.h>
+
+#include "rtapi/src/error_table.h"
+#include "runtime/backend.h"
+
+namespace rtapi::detail {
+
+namespace runtime = kaamos::runtime;
+namespace shader = kaamos::shader;
+
+// A slot that a CPU descriptor handle names.
+struct HeapSlot {
+  DescriptorHeapType type = DescriptorHeapType::kCbvSrvUav;
+  bool shader_visible = false;
+  shader::Descriptor* slot = nullptr;
+  uint32_t index = 0;
+  uint32_t count_from_here = 0;
+};
+
+struct DeviceImpl {
+  DeviceDesc desc;
+  runtime::AddressMap addresses;
+  runtime::Context context;
+  std::unique_ptr<runtime::BackendDevice> backend;
+
+  // One execution at a time, whatever the queue: dispatches and builds use every core already.
+  std::mutex execute_mutex;
+
+  void Remove(const Error& reason);
+  Status removed() const;
+  void Report(MessageSeverity severity, const Error& error) const;
+
+  // Descriptor heaps by host address. Handles carry no type, so that they are looked up here.
+  void RegisterHeap(uint8_t* host, const DescriptorHeapDesc& heap);
+  void UnregisterHeap(uint8_t* host);
+  std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
+
+  ShaderIdentifier MakeIdentifier(std::string_view name);
+
+  // "buffer \"x\" (416 bytes)" of a live address, else "no live buffer".
+  std::string DescribeAddress(GpuVirtualAddress address) const;
+
+ private:
+  struct HeapRange {
+    DescriptorHeapType type;
+    bool shader_visible;
+    uint32_t count;
+  };
+  mutable std::mutex heaps_mutex_;
+  std::map<uintptr_t, HeapRange> heaps_;
+  mutable std::mutex removed_mutex_;
+  Status removed_;
+  std::atomic<uint32_t> next_identifier_{1};
+
+ public:
+  uint32_t tag = 0;  // tells identifiers of different devices apart
+};
+
+struct BufferImpl {
+  std::shared_ptr<DeviceImpl> device;
+  BufferDesc desc;
+  std::shared_ptr<runtime::BackendBuffer> memory;
+  ~BufferImpl();
+};
+
+struct TextureImpl {
+  std::shared_ptr<DeviceImpl> device;
+  TextureDesc desc;
+  std::shared_ptr<runtime::BackendTexture> memory;
+};
+
+struct DescriptorHeapImpl {
+  std::shared_ptr<DeviceImpl> device;
+  DescriptorHeapDesc desc;
+  std::shared_ptr<runtime::BackendBuffer> memory;
+  ~DescriptorHeapImpl();
+};
+
+// "buffer \"name\"", or "unnamed buffer".
+std::string Named(const char* kind, const std::string& name);
+
+// Empty handle or another device's object; `what` names the argument.
+template <class Handle>
+Status CheckHandle(const std::shared_ptr<DeviceImpl>& device, const Handle& handle,
+                   std::string_view what) {
+  if (!handle) return MakeError(Id::kNullHandle, what, " is an empty handle");
+  if (handle.impl()->device != device) {
+    return MakeError(Id::kForeignObject, what, " belongs to another device");
+  }
+  return {};
+}
+
+inline uint64_t AlignUp(uint64_t value, uint64_t alignment) {
+  return (value + alignment - 1) / alignment * alignment;
+}
+
+// Texel counts of a mip level.
+struct MipExtent {
+  uint32_t width, height, depth;
+};
+MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip);
+uint32_t FullMipCount(const TextureDesc& desc);
+uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D
+
+// Formats that share texel bytes; 0 for those in no family.
+uint32_t FormatFamily(Format format);
+
+}  // namespace rtapi::detail

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/pipeline_state.h>
+
+#include "rtapi/src/bindings.h"
+#include "rtapi/src/pipeline_state_impl.h"
+#include "rtapi/src/root_signature_impl.h"
+#include "rtapi/src/shader_library_impl.h"
+
+namespace rtapi {
+
+using namespace detail;
+
+namespace {
+
+const std::string kEmptyName;
+
+Result<const shader::ExportDesc*> FindKernel(const ComputePipelineStateDesc& desc) {
+  const auto& table = *desc.CS.impl()->desc;
+  const shader::ExportDesc* found = nullptr;
+  std::string known;
+  for (uint32_t i = 0; i < table.export_count; ++i) {
+    const auto& e = table.exports[i];
+    if (e.stage != shader::Stage::kCompute) continue;
+    known += Text(known.empty() ? "" : ", ", Quoted(e.name));
+    if (!desc.EntryPoint.empty() && desc.EntryPoint != e.name) continue;
+    if (found) {
+      return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), "; ",
+                       Quoted(desc.CS.name()), " has several: name one");
+    }
+    found = &e;
+  }
+  if (found) return found;
+  return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), "; ",
+                   Quoted(desc.CS.name()), " has the compute shaders ",
+                   known.empty() ? "(none)" : known);
+}
+
+Status CheckThreadGroup(const shader::ExportDesc& kernel) {
+  const uint32_t* n = kernel.compute->thread_group;
+  const bool ok = n[0] >= 1 && n[1] >= 1 && n[2] >= 1 && n[0] <= 1024 && n[1] <= 1024 &&
+                  n[2] <= 64 && uint64_t{n[0]} * n[1] * n[2] <= 1024;
+  if (ok) return {};
+  return MakeError(Id::kComputeEntryPoint, Quoted(kernel.name), " has [numthreads(", n[0], ", ",
+                   n[1], ", ", n[2], ")]; allowed is 1 to 1024, 1024 and 64, at most 1024 in all");
+}
+
+}  // namespace
+
+const std::string& PipelineState::name() const { return impl_ ? impl_->name : kEmptyName; }
+
+Result<PipelineState> Device::CreateComputePipelineState(
+    const ComputePipelineStateDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateComputePipelineState on an empty device");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (!desc.CS) return MakeError(Id::kNullHandle, "CS is an empty shader library handle");
+  if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
+    return s.error();
+  }
+  if (desc.pRootSignature.is_local()) {
+    return MakeError(Id::kRootSignatureKind,
+                     "a compute pipeline takes a global root signature, this one is local");
+  }
+  auto kernel = FindKernel(desc);
+  if (!kernel.ok()) return kernel.error();
+  if (Status s = CheckThreadGroup(**kernel); !s.ok()) return s.error();
+  const auto& table = *desc.CS.impl()->desc;
+  auto slots = ResolveBindings(table, **kernel, desc.pRootSignature, RootSignature(),
+                               Text("compute shader ", Quoted((*kernel)->name)));
+  if (!slots.ok()) return slots.error();
+  auto linked = std::make_shared<runtime::LinkedCompute>();
+  linked->shader.name = (*kernel)->name;
+  linked->shader.stage = shader::Stage::kCompute;
+  linked->shader.code = *kernel;
+  linked->shader.library = &table;
+  linked->shader.slots = std::move(*slots);
+  linked->shader.stack_bytes = (*kernel)->stack_bytes;
+  linked->shader.library_owner = desc.CS;
+  linked->shader.global_root_signature = desc.pRootSignature;
+  auto pipeline = impl_->backend->create_compute_pipeline(linked);
+  if (!pipeline.ok()) return pipeline.error();
+  auto impl = std::make_shared<PipelineStateImpl>();
+  impl->device = impl_;
+  impl->name = desc.Name.empty() ? linked->shader.name : desc.Name;
+  impl->root_signature = desc.pRootSignature;
+  impl->pipeline = std::move(*pipeline);
+  return PipelineState(std::move(impl));
+}
+
+}  // namespace rtapi

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/resource.h>
+
+#include <algorithm>
+
+#include "rtapi/src/device_impl.h"
+
+namespace rtapi {
+
+namespace detail {
+
+namespace {
+
+constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 40;
+
+Status CheckBuffer(const BufferDesc& desc) {
+  const std::string name = Named("buffer", desc.Name);
+  if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
+    return MakeError(Id::kBufferSize, name, " has ", desc.SizeInBytes,
+                     " bytes; allowed is 1 to 2^40");
+  }
+  const bool known_heap = desc.Heap == HeapType::kDefault || desc.Heap == HeapType::kUpload ||
+                          desc.Heap == HeapType::kReadback;
+  if (!known_heap) {
+    return MakeError(Id::kBufferHeap, name, " asks for heap type ",
+                     static_cast<uint32_t>(desc.Heap),
+                     "; allowed are kDefault, kUpload and kReadback");
+  }
+  const bool unordered = HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess);
+  if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
+    return MakeError(Id::kBufferHeap, name, " has undefined flags ",
+                     Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  const bool on_default = desc.Heap == HeapType::kDefault;
+  if (unordered && !on_default) {
+    return MakeError(Id::kBufferHeap, name,
+                     " allows unordered access; that needs the default heap");
+  }
+  if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
+    if (!on_default || !unordered) {
+      return MakeError(Id::kAccelerationStructureBuffer, name,
+                       " starts in state kRaytracingAccelerationStructure, which needs ",
+                       on_default ? "the flag kAllowUnorderedAccess" : "the default heap");
+    }
+  } else if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
+    return MakeError(Id::kAccelerationStructureBuffer, name,
+                     " combines kRaytracingAccelerationStructure with another state");
+  } else if (!on_default && desc.InitialState != ResourceStates::kCommon) {
+    const ResourceStates fixed = desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead
+                                                                : ResourceStates::kCopyDest;
+    if (desc.InitialState != fixed) {
+      return MakeError(Id::kBufferHeap, name, " starts in state ",
+                       Hex(static_cast<uint32_t>(desc.InitialState)), "; its heap allows only ",
+                       Hex(static_cast<uint32_t>(fixed)));
+    }
+  }
+  return {};
+}
+
+uint32_t AxisLimit(const TextureDesc& desc) {
+  switch (desc.Dimension) {
+    case ResourceDimension::kTexture1D: return kReqTexture1DUDimension;
+    case ResourceDimension::kTexture2D: return kReqTexture2DUOrVDimension;
+    default: return kReqTexture3DUVOrWDimension;
+  }
+}
+
+Status CheckTexture(const TextureDesc& desc) {
+  const std::string name = Named("texture", desc.Name);
+  const auto d = desc.Dimension;
+  if (d != ResourceDimension::kTexture1D && d != ResourceDimension::kTexture2D &&
+      d != ResourceDimension::kTexture3D) {
+    return MakeError(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
+                     "; allowed are kTexture1D, kTexture2D and kTexture3D");
+  }
+  const uint32_t limit = AxisLimit(desc);
+  const uint32_t depth_limit = d == ResourceDimension::kTexture3D
+                                   ? kReqTexture3DUVOrWDimension
+                                   : kReqTexture2DArrayAxisDimension;
+  const uint32_t height_limit = d == ResourceDimension::kTexture1D ? 1 : limit;
+  if (desc.Width == 0 || desc.Height == 0 || desc.DepthOrArraySize == 0 || desc.Width > limit ||
+      desc.Height > height_limit || desc.DepthOrArraySize > depth_limit) {
+    return MakeError(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
+                     desc.DepthOrArraySize, "; allowed is 1x1x1 to ", limit, "x", height_limit,
+                     "x", depth_limit);
+  }
+  if (desc.MipLevels > FullMipCount(desc)) {
+    return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels; ", desc.Width,
+                     "x", desc.Height, " has at most ", FullMipCount(desc));
+  }
+  if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
+    return MakeError(Id::kTextureFormat, name, " has DXGI format ",
+                     static_cast<uint32_t>(desc.Format),
+                     "; supported are the uncompressed colour formats of rtapi/format.h");
+  }
+  if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
+    return MakeError(Id::kTextureFormat, name, " has undefined flags ",
+                     Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
+    return MakeError(Id::kAccelerationStructureBuffer, name,
+                     " is a texture; only buffers hold acceleration structures");
+  }
+  return {};
+}
+
+}  // namespace
+
+MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip) {
+  auto at = [mip](uint32_t size) { return std::max(1u, mip < 32 ? size >> mip : 0u); };
+  const bool volume = desc.Dimension == ResourceDimension::kTexture3D;
+  return {at(desc.Width), at(desc.Height), volume ? at(desc.DepthOrArraySize) : 1};
+}
+
+uint32_t FullMipCount(const TextureDesc& desc) {
+  uint32_t size = std::max(desc.Width, desc.Height);
+  if (desc.Dimension == ResourceDimension::kTexture3D) {
+    size = std::max<uint32_t>(size, desc.DepthOrArraySize);
+  }
+  uint32_t count = 0;
+  for (; size > 0; size >>= 1) ++count;
+  return count;
+}
+
+uint32_t ArraySize(const TextureDesc& desc) {
+  return desc.Dimension == ResourceDimension::kTexture3D ? 1 : desc.DepthOrArraySize;
+}
+
+uint32_t FormatFamily(Format format) {
+  const auto f = static_cast<uint32_t>(format);
+  // First and last number of each DXGI family, the typeless member among them.
+  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {23, 25},
+                                              {27, 32}, {33, 38}, {39, 43}, {48, 52}, {53, 59},
+                                              {60, 64}};
+  for (const auto& family : kFamilies) {
+    if (f >= family[0] && f <= family[1]) return family[0];
+  }
+  switch (format) {
+    case Format::kB8G8R8A8Typeless:
+    case Format::kB8G8R8A8Unorm:
+    case Format::kB8G8R8A8UnormSrgb: return 90;
+    case Format::kB8G8R8X8Typeless:
+    case Format::kB8G8R8X8Unorm:
+    case Format::kB8G8R8X8UnormSrgb: return 92;
+    default: return f;
+  }
+}
+
+BufferImpl::~BufferImpl() {
+  if (memory) device->addresses.erase(memory->address());
+}
+
+}  // namespace detail
+
+using namespace detail;
+
+namespace {
+const BufferDesc kEmptyBuffer;
+const TextureDesc kEmptyTexture;
+}  // namespace
+
+const BufferDesc& Buffer::GetDesc() const { return impl_ ? impl_->desc : kEmptyBuffer; }
+GpuVirtualAddress Buffer::GetGPUVirtualAddress() const {
+  return impl_ ? impl_->memory->address() : 0;
+}
+void Buffer::SetName(std::string name) {
+  if (!impl_) return;
+  impl_->device->addresses.rename(impl_->memory->address(), name);
+  impl_->desc.Name = std::move(name);
+}
+
+Result<std::span<std::byte>> Buffer::Map() const {
+  if (!impl_) return MakeError(Id::kNullHandle, "Map of an empty buffer handle");
+  if (impl_->desc.Heap == HeapType::kDefault) {
+    return MakeError(Id::kMapDefaultHeap, Named("buffer", impl_->desc.Name),
+                     "; copy it to or from an upload or readback buffer");
+  }
+  return mapped_bytes();
+}
+
+std::span<std::byte> Buffer::mapped_bytes() const {
+  if (!impl_ || impl_->desc.Heap == HeapType::kDefault) return {};
+  return {reinterpret_cast<std::byte*>(impl_->memory->host()), impl_->desc.SizeInBytes};
+}
+
+const TextureDesc& Texture::GetDesc() const { return impl_ ? impl_->desc : kEmptyTexture; }
+uint32_t Texture::subresource_count() const {
+  return impl_ ? impl_->desc.MipLevels * ArraySize(impl_->desc) : 0;
+}
+void Texture::SetName(std::string name) {
+  if (impl_) impl_->desc.Name = std::move(name);
+}
+
+Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateBuffer on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (Status s = CheckBuffer(desc); !s.ok()) return s.error();
+  auto memory = impl_->backend->create_buffer(desc);
+  if (!memory.ok()) return memory.error();
+  auto buffer = std::make_shared<BufferImpl>();
+  buffer->device = impl_;
+  buffer->desc = desc;
+  buffer->memory = std::move(*memory);
+  impl_->addresses.insert(
+      {buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
+       desc.InitialState == ResourceStates::kRaytracingAccelerationStructure, desc.Name});
+  return Buffer(std::move(buffer));
+}
+
+Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
+  if (!impl_) return MakeError(Id::kNullHandle, "CreateTexture on an empty device handle");
+  if (Status s = impl_->removed(); !s.ok()) return s.error();
+  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
+  TextureDesc resolved = desc;
+  if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(FullMipCount(desc));
+  auto memory = impl_->backend->create_texture(resolved);
+  if (!memory.ok()) return memory.error();
+  auto texture = std::make_shared<TextureImpl>();
+  texture->device = impl_;
+  texture->desc = std::move(resolved);
+  texture->memory = std::move(*memory);
+  return Texture(std::move(texture));
+}
+
+Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t first,
+                                               uint32_t count, uint64_t base_offset,
+                                               std::vector<PlacedSubresourceFootprint>* layouts,
+                                               std::vector<uint32_t>* row_counts,
+                                               std::vector<uint64_t>* row_bytes) const {
+  if (Status s = CheckTexture(desc); !s.ok()) return s.error();
+  const uint32_t mips = desc.MipLevels ? desc.MipLevels : FullMipCount(desc);
+  const uint64_t total = uint64_t{mips} * detail::ArraySize(desc);
+  if (uint64_t{first} + count > total) {
+    return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count, " of ",
+                     Named("texture", desc.Name), ", which has ", total);
+  }
+  const uint64_t texel = GetFormatInfo(desc.Format).bytes;
+  uint64_t offset = base_offset;
+  uint64_t end = base_offset;
+  for (uint32_t i = first; i < first + count; ++i) {
+    const MipExtent extent = GetMipExtent(desc, i % mips);
+    const uint64_t row = extent.width * texel;
+    const uint64_t pitch = AlignUp(row, kTextureDataPitchAlignment);
+    offset = AlignUp(offset, kTextureDataPlacementAlignment);
+    if (layouts) {
+      layouts->push_back({offset,
+                          {desc.Format, extent.width, extent.height, extent.depth,
+                           static_cast<uint32_t>(pitch)}});
+    }
+    if (row_counts) row_counts->push_back(extent.height);
+    if (row_bytes) row_bytes->push_back(row);
+    // The last row needs no padding, as in D3D12.
+    end = offset + pitch * (uint64_t{extent.height} * extent.depth - 1) + row;
+    offset += pitch * extent.height * extent.depth;
+  }
+  return end - base_offset;
+}
+
+}  // namespace rtapi

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/shader_library.h>
+
+#include <dlfcn.h>
+
+#include "rtapi/src/error_table.h"
+#include "rtapi/src/shader_library_impl.h"
+
+namespace rtapi {
+
+using namespace detail;
+namespace shader = kaamos::shader;
+
+namespace {
+
+const std::string kEmptyString;
+const std::vector<ShaderExportInfo> kNoExports;
+
+bool IsStage(shader::Stage stage) {
+  const auto s = static_cast<uint32_t>(stage);
+  return s >= 5 && s <= 12;
+}
+
+// A table from a foreign file is not trusted further than its version: every index is checked here,
+// once, so that linking need not.
+Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
+  auto broken = [&name](const auto&... parts) {
+    return MakeError(Id::kShaderLibrary, Quoted(name), ": ", parts...);
+  };
+  if ((desc.export_count && !desc.exports) || (desc.binding_count && !desc.bindings) ||
+      (desc.subobject_count && !desc.subobjects)) {
+    return broken("a table is missing");
+  }
+  for (uint32_t i = 0; i < desc.binding_count; ++i) {
+    const auto& binding = desc.bindings[i];
+    if (!binding.name || binding.count == 0 || static_cast<uint32_t>(binding.register_class) > 3 ||
+        binding.type > shader::BindingType::kAccelerationStructure) {
+      return broken("binding ", i, " is broken");
+    }
+  }
+  for (uint32_t i = 0; i < desc.export_count; ++i) {
+    const auto& e = desc.exports[i];
+    if (!e.name || !*e.name || !IsStage(e.stage)) return broken("export ", i, " is broken");
+    const bool needs_entry =
+        e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute;
+    if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
+    if (e.stage == shader::Stage::kCompute &&
+        (!e.compute || (!e.compute->group && !e.compute->thread))) {
+      return broken("compute export ", Quoted(e.name), " has no code");
+    }
+    if (e.binding_count && !e.bindings) return broken("export ", Quoted(e.name), " is broken");
+    for (uint32_t b = 0; b < e.binding_count; ++b) {
+      if (e.bindings[b] >= desc.binding_count) {
+        return broken("export ", Quoted(e.name), " uses binding ", e.bindings[b], " of ",
+                      desc.binding_count);
+      }
+    }
+  }
+  return {};
+}
+
+ShaderExportInfo MakeInfo(const shader::LibraryDesc& desc, const shader::ExportDesc& e) {
+  ShaderExportInfo info;
+  info.Name = e.name;
+  info.MangledName = e.mangled_name ? e.mangled_name : e.name;
+  info.Stage = static_cast<ShaderStage>(e.stage);
+  info.PayloadSizeInBytes =
+      e.stage == shader::Stage::kCallable ? e.callable_data_bytes : e.payload_bytes;
+  info.AttributeSizeInBytes = e.attribute_bytes;
+  if (e.compute) {
+    for (int i = 0; i < 3; ++i) info.ThreadGroup[i] = e.compute->thread_group[i];
+  }
+  for (uint32_t b = 0; b < e.binding_count; ++b) {
+    info.Resources.emplace_back(desc.bindings[e.bindings[b]].name);
+  }
+  return info;
+}
+
+Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<void> shared_object,
+                           const std::string& where) {
+  if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
+  if (desc->abi_version != shader::kAbiVersion ||
+      desc->struct_bytes != sizeof(shader::LibraryDesc)) {
+    return MakeError(Id::kShaderLibrary, where, ": made for ABI version ", desc->abi_version,
+                     " (", desc->struct_bytes, " bytes), this program has version ",
+                     shader::kAbiVersion, " (", sizeof(shader::LibraryDesc),
+                     " bytes); compile the shaders again");
+  }
+  auto impl = std::make_shared<ShaderLibraryImpl>();
+  impl->name = desc->name ? desc->name : where;
+  impl->target = desc->target ? desc->target : "";
+  if (Status s = CheckTable(*desc, impl->name); !s.ok()) return s.error();
+  impl->desc = desc;
+  impl->shared_object = std::move(shared_object);
+  for (uint32_t i = 0; i < desc->export_count; ++i) {
+    impl->exports.push_back(MakeInfo(*desc, desc->exports[i]));
+  }
+  return ShaderLibrary(std::move(impl));
+}
+
+}  // namespace
+
+const std::string& ShaderLibrary::name() const { return impl_ ? impl_->name : kEmptyString; }
+const std::string& ShaderLibrary::target() const { return impl_ ? impl_->target : kEmptyString; }
+const std::vector<ShaderExportInfo>& ShaderLibrary::GetExports() const {
+  return impl_ ? impl_->exports : kNoExports;
+}
+
+const ShaderExportInfo* ShaderLibrary::FindExport(const std::string& name) const {
+  const ShaderExportInfo* found = nullptr;
+  for (const ShaderExportInfo& e : GetExports()) {
+    if (e.MangledName == name) return &e;
+    if (e.Name != name) continue;
+    if (found) return nullptr;
+    found = &e;
+  }
+  return found;
+}
+
+Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc) {
+  return Load(desc, nullptr, "built-in library");
+}
+
+Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
+  // A name without a slash would be searched for in the system's library folders.
+  const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) {
+    const char* reason = dlerror();
+    return MakeError(Id::kShaderLibrary, Quoted(path), " cannot be loaded: ",
+                     reason ? reason : "unknown reason");
+  }
+  std::shared_ptr<void> owner(handle, [](void* h) { dlclose(h); });
+  auto entry = reinterpret_cast<shader::LibraryEntryPointFn>(
+      dlsym(handle, shader::kLibraryEntryPoint));
+  if (!entry) {
+    return MakeError(Id::kShaderLibrary, Quoted(path), " has no symbol ",
+                     shader::kLibraryEntryPoint, "; it is no shader library of kaamos-hlsl");
+  }
+  return Load(entry(), std::move(owner), path);
+}
+
+}  // namespace rtapi

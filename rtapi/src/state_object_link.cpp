@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+//
+// Third stage: hit groups find their shaders, shaders their bindings, and what an identifier can name
+// becomes a record.
+#include <algorithm>
+#include <set>
+
+#include "rtapi/src/bindings.h"
+#include "rtapi/src/root_signature_impl.h"
+#include "rtapi/src/shader_library_impl.h"
+#include "rtapi/src/state_object_impl.h"
+
+namespace rtapi::detail {
+
+namespace {
+
+using runtime::LinkedRecord;
+using runtime::LinkedShader;
+using runtime::RecordKind;
+using shader::Stage;
+
+constexpr uint32_t kMaxStaticSamplers = 2032;  // [D3D12: root signature limits]
+
+const char* StageName(Stage stage) {
+  switch (stage) {
+    case Stage::kCompute: return "compute";
+    case Stage::kLibrary: return "library function";
+    case Stage::kRayGeneration: return "ray generation";
+    case Stage::kIntersection: return "intersection";
+    case Stage::kAnyHit: return "any-hit";
+    case Stage::kClosestHit: return "closest-hit";
+    case Stage::kMiss: return "miss";
+    case Stage::kCallable: return "callable";
+  }
+  return "unknown";
+}
+
+bool IsEntry(const Subject& s) {
+  return s.code && (s.code->stage == Stage::kRayGeneration || s.code->stage == Stage::kMiss ||
+                    s.code->stage == Stage::kCallable);
+}
+
+std::string Describe(const Subject& s) {
+  return s.is_group() ? Text("hit group ", Quoted(s.name))
+                      : Text(StageName(s.code->stage), " shader ", Quoted(s.name));
+}
+
+// What applies to one shader or group after the rules for hit groups.
+using Effective = std::array<DefinitionPtr, kCategories>;
+
+RootSignature SignatureOf(const Effective& e, Category category) {
+  const DefinitionPtr& d = e[static_cast<size_t>(category)];
+  return d ? d->root_signature : RootSignature();
+}
+
+class Linker {
+ public:
+  explicit Linker(Parts&& parts)
+      : parts_(std::move(parts)), linked_(std::make_shared<runtime::LinkedPipeline>()) {}
+
+  Result<std::shared_ptr<StateObjectImpl>> Run(bool for_backend) {
+    out_ = std::make_shared<StateObjectImpl>();
+    out_->device = parts_.device;
+    out_->type = parts_.type;
+    out_->flags = parts_.flags;
+    for (const SubjectPtr& s : parts_.subjects) {
+      if (!s->is_group()) continue;
+      if (Status st = ResolveMembers(*s); !st.ok() && !Tolerates(st.error())) return st.error();
+    }
+    if (Status s = CheckConfigs(); !s.ok()) return s.error();
+    for (const SubjectPtr& s : parts_.subjects) {
+      if (s->hidden || !(s->is_group() || IsEntry(*s))) continue;
+      if (Status st = AddRecord(*s); !st.ok() && !Tolerates(st.error())) return st.error();
+    }
+    if (Status s = CheckStaticSamplers(); !s.ok()) return s.error();
+    return Finish(for_backend);
+  }
+
+ private:
+  // What a collection may leave to the pipeline that includes it.
+  bool Tolerates(const Error& error) const {
+    if (!parts_.may_stay_unresolved()) return false;
+    for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
+                  Id::kBindingMissing, Id::kDefaultAmbiguous}) {
+      if (error.id == MakeError(id, "").id) return true;
+    }
+    return false;
+  }
+
+  // --- hit groups ---
+
+  Status ResolveMembers(Subject& group) {
+    const std::string* names[3] = {&group.group.AnyHitShaderImport,
+                                   &group.group.ClosestHitShaderImport,
+                                   &group.group.IntersectionShaderImport};
+    static constexpr Stage kStages[3] = {Stage::kAnyHit, Stage::kClosestHit, Stage::kIntersection};
+    for (size_t i = 0; i < 3; ++i) {
+      if (names[i]->empty() || group.members[i]) continue;
+      auto found = FindShader(*names[i], group);
+      if (!found.ok()) return found.error();
+      if ((*found)->code->stage != kStages[i]) {
+        return MakeError(Id::kHitGroupStage, Describe(group), " imports ", Quoted(*names[i]),
+                         " as ", StageName(kStages[i]), " shader; it is a ",
+                         StageName((*found)->code->stage), " shader");
+      }
+      group.members[i] = *found;
+    }
+    return CheckAttributes(group);
+  }
+
+  Result<SubjectPtr> FindShader(const std::string& name, const Subject& group) {
+    SubjectPtr found;
+    for (const SubjectPtr& s : parts_.subjects) {
+      const bool visible = !s->hidden || s->collection_scope == group.collection_scope;
+      if (s->is_group() || !visible || !s->answers_to(name)) continue;
+      if (s->mangled == name) {
+        found = s;
+        break;
+      }
+      if (found) {
+        return MakeError(Id::kExportAmbiguous, Describe(group), " imports ", Quoted(name),
+                         ", which has several overloads; use the mangled name");
+      }
+      found = s;
+    }
+    if (!found) {
+      return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(name),
+                       ", which is no export of this state object");
+    }
+    if (!found->referable && found->collection_scope != group.collection_scope) {
+      return MakeError(Id::kCollectionNotReferable, Describe(group), " imports ", Quoted(name),
+                       " of a collection without flag 0x2 "
+                       "(kAllowExternalDependenciesOnLocalDefinitions)");
+    }
+    return found;
+  }
+
+  static Status CheckAttributes(const Subject& group) {
+    const Subject* first = nullptr;
+    for (const SubjectPtr& m : group.members) {
+      if (!m || m->code->attribute_bytes == 0) continue;
+      if (group.group.Type == HitGroupType::kTriangles && m->code->attribute_bytes != 8) {
+        return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
+                         m->code->attribute_bytes, " bytes of attributes; those of triangles are "
+                         "BuiltInTriangleIntersectionAttributes, 8 bytes");
+      }
+      if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
+        return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*first), " has ",
+                         first->code->attribute_bytes, " bytes of attributes, ", Describe(*m), " ",
+                         m->code->attribute_bytes);
+      }
+      first = m.get();
+    }
+    return {};
+  }
+
+  // [DXR: Subobject associations for hit groups]. What is said of the group and of its shaders by
+  // name must agree and comes before defaults; without either the shaders' defaults must agree.
+  Result<DefinitionPtr> EffectiveOfGroup(const Subject& group, size_t category) const {
+    std::vector<std::pair<const Subject*, Associated>> all;
+    all.emplace_back(&group, group.associations[category]);
+    for (const SubjectPtr& m : group.members) {
+      if (m) all.emplace_back(m.get(), m->associations[category]);
+    }
+    const bool group_explicit = all[0].second.strength == Strength::kExplicit;
+    const bool any_explicit = std::any_of(all.begin(), all.end(), [](const auto& p) {
+      return p.second.strength == Strength::kExplicit;
+    });
+    const Subject* first = nullptr;
+    DefinitionPtr result;
+    for (const auto& [subject, associated] : all) {
+      if (!associated.definition) continue;
+      // Named for the group: defaults of its shaders give way. Named for a shader only: the
+      // group's own default does.
+      if (any_explicit && associated.strength != Strength::kExplicit &&
+          (group_explicit || subject == &group)) {
+        continue;
+      }
+      if (result && !SameDefinition(*result, *associated.definition)) {
+        return MakeError(Id::kHitGroupAssociationMismatch, Describe(group), ": the ",
+                         CategoryName(static_cast<Category>(category)), " of ", Describe(*first),
+                         " is ", result->where, ", that of ", Describe(*subject), " ",
+                         associated.definition->where, "; all must have the same");
+      }
+      if (!result) {
+        result = associated.definition;
+        first = subject;
+      }
+    }
+    return result;
+  }
+
+  Result<Effective> GetEffective(const Subject& s) const {
+    Effective effective;
+    for (size_t c = 0; c < kCategories; ++c) {
+      if (!s.is_group()) {
+        effective[c] = s.associations[c].definition;
+        continue;
+      }
+      auto d = EffectiveOfGroup(s, c);
+      if (!d.ok()) return d.error();
+      effective[c] = *d;
+    }
+    return effective;
+  }
+
+  // --- configs ---
+
+  Status CheckConfigs() {
+    for (const SubjectPtr& s : parts_.subjects) {
+      if (s->code && s->code->stage == Stage::kLibrary) continue;
+      auto effective = GetEffective(*s);
+      if (!effective.ok()) return effective.error();
+      for (Category c : {Category::kShaderConfig, Category::kPipelineConfig}) {
+        const DefinitionPtr& d = (*effective)[static_cast<size_t>(c)];
+        const bool required = !s->hidden && (s->is_group() || IsEntry(*s));
+        if (!d && required) {
+          Status missing = MissingConfig(*s, c);
+          if (!Tolerates(missing.error())) return missing;
+        }
+        if (!d) continue;
+        DefinitionPtr& common = common_[static_cast<size_t>(c)];
+        if (common && !SameDefinition(*common, *d)) return DifferentConfigs(*s, c, *common, *d);
+        common = d;
+      }
+    }
+    return {};
+  }
+
+  Status MissingConfig(const Subject& s, Category c) const {
+    const auto is_category = [c](const DefinitionPtr& d) { return d->category == c; };
+    std::vector<DefinitionPtr> candidates;
+    for (const auto* list : {&parts_.own_scope.by_empty, &parts_.own_scope.implicit}) {
+      std::copy_if(list->begin(), list->end(), std::back_inserter(candidates), is_category);
+    }
+    if (candidates.size() > 1) {
+      return MakeError(Id::kDefaultAmbiguous, Describe(s), " has no ", CategoryName(c), ": ",
+                       candidates[0]->where, " and ", candidates[1]->where,
+                       " differ, so that neither is the default; associate one of them");
+    }
+    return MakeError(c == Category::kShaderConfig ? Id::kShaderConfigMissing
+                                                  : Id::kPipelineConfigMissing,
+                     Describe(s), " has no ", CategoryName(c),
+                     " associated with it, explicitly or by default");
+  }
+
+  Status DifferentConfigs(const Subject& s, Category c, const Definition& a,
+                          const Definition& b) const {
+    if (c == Category::kShaderConfig) {
+      return MakeError(Id::kShaderConfigsDiffer, Describe(s), " has payload ",
+                       b.shader_config.MaxPayloadSizeInBytes, " and attributes ",
+                       b.shader_config.MaxAttributeSizeInBytes, " bytes (", b.where,
+                       "), another export ", a.shader_config.MaxPayloadSizeInBytes, " and ",
+                       a.shader_config.MaxAttributeSizeInBytes, " (", a.where,
+                       "); all exports must have the same");
+    }
+    return MakeError(Id::kPipelineConfigsDiffer, Describe(s), " has recursion depth ",
+                     b.pipeline_config.MaxTraceRecursionDepth, ", flags ",
+                     Hex(static_cast<uint32_t>(b.pipeline_config.Flags)), " (", b.where,
+                     "), another export ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
+                     Hex(static_cast<uint32_t>(a.pipeline_config.Flags)), " (", a.where,
+                     "); all exports must have the same");
+  }
+
+  // --- records ---
+
+  Status AddRecord(Subject& s) {
+    auto effective = GetEffective(s);
+    if (!effective.ok()) return effective.error();
+    auto record = std::make_unique<LinkedRecord>();
+    record->name = s.name;
+    if (s.is_group()) {
+      record->kind = RecordKind::kHitGroup;
+      record->hit_group_type = s.group.Type;
+      if (Status st = LinkMembers(s, *effective, *record); !st.ok()) return st;
+    } else {
+      record->kind = s.code->stage == Stage::kRayGeneration ? RecordKind::kRayGeneration
+                     : s.code->stage == Stage::kMiss        ? RecordKind::kMiss
+                                                            : RecordKind::kCallable;
+      auto linked = LinkShader(s, *effective, Describe(s));
+      if (!linked.ok()) return linked.error();
+      record->shader = *linked;
+    }
+    const RootSignature local = SignatureOf(*effective, Category::kLocalRootSignature);
+    record->local_argument_bytes = local.GetArgumentBytes();
+    if (!s.identifier) s.identifier = parts_.device->MakeIdentifier(s.name);
+    record->identifier = *s.identifier;
+    if (record->kind == RecordKind::kRayGeneration) {
+      out_->global_root_signatures.push_back(
+          SignatureOf(*effective, Category::kGlobalRootSignature));
+    }
+    AddNames(s, record.get());
+    linked_->identifiers.insert(record.get());
+    linked_->records.push_back(std::move(record));
+    return {};
+  }
+
+  void AddNames(const Subject& s, const LinkedRecord* record) {
+    auto add = [&](const std::string& name) {
+      auto [it, is_new] = out_->records_by_name.emplace(name, record);
+      if (!is_new) it->second = nullptr;
+    };
+    add(s.name);
+    if (!s.mangled.empty() && s.mangled != s.name) add(s.mangled);
+  }
+
+  Status LinkMembers(const Subject& group, const Effective& effective, LinkedRecord& record) {
+    const LinkedShader** slots[3] = {&record.any_hit, &record.closest_hit, &record.intersection};
+    const std::string* names[3] = {&group.group.AnyHitShaderImport,
+                                   &group.group.ClosestHitShaderImport,
+                                   &group.group.IntersectionShaderImport};
+    for (size_t i = 0; i < 3; ++i) {
+      if (!group.members[i]) {
+        if (names[i]->empty()) continue;
+        return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(*names[i]),
+                         ", which is no export of this state object");
+      }
+      const Subject& member = *group.members[i];
+      auto linked =
+          LinkShader(member, effective, Text(Describe(member), " in ", Describe(group)));
+      if (!linked.ok()) return linked.error();
+      *slots[i] = *linked;
+    }
+    return {};
+  }
+
+  Status CheckSizes(const Subject& s, const Effective& effective, const std::string& where) const {
+    const DefinitionPtr& d = effective[static_cast<size_t>(Category::kShaderConfig)];
+    if (!d) return {};
+    const RaytracingShaderConfig& config = d->shader_config;
+    if (s.code->payload_bytes > config.MaxPayloadSizeInBytes) {
+      return MakeError(Id::kPayloadTooLarge, where, " has a payload of ", s.code->payload_bytes,
+                       " bytes; MaxPayloadSizeInBytes of ", d->where, " is ",
+                       config.MaxPayloadSizeInBytes);
+    }
+    if (s.code->attribute_bytes > config.MaxAttributeSizeInBytes) {
+      return MakeError(Id::kAttributesTooLarge, where, " has attributes of ",
+                       s.code->attribute_bytes, " bytes; MaxAttributeSizeInBytes of ", d->where,
+                       " is ", config.MaxAttributeSizeInBytes);
+    }
+    return {};
+  }
+
+  Result<const LinkedShader*> LinkShader(const Subject& s, const Effective& effective,
+                                         const std::string& where) {
+    if (Status st = CheckSizes(s, effective, where); !st.ok()) return st.error();
+    const RootSignature global = SignatureOf(effective, Category::kGlobalRootSignature);
+    const RootSignature local = SignatureOf(effective, Category::kLocalRootSignature);
+    const auto key = std::make_tuple(s.code, global.impl().get(), local.impl().get());
+    if (auto it = cache_.find(key); it != cache_.end()) return it->second;
+    if (Status st = CheckRootSignaturesDisjoint(global, local, where); !st.ok()) return st.error();
+    const auto& library = *s.library.impl()->desc;
+    auto slots = ResolveBindings(library, *s.code, global, local, where);
+    if (!slots.ok()) return slots.error();
+    auto linked = std::make_unique<LinkedShader>();
+    linked->name = s.name;
+    linked->stage = s.code->stage;
+    linked->code = s.code;
+    linked->library = &library;
+    linked->slots = std::move(*slots);
+    linked->local_argument_bytes = local.GetArgumentBytes();
+    linked->stack_bytes = s.code->stack_bytes;
+    linked->library_owner = s.library;
+    linked->global_root_signature = global;
+    linked->local_root_signature = local;
+    const LinkedShader* raw = linked.get();
+    linked_->shaders.push_back(std::move(linked));
+    cache_[key] = raw;
+    return raw;
+  }
+
+  // [DXR: Local root signatures vs global root signatures]
+  Status CheckStaticSamplers() const {
+    std::map<std::pair<uint32_t, uint32_t>, const StaticSamplerDesc*> local_samplers;
+    std::vector<const StaticSamplerDesc*> unique;
+    std::set<const void*> seen;
+    for (const auto& s : linked_->shaders) {
+      for (const RootSignature* signature :
+           {&s->local_root_signature, &s->global_root_signature}) {
+        if (!*signature || !seen.insert(signature->impl().get()).second) continue;
+        for (const StaticSamplerDesc& sampler : signature->GetDesc().StaticSamplers) {
+          if (signature->is_local()) {
+            auto [it, is_new] = local_samplers.emplace(
+                std::pair(sampler.RegisterSpace, sampler.ShaderRegister), &sampler);
+            if (!is_new && !SameSampler(*it->second, sampler)) {
+              return MakeError(Id::kStaticSamplerConflict, "two local root signatures define ",
+                               RegisterText(shader::RegisterClass::kSampler,
+                                            sampler.ShaderRegister, sampler.RegisterSpace),
+                               " differently (one of them for ", Quoted(s->name),
+                               "); static samplers of one register must be the same");
+            }
+          }
+          const bool known = std::any_of(unique.begin(), unique.end(), [&](const auto* u) {
+            return SameSampler(*u, sampler);
+          });
+          if (!known) unique.push_back(&sampler);
+        }
+      }
+    }
+    if (unique.size() <= kMaxStaticSamplers) return {};
+    return MakeError(Id::kStaticSamplerCount, "the state object has ", unique.size(),
+                     " static samplers; allowed are ", kMaxStaticSamplers);
+  }
+
+  // --- the result ---
+
+  Result<std::shared_ptr<StateObjectImpl>> Finish(bool for_backend) {
+    if (const auto& d = common_[static_cast<size_t>(Category::kShaderConfig)]) {
+      linked_->max_payload_bytes = d->shader_config.MaxPayloadSizeInBytes;
+      linked_->max_attribute_bytes = d->shader_config.MaxAttributeSizeInBytes;
+    }
+    if (const auto& d = common_[static_cast<size_t>(Category::kPipelineConfig)]) {
+      linked_->max_recursion_depth = d->pipeline_config.MaxTraceRecursionDepth;
+      linked_->flags = d->pipeline_config.Flags;
+    }
+    out_->linked = linked_;
+    if (!parts_.is_collection()) out_->stack_bytes = DefaultStackBytes(*linked_);
+    if (for_backend && !parts_.is_collection()) {
+      auto pipeline = parts_.device->backend->create_raytracing_pipeline(out_->linked);
+      if (!pipeline.ok()) return pipeline.error();
+      out_->pipeline = std::move(*pipeline);
+    }
+    for (const ExplicitAssociation& a : parts_.explicit_associations) {
+      if (parts_.is_collection()) out_->outward_associations.push_back(a);
+    }
+    out_->subjects = std::move(parts_.subjects);
+    return out_;
+  }
+
+  Parts parts_;
+  std::shared_ptr<runtime::LinkedPipeline> linked_;
+  std::shared_ptr<StateObjectImpl> out_;
+  Effective common_;  // configs
+  std::map<std::tuple<const void*, const void*, const void*>, const LinkedShader*> cache_;
+};
+
+}  // namespace
+
+uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline) {
+  uint64_t raygen = 0, closest = 0, miss = 0, intersection = 0, any = 0, callable = 0;
+  for (const auto& s : pipeline.shaders) {
+    uint64_t* largest = nullptr;
+    switch (s->stage) {
+      case Stage::kRayGeneration: largest = &raygen; break;
+      case Stage::kClosestHit: largest = &closest; break;
+      case Stage::kMiss: largest = &miss; break;
+      case Stage::kIntersection: largest = &intersection; break;
+      case Stage::kAnyHit: largest = &any; break;
+      case Stage::kCallable: largest = &callable; break;
+      default: continue;
+    }
+    *largest = std::max(*largest, s->stack_bytes);
+  }
+  const uint64_t depth = pipeline.max_recursion_depth;
+  return raygen + std::max({closest, miss, intersection + any}) * std::min<uint64_t>(1, depth) +
+         std::max(closest, miss) * (depth > 0 ? depth - 1 : 0) + 2 * callable;
+}
+
+Result<std::shared_ptr<StateObjectImpl>> LinkStateObject(Parts&& parts, bool for_backend) {
+  return Linker(std::move(parts)).Run(for_backend);
+}
+
+}  // namespace rtapi::detail
