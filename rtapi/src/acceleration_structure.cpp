@@ -27,12 +27,12 @@ struct VertexFormatInfo {
 
 // [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
 constexpr VertexFormatInfo kVertexFormats[] = {
-    {Format::kR32G32Float, 4, 8, 0, false},      {Format::kR32G32B32Float, 4, 12, 0, false},
-    {Format::kR16G16Float, 2, 4, 0, false},      {Format::kR16G16B16A16Float, 2, 6, 0, false},
-    {Format::kR16G16Snorm, 2, 4, 0, false},      {Format::kR16G16B16A16Snorm, 2, 6, 0, false},
-    {Format::kR16G16Unorm, 2, 4, 0, true},       {Format::kR16G16B16A16Unorm, 2, 6, 0, true},
-    {Format::kR10G10B10A2Unorm, 4, 4, 4, true},  {Format::kR8G8Unorm, 1, 2, 0, true},
-    {Format::kR8G8B8A8Unorm, 1, 3, 0, true},     {Format::kR8G8Snorm, 1, 2, 0, true},
+    {Format::kR32G32Float, 4, 8, 0, false},     {Format::kR32G32B32Float, 4, 12, 0, false},
+    {Format::kR16G16Float, 2, 4, 0, false},     {Format::kR16G16B16A16Float, 2, 6, 0, false},
+    {Format::kR16G16Snorm, 2, 4, 0, false},     {Format::kR16G16B16A16Snorm, 2, 6, 0, false},
+    {Format::kR16G16Unorm, 2, 4, 0, true},      {Format::kR16G16B16A16Unorm, 2, 6, 0, true},
+    {Format::kR10G10B10A2Unorm, 4, 4, 4, true}, {Format::kR8G8Unorm, 1, 2, 0, true},
+    {Format::kR8G8B8A8Unorm, 1, 3, 0, true},    {Format::kR8G8Snorm, 1, 2, 0, true},
     {Format::kR8G8B8A8Snorm, 1, 3, 0, true},
 };
 
@@ -43,7 +43,9 @@ const VertexFormatInfo* FindVertexFormat(Format format) {
   return nullptr;
 }
 
-std::string GeometryText(size_t index) { return Text("geometry ", index); }
+std::string GeometryText(size_t index) {
+  return Text("geometry ", index);
+}
 
 Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
                       size_t index) {
@@ -241,8 +243,8 @@ Status CheckBuildInputs(const DeviceImpl& device,
                      "; allowed are kTopLevel (0) and kBottomLevel (1)");
   }
   if (inputs.DescsLayout > ElementsLayout::kArrayOfPointers) {
-    return MakeError(Id::kBuildInputs, "DescsLayout is ",
-                     static_cast<uint32_t>(inputs.DescsLayout), "; allowed are 0 and 1");
+    return MakeError(Id::kBuildInputs, "DescsLayout is ", static_cast<uint32_t>(inputs.DescsLayout),
+                     "; allowed are 0 and 1");
   }
   if (static_cast<uint32_t>(inputs.Flags) & ~0x3Fu) {
     return MakeError(Id::kBuildInputs, "Flags are ", Hex(static_cast<uint32_t>(inputs.Flags)),
@@ -250,7 +252,8 @@ Status CheckBuildInputs(const DeviceImpl& device,
   }
   if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
       HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
-    return MakeError(Id::kBuildFlagsExclusive, "kPreferFastTrace and kPreferFastBuild are both set");
+    return MakeError(Id::kBuildFlagsExclusive,
+                     "kPreferFastTrace and kPreferFastBuild are both set");
   }
   if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
@@ -272,8 +275,7 @@ Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address
                              std::string_view what) {
   if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.DescribeAddress(address),
-                     "; it must be a multiple of 256 and not 0");
+                     device.DescribeAddress(address), "; it must be a multiple of 256 and not 0");
   }
   const auto allocation = device.addresses.find(address);
   if (!allocation) {
@@ -350,8 +352,10 @@ using namespace detail;
 Result<RaytracingAccelerationStructurePrebuildInfo>
 Device::GetRaytracingAccelerationStructurePrebuildInfo(
     const BuildRaytracingAccelerationStructureInputs& inputs) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "GetRaytracingAccelerationStructurePrebuildInfo "
-                               "on an empty device handle");
+  if (!impl_)
+    return MakeError(Id::kNullHandle,
+                     "GetRaytracingAccelerationStructurePrebuildInfo "
+                     "on an empty device handle");
   if (Status s = CheckBuildInputs(*impl_, inputs); !s.ok()) return s.error();
   const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
   return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, CopyGeometryDescs(inputs),

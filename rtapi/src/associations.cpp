@@ -15,8 +15,8 @@ bool Names(const ExplicitAssociation& association, const Subject& subject) {
                      [&](const std::string& name) { return subject.answers_to(name); });
 }
 
-// The explicit association of a category with a subject, from one level: the state object itself, or
-// any library in it. Several are fine if they agree.
+// The explicit association of a category with a subject, from one level: the state object itself,
+// or any library in it. Several are fine if they agree.
 Result<DefinitionPtr> FindExplicit(const Parts& parts, const Subject& subject, Category category,
                                    bool in_state_object) {
   const ExplicitAssociation* first = nullptr;
@@ -80,9 +80,8 @@ Result<Associated> Resolve(const Parts& parts, const Subject& subject, Category 
 Status CheckNamesExist(const Parts& parts) {
   for (const ExplicitAssociation& a : parts.explicit_associations) {
     for (const std::string& name : a.exports) {
-      const bool known =
-          std::any_of(parts.subjects.begin(), parts.subjects.end(),
-                      [&](const SubjectPtr& s) { return s->answers_to(name); });
+      const bool known = std::any_of(parts.subjects.begin(), parts.subjects.end(),
+                                     [&](const SubjectPtr& s) { return s->answers_to(name); });
       if (known) continue;
       if (a.library_scope >= 0) {
         const auto& library = parts.libraries[static_cast<size_t>(a.library_scope)];

@@ -19,21 +19,27 @@ using shader::SlotSource;
 
 DescriptorKind KindOf(BindingType type) {
   switch (type) {
-    case BindingType::kConstantBuffer: return DescriptorKind::kConstantBuffer;
-    case BindingType::kRawBuffer: return DescriptorKind::kRawBuffer;
-    case BindingType::kStructuredBuffer: return DescriptorKind::kStructuredBuffer;
-    case BindingType::kTypedBuffer: return DescriptorKind::kTypedBuffer;
-    case BindingType::kTexture: return DescriptorKind::kTexture;
+    case BindingType::kConstantBuffer:
+      return DescriptorKind::kConstantBuffer;
+    case BindingType::kRawBuffer:
+      return DescriptorKind::kRawBuffer;
+    case BindingType::kStructuredBuffer:
+      return DescriptorKind::kStructuredBuffer;
+    case BindingType::kTypedBuffer:
+      return DescriptorKind::kTypedBuffer;
+    case BindingType::kTexture:
+      return DescriptorKind::kTexture;
     case BindingType::kSampler:
-    case BindingType::kComparisonSampler: return DescriptorKind::kSampler;
-    case BindingType::kAccelerationStructure: return DescriptorKind::kAccelerationStructure;
+    case BindingType::kComparisonSampler:
+      return DescriptorKind::kSampler;
+    case BindingType::kAccelerationStructure:
+      return DescriptorKind::kAccelerationStructure;
   }
   return DescriptorKind::kNull;
 }
 
 std::string Describe(const BindingDesc& b) {
-  return Text(Quoted(b.name), " (",
-              RegisterText(b.register_class, b.register_index, b.space), ")");
+  return Text(Quoted(b.name), " (", RegisterText(b.register_class, b.register_index, b.space), ")");
 }
 
 // The range of one signature that holds the binding's first register.
@@ -96,11 +102,10 @@ Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range
   }
   slot.source = SlotSource::kRootDescriptor;
   slot.kind = KindOf(binding.type);
-  slot.access = binding.register_class == RegisterClass::kUnorderedAccess
-                    ? DescriptorAccess::kUnorderedAccess
-                : binding.register_class == RegisterClass::kShaderResource
-                    ? DescriptorAccess::kShaderResource
-                    : DescriptorAccess::kOther;
+  slot.access =
+      binding.register_class == RegisterClass::kUnorderedAccess ? DescriptorAccess::kUnorderedAccess
+      : binding.register_class == RegisterClass::kShaderResource ? DescriptorAccess::kShaderResource
+                                                                 : DescriptorAccess::kOther;
   if (binding.type == BindingType::kStructuredBuffer) slot.stride_bytes = binding.size_bytes;
   if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
   return {};
@@ -132,7 +137,8 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
       slot.source = SlotSource::kRootConstants;
       slot.size_bytes = parameter.Constants.Num32BitValues * 4;
       return {};
-    default: return FillRootDescriptor(binding, range, where, slot);
+    default:
+      return FillRootDescriptor(binding, range, where, slot);
   }
 }
 
@@ -141,12 +147,14 @@ Status CheckHeapAccess(const shader::ExportDesc& code, const RootSignature& glob
   const RootSignatureFlags flags = global.GetDesc().Flags;
   if ((code.flags & shader::kExportUsesViewHeap) &&
       !HasAny(flags, RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed)) {
-    return MakeError(Id::kBindingMissing, where, ": uses ResourceDescriptorHeap; its global root "
+    return MakeError(Id::kBindingMissing, where,
+                     ": uses ResourceDescriptorHeap; its global root "
                      "signature needs the flag kCbvSrvUavHeapDirectlyIndexed");
   }
   if ((code.flags & shader::kExportUsesSamplerHeap) &&
       !HasAny(flags, RootSignatureFlags::kSamplerHeapDirectlyIndexed)) {
-    return MakeError(Id::kBindingMissing, where, ": uses SamplerDescriptorHeap; its global root "
+    return MakeError(Id::kBindingMissing, where,
+                     ": uses SamplerDescriptorHeap; its global root "
                      "signature needs the flag kSamplerHeapDirectlyIndexed");
   }
   return {};
@@ -194,9 +202,10 @@ Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignat
       if (!Overlap(a, b)) continue;
       return MakeError(Id::kRootSignaturesOverlap, where, ": register ",
                        RegisterText(a.register_class, std::max(a.first, b.first), a.space),
-                       " is in its local root signature (", a.static_sampler ? "sampler " : "parameter ",
-                       a.parameter, ") and in its global one (",
-                       b.static_sampler ? "sampler " : "parameter ", b.parameter, ")");
+                       " is in its local root signature (",
+                       a.static_sampler ? "sampler " : "parameter ", a.parameter,
+                       ") and in its global one (", b.static_sampler ? "sampler " : "parameter ",
+                       b.parameter, ")");
     }
   }
   return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// State and dispatches of command lists. Acceleration structures and copies have files of their own.
+// State and dispatches of command lists. Acceleration structures and copies have files of their
+// own.
 #include <rtapi/command_list.h>
 
 #include <algorithm>
@@ -80,7 +81,9 @@ void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootPa
   WriteArgument(*list, index, 0, &address, sizeof address);
 }
 
-bool SameGlobal(const RootSignature& a, const RootSignature& b) { return SameDefinition(a, b); }
+bool SameGlobal(const RootSignature& a, const RootSignature& b) {
+  return SameDefinition(a, b);
+}
 
 Status CheckTable(const DeviceImpl& device, const GpuVirtualAddressRangeAndStride& table,
                   const char* name) {
@@ -158,7 +161,9 @@ Status CommandList::Close() {
 const std::vector<Error>& CommandList::GetErrors() const {
   return impl_ ? impl_->errors : kNoErrors;
 }
-bool CommandList::is_open() const { return impl_ && impl_->open; }
+bool CommandList::is_open() const {
+  return impl_ && impl_->open;
+}
 
 void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
   if (!impl_ || !impl_->CheckOpen("SetDescriptorHeaps")) return;
@@ -213,8 +218,8 @@ void CommandList::SetComputeRoot32BitConstants(uint32_t parameter, uint32_t coun
   const uint32_t total = p->Constants.Num32BitValues;
   if ((count != 0 && !values) || dest_offset > total || count > total - dest_offset) {
     return impl_->Fail(MakeError(Id::kRootConstantsRange, "SetComputeRoot32BitConstants: values ",
-                                 dest_offset, "..", uint64_t{dest_offset} + count,
-                                 " of parameter ", parameter, ", which has ", total,
+                                 dest_offset, "..", uint64_t{dest_offset} + count, " of parameter ",
+                                 parameter, ", which has ", total,
                                  values ? "" : "; the pointer is null"));
   }
   if (count == 0) return;
@@ -229,8 +234,7 @@ void CommandList::SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtua
   SetRootView(impl_.get(), "SetComputeRootShaderResourceView", parameter, RootParameterType::kSrv,
               address);
 }
-void CommandList::SetComputeRootUnorderedAccessView(uint32_t parameter,
-                                                    GpuVirtualAddress address) {
+void CommandList::SetComputeRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address) {
   SetRootView(impl_.get(), "SetComputeRootUnorderedAccessView", parameter, RootParameterType::kUav,
               address);
 }
@@ -250,9 +254,8 @@ void CommandList::SetComputeRootDescriptorTable(uint32_t parameter, GpuDescripto
   if (!inside) {
     return impl_->Fail(MakeError(
         Id::kDescriptorTableHandle, "SetComputeRootDescriptorTable: parameter ", parameter,
-        " is handle ", Hex(base.ptr), ", which is in no ",
-        samplers ? "sampler" : "CBV/SRV/UAV", " heap that is set",
-        heap ? "" : "; call SetDescriptorHeaps first"));
+        " is handle ", Hex(base.ptr), ", which is in no ", samplers ? "sampler" : "CBV/SRV/UAV",
+        " heap that is set", heap ? "" : "; call SetDescriptorHeaps first"));
   }
   WriteArgument(*impl_, parameter, 0, &base.ptr, sizeof base.ptr);
 }
@@ -284,17 +287,18 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
 void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
   if (!impl_ || !impl_->CheckOpen("DispatchRays")) return;
   if (!impl_->raytracing_pipeline) {
-    return impl_->Fail(MakeError(Id::kPipelineNotSet, "DispatchRays without a ray tracing "
+    return impl_->Fail(MakeError(Id::kPipelineNotSet,
+                                 "DispatchRays without a ray tracing "
                                  "pipeline; call SetPipelineState1 first"));
   }
   StateObjectImpl& pipeline = *impl_->raytracing_pipeline.impl();
   // Some ray generation shader must go with the signature that is set; which one runs stands in
   // GPU memory.
   const auto& globals = pipeline.global_root_signatures;
-  const bool fits = globals.empty() ||
-                    std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
-                      return !g || SameGlobal(g, impl_->root_signature);
-                    });
+  const bool fits =
+      globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
+        return !g || SameGlobal(g, impl_->root_signature);
+      });
   if (!fits) {
     return impl_->Fail(MakeError(
         Id::kPipelineRootSignature, "DispatchRays: ",
@@ -317,7 +321,8 @@ void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
   }
   const PipelineStateImpl& pipeline = *impl_->compute_pipeline.impl();
   if (!SameGlobal(pipeline.root_signature, impl_->root_signature)) {
-    return impl_->Fail(MakeError(Id::kPipelineRootSignature, "Dispatch: the compute root signature ",
+    return impl_->Fail(MakeError(Id::kPipelineRootSignature,
+                                 "Dispatch: the compute root signature ",
                                  impl_->root_signature ? "that is set" : "is not set; it",
                                  " is not that of pipeline ", Quoted(pipeline.name)));
   }

@@ -93,8 +93,8 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
     return MakeError(Id::kCopyFootprint, side.name, ": a footprint of ", f.Width, "x", f.Height,
                      "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format));
   }
-  if (offset % kTextureDataPlacementAlignment != 0 || f.RowPitch % kTextureDataPitchAlignment != 0 ||
-      f.RowPitch < f.Width * texel) {
+  if (offset % kTextureDataPlacementAlignment != 0 ||
+      f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < f.Width * texel) {
     return MakeError(Id::kCopyFootprint, side.name, ": offset ", offset, ", row pitch ", f.RowPitch,
                      " for rows of ", f.Width * texel,
                      " bytes; the offset is a multiple of 512, the pitch of 256");
@@ -203,8 +203,8 @@ void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, con
                                  at_dest ? "dest " : "source ", Named("buffer", b.name()), " (",
                                  b.size(), " bytes)"));
   }
-  const bool overlap = dest == source && dest_offset < source_offset + size &&
-                       source_offset < dest_offset + size;
+  const bool overlap =
+      dest == source && dest_offset < source_offset + size && source_offset < dest_offset + size;
   if (overlap && size != 0) {
     return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyBufferRegion: ", size, " bytes from byte ",
                                  source_offset, " to byte ", dest_offset, " of ",
@@ -216,8 +216,7 @@ void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, con
 }
 
 void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y,
-                                    uint32_t z, const TextureCopyLocation& source,
-                                    const Box* box) {
+                                    uint32_t z, const TextureCopyLocation& source, const Box* box) {
   if (!impl_ || !impl_->CheckOpen("CopyTextureRegion")) return;
   auto to = ResolveSide(impl_->device, dest, "dest");
   if (!to.ok()) return impl_->Fail(to.error());
@@ -245,10 +244,9 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
     command.extent[i] = last[i] - first[i];
     if (last[i] > from->size[i] || target[i] > to->size[i] ||
         command.extent[i] > to->size[i] - target[i]) {
-      return impl_->Fail(MakeError(
-          Id::kCopyRange, "CopyTextureRegion: axis ", i, ": texels ", first[i], "..", last[i],
-          " of ", from->name, " (", from->size[i], ") to ", target[i], " of ", to->name, " (",
-          to->size[i], ")"));
+      return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: axis ", i, ": texels ",
+                                   first[i], "..", last[i], " of ", from->name, " (", from->size[i],
+                                   ") to ", target[i], " of ", to->name, " (", to->size[i], ")"));
     }
     from->place.origin[i] = first[i];
     to->place.origin[i] = target[i];
@@ -266,8 +264,8 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
 void CommandList::CopyResource(const Resource& dest, const Resource& source) {
   if (!impl_ || !impl_->CheckOpen("CopyResource")) return;
   for (const Resource* r : {&dest, &source}) {
-    if (Status s = CheckResource(impl_->device, *r, r == &dest ? "CopyResource: dest"
-                                                               : "CopyResource: source");
+    if (Status s = CheckResource(impl_->device, *r,
+                                 r == &dest ? "CopyResource: dest" : "CopyResource: source");
         !s.ok()) {
       return impl_->Fail(s.error());
     }

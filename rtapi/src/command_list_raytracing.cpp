@@ -61,9 +61,9 @@ void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
   impl_->Record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
 }
 
-void CommandList::CopyRaytracingAccelerationStructure(GpuVirtualAddress dest,
-                                                      GpuVirtualAddress source,
-                                                      RaytracingAccelerationStructureCopyMode mode) {
+void CommandList::CopyRaytracingAccelerationStructure(
+    GpuVirtualAddress dest, GpuVirtualAddress source,
+    RaytracingAccelerationStructureCopyMode mode) {
   using Mode = RaytracingAccelerationStructureCopyMode;
   if (!impl_ || !impl_->CheckOpen("CopyRaytracingAccelerationStructure")) return;
   const DeviceImpl& device = *impl_->device;

@@ -62,9 +62,8 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
   const uint64_t offset = handle.ptr - start;
   const uint64_t index = offset / kDescriptorHandleIncrementSize;
   if (index >= heap.count || offset % kDescriptorHandleIncrementSize != 0) return std::nullopt;
-  return HeapSlot{heap.type, heap.shader_visible,
-                  reinterpret_cast<shader::Descriptor*>(handle.ptr), static_cast<uint32_t>(index),
-                  heap.count - static_cast<uint32_t>(index)};
+  return HeapSlot{heap.type, heap.shader_visible, reinterpret_cast<shader::Descriptor*>(handle.ptr),
+                  static_cast<uint32_t>(index), heap.count - static_cast<uint32_t>(index)};
 }
 
 ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {
@@ -133,9 +132,8 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
     return MakeError(Id::kNoBackend,
                      "this build has none; install libembree-dev and configure again");
   }
-  auto it = std::find_if(known.begin(), known.end(), [&](const runtime::BackendFactory* f) {
-    return desc.Backend == f->name;
-  });
+  auto it = std::find_if(known.begin(), known.end(),
+                         [&](const runtime::BackendFactory* f) { return desc.Backend == f->name; });
   if (it == known.end()) {
     std::string names;
     for (const auto* f : known) names += Text(names.empty() ? "" : ", ", Quoted(f->name));
@@ -155,8 +153,12 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   return Device(std::move(impl));
 }
 
-const DeviceInfo& Device::GetInfo() const { return impl_ ? impl_->backend->info() : kEmptyInfo; }
-const DeviceDesc& Device::GetDesc() const { return impl_ ? impl_->desc : kEmptyDesc; }
+const DeviceInfo& Device::GetInfo() const {
+  return impl_ ? impl_->backend->info() : kEmptyInfo;
+}
+const DeviceDesc& Device::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyDesc;
+}
 
 Status Device::GetDeviceRemovedReason() const {
   if (!impl_) return detail::MakeError(detail::Id::kNullHandle, "the device is an empty handle");

@@ -46,7 +46,9 @@ Status CheckThreadGroup(const shader::ExportDesc& kernel) {
 
 }  // namespace
 
-const std::string& PipelineState::name() const { return impl_ ? impl_->name : kEmptyName; }
+const std::string& PipelineState::name() const {
+  return impl_ ? impl_->name : kEmptyName;
+}
 
 Result<PipelineState> Device::CreateComputePipelineState(
     const ComputePipelineStateDesc& desc) const {

@@ -46,8 +46,8 @@ Status CheckBuffer(const BufferDesc& desc) {
     return MakeError(Id::kAccelerationStructureBuffer, name,
                      " combines kRaytracingAccelerationStructure with another state");
   } else if (!on_default && desc.InitialState != ResourceStates::kCommon) {
-    const ResourceStates fixed = desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead
-                                                                : ResourceStates::kCopyDest;
+    const ResourceStates fixed =
+        desc.Heap == HeapType::kUpload ? ResourceStates::kGenericRead : ResourceStates::kCopyDest;
     if (desc.InitialState != fixed) {
       return MakeError(Id::kBufferHeap, name, " starts in state ",
                        Hex(static_cast<uint32_t>(desc.InitialState)), "; its heap allows only ",
@@ -59,9 +59,12 @@ Status CheckBuffer(const BufferDesc& desc) {
 
 uint32_t AxisLimit(const TextureDesc& desc) {
   switch (desc.Dimension) {
-    case ResourceDimension::kTexture1D: return kReqTexture1DUDimension;
-    case ResourceDimension::kTexture2D: return kReqTexture2DUOrVDimension;
-    default: return kReqTexture3DUVOrWDimension;
+    case ResourceDimension::kTexture1D:
+      return kReqTexture1DUDimension;
+    case ResourceDimension::kTexture2D:
+      return kReqTexture2DUOrVDimension;
+    default:
+      return kReqTexture3DUVOrWDimension;
   }
 }
 
@@ -74,15 +77,14 @@ Status CheckTexture(const TextureDesc& desc) {
                      "; allowed are kTexture1D, kTexture2D and kTexture3D");
   }
   const uint32_t limit = AxisLimit(desc);
-  const uint32_t depth_limit = d == ResourceDimension::kTexture3D
-                                   ? kReqTexture3DUVOrWDimension
-                                   : kReqTexture2DArrayAxisDimension;
+  const uint32_t depth_limit = d == ResourceDimension::kTexture3D ? kReqTexture3DUVOrWDimension
+                                                                  : kReqTexture2DArrayAxisDimension;
   const uint32_t height_limit = d == ResourceDimension::kTexture1D ? 1 : limit;
   if (desc.Width == 0 || desc.Height == 0 || desc.DepthOrArraySize == 0 || desc.Width > limit ||
       desc.Height > height_limit || desc.DepthOrArraySize > depth_limit) {
     return MakeError(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
-                     desc.DepthOrArraySize, "; allowed is 1x1x1 to ", limit, "x", height_limit,
-                     "x", depth_limit);
+                     desc.DepthOrArraySize, "; allowed is 1x1x1 to ", limit, "x", height_limit, "x",
+                     depth_limit);
   }
   if (desc.MipLevels > FullMipCount(desc)) {
     return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels; ", desc.Width,
@@ -129,20 +131,23 @@ uint32_t ArraySize(const TextureDesc& desc) {
 uint32_t FormatFamily(Format format) {
   const auto f = static_cast<uint32_t>(format);
   // First and last number of each DXGI family, the typeless member among them.
-  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {23, 25},
-                                              {27, 32}, {33, 38}, {39, 43}, {48, 52}, {53, 59},
-                                              {60, 64}};
+  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18},
+                                              {23, 25}, {27, 32}, {33, 38}, {39, 43},
+                                              {48, 52}, {53, 59}, {60, 64}};
   for (const auto& family : kFamilies) {
     if (f >= family[0] && f <= family[1]) return family[0];
   }
   switch (format) {
     case Format::kB8G8R8A8Typeless:
     case Format::kB8G8R8A8Unorm:
-    case Format::kB8G8R8A8UnormSrgb: return 90;
+    case Format::kB8G8R8A8UnormSrgb:
+      return 90;
     case Format::kB8G8R8X8Typeless:
     case Format::kB8G8R8X8Unorm:
-    case Format::kB8G8R8X8UnormSrgb: return 92;
-    default: return f;
+    case Format::kB8G8R8X8UnormSrgb:
+      return 92;
+    default:
+      return f;
   }
 }
 
@@ -159,7 +164,9 @@ const BufferDesc kEmptyBuffer;
 const TextureDesc kEmptyTexture;
 }  // namespace
 
-const BufferDesc& Buffer::GetDesc() const { return impl_ ? impl_->desc : kEmptyBuffer; }
+const BufferDesc& Buffer::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyBuffer;
+}
 GpuVirtualAddress Buffer::GetGPUVirtualAddress() const {
   return impl_ ? impl_->memory->address() : 0;
 }
@@ -183,7 +190,9 @@ std::span<std::byte> Buffer::mapped_bytes() const {
   return {reinterpret_cast<std::byte*>(impl_->memory->host()), impl_->desc.SizeInBytes};
 }
 
-const TextureDesc& Texture::GetDesc() const { return impl_ ? impl_->desc : kEmptyTexture; }
+const TextureDesc& Texture::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyTexture;
+}
 uint32_t Texture::subresource_count() const {
   return impl_ ? impl_->desc.MipLevels * ArraySize(impl_->desc) : 0;
 }
@@ -201,9 +210,9 @@ Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   buffer->device = impl_;
   buffer->desc = desc;
   buffer->memory = std::move(*memory);
-  impl_->addresses.insert(
-      {buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
-       desc.InitialState == ResourceStates::kRaytracingAccelerationStructure, desc.Name});
+  impl_->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
+                           desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
+                           desc.Name});
   return Buffer(std::move(buffer));
 }
 
@@ -243,9 +252,9 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
     const uint64_t pitch = AlignUp(row, kTextureDataPitchAlignment);
     offset = AlignUp(offset, kTextureDataPlacementAlignment);
     if (layouts) {
-      layouts->push_back({offset,
-                          {desc.Format, extent.width, extent.height, extent.depth,
-                           static_cast<uint32_t>(pitch)}});
+      layouts->push_back(
+          {offset,
+           {desc.Format, extent.width, extent.height, extent.depth, static_cast<uint32_t>(pitch)}});
     }
     if (row_counts) row_counts->push_back(extent.height);
     if (row_bytes) row_bytes->push_back(row);

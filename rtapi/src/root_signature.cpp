@@ -21,18 +21,25 @@ constexpr uint32_t kReservedSpaces = 0xFFFFFFF0u;
 
 RegisterClass ClassOf(DescriptorRangeType type) {
   switch (type) {
-    case DescriptorRangeType::kUav: return RegisterClass::kUnorderedAccess;
-    case DescriptorRangeType::kCbv: return RegisterClass::kConstantBuffer;
-    case DescriptorRangeType::kSampler: return RegisterClass::kSampler;
-    default: return RegisterClass::kShaderResource;
+    case DescriptorRangeType::kUav:
+      return RegisterClass::kUnorderedAccess;
+    case DescriptorRangeType::kCbv:
+      return RegisterClass::kConstantBuffer;
+    case DescriptorRangeType::kSampler:
+      return RegisterClass::kSampler;
+    default:
+      return RegisterClass::kShaderResource;
   }
 }
 
 RegisterClass ClassOf(RootParameterType type) {
   switch (type) {
-    case RootParameterType::kSrv: return RegisterClass::kShaderResource;
-    case RootParameterType::kUav: return RegisterClass::kUnorderedAccess;
-    default: return RegisterClass::kConstantBuffer;
+    case RootParameterType::kSrv:
+      return RegisterClass::kShaderResource;
+    case RootParameterType::kUav:
+      return RegisterClass::kUnorderedAccess;
+    default:
+      return RegisterClass::kConstantBuffer;
   }
 }
 
@@ -94,7 +101,8 @@ Status CheckParameter(RootParameter& parameter, uint32_t index) {
                      "; compute and ray tracing need kAll");
   }
   switch (parameter.ParameterType) {
-    case RootParameterType::kDescriptorTable: return CheckTable(parameter.DescriptorTable, where);
+    case RootParameterType::kDescriptorTable:
+      return CheckTable(parameter.DescriptorTable, where);
     case RootParameterType::k32BitConstants:
       if (parameter.Constants.Num32BitValues == 0) {
         return MakeError(Id::kRootConstantsCount, where, " has Num32BitValues 0; at least 1");
@@ -102,7 +110,8 @@ Status CheckParameter(RootParameter& parameter, uint32_t index) {
       return CheckSpace(parameter.Constants.RegisterSpace, where);
     case RootParameterType::kCbv:
     case RootParameterType::kSrv:
-    case RootParameterType::kUav: return CheckSpace(parameter.Descriptor.RegisterSpace, where);
+    case RootParameterType::kUav:
+      return CheckSpace(parameter.Descriptor.RegisterSpace, where);
   }
   return MakeError(Id::kRootParameterInvalid, where, " has type ",
                    static_cast<uint32_t>(parameter.ParameterType), "; allowed is 0 to 4");
@@ -156,7 +165,8 @@ Status CheckOverlaps(const RootSignatureDesc& desc) {
     }
     const RegisterRange& b = ranges[i];
     return MakeError(Id::kRootSignatureOverlap, RegisterText(b.register_class, b.first, b.space),
-                     " is bound by ", ranges[i - 1].static_sampler ? "static sampler " : "parameter ",
+                     " is bound by ",
+                     ranges[i - 1].static_sampler ? "static sampler " : "parameter ",
                      ranges[i - 1].parameter, " and by ",
                      b.static_sampler ? "static sampler " : "parameter ", b.parameter);
   }
@@ -168,9 +178,15 @@ uint64_t RootCost(const RootSignatureDesc& desc) {
   uint64_t cost = 0;
   for (const RootParameter& p : desc.Parameters) {
     switch (p.ParameterType) {
-      case RootParameterType::kDescriptorTable: cost += 1; break;
-      case RootParameterType::k32BitConstants: cost += p.Constants.Num32BitValues; break;
-      default: cost += 2; break;
+      case RootParameterType::kDescriptorTable:
+        cost += 1;
+        break;
+      case RootParameterType::k32BitConstants:
+        cost += p.Constants.Num32BitValues;
+        break;
+      default:
+        cost += 2;
+        break;
     }
   }
   return cost;
@@ -212,14 +228,12 @@ std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
         const uint64_t end = r.NumDescriptors == kUnboundedDescriptors
                                  ? kRegisterEnd
                                  : uint64_t{r.BaseShaderRegister} + r.NumDescriptors;
-        out.push_back(
-            {ClassOf(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false});
+        out.push_back({ClassOf(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false});
       }
       continue;
     }
     const bool constants = p.ParameterType == RootParameterType::k32BitConstants;
-    const uint32_t first =
-        constants ? p.Constants.ShaderRegister : p.Descriptor.ShaderRegister;
+    const uint32_t first = constants ? p.Constants.ShaderRegister : p.Descriptor.ShaderRegister;
     const uint32_t space = constants ? p.Constants.RegisterSpace : p.Descriptor.RegisterSpace;
     out.push_back({ClassOf(p.ParameterType), space, first, uint64_t{first} + 1, i, false});
   }
@@ -318,12 +332,18 @@ namespace {
 const RootSignatureDesc kEmptyDesc;
 }
 
-const RootSignatureDesc& RootSignature::GetDesc() const { return impl_ ? impl_->desc : kEmptyDesc; }
-bool RootSignature::is_local() const { return impl_ && impl_->is_local(); }
+const RootSignatureDesc& RootSignature::GetDesc() const {
+  return impl_ ? impl_->desc : kEmptyDesc;
+}
+bool RootSignature::is_local() const {
+  return impl_ && impl_->is_local();
+}
 uint32_t RootSignature::GetArgumentOffset(uint32_t i) const {
   return impl_ && i < impl_->offsets.size() ? impl_->offsets[i] : 0;
 }
-uint32_t RootSignature::GetArgumentBytes() const { return impl_ ? impl_->argument_bytes : 0; }
+uint32_t RootSignature::GetArgumentBytes() const {
+  return impl_ ? impl_->argument_bytes : 0;
+}
 
 Result<RootSignature> Device::CreateRootSignature(const RootSignatureDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateRootSignature on an empty device handle");

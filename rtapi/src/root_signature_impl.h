@@ -14,7 +14,7 @@ namespace rtapi::detail {
 
 struct RootSignatureImpl {
   std::shared_ptr<DeviceImpl> device;
-  RootSignatureDesc desc;  // append offsets of ranges resolved
+  RootSignatureDesc desc;         // append offsets of ranges resolved
   std::vector<uint32_t> offsets;  // of each parameter's arguments
   uint32_t argument_bytes = 0;
   std::vector<shader::Descriptor> static_samplers;
@@ -31,7 +31,7 @@ struct RegisterRange {
   shader::RegisterClass register_class = shader::RegisterClass::kShaderResource;
   uint32_t space = 0;
   uint32_t first = 0;
-  uint64_t end = 0;  // one past the last; 2^32 if unbounded
+  uint64_t end = 0;        // one past the last; 2^32 if unbounded
   uint32_t parameter = 0;  // index; of static samplers: the sampler's
   bool static_sampler = false;
 };

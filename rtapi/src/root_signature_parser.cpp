@@ -89,8 +89,8 @@ constexpr Keyword kAddressModes[] = {
     {"TEXTURE_ADDRESS_BORDER", 4}, {"TEXTURE_ADDRESS_MIRROR_ONCE", 5},
 };
 constexpr Keyword kComparisons[] = {
-    {"COMPARISON_NEVER", 1},      {"COMPARISON_LESS", 2},          {"COMPARISON_EQUAL", 3},
-    {"COMPARISON_LESS_EQUAL", 4}, {"COMPARISON_GREATER", 5},       {"COMPARISON_NOT_EQUAL", 6},
+    {"COMPARISON_NEVER", 1},         {"COMPARISON_LESS", 2},    {"COMPARISON_EQUAL", 3},
+    {"COMPARISON_LESS_EQUAL", 4},    {"COMPARISON_GREATER", 5}, {"COMPARISON_NOT_EQUAL", 6},
     {"COMPARISON_GREATER_EQUAL", 7}, {"COMPARISON_ALWAYS", 8},
 };
 constexpr Keyword kBorderColors[] = {
@@ -181,7 +181,8 @@ class Parser {
     errno = 0;
     const unsigned long long value = std::strtoull(digits.c_str(), &end, 0);
     const bool suffix = *end == 'u' || *end == 'U';
-    if (errno || value > 0xFFFFFFFFull || (end + (suffix ? 1 : 0)) != digits.c_str() + digits.size()) {
+    if (errno || value > 0xFFFFFFFFull ||
+        (end + (suffix ? 1 : 0)) != digits.c_str() + digits.size()) {
       return fail("expected a 32-bit number");
     }
     pos_ += word.size();
@@ -427,6 +428,8 @@ class Parser {
 
 }  // namespace
 
-Result<RootSignatureDesc> ParseRootSignature(std::string_view text) { return Parser(text).Parse(); }
+Result<RootSignatureDesc> ParseRootSignature(std::string_view text) {
+  return Parser(text).Parse();
+}
 
 }  // namespace rtapi

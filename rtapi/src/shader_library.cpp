@@ -81,10 +81,9 @@ Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<void
   if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
   if (desc->abi_version != shader::kAbiVersion ||
       desc->struct_bytes != sizeof(shader::LibraryDesc)) {
-    return MakeError(Id::kShaderLibrary, where, ": made for ABI version ", desc->abi_version,
-                     " (", desc->struct_bytes, " bytes), this program has version ",
-                     shader::kAbiVersion, " (", sizeof(shader::LibraryDesc),
-                     " bytes); compile the shaders again");
+    return MakeError(Id::kShaderLibrary, where, ": made for ABI version ", desc->abi_version, " (",
+                     desc->struct_bytes, " bytes), this program has version ", shader::kAbiVersion,
+                     " (", sizeof(shader::LibraryDesc), " bytes); compile the shaders again");
   }
   auto impl = std::make_shared<ShaderLibraryImpl>();
   impl->name = desc->name ? desc->name : where;
@@ -100,8 +99,12 @@ Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<void
 
 }  // namespace
 
-const std::string& ShaderLibrary::name() const { return impl_ ? impl_->name : kEmptyString; }
-const std::string& ShaderLibrary::target() const { return impl_ ? impl_->target : kEmptyString; }
+const std::string& ShaderLibrary::name() const {
+  return impl_ ? impl_->name : kEmptyString;
+}
+const std::string& ShaderLibrary::target() const {
+  return impl_ ? impl_->target : kEmptyString;
+}
 const std::vector<ShaderExportInfo>& ShaderLibrary::GetExports() const {
   return impl_ ? impl_->exports : kNoExports;
 }
@@ -127,12 +130,12 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* reason = dlerror();
-    return MakeError(Id::kShaderLibrary, Quoted(path), " cannot be loaded: ",
-                     reason ? reason : "unknown reason");
+    return MakeError(Id::kShaderLibrary, Quoted(path),
+                     " cannot be loaded: ", reason ? reason : "unknown reason");
   }
   std::shared_ptr<void> owner(handle, [](void* h) { dlclose(h); });
-  auto entry = reinterpret_cast<shader::LibraryEntryPointFn>(
-      dlsym(handle, shader::kLibraryEntryPoint));
+  auto entry =
+      reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
   if (!entry) {
     return MakeError(Id::kShaderLibrary, Quoted(path), " has no symbol ",
                      shader::kLibraryEntryPoint, "; it is no shader library of kaamos-hlsl");

@@ -17,9 +17,12 @@ constexpr const char* kKinds[] = {"32-bit constants", "an address", "a descripto
 
 size_t WantedKind(RootParameterType type) {
   switch (type) {
-    case RootParameterType::k32BitConstants: return 0;
-    case RootParameterType::kDescriptorTable: return 2;
-    default: return 1;
+    case RootParameterType::k32BitConstants:
+      return 0;
+    case RootParameterType::kDescriptorTable:
+      return 2;
+    default:
+      return 1;
   }
 }
 
@@ -93,9 +96,9 @@ uint32_t ShaderTable::AddNullRecord() {
 uint32_t ShaderTable::stride_bytes() const {
   size_t largest = kIdentifierBytes;
   for (const auto& record : records_) largest = std::max(largest, record.size());
-  return static_cast<uint32_t>(
-      AlignUp(largest, has_ray_generation_ ? kRaytracingShaderTableByteAlignment
-                                           : kRaytracingShaderRecordByteAlignment));
+  return static_cast<uint32_t>(AlignUp(largest, has_ray_generation_
+                                                    ? kRaytracingShaderTableByteAlignment
+                                                    : kRaytracingShaderRecordByteAlignment));
 }
 
 std::vector<std::byte> ShaderTable::bytes() const {

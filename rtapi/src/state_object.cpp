@@ -34,7 +34,9 @@ uint64_t StateObject::GetShaderStackSize(std::string_view name) const {
   return member ? member->stack_bytes : kNoShaderStackSize;
 }
 
-uint64_t StateObject::GetPipelineStackSize() const { return impl_ ? impl_->stack_bytes.load() : 0; }
+uint64_t StateObject::GetPipelineStackSize() const {
+  return impl_ ? impl_->stack_bytes.load() : 0;
+}
 
 Status StateObject::SetPipelineStackSize(uint64_t bytes) {
   if (!impl_) return MakeError(Id::kNullHandle, "SetPipelineStackSize on an empty state object");
@@ -42,8 +44,10 @@ Status StateObject::SetPipelineStackSize(uint64_t bytes) {
     return MakeError(Id::kPipelineStackSize, "a collection has no pipeline stack");
   }
   if (bytes >= 0xFFFFFFFFu) {
-    return MakeError(Id::kPipelineStackSize, bytes, " bytes; allowed is less than 0xFFFFFFFF. It "
-                     "stays ", impl_->stack_bytes.load());
+    return MakeError(Id::kPipelineStackSize, bytes,
+                     " bytes; allowed is less than 0xFFFFFFFF. It "
+                     "stays ",
+                     impl_->stack_bytes.load());
   }
   impl_->stack_bytes = bytes;
   return {};
@@ -91,7 +95,8 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
                      " is a collection");
   }
   if (!HasAny(parent.impl()->flags, StateObjectFlags::kAllowStateObjectAdditions)) {
-    return MakeError(Id::kAdditionNotAllowed, "the parent lacks flag 0x4 "
+    return MakeError(Id::kAdditionNotAllowed,
+                     "the parent lacks flag 0x4 "
                      "(kAllowStateObjectAdditions) in its state object config");
   }
   return {};
@@ -99,15 +104,16 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
 
 Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
   if (!HasAny(added.flags, StateObjectFlags::kAllowStateObjectAdditions)) {
-    return MakeError(Id::kAdditionNotAllowed, "the addition lacks flag 0x4 "
+    return MakeError(Id::kAdditionNotAllowed,
+                     "the addition lacks flag 0x4 "
                      "(kAllowStateObjectAdditions) in its state object config");
   }
   const runtime::LinkedPipeline& a = *added.linked;
   const runtime::LinkedPipeline& p = *parent.linked;
-  if (!a.records.empty() && (a.max_payload_bytes != p.max_payload_bytes ||
-                             a.max_attribute_bytes != p.max_attribute_bytes ||
-                             a.max_recursion_depth != p.max_recursion_depth ||
-                             a.flags != p.flags)) {
+  if (!a.records.empty() &&
+      (a.max_payload_bytes != p.max_payload_bytes ||
+       a.max_attribute_bytes != p.max_attribute_bytes ||
+       a.max_recursion_depth != p.max_recursion_depth || a.flags != p.flags)) {
     return MakeError(Id::kAdditionConfigsDiffer, "payload ", a.max_payload_bytes, ", attributes ",
                      a.max_attribute_bytes, ", recursion ", a.max_recursion_depth,
                      "; the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes, ", ",
@@ -143,8 +149,7 @@ Result<StateObject> Device::AddToStateObject(const StateObjectDesc& addition,
   merged.device = impl_;
   merged.flags = parent.impl()->flags;
   for (const StateObjectImpl* source : {parent.impl().get(), added->get()}) {
-    merged.subjects.insert(merged.subjects.end(), source->subjects.begin(),
-                           source->subjects.end());
+    merged.subjects.insert(merged.subjects.end(), source->subjects.begin(), source->subjects.end());
   }
   auto made = LinkStateObject(std::move(merged), true);
   if (!made.ok()) return made.error();

@@ -53,7 +53,7 @@ using Associations = std::array<Associated, kCategories>;
 // An exported shader or a hit group.
 struct Subject {
   std::string name;
-  std::string mangled;  // other name of a shader that is not renamed
+  std::string mangled;                       // other name of a shader that is not renamed
   const shader::ExportDesc* code = nullptr;  // null: a hit group
   ShaderLibrary library;
   int library_scope = -1;     // index into Parts::library_scopes
@@ -64,7 +64,7 @@ struct Subject {
   // Set by a collection or parent in which it was resolved already.
   std::optional<ShaderIdentifier> identifier;
 
-  HitGroupDesc group;  // hit groups
+  HitGroupDesc group;                               // hit groups
   std::array<std::shared_ptr<Subject>, 3> members;  // any-hit, closest-hit, intersection
 
   bool is_group() const { return code == nullptr; }
@@ -83,8 +83,8 @@ struct ExplicitAssociation {
 
 // Candidates for default associations of one scope. [DXR: Declaring a default association]
 struct DefaultScope {
-  std::vector<DefinitionPtr> implicit;   // in no association at all
-  std::vector<DefinitionPtr> by_empty;   // association with an empty export list
+  std::vector<DefinitionPtr> implicit;  // in no association at all
+  std::vector<DefinitionPtr> by_empty;  // association with an empty export list
 };
 
 struct Parts {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Third stage: hit groups find their shaders, shaders their bindings, and what an identifier can name
-// becomes a record.
+// Third stage: hit groups find their shaders, shaders their bindings, and what an identifier can
+// name becomes a record.
 #include <algorithm>
 #include <set>
 
@@ -23,14 +23,22 @@ constexpr uint32_t kMaxStaticSamplers = 2032;  // [D3D12: root signature limits]
 
 const char* StageName(Stage stage) {
   switch (stage) {
-    case Stage::kCompute: return "compute";
-    case Stage::kLibrary: return "library function";
-    case Stage::kRayGeneration: return "ray generation";
-    case Stage::kIntersection: return "intersection";
-    case Stage::kAnyHit: return "any-hit";
-    case Stage::kClosestHit: return "closest-hit";
-    case Stage::kMiss: return "miss";
-    case Stage::kCallable: return "callable";
+    case Stage::kCompute:
+      return "compute";
+    case Stage::kLibrary:
+      return "library function";
+    case Stage::kRayGeneration:
+      return "ray generation";
+    case Stage::kIntersection:
+      return "intersection";
+    case Stage::kAnyHit:
+      return "any-hit";
+    case Stage::kClosestHit:
+      return "closest-hit";
+    case Stage::kMiss:
+      return "miss";
+    case Stage::kCallable:
+      return "callable";
   }
   return "unknown";
 }
@@ -141,7 +149,8 @@ class Linker {
       if (!m || m->code->attribute_bytes == 0) continue;
       if (group.group.Type == HitGroupType::kTriangles && m->code->attribute_bytes != 8) {
         return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
-                         m->code->attribute_bytes, " bytes of attributes; those of triangles are "
+                         m->code->attribute_bytes,
+                         " bytes of attributes; those of triangles are "
                          "BuiltInTriangleIntersectionAttributes, 8 bytes");
       }
       if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
@@ -238,10 +247,9 @@ class Linker {
                        candidates[0]->where, " and ", candidates[1]->where,
                        " differ, so that neither is the default; associate one of them");
     }
-    return MakeError(c == Category::kShaderConfig ? Id::kShaderConfigMissing
-                                                  : Id::kPipelineConfigMissing,
-                     Describe(s), " has no ", CategoryName(c),
-                     " associated with it, explicitly or by default");
+    return MakeError(
+        c == Category::kShaderConfig ? Id::kShaderConfigMissing : Id::kPipelineConfigMissing,
+        Describe(s), " has no ", CategoryName(c), " associated with it, explicitly or by default");
   }
 
   Status DifferentConfigs(const Subject& s, Category c, const Definition& a,
@@ -316,8 +324,7 @@ class Linker {
                          ", which is no export of this state object");
       }
       const Subject& member = *group.members[i];
-      auto linked =
-          LinkShader(member, effective, Text(Describe(member), " in ", Describe(group)));
+      auto linked = LinkShader(member, effective, Text(Describe(member), " in ", Describe(group)));
       if (!linked.ok()) return linked.error();
       *slots[i] = *linked;
     }
@@ -375,8 +382,7 @@ class Linker {
     std::vector<const StaticSamplerDesc*> unique;
     std::set<const void*> seen;
     for (const auto& s : linked_->shaders) {
-      for (const RootSignature* signature :
-           {&s->local_root_signature, &s->global_root_signature}) {
+      for (const RootSignature* signature : {&s->local_root_signature, &s->global_root_signature}) {
         if (!*signature || !seen.insert(signature->impl().get()).second) continue;
         for (const StaticSamplerDesc& sampler : signature->GetDesc().StaticSamplers) {
           if (signature->is_local()) {
@@ -384,15 +390,14 @@ class Linker {
                 std::pair(sampler.RegisterSpace, sampler.ShaderRegister), &sampler);
             if (!is_new && !SameSampler(*it->second, sampler)) {
               return MakeError(Id::kStaticSamplerConflict, "two local root signatures define ",
-                               RegisterText(shader::RegisterClass::kSampler,
-                                            sampler.ShaderRegister, sampler.RegisterSpace),
+                               RegisterText(shader::RegisterClass::kSampler, sampler.ShaderRegister,
+                                            sampler.RegisterSpace),
                                " differently (one of them for ", Quoted(s->name),
                                "); static samplers of one register must be the same");
             }
           }
-          const bool known = std::any_of(unique.begin(), unique.end(), [&](const auto* u) {
-            return SameSampler(*u, sampler);
-          });
+          const bool known = std::any_of(unique.begin(), unique.end(),
+                                         [&](const auto* u) { return SameSampler(*u, sampler); });
           if (!known) unique.push_back(&sampler);
         }
       }
@@ -441,13 +446,26 @@ uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline) {
   for (const auto& s : pipeline.shaders) {
     uint64_t* largest = nullptr;
     switch (s->stage) {
-      case Stage::kRayGeneration: largest = &raygen; break;
-      case Stage::kClosestHit: largest = &closest; break;
-      case Stage::kMiss: largest = &miss; break;
-      case Stage::kIntersection: largest = &intersection; break;
-      case Stage::kAnyHit: largest = &any; break;
-      case Stage::kCallable: largest = &callable; break;
-      default: continue;
+      case Stage::kRayGeneration:
+        largest = &raygen;
+        break;
+      case Stage::kClosestHit:
+        largest = &closest;
+        break;
+      case Stage::kMiss:
+        largest = &miss;
+        break;
+      case Stage::kIntersection:
+        largest = &intersection;
+        break;
+      case Stage::kAnyHit:
+        largest = &any;
+        break;
+      case Stage::kCallable:
+        largest = &callable;
+        break;
+      default:
+        continue;
     }
     *largest = std::max(*largest, s->stack_bytes);
   }

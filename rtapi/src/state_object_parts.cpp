@@ -46,20 +46,22 @@ bool SameDefinition(const Definition& a, const Definition& b) {
     case Category::kPipelineConfig:
       return a.pipeline_config.MaxTraceRecursionDepth == b.pipeline_config.MaxTraceRecursionDepth &&
              a.pipeline_config.Flags == b.pipeline_config.Flags;
-    default: return SameDefinition(a.root_signature, b.root_signature);
+    default:
+      return SameDefinition(a.root_signature, b.root_signature);
   }
 }
 
 namespace {
 
-constexpr auto kDefinedObjectFlags = StateObjectFlags::kAllowLocalDependenciesOnExternalDefinitions |
-                                     StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions |
-                                     StateObjectFlags::kAllowStateObjectAdditions;
+constexpr auto kDefinedObjectFlags =
+    StateObjectFlags::kAllowLocalDependenciesOnExternalDefinitions |
+    StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions |
+    StateObjectFlags::kAllowStateObjectAdditions;
 
 std::vector<std::string> SplitNames(const char* list) {
   std::vector<std::string> names;
   std::string current;
-  for (const char* c = list ? list : ""; ; ++c) {
+  for (const char* c = list ? list : "";; ++c) {
     if (*c == ';' || *c == '\0') {
       if (!current.empty()) names.push_back(current);
       current.clear();
@@ -81,7 +83,8 @@ class Gatherer {
     if (desc_.Type != StateObjectType::kCollection &&
         desc_.Type != StateObjectType::kRaytracingPipeline) {
       return MakeError(Id::kStateObjectInvalidSubobject, "state object type ",
-                       static_cast<uint32_t>(desc_.Type), "; allowed are kCollection (0) and "
+                       static_cast<uint32_t>(desc_.Type),
+                       "; allowed are kCollection (0) and "
                        "kRaytracingPipeline (3)");
     }
     definitions_.resize(desc_.Subobjects.size());
@@ -117,10 +120,10 @@ class Gatherer {
       for (uint32_t i = 0; i < table.subobject_count; ++i) {
         const auto& s = table.subobjects[i];
         if (s.type != 0 || !IsListed(*library, s.name)) continue;
-        if (Status st = TakeFlags(static_cast<StateObjectFlags>(s.values[0]),
-                                  Text(Quoted(s.name ? s.name : ""), " of ",
-                                       Quoted(library->DXILLibrary.name())),
-                                  flags);
+        if (Status st = TakeFlags(
+                static_cast<StateObjectFlags>(s.values[0]),
+                Text(Quoted(s.name ? s.name : ""), " of ", Quoted(library->DXILLibrary.name())),
+                flags);
             !st.ok()) {
           return st;
         }
@@ -188,12 +191,14 @@ class Gatherer {
     if (Status s = CheckHandle(parts_.device, *sub.pExistingCollection, where); !s.ok()) return s;
     const StateObjectImpl& collection = *sub.pExistingCollection->impl();
     if (collection.type != StateObjectType::kCollection) {
-      return MakeError(Id::kCollectionNested, where, " is a pipeline; only collections can be "
+      return MakeError(Id::kCollectionNested, where,
+                       " is a pipeline; only collections can be "
                        "included. Use AddToStateObject to extend a pipeline");
     }
     const auto additions = StateObjectFlags::kAllowStateObjectAdditions;
     if (HasAny(parts_.flags, additions) && !HasAny(collection.flags, additions)) {
-      return MakeError(Id::kCollectionWithoutAdditions, where, ": the pipeline has flag 0x4 "
+      return MakeError(Id::kCollectionWithoutAdditions, where,
+                       ": the pipeline has flag 0x4 "
                        "(kAllowStateObjectAdditions), so the collection needs it too");
     }
     return ImportCollection(collection, sub.Exports, where);
@@ -228,8 +233,8 @@ class Gatherer {
     }
     if (signature.is_local() != local) {
       return MakeError(Id::kRootSignatureKind, where, " takes a ", local ? "local" : "global",
-                       " root signature; this one was created ",
-                       local ? "without" : "with", " the flag kLocalRootSignature");
+                       " root signature; this one was created ", local ? "without" : "with",
+                       " the flag kLocalRootSignature");
     }
     Definition d;
     d.category = local ? Category::kLocalRootSignature : Category::kGlobalRootSignature;
@@ -382,18 +387,19 @@ class Gatherer {
                                         definition);
           break;
         case StateSubobjectType::kRaytracingPipelineConfig1:
-          status = DefinePipelineConfig(
-              {s.values[0], static_cast<RaytracingPipelineFlags>(s.values[1])}, true, where,
-              definition);
+          status =
+              DefinePipelineConfig({s.values[0], static_cast<RaytracingPipelineFlags>(s.values[1])},
+                                   true, where, definition);
           break;
         case StateSubobjectType::kHitGroup: {
           auto text = [&s](int k) { return std::string(s.strings[k] ? s.strings[k] : ""); };
-          status = AddHitGroup({name, static_cast<HitGroupType>(s.values[0]), text(0), text(1),
-                                text(2)},
-                               scope, where);
+          status =
+              AddHitGroup({name, static_cast<HitGroupType>(s.values[0]), text(0), text(1), text(2)},
+                          scope, where);
           break;
         }
-        case StateSubobjectType::kStateObjectConfig: break;
+        case StateSubobjectType::kStateObjectConfig:
+          break;
         case StateSubobjectType::kSubobjectToExportsAssociation:
         case StateSubobjectType::kDxilSubobjectToExportsAssociation:
           library_associations_.push_back(
@@ -434,8 +440,10 @@ class Gatherer {
                        "; allowed are kTriangles (0) and kProceduralPrimitive (1)");
     }
     if (group.Type == HitGroupType::kTriangles && has_intersection) {
-      return MakeError(Id::kHitGroupShape, name, ": a triangle hit group has no intersection "
-                       "shader, this one imports ", Quoted(group.IntersectionShaderImport));
+      return MakeError(Id::kHitGroupShape, name,
+                       ": a triangle hit group has no intersection "
+                       "shader, this one imports ",
+                       Quoted(group.IntersectionShaderImport));
     }
     if (group.Type == HitGroupType::kProceduralPrimitive && !has_intersection) {
       return MakeError(Id::kHitGroupShape, name,
@@ -454,8 +462,8 @@ class Gatherer {
   Status ImportCollection(const StateObjectImpl& collection, const std::vector<ExportDesc>& exports,
                           const std::string& where) {
     const int scope = parts_.collection_count++;
-    const bool referable = HasAny(
-        collection.flags, StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions);
+    const bool referable =
+        HasAny(collection.flags, StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions);
     std::map<const Subject*, SubjectPtr> copies;
     for (const SubjectPtr& original : collection.subjects) {
       auto copy = std::make_shared<Subject>(*original);

@@ -59,8 +59,8 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
   if (Status s = CheckQueue(device, queue); !s.ok()) return s.error();
   auto staging = CreateUploadBuffer(device, bytes, name + " staging");
   if (!staging.ok()) return staging.error();
-  auto buffer = device.CreateBuffer(
-      {.SizeInBytes = bytes.size(), .Flags = flags, .Name = std::move(name)});
+  auto buffer =
+      device.CreateBuffer({.SizeInBytes = bytes.size(), .Flags = flags, .Name = std::move(name)});
   if (!buffer.ok()) return buffer.error();
   auto list = device.CreateCommandList();
   if (!list.ok()) return list.error();

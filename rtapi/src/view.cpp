@@ -120,13 +120,17 @@ struct TextureView {
 bool FitsDimension(SrvDimension view, ResourceDimension resource) {
   switch (view) {
     case SrvDimension::kTexture1D:
-    case SrvDimension::kTexture1DArray: return resource == ResourceDimension::kTexture1D;
+    case SrvDimension::kTexture1DArray:
+      return resource == ResourceDimension::kTexture1D;
     case SrvDimension::kTexture2D:
     case SrvDimension::kTexture2DArray:
     case SrvDimension::kTextureCube:
-    case SrvDimension::kTextureCubeArray: return resource == ResourceDimension::kTexture2D;
-    case SrvDimension::kTexture3D: return resource == ResourceDimension::kTexture3D;
-    default: return false;
+    case SrvDimension::kTextureCubeArray:
+      return resource == ResourceDimension::kTexture2D;
+    case SrvDimension::kTexture3D:
+      return resource == ResourceDimension::kTexture3D;
+    default:
+      return false;
   }
 }
 
@@ -210,8 +214,8 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
     resolved.swizzle[i] = static_cast<uint8_t>((mapping >> (3 * i)) & 7);
     if (resolved.swizzle[i] > 5) {
       return MakeError(Id::kViewFormat, "Shader4ComponentMapping ", Hex(mapping), " of ",
-                       Named("texture", desc.Name), " selects component ",
-                       int{resolved.swizzle[i]}, "; allowed is 0 to 5");
+                       Named("texture", desc.Name), " selects component ", int{resolved.swizzle[i]},
+                       "; allowed is 0 to 5");
     }
   }
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
@@ -273,7 +277,8 @@ TextureView FromSrv(const ShaderResourceViewDesc& d) {
       take(t.MostDetailedMip, t.MipLevels, t.First2DArrayFace, faces, t.ResourceMinLODClamp);
       break;
     }
-    default: break;
+    default:
+      break;
   }
   return v;
 }
@@ -284,13 +289,17 @@ TextureView FromUav(const UnorderedAccessViewDesc& d) {
   v.dimension = static_cast<SrvDimension>(d.ViewDimension);  // the numbers are the same
   v.uav = true;
   switch (d.ViewDimension) {
-    case UavDimension::kTexture1D: v.first_mip = d.Texture1D.MipSlice; break;
+    case UavDimension::kTexture1D:
+      v.first_mip = d.Texture1D.MipSlice;
+      break;
     case UavDimension::kTexture1DArray:
       v.first_mip = d.Texture1DArray.MipSlice;
       v.first_slice = d.Texture1DArray.FirstArraySlice;
       v.slices = d.Texture1DArray.ArraySize;
       break;
-    case UavDimension::kTexture2D: v.first_mip = d.Texture2D.MipSlice; break;
+    case UavDimension::kTexture2D:
+      v.first_mip = d.Texture2D.MipSlice;
+      break;
     case UavDimension::kTexture2DArray:
       v.first_mip = d.Texture2DArray.MipSlice;
       v.first_slice = d.Texture2DArray.FirstArraySlice;
@@ -301,7 +310,8 @@ TextureView FromUav(const UnorderedAccessViewDesc& d) {
       v.first_slice = d.Texture3D.FirstWSlice;
       v.slices = d.Texture3D.WSize;
       break;
-    default: break;
+    default:
+      break;
   }
   return v;
 }
@@ -311,7 +321,8 @@ SrvDimension WholeDimension(const TextureDesc& desc) {
   switch (desc.Dimension) {
     case ResourceDimension::kTexture1D:
       return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture1DArray : SrvDimension::kTexture1D;
-    case ResourceDimension::kTexture3D: return SrvDimension::kTexture3D;
+    case ResourceDimension::kTexture3D:
+      return SrvDimension::kTexture3D;
     default:
       return desc.DepthOrArraySize > 1 ? SrvDimension::kTexture2DArray : SrvDimension::kTexture2D;
   }
@@ -361,11 +372,11 @@ Status Device::CreateShaderResourceView(const Resource& resource,
   }
   if (wants_buffer) {
     const BufferSrv& b = desc.Buffer;
-    return WriteBufferView(impl_, std::get<Buffer>(resource),
-                           {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
-                            HasAny(b.Flags, BufferSrvFlags::kRaw),
-                            DescriptorAccess::kShaderResource},
-                           dest);
+    return WriteBufferView(
+        impl_, std::get<Buffer>(resource),
+        {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
+         HasAny(b.Flags, BufferSrvFlags::kRaw), DescriptorAccess::kShaderResource},
+        dest);
   }
   return WriteTextureView(impl_, std::get<Texture>(resource), FromSrv(desc),
                           desc.Shader4ComponentMapping, dest);
@@ -393,11 +404,11 @@ Status Device::CreateUnorderedAccessView(const Resource& resource,
       return MakeError(Id::kViewStride, "CounterOffsetInBytes is ", b.CounterOffsetInBytes,
                        "; append and counter buffers are not supported, it must be 0");
     }
-    return WriteBufferView(impl_, std::get<Buffer>(resource),
-                           {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
-                            HasAny(b.Flags, BufferUavFlags::kRaw),
-                            DescriptorAccess::kUnorderedAccess},
-                           dest);
+    return WriteBufferView(
+        impl_, std::get<Buffer>(resource),
+        {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
+         HasAny(b.Flags, BufferUavFlags::kRaw), DescriptorAccess::kUnorderedAccess},
+        dest);
   }
   return WriteTextureView(impl_, std::get<Texture>(resource), FromUav(desc),
                           kDefaultShader4ComponentMapping, dest);
