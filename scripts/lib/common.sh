@@ -79,7 +79,7 @@ lock_build() {
 # it got become one changing line on a terminal, and one line per ten seconds elsewhere; all other
 # lines (warnings, errors, what a failed test printed) are shown as they are.
 progress() {
-  local kind=$1 line text shown=$SECONDS width=0 quiet tty=0
+  local kind=$1 line text shown=$SECONDS width=0 quiet note=0 tty=0
   if [[ -t 1 ]]; then
     tty=1
     width=$(tput cols 2>/dev/null || echo 80)
@@ -89,7 +89,15 @@ progress() {
     quiet=1 text=$line
     case $kind in
       build) [[ $line =~ ^\[[0-9]+/[0-9]+ ]] || quiet=0 ;;
-      configure) [[ $line == --* || -z $line || $line == 'Preset '* || $line =~ ^\ \ [A-Z_]+= ]] || quiet=0 ;;
+      configure)
+        # What CMake only notes begins with "--" and may go on over lines; warnings begin anew.
+        if [[ $line == --* || $line == 'Preset '* ]]; then
+          note=1
+        elif [[ $line =~ ^CMake\ [A-Z] ]]; then
+          note=0
+        fi
+        quiet=$note
+        ;;
       apt) [[ $line != E:* && $line != *'No space left'* ]] || quiet=0 ;;
       test)
         if [[ $line =~ ^\ *([0-9]+)/([0-9]+)\ Test\ +\#[0-9]+:\ (.*)$ ]]; then

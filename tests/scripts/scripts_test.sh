@@ -269,12 +269,14 @@ echo "cmake version 3.18.4"'
 failed_configure_shows_cmakes_words() {
   fake cmake <<<'#!/bin/sh
 case $1 in --version) echo "cmake version 3.25.1"; exit 0;; esac
-echo "-- Looking"
+printf "%s\n" "-- Looking" "of no interest" "" "CMake Warning at CMakeLists.txt:3:" "  old file" "" "-- Done"
 echo "CMake Error: Could not find a package configuration file provided by \"embree\""
 exit 1'
   run_test
   expect_status 1
   expect 'Could not find a package configuration file provided by "embree"'
+  expect $'CMake Warning at CMakeLists.txt:3:\n  old file'
+  expect_not 'no interest'
   expect 'configuring failed; CMake says above what it misses.'
 }
 
