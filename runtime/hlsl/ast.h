@@ -214,6 +214,7 @@ enum class ExprKind : uint8_t {
 struct Expr {
   ExprKind kind;
   bool is_parenthesized = false;
+  uint16_t height = 0;  // Levels of expressions below; limited, so that a walk may be recursive.
   SourceLocation location;
 };
 
