@@ -277,4 +277,12 @@ void Parser::recover_behind_paren(size_t open) {
   panic_ = false;
 }
 
+void Parser::recover_behind_brace(size_t open) {
+  if (!panic_ || diagnostics_.should_stop()) return;
+  const size_t end = behind_closing(open);
+  if (end < pos_ || !token_at(end - 1).is(Kind::kRightBrace)) return;
+  pos_ = end;
+  panic_ = false;
+}
+
 }  // namespace kaamos::hlsl

@@ -137,7 +137,9 @@ const std::unordered_map<std::string_view, BuiltinName>& names() {
 }
 
 // 1..4, or 0.
-uint8_t dimension(char c) { return c >= '1' && c <= '4' ? static_cast<uint8_t>(c - '0') : 0; }
+uint8_t dimension(char c) {
+  return c >= '1' && c <= '4' ? static_cast<uint8_t>(c - '0') : 0;
+}
 
 BuiltinName shaped(std::string_view scalar, uint8_t rows, uint8_t columns) {
   auto found = names().find(scalar);

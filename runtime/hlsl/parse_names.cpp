@@ -17,8 +17,8 @@ Parser::NameLookup Parser::look_up(size_t index) {
   if (is_global) ++i;
   result.end = index;
   if (!is_name(i)) return result;
-  result.symbol = is_global ? scopes_.find_in(kGlobalScope, token_at(i).value)
-                            : scopes_.find(token_at(i));
+  result.symbol =
+      is_global ? scopes_.find_in(kGlobalScope, token_at(i).value) : scopes_.find(token_at(i));
   // `::float3`, `::RayDesc`: the built-in names stand in the global scope.
   if (is_global && result.symbol.kind == SymbolKind::kUnknown) {
     const ScopeId previous = scopes_.enter(kGlobalScope);
@@ -137,8 +137,8 @@ size_t Parser::behind_type(size_t index) {
     case Kind::kVoid:
       return i + 1;
     case Kind::kUnsigned: {
-      const bool has_base = is_name(i + 1) &&
-                            scopes_.builtin(token_at(i + 1)).kind == BuiltinName::kNumeric;
+      const bool has_base =
+          is_name(i + 1) && scopes_.builtin(token_at(i + 1)).kind == BuiltinName::kNumeric;
       return has_base ? i + 2 : i + 1;
     }
     case Kind::kStruct:
@@ -193,7 +193,8 @@ const QualifiedName* Parser::qualified_name(bool is_member, Symbol* symbol, Scop
     advance();
     if (at(Kind::kOperator)) break;
   }
-  if (parts.empty()) parts.push_back({.location = here(), .identifier = "", .template_arguments = {}});
+  if (parts.empty())
+    parts.push_back({.location = here(), .identifier = "", .template_arguments = {}});
   result->location = parts.back().location;
   result->parts = list(parts);
   if (symbol != nullptr) *symbol = current;

@@ -10,7 +10,9 @@ namespace {
 // of namespaces that all use each other from taking for ever.
 constexpr int kMaxVisits = 256;
 
-bool is_word(TokenKind kind) { return kind == TokenKind::kIdentifier || is_keyword(kind); }
+bool is_word(TokenKind kind) {
+  return kind == TokenKind::kIdentifier || is_keyword(kind);
+}
 
 }  // namespace
 
@@ -40,7 +42,9 @@ void ParseScopes::add_base(ScopeId scope, ScopeId base) {
   if (std::find(linked.begin(), linked.end(), base) == linked.end()) linked.push_back(base);
 }
 
-void ParseScopes::add_using(ScopeId scope, ScopeId target) { add_base(scope, target); }
+void ParseScopes::add_using(ScopeId scope, ScopeId target) {
+  add_base(scope, target);
+}
 
 void ParseScopes::declare(ScopeId scope, uint32_t name, Symbol symbol) {
   infos_[name].is_recorded = true;

@@ -172,9 +172,9 @@ const TypeSyntax* Parser::type_specifier(Modifiers& modifiers, DeclList* definit
 }
 
 Modifiers Parser::pack_matrix_modifier() const {
-  auto behind = std::upper_bound(
-      pack_matrix_.begin(), pack_matrix_.end(), pos_,
-      [](size_t index, const PackMatrix& pragma) { return index < pragma.index; });
+  auto behind =
+      std::upper_bound(pack_matrix_.begin(), pack_matrix_.end(), pos_,
+                       [](size_t index, const PackMatrix& pragma) { return index < pragma.index; });
   return behind == pack_matrix_.begin() ? 0 : (behind - 1)->modifier;
 }
 
@@ -362,10 +362,13 @@ const TypeSyntax* Parser::array_bounds(const TypeSyntax* element) {
   return element;
 }
 
-const TypeSyntax* Parser::type_name() {
+const TypeSyntax* Parser::type_without_bounds() {
   Modifiers modifiers = 0;
-  const TypeSyntax* type = type_specifier(modifiers, nullptr);
-  return array_bounds(type);
+  return type_specifier(modifiers, nullptr);
+}
+
+const TypeSyntax* Parser::type_name() {
+  return array_bounds(type_without_bounds());
 }
 
 void Parser::reject_declarator_prefix() {

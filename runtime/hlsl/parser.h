@@ -115,6 +115,8 @@ class Parser {
   // After an error between the bracket at token `open` and its `)`: behind the `)` if there is one
   // before the statement ends, else the panic goes on.
   void recover_behind_paren(size_t open);
+  // The same for the `}` of the brace at token `open`.
+  void recover_behind_brace(size_t open);
   bool starts_new_item(size_t index);
 
   // ---- Nodes
@@ -175,6 +177,7 @@ class Parser {
   const TypeSyntax* array_bounds(const TypeSyntax* element);
   // A type alone, as in a cast: `const float3`, `float[4]`.
   const TypeSyntax* type_name();
+  const TypeSyntax* type_without_bounds();
   // After a type: `*`, `&`, `[` in front of a name. Reports and skips them.
   void reject_declarator_prefix();
   // The tokens as one would write them, for messages.
@@ -200,7 +203,6 @@ class Parser {
   const Expr* size_of();
   const Expr* reserved_expression();
   const Expr* init_list();
-  const Expr* initializer();  // Behind `=` of a variable.
   std::span<const Expr* const> call_arguments();
   const Expr* error_expr(SourceLocation location) { return make<ErrorExpr>(location); }
   // Sets the height; an ErrorExpr where it is too large.
@@ -232,7 +234,8 @@ class Parser {
   };
   Condition condition(std::string_view word);
   Condition condition_value();
-  Stmt* body_with(const Condition& condition, Stmt* statement);
+  Stmt* body_with(const Condition& condition, Stmt* body);
+  Stmt* loop_body_with(const Condition& condition, Stmt* body);
 
   // ---- parse_declarations.cpp
   enum class Context : uint8_t { kGlobal, kMember, kBuffer, kLocal };
@@ -247,6 +250,7 @@ class Parser {
   };
   void declarations_until(Kind end, Context context, DeclList& out);
   void declaration(Context context, DeclList& out);
+  void declaration_with(Prefix& prefix, DeclList& out);
   void simple_declaration(Prefix& prefix, DeclList& out);
   void declarators(const Prefix& prefix, Modifiers modifiers, const TypeSyntax* type,
                    DeclList& out);
@@ -278,7 +282,7 @@ class Parser {
   const StructDecl* struct_definition();
   const EnumDecl* enum_definition();
   void bases(StructDecl& decl, ScopeId scope);
-  void members(StructDecl& decl, ScopeId scope);
+  void members(StructDecl& decl);
   bool special_member(std::string_view struct_name);
   void predeclare_members(ScopeId scope);
   void enumerators(EnumDecl& decl, ScopeId scope);
@@ -316,7 +320,7 @@ class Parser {
   size_t pos_ = 0;
   uint32_t depth_ = 0;
   bool panic_ = false;
-  bool greater_is_operator_ = true;  // Not directly in template arguments.
+  bool greater_is_operator_ = true;        // Not directly in template arguments.
   ScopeId type_scope_ = kNoScope;          // Of the type parsed last: its members.
   const Prefix* struct_prefix_ = nullptr;  // For the struct or enum that may come next.
   const Token* function_token_ = nullptr;  // The name of the function around.
