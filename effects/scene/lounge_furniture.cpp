@@ -89,7 +89,7 @@ Shape chair_piping() {
 
 Shape chair_cushion() {
   std::vector<glm::dvec2> profile = {{0.0, 0.374}, {0.23, 0.374}};
-  for (int i = 0; i <= 12; ++i) {
+  for (int i = 1; i <= 12; ++i) {
     const double a = -0.5 * kPi + kPi * i / 12;
     profile.emplace_back(0.23 + 0.03 * std::cos(a), 0.424 + 0.05 * std::sin(a));
   }

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <map>
+#include <span>
 
 namespace kaamos::effects {
 namespace {
@@ -79,6 +81,21 @@ TEST(Lounge, FrontFacesAndNormalsAgree) {
         flipped += glm::dot(n, a.normal + b.normal + c.normal) < 0.0f;
       }
       EXPECT_EQ(flipped, 0u) << mesh.name << ", " << lounge().materials[g.material].name;
+    }
+}
+
+TEST(Lounge, NormalsAndTangentsAreUnitVectors) {
+  for (const Mesh& mesh : lounge().meshes)
+    for (const Geometry& g : mesh.geometries) {
+      std::uint32_t bad = 0;
+      for (const Vertex& v : std::span(mesh.vertices).subspan(g.first_vertex, g.vertex_count)) {
+        const glm::vec3 t(v.tangent);
+        // Written so that NaN counts.
+        bad += !(std::abs(glm::dot(v.normal, v.normal) - 1.0f) < 1e-4f &&
+                 std::abs(glm::dot(t, t) - 1.0f) < 1e-4f &&
+                 std::abs(glm::dot(t, v.normal)) < 1e-3f && std::abs(v.tangent.w) == 1.0f);
+      }
+      EXPECT_EQ(bad, 0u) << mesh.name << ", " << lounge().materials[g.material].name;
     }
 }
 

@@ -88,11 +88,20 @@ Camera framing_camera(const Bounds& bounds) {
   camera.name = "framing";
   camera.vertical_fov = 0.75;
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
-  const double radius = std::max(1e-6, 0.5 * glm::length(bounds.size()));
   const glm::dvec3 direction = glm::normalize(glm::dvec3(0.55, 0.42, 1.0));
-  // The bounding sphere touches the upper and lower edge of the picture; 0.85 because real contents
-  // fill their sphere badly.
-  const double distance = 0.85 * radius / std::sin(0.5 * camera.vertical_fov);
+  // As near as all corners of the box allow in a picture of 16:9, and 4 % farther.
+  const glm::dmat3 view = glm::transpose(glm::dmat3(look_at(direction, glm::dvec3(0.0))));
+  const double slope = std::tan(0.5 * camera.vertical_fov);
+  double distance = 1e-6;
+  for (int corner = 0; corner < 8 && !bounds.empty(); ++corner) {
+    const glm::dvec3 offset =
+        0.5 * bounds.size() *
+        glm::dvec3((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
+    const glm::dvec3 v = view * offset;
+    distance = std::max(
+        {distance, v.z + std::abs(v.y) / slope, v.z + std::abs(v.x) / (slope * 16.0 / 9.0)});
+  }
+  distance *= 1.04;
   camera.camera_to_world = look_at(center + direction * distance, center);
   camera.near_plane = distance * 1e-3;
   return camera;

@@ -41,7 +41,8 @@ Shape patch(const glm::dvec3& origin, const glm::dvec3& u, const glm::dvec3& v, 
 
 /// Surface of revolution about +Y. `profile` holds (radius, height); seen in the half plane with
 /// the axis to the left, the outside lies to the right of the way along the profile (from bottom to
-/// top for an outer wall). Corners sharper than `crease` radians stay sharp.
+/// top for an outer wall). Corners sharper than `crease` radians stay
+/// sharp. Successive points differ.
 Shape revolve(std::span<const glm::dvec2> profile, int segments, double crease = 0.6);
 
 /// Tube of round cross-section along a path; `radius(t)` for t = 0..1 along it. Ends are capped

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Bindless materials: constants in a structured buffer, textures in an unbounded array, the material
+// id in the hit record. [Northlight deck: Bindless Access to Materials] The layout is that of
+// effects/scene/material.h.
+#ifndef KAAMOS_MATERIAL_HLSLI
+#define KAAMOS_MATERIAL_HLSLI
+
+static const uint kBaseColorTexture = 0u;
+static const uint kMetallicRoughnessTexture = 1u;
+static const uint kNormalTexture = 2u;
+static const uint kEmissiveTexture = 3u;
+
+static const uint kMaterialMask = 1u;
+static const uint kMaterialBlend = 2u;
+static const uint kMaterialDoubleSided = 4u;
+static const uint kMaterialAlphaTested = 8u;
+
+static const int kNoTexture = -1;
+
+// 176 bytes. Colours are linear.
+struct MaterialConstants {
+  float4 base_color;
+  float3 emissive;
+  float metallic;
+  float roughness;  // perceptual: alpha = roughness^2
+  float alpha_cutoff;
+  float normal_scale;
+  uint flags;
+  int image[4];        // into the texture array, or kNoTexture
+  uint sampler_id[4];  // into the sampler array
+  float4 uv_matrix[4];
+  float2 uv_offset[4];
+};
+
+bool HasTexture(MaterialConstants material, uint slot) { return material.image[slot] >= 0; }
+
+// Texture coordinates of a slot. [KHR_texture_transform]
+float2 MaterialUv(MaterialConstants material, uint slot, float2 uv) {
+  const float4 m = material.uv_matrix[slot];
+  return float2(dot(m.xy, uv), dot(m.zw, uv)) + material.uv_offset[slot];
+}
+
+// What an any-hit shader asks: `texture_alpha` is 1 where the material has no base colour texture.
+bool IsOpen(MaterialConstants material, float texture_alpha) {
+  return (material.flags & kMaterialAlphaTested) != 0u &&
+         material.base_color.w * texture_alpha < material.alpha_cutoff;
+}
+
+// Shading normal in world space from a texel of the normal texture. `normal` and `tangent` are unit
+// vectors of world space, `handedness` is +1 or -1.
+float3 ApplyNormalTexture(float3 texel, float normal_scale, float3 normal, float3 tangent,
+                          float handedness) {
+  float3 local = texel * 2.0f - 1.0f;
+  local.xy *= normal_scale;
+  const float3 bitangent = handedness * cross(normal, tangent);
+  const float3 bent = tangent * local.x + bitangent * local.y + normal * local.z;
+  const float length_squared = dot(bent, bent);
+  return length_squared > 0.0f ? bent / sqrt(length_squared) : normal;
+}
+
+#endif
