@@ -24,7 +24,8 @@ function(kaamos_add_build_flags)
   endforeach()
 endfunction()
 kaamos_add_build_flags(COMPILE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
-  -Wno-missing-braces)  # clang asks for braces around each row of a matrix
+  -Wno-missing-braces  # clang asks for braces around each row of a matrix
+  -Wno-missing-field-initializers)  # designated initialisers name what differs from the default
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # gcc 12 sees overlapping copies in every "literal" + std::string at -O2 and up (its bug 105651).
   kaamos_add_build_flags(COMPILE -Wno-restrict)

@@ -24,7 +24,7 @@ struct DescriptorHeapDesc {
   DescriptorHeapType Type = DescriptorHeapType::kCbvSrvUav;
   uint32_t NumDescriptors = 0;  // 1 .. 1,000,000; shader-visible samplers: .. 2048
   DescriptorHeapFlags Flags = DescriptorHeapFlags::kNone;
-  std::string Name;
+  std::string Name = {};
 };
 
 // Slots of 32 bytes, all null descriptors at first.

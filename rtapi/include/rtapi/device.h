@@ -27,7 +27,7 @@ struct DeviceImpl;
 
 struct DeviceInfo {
   std::string Backend;      // "embree"
-  std::string Name;         // "Intel Xeon ..., Embree 3.13.5"
+  std::string Name = {};    // "Intel Xeon ..., Embree 3.13.5"
   std::string Description;  // one line for people
   uint32_t HardwareThreads = 0;
 };
@@ -53,7 +53,7 @@ struct DeviceDesc {
   bool CollectStatistics = false;                  // counts rays; costs some speed
   // Called on any thread for what cannot be returned to a caller: errors met while a list executes,
   // why the device was removed. Must not call into the library.
-  std::function<void(const Message&)> OnMessage;
+  std::function<void(const Message&)> OnMessage = {};
 };
 
 // What ran since the device was made, with DeviceDesc::CollectStatistics.

@@ -16,10 +16,10 @@ struct PipelineStateImpl;
 }
 
 struct ComputePipelineStateDesc {
-  RootSignature pRootSignature;  // a global one
-  ShaderLibrary CS;
-  std::string EntryPoint;  // a compute export of CS; empty: its only one
-  std::string Name;
+  RootSignature pRootSignature = {};  // a global one
+  ShaderLibrary CS = {};
+  std::string EntryPoint = {};  // a compute export of CS; empty: its only one
+  std::string Name = {};
 };
 
 class PipelineState {

@@ -52,13 +52,14 @@ enum class RaytracingInstanceFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<RaytracingInstanceFlags> = true;
 
+// The two geometry kinds have no default member values: a union holds them. Name VertexFormat.
 struct RaytracingGeometryTrianglesDesc {
-  GpuVirtualAddress Transform3x4 = 0;     // 12 floats, row-major, 16-byte aligned; 0: none
-  Format IndexFormat = Format::kUnknown;  // kR16Uint, kR32Uint; kUnknown: not indexed
-  Format VertexFormat = Format::kR32G32B32Float;
-  uint32_t IndexCount = 0;
-  uint32_t VertexCount = 0;
-  GpuVirtualAddress IndexBuffer = 0;  // 0 exactly when IndexFormat is kUnknown
+  GpuVirtualAddress Transform3x4;  // 12 floats, row-major, 16-byte aligned; 0: none
+  Format IndexFormat;              // kR16Uint, kR32Uint; kUnknown: not indexed
+  Format VertexFormat;             // [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
+  uint32_t IndexCount;
+  uint32_t VertexCount;
+  GpuVirtualAddress IndexBuffer;  // 0 exactly when IndexFormat is kUnknown
   GpuVirtualAddressAndStride VertexBuffer;
 };
 
@@ -72,7 +73,7 @@ struct RaytracingAabb {
 };
 
 struct RaytracingGeometryAabbsDesc {
-  uint64_t AABBCount = 0;
+  uint64_t AABBCount;
   GpuVirtualAddressAndStride AABBs;  // multiples of 8; stride 0: the same box for all
 };
 
@@ -80,11 +81,9 @@ struct RaytracingGeometryDesc {
   RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;
   RaytracingGeometryFlags Flags = RaytracingGeometryFlags::kNone;
   union {
-    RaytracingGeometryTrianglesDesc Triangles;
+    RaytracingGeometryTrianglesDesc Triangles = {};
     RaytracingGeometryAabbsDesc AABBs;
   };
-
-  RaytracingGeometryDesc() : Triangles() {}
 };
 
 // In GPU memory, 16-byte aligned. [DXR: D3D12_RAYTRACING_INSTANCE_DESC]
@@ -130,7 +129,7 @@ struct BuildRaytracingAccelerationStructureInputs {
 
 struct BuildRaytracingAccelerationStructureDesc {
   GpuVirtualAddress DestAccelerationStructureData = 0;  // 256-byte aligned, like the other two
-  BuildRaytracingAccelerationStructureInputs Inputs;
+  BuildRaytracingAccelerationStructureInputs Inputs = {};
   GpuVirtualAddress SourceAccelerationStructureData = 0;  // kPerformUpdate only
   GpuVirtualAddress ScratchAccelerationStructureData = 0;
 };
@@ -178,10 +177,10 @@ enum class RaytracingAccelerationStructureCopyMode : uint32_t {
 
 // [DXR: D3D12_DISPATCH_RAYS_DESC]. Starts are multiples of 64, strides of 32 up to 4096.
 struct DispatchRaysDesc {
-  GpuVirtualAddressRange RayGenerationShaderRecord;
-  GpuVirtualAddressRangeAndStride MissShaderTable;
-  GpuVirtualAddressRangeAndStride HitGroupTable;
-  GpuVirtualAddressRangeAndStride CallableShaderTable;
+  GpuVirtualAddressRange RayGenerationShaderRecord = {};
+  GpuVirtualAddressRangeAndStride MissShaderTable = {};
+  GpuVirtualAddressRangeAndStride HitGroupTable = {};
+  GpuVirtualAddressRangeAndStride CallableShaderTable = {};
   uint32_t Width = 1;
   uint32_t Height = 1;
   uint32_t Depth = 1;

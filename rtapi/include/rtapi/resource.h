@@ -62,7 +62,7 @@ struct BufferDesc {
   // Upload heaps are always generic read, readback heaps always copy destination: kCommon stands
   // for either. kRaytracingAccelerationStructure needs the default heap and kAllowUnorderedAccess.
   ResourceStates InitialState = ResourceStates::kCommon;
-  std::string Name;  // for messages
+  std::string Name = {};  // for messages
 };
 
 // Linear memory with a GPU virtual address, aligned to 64 KiB as D3D12's are. A copyable handle;
@@ -107,7 +107,7 @@ struct TextureDesc {
   rtapi::Format Format = rtapi::Format::kUnknown;
   ResourceFlags Flags = ResourceFlags::kNone;
   ResourceStates InitialState = ResourceStates::kCommon;
-  std::string Name;
+  std::string Name = {};
 };
 
 // A texture on the default heap; contents start at zero. Filled and read through
@@ -142,7 +142,7 @@ struct ResourceBarrier {
   ResourceBarrierType Type = ResourceBarrierType::kUav;
   // Empty in a UAV barrier: every resource. [DXR: Synchronizing acceleration structure memory
   // writes/reads]
-  rtapi::Resource Resource;
+  rtapi::Resource Resource = {};
   uint32_t Subresource = kResourceBarrierAllSubresources;
   ResourceStates StateBefore = ResourceStates::kCommon;
   ResourceStates StateAfter = ResourceStates::kCommon;
@@ -171,7 +171,7 @@ struct SubresourceFootprint {
 
 struct PlacedSubresourceFootprint {
   uint64_t Offset = 0;  // bytes, a multiple of 512
-  SubresourceFootprint Footprint;
+  SubresourceFootprint Footprint = {};
 };
 
 enum class TextureCopyType : uint32_t { kSubresourceIndex = 0, kPlacedFootprint = 1 };

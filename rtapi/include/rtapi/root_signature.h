@@ -42,7 +42,7 @@ struct DescriptorRange {
 };
 
 struct RootDescriptorTable {
-  std::vector<DescriptorRange> Ranges;
+  std::vector<DescriptorRange> Ranges = {};
 };
 
 struct RootConstants {
@@ -159,8 +159,8 @@ template <>
 inline constexpr bool kIsFlags<RootSignatureFlags> = true;
 
 struct RootSignatureDesc {
-  std::vector<RootParameter> Parameters;
-  std::vector<StaticSamplerDesc> StaticSamplers;
+  std::vector<RootParameter> Parameters = {};
+  std::vector<StaticSamplerDesc> StaticSamplers = {};
   RootSignatureFlags Flags = RootSignatureFlags::kNone;
 };
 

@@ -15,27 +15,27 @@
 namespace rtapi {
 
 struct ShaderDefine {
-  std::string Name;
+  std::string Name = {};
   std::string Value = "1";
 };
 
 // The members are DXC's options by their meaning.
 struct ShaderCompileOptions {
-  std::string File;                             // the main source file; also names it in messages
-  std::optional<std::string> Source;            // the text, instead of reading File
-  std::string Target = "lib_6_6";               // -T
-  std::string EntryPoint;                       // -E, for cs_6_x
-  std::vector<ShaderDefine> Defines;            // -D
-  std::vector<std::string> IncludeDirectories;  // -I
-  std::vector<std::string> Exports;             // -exports "a;b=c"; empty: everything
-  std::optional<uint32_t> AutoBindingSpace;     // -auto-binding-space
-  std::string HlslVersion = "2021";             // -HV
-  bool RowMajorMatrices = false;                // -Zpr
-  bool Strict = false;                          // --strict: refuse what DXC refuses
-  bool WarningsAsErrors = false;                // -WX
-  bool Debug = false;                           // -Od -Zi: for gdb
-  std::string CacheDirectory;  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
-  std::string CxxCompiler;     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
+  std::string File = {};                   // the main source file; also names it in messages
+  std::optional<std::string> Source = {};  // the text, instead of reading File
+  std::string Target = "lib_6_6";          // -T
+  std::string EntryPoint = {};             // -E, for cs_6_x
+  std::vector<ShaderDefine> Defines = {};  // -D
+  std::vector<std::string> IncludeDirectories = {};  // -I
+  std::vector<std::string> Exports = {};             // -exports "a;b=c"; empty: everything
+  std::optional<uint32_t> AutoBindingSpace = {};     // -auto-binding-space
+  std::string HlslVersion = "2021";                  // -HV
+  bool RowMajorMatrices = false;                     // -Zpr
+  bool Strict = false;                               // --strict: refuse what DXC refuses
+  bool WarningsAsErrors = false;                     // -WX
+  bool Debug = false;                                // -Od -Zi: for gdb
+  std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
+  std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
 };
 
 enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
@@ -43,7 +43,7 @@ enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
 struct ShaderDiagnostic {
   ShaderDiagnosticSeverity Severity = ShaderDiagnosticSeverity::kError;
   std::string Id;  // "KA2104"
-  std::string File;
+  std::string File = {};
   uint32_t Line = 0;    // from 1; 0 without a place
   uint32_t Column = 0;  // from 1
   std::string Message;

@@ -33,7 +33,7 @@ enum class ShaderStage : uint32_t {
 };
 
 struct ShaderExportInfo {
-  std::string Name;
+  std::string Name = {};
   std::string MangledName;
   ShaderStage Stage = ShaderStage::kLibrary;
   uint32_t PayloadSizeInBytes = 0;      // each scalar as 4 bytes; callables: of their parameter

@@ -68,38 +68,38 @@ struct StateObjectConfig {
   StateObjectFlags Flags = StateObjectFlags::kNone;
 };
 struct GlobalRootSignature {
-  RootSignature pGlobalRootSignature;
+  RootSignature pGlobalRootSignature = {};
 };
 struct LocalRootSignature {
-  RootSignature pLocalRootSignature;
+  RootSignature pLocalRootSignature = {};
 };
 struct NodeMask {
   uint32_t Mask = 1;  // accepted; there is one node
 };
 
 struct ExportDesc {
-  std::string Name;            // what the state object calls it
-  std::string ExportToRename;  // the library's (plain or mangled) name; empty: Name
+  std::string Name = {};            // what the state object calls it
+  std::string ExportToRename = {};  // the library's (plain or mangled) name; empty: Name
 };
 struct DxilLibraryDesc {
-  ShaderLibrary DXILLibrary;
-  std::vector<ExportDesc> Exports;  // empty: everything
+  ShaderLibrary DXILLibrary = {};
+  std::vector<ExportDesc> Exports = {};  // empty: everything
 };
 struct ExistingCollectionDesc {
-  std::shared_ptr<StateObject> pExistingCollection;
-  std::vector<ExportDesc> Exports;  // empty: everything
+  std::shared_ptr<StateObject> pExistingCollection = {};
+  std::vector<ExportDesc> Exports = {};  // empty: everything
   // The usual way to write one.
   static ExistingCollectionDesc Of(const StateObject& collection,
                                    std::vector<ExportDesc> exports = {});
 };
 
 struct SubobjectToExportsAssociation {
-  uint32_t SubobjectToAssociate = 0;  // index into StateObjectDesc::Subobjects
-  std::vector<std::string> Exports;   // empty: a default association
+  uint32_t SubobjectToAssociate = 0;      // index into StateObjectDesc::Subobjects
+  std::vector<std::string> Exports = {};  // empty: a default association
 };
 struct DxilSubobjectToExportsAssociation {
-  std::string SubobjectToAssociate;  // its name in a library
-  std::vector<std::string> Exports;
+  std::string SubobjectToAssociate = {};  // its name in a library
+  std::vector<std::string> Exports = {};
 };
 
 struct RaytracingShaderConfig {
@@ -115,11 +115,11 @@ struct RaytracingPipelineConfig1 {
 };
 
 struct HitGroupDesc {
-  std::string HitGroupExport;
+  std::string HitGroupExport = {};
   HitGroupType Type = HitGroupType::kTriangles;
-  std::string AnyHitShaderImport;        // empty: none
-  std::string ClosestHitShaderImport;    // empty: none
-  std::string IntersectionShaderImport;  // procedural groups: required
+  std::string AnyHitShaderImport = {};        // empty: none
+  std::string ClosestHitShaderImport = {};    // empty: none
+  std::string IntersectionShaderImport = {};  // procedural groups: required
 };
 
 using StateSubobject =
@@ -132,7 +132,7 @@ StateSubobjectType GetSubobjectType(const StateSubobject& subobject);
 
 struct StateObjectDesc {
   StateObjectType Type = StateObjectType::kRaytracingPipeline;
-  std::vector<StateSubobject> Subobjects;
+  std::vector<StateSubobject> Subobjects = {};
 
   // Appends and returns the index, for associations.
   uint32_t Add(StateSubobject subobject) {

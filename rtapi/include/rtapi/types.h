@@ -52,9 +52,9 @@ inline constexpr uint32_t kDefaultShader4ComponentMapping = 0x1688;
 // Bytes between two descriptors of a heap, for every heap type.
 inline constexpr uint32_t kDescriptorHandleIncrementSize = 32;
 
-struct GpuVirtualAddressAndStride {
-  GpuVirtualAddress StartAddress = 0;
-  uint64_t StrideInBytes = 0;
+struct GpuVirtualAddressAndStride {  // no default values: members of a union hold it
+  GpuVirtualAddress StartAddress;
+  uint64_t StrideInBytes;
 };
 
 struct GpuVirtualAddressRange {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// A backend for unit tests: memory is real, buffer copies are done, everything else is only recorded.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <rtapi/rtapi.h>
+
+#include "runtime/backend.h"
+
+namespace rtapi::testing {
+
+struct NullPipeline : kaamos::runtime::BackendPipeline {
+  std::shared_ptr<const kaamos::runtime::LinkedPipeline> raytracing;
+  std::shared_ptr<const kaamos::runtime::LinkedCompute> compute;
+};
+
+// What the backend of one device saw.
+struct NullLog {
+  std::vector<kaamos::runtime::Command> executed;
+  std::vector<kaamos::runtime::TextureViewDesc> texture_views;
+  std::vector<SamplerDesc> samplers;
+  std::shared_ptr<const kaamos::runtime::LinkedPipeline> last_raytracing;
+  std::shared_ptr<const kaamos::runtime::LinkedCompute> last_compute;
+  Status fail_next_execute;  // returned once
+};
+
+// A device "null"; `log` is that of the device made last.
+Device CreateNullDevice(DeviceDesc desc = {});
+NullLog& null_log();
+
+}  // namespace rtapi::testing
