@@ -163,7 +163,7 @@ void add_things(Scene& scene) {
   const std::uint32_t seat = add_mesh(scene, chair());
   add_instance(scene, "chair 1", seat, {-3.05, 0, 2.35}, -0.2);
   add_instance(scene, "chair 2", seat, {-1.75, 0, 3.3}, -1.2);
-  add_instance(scene, "chair 3", seat, {-3.9, 0, 0.75}, 0.9);
+  add_instance(scene, "chair 3", seat, {-4.6, 0, 0.1}, 0.75);
   add_instance(scene, "chair 4", seat, {0.3, 0, 3.35}, -2.5);
   const std::uint32_t sofa = add_mesh(scene, small_sofa());
   add_instance(scene, "small sofa 1", sofa, {-3.6, 0, -4.15});
@@ -174,7 +174,7 @@ void add_things(Scene& scene) {
   add_instance(scene, "floor lamp 2", lamp, {1.9, 0, -4.4});
   const std::uint32_t green = add_mesh(scene, plant());
   add_instance(scene, "plant 1", green, {4.9, 0, -2.2}, 0.4);
-  add_instance(scene, "plant 2", green, {-4.75, 0, -1.6}, 2.6);
+  add_instance(scene, "plant 2", green, {-3.35, 0, 0.0}, 2.6);
 }
 
 void add_lights(Scene& scene) {
