@@ -9,6 +9,7 @@
 
 #include "effects/common/file.h"
 #include "effects/scene/gltf_reader.h"
+#include "effects/scene/staging.h"
 
 namespace kaamos::effects {
 namespace {
@@ -147,7 +148,7 @@ void complete(Scene& scene) {
     scene.exposure = 1.0f / scale;
     scene.lights.erase(sun);
   }
-  if (scene.cameras.empty()) scene.cameras.push_back(framing_camera(scene_bounds(scene)));
+  if (scene.cameras.empty()) scene.cameras.push_back(default_camera(scene));
 }
 
 /// Drops meshes that no instance shows: those of other scenes of the file, and the bind poses of

@@ -8,6 +8,7 @@
 #include "effects/common/sampling.h"
 #include "effects/scene/lounge_parts.h"
 #include "effects/scene/shapes.h"
+#include "effects/scene/staging.h"
 
 namespace kaamos::effects {
 namespace lounge {

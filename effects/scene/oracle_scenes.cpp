@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "effects/scene/shapes.h"
+#include "effects/scene/staging.h"
 
 namespace kaamos::effects {
 namespace {

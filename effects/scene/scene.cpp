@@ -83,45 +83,6 @@ Bounds scene_bounds(const Scene& scene) {
   return all;
 }
 
-Camera framing_camera(const Bounds& bounds) {
-  Camera camera;
-  camera.name = "framing";
-  camera.vertical_fov = 0.75;
-  const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
-  const glm::dvec3 direction = glm::normalize(glm::dvec3(0.55, 0.42, 1.0));
-  // As near as all corners of the box allow in a picture of 16:9, and 4 % farther.
-  const glm::dmat3 view = glm::transpose(glm::dmat3(look_at(direction, glm::dvec3(0.0))));
-  const double slope = std::tan(0.5 * camera.vertical_fov);
-  double distance = 1e-6;
-  for (int corner = 0; corner < 8 && !bounds.empty(); ++corner) {
-    const glm::dvec3 offset =
-        0.5 * bounds.size() *
-        glm::dvec3((corner & 1) ? 1 : -1, (corner & 2) ? 1 : -1, (corner & 4) ? 1 : -1);
-    const glm::dvec3 v = view * offset;
-    distance = std::max(
-        {distance, v.z + std::abs(v.y) / slope, v.z + std::abs(v.x) / (slope * 16.0 / 9.0)});
-  }
-  distance *= 1.04;
-  camera.camera_to_world = look_at(center + direction * distance, center);
-  camera.near_plane = distance * 1e-3;
-  return camera;
-}
-
-Sun default_sun() {
-  Sun sun;
-  sun.direction_to_sun = glm::normalize(glm::vec3(0.45f, 0.8f, 0.55f));
-  sun.irradiance = glm::vec3(3.2f, 3.0f, 2.7f);
-  return sun;
-}
-
-Sky default_sky() {
-  Sky sky;
-  sky.zenith = glm::vec3(0.22f, 0.38f, 0.75f);
-  sky.horizon = glm::vec3(0.75f, 0.82f, 0.92f);
-  sky.ground = glm::vec3(0.24f, 0.22f, 0.2f);
-  return sky;
-}
-
 namespace {
 
 /// Collects where a check stands, so that each message names its place.

@@ -120,10 +120,4 @@ Bounds scene_bounds(const Scene& scene);
 /// buffers, finite transforms, mip sizes, unit directions. A valid scene can be uploaded unchecked.
 Status validate(const Scene& scene);
 
-/// A camera that frames `bounds` seen from the front, the right and a little above.
-Camera framing_camera(const Bounds& bounds);
-/// The sun and sky that a scene without lights gets.
-Sun default_sun();
-Sky default_sky();
-
 }  // namespace kaamos::effects

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@
 #include "effects/common/sobol.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/shapes.h"
+#include "effects/scene/staging.h"
 #include "effects/scene/tangents.h"
 
 namespace kaamos::effects {
@@ -117,6 +119,39 @@ TEST(Camera, FramingShowsTheWholeBox) {
     EXPECT_LT(std::abs(v.y / v.z), std::tan(0.5 * camera.vertical_fov));
     EXPECT_LT(std::abs(v.x / v.z), std::tan(0.5 * camera.vertical_fov) * 16.0 / 9.0);
   }
+}
+
+Scene boxes(bool inside_out, double size) {
+  Scene scene = valid_scene();
+  scene.meshes.resize(1);
+  scene.instances.resize(1);
+  Shape shape = box(glm::dvec3(size));
+  if (inside_out)
+    for (std::size_t i = 0; i < shape.indices.size(); i += 3)
+      std::swap(shape.indices[i], shape.indices[i + 1]);
+  scene.meshes[0] = Mesh{};
+  add_shape(scene.meshes[0], shape, 0);
+  return scene;
+}
+
+TEST(Staging, RoomsAreLookedAtFromInside) {
+  const Scene room = boxes(true, 3.0), cube = boxes(false, 3.0);
+  EXPECT_TRUE(is_interior(room));
+  EXPECT_FALSE(is_interior(cube)) << "its faces look outwards";
+  const glm::dvec3 inside = default_camera(room).position();
+  const glm::dvec3 outside = default_camera(cube).position();
+  EXPECT_LT(std::max({std::abs(inside.x), std::abs(inside.y), std::abs(inside.z)}), 3.0);
+  EXPECT_GT(std::max({std::abs(outside.x), std::abs(outside.y), std::abs(outside.z)}), 3.0);
+}
+
+TEST(Staging, GroundIsAddedWhereThereIsNone) {
+  Scene scene = boxes(false, 3.0);
+  EXPECT_TRUE(needs_ground(scene)) << "its lowest face looks down";
+  add_ground(scene);
+  EXPECT_FALSE(needs_ground(scene));
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+  EXPECT_EQ(scene_bounds(scene).min.y, -3.0);
+  EXPECT_FALSE(needs_ground(boxes(true, 3.0))) << "a room has its floor";
 }
 
 TEST(Instance, TransformRowsAreRelativeToTheOrigin) {
