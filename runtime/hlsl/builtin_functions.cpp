@@ -231,7 +231,9 @@ const Rule* find_rule(const Rule (&rules)[N], std::string_view name) {
 
 }  // namespace
 
-const IntrinsicRule* find_intrinsic(std::string_view name) { return find_rule(kIntrinsics, name); }
+const IntrinsicRule* find_intrinsic(std::string_view name) {
+  return find_rule(kIntrinsics, name);
+}
 const SystemValueRule* find_system_value(std::string_view name) {
   return find_rule(kSystemValues, name);
 }
@@ -239,8 +241,12 @@ const AtomicRule* find_atomic(std::string_view name) {
   if (name.ends_with("64")) name.remove_suffix(2);
   return find_rule(kAtomics, name);
 }
-const BarrierRule* find_barrier(std::string_view name) { return find_rule(kBarriers, name); }
-const SampleRule* find_sample(std::string_view name) { return find_rule(kSamples, name); }
+const BarrierRule* find_barrier(std::string_view name) {
+  return find_rule(kBarriers, name);
+}
+const SampleRule* find_sample(std::string_view name) {
+  return find_rule(kSamples, name);
+}
 
 std::string_view unsupported_function(std::string_view name) {
   for (const Family& family : kUnsupported) {

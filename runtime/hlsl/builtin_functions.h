@@ -77,8 +77,17 @@ struct BarrierRule {
 };
 const BarrierRule* find_barrier(std::string_view name);
 
-enum class SampleForm : uint8_t { kSample, kBias, kLevel, kGradient, kCompare, kCompareZero,
-                                  kCompareLevel, kGather, kGatherCompare };
+enum class SampleForm : uint8_t {
+  kSample,
+  kBias,
+  kLevel,
+  kGradient,
+  kCompare,
+  kCompareZero,
+  kCompareLevel,
+  kGather,
+  kGatherCompare
+};
 struct SampleRule {
   std::string_view name;
   SampleForm form;

@@ -70,7 +70,9 @@ const ResourceTraits& traits_of(ir::ResourceKind kind) {
   return kTraits[static_cast<size_t>(kind)];
 }
 
-std::string_view resource_name(ir::ResourceKind kind) { return traits_of(kind).name; }
+std::string_view resource_name(ir::ResourceKind kind) {
+  return traits_of(kind).name;
+}
 
 const ResourceTraits* find_resource(std::string_view name) {
   if (name == "sampler" || name == "sampler2D" || name == "SamplerState") {

@@ -12,9 +12,9 @@
 namespace kaamos::hlsl {
 
 enum class ElementRule : uint8_t {
-  kNone,     // takes no argument: SamplerState
-  kStruct,   // any type without resources: StructuredBuffer<T>
-  kTexel,    // scalar or vector of up to four: Texture2D<T>, float4 where none is given
+  kNone,           // takes no argument: SamplerState
+  kStruct,         // any type without resources: StructuredBuffer<T>
+  kTexel,          // scalar or vector of up to four: Texture2D<T>, float4 where none is given
   kRequiredTexel,  // the same, always written: RWTexture2D<T>
 };
 

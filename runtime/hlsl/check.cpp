@@ -18,9 +18,9 @@ Checker::Checker(const CheckOptions& options, const SourceManager& sources,
   block_ = &no_block_;
 }
 
-void Checker::report_with_notes(
-    CheckId id, SourceLocation location, const std::vector<std::string>& arguments,
-    const std::vector<std::pair<SourceLocation, std::string>>& notes) {
+void Checker::report_with_notes(CheckId id, SourceLocation location,
+                                const std::vector<std::string>& arguments,
+                                const std::vector<std::pair<SourceLocation, std::string>>& notes) {
   if (diagnostic_info(id).severity == DiagnosticClass::kError ||
       (diagnostic_info(id).severity == DiagnosticClass::kStrict && options_.strict)) {
     ++error_count_;

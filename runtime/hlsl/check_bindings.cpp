@@ -52,8 +52,9 @@ void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope*
   binding->is_array = type->is_array();
   const Type* element = type;
   for (; element->is_array(); element = element->element) {
-    binding->count = element->count == 0 ? kUnboundedCount
-                                         : std::min(kUnboundedCount, binding->count * element->count);
+    binding->count = element->count == 0
+                         ? kUnboundedCount
+                         : std::min(kUnboundedCount, binding->count * element->count);
   }
   if (type->is_array() && type->count == 0) binding->count = kUnboundedCount;
   binding->type = element;
@@ -109,8 +110,9 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
         continue;
       }
       if (contains_resource(type)) {
-        report(CheckId::kUnsupported, variable->location,
-               {"a constant buffer member of type '" + to_string(type) + "', which holds resources"});
+        report(
+            CheckId::kUnsupported, variable->location,
+            {"a constant buffer member of type '" + to_string(type) + "', which holds resources"});
       } else if (type->is_array() && type->count == 0) {
         report(CheckId::kUnboundedVariable, variable->location, {std::string(variable->name)});
       } else {
@@ -123,8 +125,8 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
         if (const PackOffset* pack = variable->annotations.pack_offset) {
           const uint64_t bytes = uint64_t{pack->register_index} * 16 + pack->component * 4;
           const bool whole_row = type->is_array() || type->is_struct() || type->is_matrix();
-          const bool straddles = type->is_numeric() && !type->is_matrix() &&
-                                 pack->component * 4 + size.size > 16;
+          const bool straddles =
+              type->is_numeric() && !type->is_matrix() && pack->component * 4 + size.size > 16;
           if (bytes > 65536 - 4 || straddles || (whole_row && pack->component != 0)) {
             report(CheckId::kPackOffset, pack->location,
                    {std::string(variable->name), to_string(type)});
@@ -216,8 +218,8 @@ void Checker::assign_automatic(BindingInfo* binding) {
   });
   uint64_t next = 0;
   for (const BindingInfo* other : taken) {
-    const bool fits = binding->count != kUnboundedCount &&
-                      next + binding->count <= other->register_index;
+    const bool fits =
+        binding->count != kUnboundedCount && next + binding->count <= other->register_index;
     if (fits) break;
     next = std::max(next, end_of(*other));
   }
@@ -272,13 +274,12 @@ void Checker::check_overlaps() {
         const bool overlap = a.register_class == b.register_class && a.space == b.space &&
                              a.register_index < end_of(b) && b.register_index < end_of(a);
         if (!overlap || !reported.insert({a.index, b.index}).second) continue;
-        report_with_notes(
-            CheckId::kOverlap, b.location,
-            {b.name, a.name,
-             std::string(1, kClassLetters[b.register_class]) +
-                 std::to_string(std::max(a.register_index, b.register_index)),
-             std::to_string(b.space), entry.name},
-            {{a.location, "'" + a.name + "' is declared here"}});
+        report_with_notes(CheckId::kOverlap, b.location,
+                          {b.name, a.name,
+                           std::string(1, kClassLetters[b.register_class]) +
+                               std::to_string(std::max(a.register_index, b.register_index)),
+                           std::to_string(b.space), entry.name},
+                          {{a.location, "'" + a.name + "' is declared here"}});
       }
     }
   }

@@ -9,7 +9,9 @@
 namespace kaamos::hlsl {
 namespace {
 
-bool is_float(ir::Scalar scalar) { return scalar >= ir::Scalar::kFloat16; }
+bool is_float(ir::Scalar scalar) {
+  return scalar >= ir::Scalar::kFloat16;
+}
 
 bool is_signed(ir::Scalar scalar) {
   return scalar == ir::Scalar::kInt16 || scalar == ir::Scalar::kInt32 ||
@@ -45,8 +47,8 @@ uint64_t saturate_to_integer(double value, ir::Scalar to) {
   const uint32_t width = width_of(to);
   if (is_signed(to)) {
     const double limit = std::ldexp(1.0, static_cast<int>(width) - 1);
-    const int64_t highest = width == 64 ? std::numeric_limits<int64_t>::max()
-                                        : (int64_t{1} << (width - 1)) - 1;
+    const int64_t highest =
+        width == 64 ? std::numeric_limits<int64_t>::max() : (int64_t{1} << (width - 1)) - 1;
     if (value >= limit) return static_cast<uint64_t>(highest);
     if (value < -limit) return static_cast<uint64_t>(-highest - 1);
     return static_cast<uint64_t>(static_cast<int64_t>(value));
@@ -76,7 +78,9 @@ bool compare(ir::BinaryOp op, T left, T right) {
   }
 }
 
-bool is_comparison(ir::BinaryOp op) { return op >= ir::BinaryOp::kLess; }
+bool is_comparison(ir::BinaryOp op) {
+  return op >= ir::BinaryOp::kLess;
+}
 
 std::optional<double> float_operation(ir::BinaryOp op, double left, double right) {
   switch (op) {
@@ -252,9 +256,8 @@ Components evaluate_at(const ir::Expr* expression, int depth) {
     case ir::ExprKind::kLiteral:
       return e->literal;
     case ir::ExprKind::kZero:
-      return std::vector<uint64_t>(component_count(e->type), is_float(e->type->scalar)
-                                                                 ? float_bits(0)
-                                                                 : 0);
+      return std::vector<uint64_t>(component_count(e->type),
+                                   is_float(e->type->scalar) ? float_bits(0) : 0);
     case ir::ExprKind::kConvert: {
       Components value = operand(0);
       if (!value) return std::nullopt;
@@ -284,8 +287,7 @@ Components evaluate_at(const ir::Expr* expression, int depth) {
       if (!value) return std::nullopt;
       std::vector<uint64_t> result;
       for (const uint8_t component : e->components) {
-        result.push_back(
-            (*value)[component / 4u * e->operands[0]->type->columns + component % 4u]);
+        result.push_back((*value)[component / 4u * e->operands[0]->type->columns + component % 4u]);
       }
       return result;
     }
@@ -369,8 +371,12 @@ bool is_constant_at(const ir::Expr* e, int depth) {
 
 }  // namespace
 
-uint64_t float_bits(double value) { return std::bit_cast<uint64_t>(value); }
-double float_value(uint64_t bits) { return std::bit_cast<double>(bits); }
+uint64_t float_bits(double value) {
+  return std::bit_cast<uint64_t>(value);
+}
+double float_value(uint64_t bits) {
+  return std::bit_cast<double>(bits);
+}
 
 uint64_t normalise_bits(uint64_t bits, ir::Scalar scalar) {
   switch (scalar) {
@@ -403,8 +409,8 @@ uint64_t convert_bits(uint64_t bits, ir::Scalar from, ir::Scalar to) {
   }
   if (to == ir::Scalar::kBool) return bits != 0;
   if (!is_float(to)) return normalise_bits(bits, to);
-  const double value = is_signed(from) ? static_cast<double>(static_cast<int64_t>(bits))
-                                       : static_cast<double>(bits);
+  const double value =
+      is_signed(from) ? static_cast<double>(static_cast<int64_t>(bits)) : static_cast<double>(bits);
   return normalise_bits(float_bits(value), to);
 }
 
@@ -419,9 +425,8 @@ std::optional<uint64_t> fold_binary(ir::BinaryOp op, ir::Scalar scalar, uint64_t
     return normalise_bits(float_bits(*value), scalar);
   }
   if (is_comparison(op)) {
-    return is_signed(scalar)
-               ? compare(op, static_cast<int64_t>(left), static_cast<int64_t>(right))
-               : compare(op, left, right);
+    return is_signed(scalar) ? compare(op, static_cast<int64_t>(left), static_cast<int64_t>(right))
+                             : compare(op, left, right);
   }
   const auto value = integer_operation(op, scalar, left, right);
   if (!value) return std::nullopt;
@@ -446,6 +451,8 @@ std::optional<std::vector<uint64_t>> evaluate(const ir::Expr* expression) {
   return evaluate_at(expression, 0);
 }
 
-bool is_constant(const ir::Expr* expression) { return is_constant_at(expression, 0); }
+bool is_constant(const ir::Expr* expression) {
+  return is_constant_at(expression, 0);
+}
 
 }  // namespace kaamos::hlsl

@@ -27,10 +27,8 @@ void Checker::declare_builtins() {
   };
   const Type* scalar = types_.scalar(Scalar::kFloat32);
   const Type* vector = types_.vector(Scalar::kFloat32, 3);
-  ray_desc_ = make("RayDesc", {{"Origin", vector},
-                               {"TMin", scalar},
-                               {"Direction", vector},
-                               {"TMax", scalar}});
+  ray_desc_ = make("RayDesc",
+                   {{"Origin", vector}, {"TMin", scalar}, {"Direction", vector}, {"TMax", scalar}});
   module_->ray_desc = ray_desc_->ir;
   triangle_attributes_ = make("BuiltInTriangleIntersectionAttributes",
                               {{"barycentrics", types_.vector(Scalar::kFloat32, 2)}});
@@ -281,8 +279,7 @@ void Checker::declare_static(const VariableDecl* decl, const Type* type, Scope* 
   at(decl->location);
   const bool shared = (decl->modifiers & kModGroupshared) != 0;
   info->variable = build_.variable(qualify(scope, decl->name), type->ir,
-                                   shared ? ir::Storage::kGroupShared
-                                          : ir::Storage::kStaticGlobal);
+                                   shared ? ir::Storage::kGroupShared : ir::Storage::kStaticGlobal);
   Symbol* symbol = add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location);
   symbol->variable = info;
   info->sequence = symbol->sequence ? symbol->sequence : visible_;
@@ -315,8 +312,7 @@ void Checker::initialise(VariableInfo* variable) {
   }
   variable->initialiser_facts = std::make_unique<FunctionInfo>();
   {
-    BodyScope body(*this, variable->initialiser_facts.get(), &variable->start_up,
-                   variable->scope);
+    BodyScope body(*this, variable->initialiser_facts.get(), &variable->start_up, variable->scope);
     visible_ = variable->sequence;
     at(variable->decl->location);
     const ir::Expr* value = initial_value(variable->decl->initializer, variable->type);

@@ -72,11 +72,10 @@ std::vector<std::string> Checker::export_names(const FunctionInfo* function) {
   if (options_.exports.empty()) return {std::string(function->name)};
   std::vector<std::string> names;
   for (const ExportRequest& request : options_.exports) {
-    const bool is_meant = request.function == function->name ||
-                          request.function == function->qualified ||
-                          (!function->signature_failed && !function->is_template &&
-                           (request.function == mangle(*function) ||
-                            "\01" + request.function == mangle(*function)));
+    const bool is_meant =
+        request.function == function->name || request.function == function->qualified ||
+        (!function->signature_failed && !function->is_template &&
+         (request.function == mangle(*function) || "\01" + request.function == mangle(*function)));
     if (is_meant) names.insert(names.end(), request.names.begin(), request.names.end());
   }
   return names;
@@ -145,26 +144,23 @@ bool Checker::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry
   const uint32_t stage = entry.stage;
   const std::string shader = std::string(stage_name(stage)) + " shader '" + entry.name + "'";
   const bool hits = stage == ir::kStageClosestHit || stage == ir::kStageAnyHit;
-  const size_t expected = hits                                            ? 2
-                          : stage == ir::kStageMiss || stage == ir::kStageCallable ? 1
-                                                                                   : 0;
-  const std::string needed = hits ? "an inout payload and in attributes"
+  const size_t expected = hits ? 2 : stage == ir::kStageMiss || stage == ir::kStageCallable ? 1 : 0;
+  const std::string needed = hits                          ? "an inout payload and in attributes"
                              : stage == ir::kStageMiss     ? "an inout payload"
                              : stage == ir::kStageCallable ? "an inout parameter"
                                                            : "none";
   if (function->parameters.size() != expected) {
     report(CheckId::kEntryParameters, function->definition->location,
-           {shader, std::to_string(expected), needed,
-            std::to_string(function->parameters.size())});
+           {shader, std::to_string(expected), needed, std::to_string(function->parameters.size())});
     return false;
   }
   bool valid = true;
   for (size_t i = 0; i < expected; ++i) {
     const ParameterInfo& parameter = function->parameters[i];
     const SourceLocation location = parameter.decl->location;
-    const std::string_view role = i == 1                          ? "attributes"
+    const std::string_view role = i == 1                        ? "attributes"
                                   : stage == ir::kStageCallable ? "parameter"
-                                                                  : "payload";
+                                                                : "payload";
     if (!parameter.type->is_struct() || contains_resource(parameter.type)) {
       report(CheckId::kEntryStruct, location,
              {std::string(role), shader, to_string(parameter.type)});
@@ -201,8 +197,7 @@ bool Checker::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry
         return same_word(one.name, "raypayload");
       });
       if (!has) {
-        report(CheckId::kPayloadQualifiers, location,
-               {to_string(parameter.type), options_.target});
+        report(CheckId::kPayloadQualifiers, location, {to_string(parameter.type), options_.target});
       }
     }
   }
@@ -224,8 +219,8 @@ bool Checker::read_thread_group(FunctionInfo* function, ir::EntryPoint& entry) {
   static constexpr int64_t kLimits[] = {1024, 1024, 64};
   int64_t product = 1;
   for (size_t i = 0; i < 3; ++i) {
-    const auto size = constant_integer(attribute->arguments[i], function->scope,
-                                       "a size of numthreads");
+    const auto size =
+        constant_integer(attribute->arguments[i], function->scope, "a size of numthreads");
     if (!size) return false;
     if (*size < 1 || *size > kLimits[i]) {
       report(CheckId::kThreadGroup, attribute->arguments[i]->location,
@@ -236,8 +231,7 @@ bool Checker::read_thread_group(FunctionInfo* function, ir::EntryPoint& entry) {
     product *= *size;
   }
   if (product > 1024) {
-    report(CheckId::kThreadGroup, attribute->location,
-           {"X*Y*Z", std::to_string(product), "1024"});
+    report(CheckId::kThreadGroup, attribute->location, {"X*Y*Z", std::to_string(product), "1024"});
     return false;
   }
   return true;
@@ -285,13 +279,13 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
         return nullptr;
       }
       plain = plain && same_type(type, own);
-      ir::Variable* variable =
-          build_.variable(std::string(name), own->ir, ir::Storage::kParameter);
+      ir::Variable* variable = build_.variable(std::string(name), own->ir, ir::Storage::kParameter);
       wrapper->parameters.push_back(variable);
       entry.parameters.push_back(source.parameter);
       return convert_numeric(build_.read(variable), own, type);
     }
-    report(CheckId::kUnknownSemantic, semantic->location, {std::string(semantic->text), entry.name});
+    report(CheckId::kUnknownSemantic, semantic->location,
+           {std::string(semantic->text), entry.name});
     return nullptr;
   };
   std::vector<const ir::Expr*> arguments;
@@ -316,8 +310,8 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
       }
       if (complete) argument = build_.construct(parameter.type->ir, std::move(parts));
     } else {
-      argument = value_of(parameter.type, parameter.decl->annotations.semantic, location,
-                          parameter.name);
+      argument =
+          value_of(parameter.type, parameter.decl->annotations.semantic, location, parameter.name);
     }
     valid = valid && argument;
     arguments.push_back(argument);
@@ -352,20 +346,19 @@ void Checker::add_library_functions() {
       // A rename changes the name inside the mangled one as well.
       std::string qualified = function->qualified;
       if (name != function->name) qualified = name;
-      module_->library_functions.push_back(
-          {name, mangle(qualified, function->result, parameters)});
+      module_->library_functions.push_back({name, mangle(qualified, function->result, parameters)});
     }
   }
   for (const ExportRequest& request : options_.exports) {
-    const bool found = std::any_of(request.names.begin(), request.names.end(),
-                                   [&](const std::string& name) {
-      const auto& entries = module_->entry_points;
-      const auto& functions = module_->library_functions;
-      return std::any_of(entries.begin(), entries.end(),
-                         [&](const ir::EntryPoint& entry) { return entry.name == name; }) ||
-             std::any_of(functions.begin(), functions.end(),
-                         [&](const ir::LibraryFunction& one) { return one.name == name; });
-    });
+    const bool found =
+        std::any_of(request.names.begin(), request.names.end(), [&](const std::string& name) {
+          const auto& entries = module_->entry_points;
+          const auto& functions = module_->library_functions;
+          return std::any_of(entries.begin(), entries.end(),
+                             [&](const ir::EntryPoint& entry) { return entry.name == name; }) ||
+                 std::any_of(functions.begin(), functions.end(),
+                             [&](const ir::LibraryFunction& one) { return one.name == name; });
+        });
     if (!found && !has_errors()) report(CheckId::kExportNotFound, {}, {request.function});
   }
 }

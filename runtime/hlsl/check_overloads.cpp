@@ -25,10 +25,10 @@ std::string Checker::describe(const std::vector<Value>& arguments) {
   for (size_t i = 0; i < arguments.size(); ++i) {
     if (i > 0) text += ", ";
     const Value& value = arguments[i];
-    text += value.type                              ? to_string(value.type)
-            : value.kind == ValueKind::kInitList    ? "{..}"
-            : value.kind == ValueKind::kHeap        ? "a heap element"
-                                                    : "?";
+    text += value.type                           ? to_string(value.type)
+            : value.kind == ValueKind::kInitList ? "{..}"
+            : value.kind == ValueKind::kHeap     ? "a heap element"
+                                                 : "?";
   }
   return text + ")";
 }

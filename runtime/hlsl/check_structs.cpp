@@ -44,11 +44,10 @@ void Checker::declare_struct(const StructDecl* decl, Scope* scope) {
   StructInfo* info = nullptr;
   if (symbol) {
     const bool is_forward = symbol->kind == SymbolKind::kType && symbol->type->is_struct() &&
-                            !symbol->type->structure->complete &&
-                            symbol->type->structure->decl &&
+                            !symbol->type->structure->complete && symbol->type->structure->decl &&
                             !symbol->type->structure->decl->is_definition;
-    const bool repeats = symbol->kind == SymbolKind::kType && symbol->type->is_struct() &&
-                         !decl->is_definition;
+    const bool repeats =
+        symbol->kind == SymbolKind::kType && symbol->type->is_struct() && !decl->is_definition;
     if (repeats) {
       declared_types_[decl] = symbol->type;
       return;
@@ -60,9 +59,8 @@ void Checker::declare_struct(const StructDecl* decl, Scope* scope) {
     info = symbol->type->structure;
     info->decl = decl;
   } else {
-    const std::string name = decl->name.empty()
-                                 ? "anonymous_" + std::to_string(structs_.size())
-                                 : std::string(decl->name);
+    const std::string name = decl->name.empty() ? "anonymous_" + std::to_string(structs_.size())
+                                                : std::string(decl->name);
     info = make_struct(decl, scope, name);
     if (!decl->name.empty()) {
       symbol = add_symbol(scope, SymbolKind::kType, decl->name, decl->location);

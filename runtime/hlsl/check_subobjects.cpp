@@ -77,16 +77,13 @@ void Checker::declare_subobject(const SubobjectDecl* decl) {
     subobject.values.push_back(static_cast<uint32_t>(form.value));
     if (subobject.strings.size() == 2) subobject.strings.emplace_back();
   }
-  if (decl->subobject_kind == SubobjectKind::kRaytracingShaderConfig &&
-      subobject.values[1] > 32) {
-    report(CheckId::kSubobjectRange, arguments[1]->location,
-           {std::to_string(subobject.values[1])});
+  if (decl->subobject_kind == SubobjectKind::kRaytracingShaderConfig && subobject.values[1] > 32) {
+    report(CheckId::kSubobjectRange, arguments[1]->location, {std::to_string(subobject.values[1])});
   }
   if ((decl->subobject_kind == SubobjectKind::kRaytracingPipelineConfig ||
        decl->subobject_kind == SubobjectKind::kRaytracingPipelineConfig1) &&
       subobject.values[0] > 31) {
-    report(CheckId::kSubobjectRange, arguments[0]->location,
-           {std::to_string(subobject.values[0])});
+    report(CheckId::kSubobjectRange, arguments[0]->location, {std::to_string(subobject.values[0])});
   }
   module_->subobjects.push_back(std::move(subobject));
 }

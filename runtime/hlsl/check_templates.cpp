@@ -31,8 +31,8 @@ bool Checker::bind_arguments(std::span<const TemplateParameter> parameters,
     }
     const auto value = value_argument(written[i], use_scope);
     if (!value) return false;
-    values[i].value = build_.literal(types_.scalar(Scalar::kInt64)->ir,
-                                     {static_cast<uint64_t>(*value)});
+    values[i].value =
+        build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
   }
   return true;
 }
@@ -47,17 +47,17 @@ bool Checker::complete_arguments(std::span<const TemplateParameter> parameters, 
     } else if (!values[i].is_set() && parameter.default_value) {
       const auto value = constant_integer(parameter.default_value, known, "a template argument");
       if (!value) return false;
-      values[i].value = build_.literal(types_.scalar(Scalar::kInt64)->ir,
-                                       {static_cast<uint64_t>(*value)});
+      values[i].value =
+          build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
     }
     if (!values[i].is_set() || (values[i].type && values[i].type->is_error())) return false;
     if (parameter.value_type && !values[i].value_type) {
       const Type* type = resolve_type(parameter.value_type, known);
       if (!(type->is_scalar() || type->is_enum())) return false;
       values[i].value_type = type;
-      values[i].value = build_.literal(
-          type->ir, {convert_bits(values[i].value->literal[0], values[i].value->type->scalar,
-                                  type->ir->scalar)});
+      values[i].value =
+          build_.literal(type->ir, {convert_bits(values[i].value->literal[0],
+                                                 values[i].value->type->scalar, type->ir->scalar)});
     }
   }
   return true;
@@ -142,8 +142,7 @@ const Type* Checker::instantiate_alias(const TypeAliasDecl* alias, Scope* alias_
 }
 
 void Checker::deduce_value(const Expr* expression, uint64_t value,
-                           std::span<const TemplateParameter> parameters,
-                           TemplateValues& values) {
+                           std::span<const TemplateParameter> parameters, TemplateValues& values) {
   const auto* name = as<NameExpr>(expression);
   if (!name) return;
   const auto index = parameter_named(parameters, name->name);
@@ -212,8 +211,7 @@ bool Checker::deduce(const TypeSyntax* syntax, const Type* type,
 
 FunctionInfo* Checker::instantiate_function(FunctionInfo* function,
                                             std::span<const TemplateArgument> written,
-                                            Scope* use_scope,
-                                            const std::vector<Value>& arguments) {
+                                            Scope* use_scope, const std::vector<Value>& arguments) {
   const FunctionDecl* decl = function->decl;
   const auto parameters = decl->template_parameters;
   TemplateValues values;

@@ -248,8 +248,7 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
                            element->is_array());
   if (!fits || contains_resource(element)) {
     report(CheckId::kElementType, arguments[0].location,
-           {name, texel ? "a scalar or vector" : "a struct or a numeric type",
-            to_string(element)});
+           {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
     return types_.error();
   }
   if (texel && element->scalar == Scalar::kFloat64) {

@@ -220,8 +220,7 @@ struct ConversionRank {
 
 class Checker {
  public:
-  Checker(const CheckOptions& options, const SourceManager& sources,
-          DiagnosticEngine& diagnostics);
+  Checker(const CheckOptions& options, const SourceManager& sources, DiagnosticEngine& diagnostics);
   std::unique_ptr<ir::Module> run(const TranslationUnit& unit);
 
  private:
@@ -298,8 +297,8 @@ class Checker {
                       TemplateValues& values);
   bool complete_arguments(std::span<const TemplateParameter> parameters, Scope* scope,
                           TemplateValues& values);
-  Scope* template_scope(std::span<const TemplateParameter> parameters,
-                        const TemplateValues& values, Scope* parent);
+  Scope* template_scope(std::span<const TemplateParameter> parameters, const TemplateValues& values,
+                        Scope* parent);
   std::string template_suffix(const TemplateValues& values);
   bool deduce(const TypeSyntax* syntax, const Type* type,
               std::span<const TemplateParameter> parameters, TemplateValues& values);
@@ -409,9 +408,9 @@ class Checker {
   Value call_method(const MemberExpr* callee, const CallExpr* call);
   Value call_functions(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
                        const Value* object, std::vector<Value> arguments, SourceLocation location);
-  FunctionInfo* resolve_overload(const std::vector<FunctionInfo*>& candidates,
-                                 const NamePart& part, const std::vector<Value>& arguments,
-                                 SourceLocation location, bool quiet);
+  FunctionInfo* resolve_overload(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
+                                 const std::vector<Value>& arguments, SourceLocation location,
+                                 bool quiet);
   bool is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
                  std::vector<uint32_t>& costs);
   Value call(FunctionInfo* function, const Value* object, std::vector<Value> arguments,

@@ -105,10 +105,10 @@ const ir::Expr* IrBuilder::field(const ir::Expr* base, uint32_t index) {
 
 const ir::Expr* IrBuilder::element(const ir::Expr* base, const ir::Expr* index) {
   const ir::Type* type = base->type;
-  const ir::Type* result = type->kind == ir::TypeKind::kArray    ? type->element
-                           : type->kind == ir::TypeKind::kMatrix ? vector_type(type->scalar,
-                                                                               type->columns)
-                                                                 : scalar_type(type->scalar);
+  const ir::Type* result = type->kind == ir::TypeKind::kArray ? type->element
+                           : type->kind == ir::TypeKind::kMatrix
+                               ? vector_type(type->scalar, type->columns)
+                               : scalar_type(type->scalar);
   if (type->kind == ir::TypeKind::kVector && index->kind == ir::ExprKind::kLiteral &&
       index->literal[0] < type->columns) {
     return swizzle(base, {static_cast<uint8_t>(index->literal[0])});
@@ -177,9 +177,8 @@ const ir::Expr* IrBuilder::unary(ir::UnaryOp op, const ir::Expr* operand) {
 }
 
 const ir::Expr* IrBuilder::binary(ir::BinaryOp op, const ir::Expr* left, const ir::Expr* right) {
-  const ir::Type* type = op >= ir::BinaryOp::kLess
-                             ? with_scalar(left->type, ir::Scalar::kBool)
-                             : left->type;
+  const ir::Type* type =
+      op >= ir::BinaryOp::kLess ? with_scalar(left->type, ir::Scalar::kBool) : left->type;
   ir::Expr* node = expr(ir::ExprKind::kBinary, type, {left, right});
   node->binary = op;
   return fold(node);
@@ -209,10 +208,9 @@ const ir::Expr* IrBuilder::add(const ir::Expr* base, uint32_t constant) {
   return binary(ir::BinaryOp::kAdd, base, uint32(constant));
 }
 
-const ir::Expr* IrBuilder::add_scaled(const ir::Expr* base, const ir::Expr* index,
-                                      uint32_t scale) {
-  const ir::Expr* scaled =
-      binary(ir::BinaryOp::kMultiply, convert(index, ir::Scalar::kUint32), uint32(scale));
+const ir::Expr* IrBuilder::add_scaled(const ir::Expr* base, const ir::Expr* index, uint32_t scale) {
+  const ir::Expr* scaled = convert(index, ir::Scalar::kUint32);
+  if (scale != 1) scaled = binary(ir::BinaryOp::kMultiply, scaled, uint32(scale));
   if (scaled->kind == ir::ExprKind::kLiteral) {
     return add(base, static_cast<uint32_t>(scaled->literal[0]));
   }

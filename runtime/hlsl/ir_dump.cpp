@@ -10,21 +10,33 @@
 namespace kaamos::hlsl {
 namespace {
 
-constexpr const char* kScalarNames[] = {"bool",   "int16",  "uint16", "int",   "uint",
-                                        "int64",  "uint64", "half",   "float", "double"};
+constexpr const char* kScalarNames[] = {"bool",  "int16",  "uint16", "int",   "uint",
+                                        "int64", "uint64", "half",   "float", "double"};
 constexpr const char* kUnaryNames[] = {"-", "!", "~"};
-constexpr const char* kBinaryNames[] = {"+",  "-", "*",  "/", "%",  "&",  "|",  "^",
+constexpr const char* kBinaryNames[] = {"+",  "-",  "*", "/",  "%", "&",  "|",  "^",
                                         "<<", ">>", "<", "<=", ">", ">=", "==", "!="};
 constexpr const char* kSampleNames[] = {"sample_level", "sample_gradient", "sample_compare_level",
                                         "gather", "gather_compare"};
-constexpr const char* kAtomicNames[] = {"add", "and", "or",       "xor",             "min",
-                                        "max", "exchange", "compare_exchange", "compare_store"};
-constexpr const char* kSystemValueNames[] = {
-    "DispatchRaysIndex", "DispatchRaysDimensions", "WorldRayOrigin", "WorldRayDirection",
-    "RayTMin",           "RayTCurrent",            "RayFlags",       "InstanceIndex",
-    "InstanceID",        "GeometryIndex",          "PrimitiveIndex", "ObjectRayOrigin",
-    "ObjectRayDirection", "ObjectToWorld3x4",      "ObjectToWorld4x3", "WorldToObject3x4",
-    "WorldToObject4x3",  "HitKind"};
+constexpr const char* kAtomicNames[] = {
+    "add", "and", "or", "xor", "min", "max", "exchange", "compare_exchange", "compare_store"};
+constexpr const char* kSystemValueNames[] = {"DispatchRaysIndex",
+                                             "DispatchRaysDimensions",
+                                             "WorldRayOrigin",
+                                             "WorldRayDirection",
+                                             "RayTMin",
+                                             "RayTCurrent",
+                                             "RayFlags",
+                                             "InstanceIndex",
+                                             "InstanceID",
+                                             "GeometryIndex",
+                                             "PrimitiveIndex",
+                                             "ObjectRayOrigin",
+                                             "ObjectRayDirection",
+                                             "ObjectToWorld3x4",
+                                             "ObjectToWorld4x3",
+                                             "WorldToObject3x4",
+                                             "WorldToObject4x3",
+                                             "HitKind"};
 
 std::string name_of_variable(const ir::Variable& variable) {
   return (variable.name.empty() ? "t" : variable.name) + "$" + std::to_string(variable.id);
@@ -37,8 +49,8 @@ std::string literal_text(uint64_t bits, ir::Scalar scalar) {
     std::snprintf(text, sizeof text, "%.9g", std::bit_cast<double>(bits));
     return text;
   }
-  const bool is_signed = scalar == ir::Scalar::kInt16 || scalar == ir::Scalar::kInt32 ||
-                         scalar == ir::Scalar::kInt64;
+  const bool is_signed =
+      scalar == ir::Scalar::kInt16 || scalar == ir::Scalar::kInt32 || scalar == ir::Scalar::kInt64;
   return is_signed ? std::to_string(static_cast<int64_t>(bits)) : std::to_string(bits) + "u";
 }
 
@@ -362,8 +374,8 @@ std::string dump(const ir::Module& module) {
   }
   for (const ir::Binding& binding : module.bindings) {
     text += "binding " + binding.name + " " + dump(*binding.type) + " " +
-            "tubs"[binding.register_class & 3] + std::to_string(binding.register_index) +
-            " space" + std::to_string(binding.space) + " count " + std::to_string(binding.count) +
+            "tubs"[binding.register_class & 3] + std::to_string(binding.register_index) + " space" +
+            std::to_string(binding.space) + " count " + std::to_string(binding.count) +
             (binding.automatic ? " automatic" : "") + " bytes " +
             std::to_string(binding.size_bytes) + "\n";
   }

@@ -33,7 +33,8 @@ Value Checker::lower_call(const CallExpr* expr) {
   }
   const QualifiedName& name = *callee->name;
   Symbol* symbol = resolve_name(name, scope_, true);
-  if (symbol && (symbol->kind == SymbolKind::kType || symbol->kind == SymbolKind::kStructTemplate)) {
+  if (symbol &&
+      (symbol->kind == SymbolKind::kType || symbol->kind == SymbolKind::kStructTemplate)) {
     const Type* type = symbol->type;
     if (symbol->kind == SymbolKind::kStructTemplate) {
       StructInfo* info =
@@ -255,8 +256,8 @@ Value Checker::call(FunctionInfo* function, const Value* object, std::vector<Val
     store(copy.target, convert(value, copy.target.type, location, true));
   }
   if (function->result->is_void() || !result) {
-    return rvalue(build_.int32(0), function->result->is_void() || !unused ? types_.void_type()
-                                                                          : function->result);
+    return rvalue(build_.int32(0),
+                  function->result->is_void() || !unused ? types_.void_type() : function->result);
   }
   return rvalue(build_.read(result), function->result);
 }
@@ -268,15 +269,16 @@ ir::Function* Checker::make_ir_function(FunctionInfo* function) {
   node->location = locate(function->definition->location);
   node->end_location = locate(function->definition->body->end);
   if (function->owner && !function->is_static) {
-    ir::Variable* self = build_.variable("this", function->owner->type->ir, ir::Storage::kParameter);
+    ir::Variable* self =
+        build_.variable("this", function->owner->type->ir, ir::Storage::kParameter);
     self->mode = function->is_const_method ? ir::ParameterMode::kIn : ir::ParameterMode::kInOut;
     node->parameters.push_back(self);
   }
   for (const ParameterInfo& parameter : function->parameters) {
     if (parameter.decl) at(parameter.decl->location);
-    ir::Variable* variable = build_.variable(std::string(parameter.name), parameter.type->ir,
-                                             ir::Storage::kParameter);
-    variable->mode = !parameter.is_out  ? ir::ParameterMode::kIn
+    ir::Variable* variable =
+        build_.variable(std::string(parameter.name), parameter.type->ir, ir::Storage::kParameter);
+    variable->mode = !parameter.is_out ? ir::ParameterMode::kIn
                      : parameter.is_in ? ir::ParameterMode::kInOut
                                        : ir::ParameterMode::kOut;
     node->parameters.push_back(variable);
@@ -334,8 +336,8 @@ void Checker::lower_function(FunctionInfo* function, SourceLocation use) {
       info->type = parameter.type;
       info->is_const = parameter.is_const;
       info->variable = variable;
-      add_symbol(scope, SymbolKind::kVariable, parameter.name, parameter.decl->location)
-          ->variable = info;
+      add_symbol(scope, SymbolKind::kVariable, parameter.name, parameter.decl->location)->variable =
+          info;
     }
     lower_block(function->definition->body->statements);
     if (!function->result->is_void() && !ends(body)) {

@@ -7,7 +7,13 @@
 namespace kaamos::hlsl {
 namespace {
 
-enum ScalarRank : uint8_t { kSame = 0, kToDefault = 1, kPromotion = 2, kConversion = 3, kWorst = 4 };
+enum ScalarRank : uint8_t {
+  kSame = 0,
+  kToDefault = 1,
+  kPromotion = 2,
+  kConversion = 3,
+  kWorst = 4
+};
 
 uint8_t scalar_rank(Scalar from, Scalar to) {
   if (from == to) return kSame;
@@ -20,8 +26,8 @@ uint8_t scalar_rank(Scalar from, Scalar to) {
     return is_floating(to) ? kPromotion : kWorst;
   }
   if (from == Scalar::kBool) return to == Scalar::kInt32 ? kPromotion : kConversion;
-  const bool same_class = is_floating(from) == is_floating(to) &&
-                          is_signed_integer(from) == is_signed_integer(to);
+  const bool same_class =
+      is_floating(from) == is_floating(to) && is_signed_integer(from) == is_signed_integer(to);
   if (same_class && to != Scalar::kBool && scalar_bytes(to) > scalar_bytes(from)) return kPromotion;
   return kConversion;
 }
@@ -110,8 +116,8 @@ ConversionRank Checker::rank(const Value& value, const Type* to) {
   }
   if (value.kind == ValueKind::kInitList) return result;
   if (value.kind == ValueKind::kHeap) {
-    result.possible = value.offset && to->is_resource() &&
-                      is_sampler(to->resource) == value.is_sampler_heap;
+    result.possible =
+        value.offset && to->is_resource() && is_sampler(to->resource) == value.is_sampler_heap;
     return result;
   }
   return rank(value.type, to);
@@ -128,7 +134,8 @@ const Type* Checker::settled(const Type* type) {
 }
 
 Value Checker::settle(Value value) {
-  if (value.failed() || !value.type || !value.type->is_numeric() || !is_literal(value.type->scalar)) {
+  if (value.failed() || !value.type || !value.type->is_numeric() ||
+      !is_literal(value.type->scalar)) {
     return value;
   }
   Scalar scalar = value.type->scalar == Scalar::kLiteralInt ? Scalar::kInt32 : Scalar::kFloat32;
@@ -257,8 +264,8 @@ const ir::Expr* Checker::convert(const Value& value, const Type* to, SourceLocat
   const ir::Expr* expr = load(value);
   if (!expr) return nullptr;
   if (from->is_scalar()) {
-    if (const auto bits = evaluate(expr); bits && convert_bits((*bits)[0], expr->type->scalar,
-                                                               ir::Scalar::kBool) == 0) {
+    if (const auto bits = evaluate(expr);
+        bits && convert_bits((*bits)[0], expr->type->scalar, ir::Scalar::kBool) == 0) {
       return build_.zero(to->ir);
     }
     const uint64_t count = flat_component_count(to);
@@ -291,7 +298,8 @@ void Checker::split(const Piece& piece, std::vector<Piece>& queue) {
       parts.push_back({build_.element(expr, build_.uint32(i)), type->element});
     }
   } else if (type->is_struct()) {
-    if (type->structure->base) parts.push_back({build_.field(expr, 0), type->structure->base->type});
+    if (type->structure->base)
+      parts.push_back({build_.field(expr, 0), type->structure->base->type});
     for (const FieldInfo& field : type->structure->fields) {
       parts.push_back({build_.field(expr, field.index), field.type});
     }

@@ -154,8 +154,8 @@ Value Checker::variable_value(VariableInfo* variable, SourceLocation location) {
     }
     case VariableKind::kBufferMember:
       return memory(binding_value(variable->binding, nullptr), nullptr,
-                    build_.uint32(variable->offset), variable->type,
-                    ir::Layout::kConstantBuffer, true);
+                    build_.uint32(variable->offset), variable->type, ir::Layout::kConstantBuffer,
+                    true);
     case VariableKind::kBinding: {
       if (!variable->binding->is_array) {
         Value value = rvalue(binding_value(variable->binding, nullptr), variable->type);
@@ -367,9 +367,9 @@ Value Checker::lower_construct(const Type* type, std::span<const Expr* const> ar
       const ir::Expr* base = repeatable(expr);
       for (uint8_t row = 0; row < from->rows; ++row) {
         for (uint8_t column = 0; column < from->columns; ++column) {
-          parts.push_back(build_.convert(
-              build_.matrix_swizzle(base, {static_cast<uint8_t>(row * 4 + column)}),
-              ir_scalar(type->scalar)));
+          parts.push_back(
+              build_.convert(build_.matrix_swizzle(base, {static_cast<uint8_t>(row * 4 + column)}),
+                             ir_scalar(type->scalar)));
         }
       }
     } else {

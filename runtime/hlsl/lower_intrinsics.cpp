@@ -20,8 +20,7 @@ bool Checker::check_count(std::string_view name, size_t given, size_t lowest, si
   const std::string allowed = lowest == highest
                                   ? std::to_string(lowest)
                                   : std::to_string(lowest) + " to " + std::to_string(highest);
-  report(CheckId::kArgumentCount, location,
-         {std::string(name), allowed, std::to_string(given)});
+  report(CheckId::kArgumentCount, location, {std::string(name), allowed, std::to_string(given)});
   return false;
 }
 
@@ -62,10 +61,10 @@ std::optional<Value> Checker::call_builtin(const NamePart& part, std::vector<Val
     const Type* type = types_.vector(Scalar::kFloat32, 4);
     const ir::Expr* value = convert(arguments[0], type, location);
     if (!value) return error_value();
-    const ir::Expr* scale = build_.splat(
-        build_.literal(types_.scalar(Scalar::kFloat32)->ir,
-                       {normalise_bits(float_bits(255.001953), ir::Scalar::kFloat32)}),
-        type->ir);
+    const ir::Expr* scale =
+        build_.splat(build_.literal(types_.scalar(Scalar::kFloat32)->ir,
+                                    {normalise_bits(float_bits(255.001953), ir::Scalar::kFloat32)}),
+                     type->ir);
     const ir::Expr* scaled =
         build_.binary(ir::BinaryOp::kMultiply, build_.swizzle(value, {2, 1, 0, 3}), scale);
     return rvalue(build_.convert(scaled, ir::Scalar::kInt32), types_.vector(Scalar::kInt32, 4));
@@ -128,8 +127,8 @@ Value Checker::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
   }
   // One shape and scalar for all arguments; refract's last stands apart.
   const size_t joined = shape == S::kRefract ? 2 : arguments.size();
-  const Type* type = arguments[0].type->is_enum() ? types_.scalar(arguments[0].type->scalar)
-                                                  : arguments[0].type;
+  const Type* type =
+      arguments[0].type->is_enum() ? types_.scalar(arguments[0].type->scalar) : arguments[0].type;
   for (size_t i = 1; i < joined; ++i) {
     bool truncates = false;
     const Type* next = common_type(type, arguments[i].type, location, truncates);
@@ -143,10 +142,9 @@ Value Checker::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
   }
   const bool matrix_operation = shape == S::kTranspose || shape == S::kDeterminant;
   const bool floating_only = shape == S::kFloat || shape == S::kTest || shape == S::kLength ||
-                             shape == S::kDistance || shape == S::kVector ||
-                             shape == S::kRefract || shape == S::kCross ||
-                             shape == S::kDeterminant || shape == S::kDst || shape == S::kLit ||
-                             shape == S::kFloatToHalf;
+                             shape == S::kDistance || shape == S::kVector || shape == S::kRefract ||
+                             shape == S::kCross || shape == S::kDeterminant || shape == S::kDst ||
+                             shape == S::kLit || shape == S::kFloatToHalf;
   if (floating_only && (!is_floating(type->scalar) || is_literal(type->scalar))) {
     type = types_.with_scalar(type, Scalar::kFloat32);
   }
@@ -331,15 +329,14 @@ Value Checker::call_mul(std::vector<Value>& arguments, SourceLocation location) 
   if (inner_a != inner_b) {
     report(CheckId::kMulShape, location, {to_string(a), to_string(b), std::to_string(inner)});
   }
-  const Type* left_type = a->is_matrix() ? types_.matrix(scalar, a->rows, inner)
-                                         : types_.vector(scalar, inner);
-  const Type* right_type = b->is_matrix() ? types_.matrix(scalar, inner, b->columns)
-                                          : types_.vector(scalar, inner);
-  const Type* result = a->is_matrix() && b->is_matrix()
-                           ? types_.matrix(scalar, a->rows, b->columns)
-                       : a->is_matrix() ? types_.vector(scalar, a->rows)
-                       : b->is_matrix() ? types_.vector(scalar, b->columns)
-                                        : types_.scalar(scalar);
+  const Type* left_type =
+      a->is_matrix() ? types_.matrix(scalar, a->rows, inner) : types_.vector(scalar, inner);
+  const Type* right_type =
+      b->is_matrix() ? types_.matrix(scalar, inner, b->columns) : types_.vector(scalar, inner);
+  const Type* result = a->is_matrix() && b->is_matrix() ? types_.matrix(scalar, a->rows, b->columns)
+                       : a->is_matrix()                 ? types_.vector(scalar, a->rows)
+                       : b->is_matrix()                 ? types_.vector(scalar, b->columns)
+                                                        : types_.scalar(scalar);
   const ir::Expr* left = convert(arguments[0], left_type, arguments[0].location, true);
   const ir::Expr* right = convert(arguments[1], right_type, arguments[1].location, true);
   if (!left || !right) return error_value();
@@ -380,9 +377,9 @@ Value Checker::call_select(std::vector<Value>& arguments, SourceLocation locatio
             arguments[2].type ? to_string(arguments[2].type) : "a resource"});
     return error_value();
   }
-  const Type* boolean = condition.type->is_enum() ? types_.boolean()
-                                                  : types_.with_scalar(condition.type,
-                                                                       Scalar::kBool);
+  const Type* boolean = condition.type->is_enum()
+                            ? types_.boolean()
+                            : types_.with_scalar(condition.type, Scalar::kBool);
   const ir::Expr* test = convert(condition, boolean, condition.location);
   const ir::Expr* yes = convert(arguments[1], type, arguments[1].location, true);
   const ir::Expr* no = convert(arguments[2], type, arguments[2].location, true);
@@ -478,8 +475,8 @@ Value Checker::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
   const ir::Variable* result = empty_temporary(type->ir);
   statement->result = result;
   emit(statement);
-  store(original, convert(rvalue(build_.read(result), type), original.type, original.location,
-                          true));
+  store(original,
+        convert(rvalue(build_.read(result), type), original.type, original.location, true));
   return rvalue(build_.int32(0), types_.void_type());
 }
 
@@ -493,8 +490,8 @@ Value Checker::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
     return error_value();
   }
   const Type* type = target.type;
-  const bool integer = type->is_scalar() && is_integer(type->scalar) &&
-                       scalar_bytes(type->scalar) >= 4;
+  const bool integer =
+      type->is_scalar() && is_integer(type->scalar) && scalar_bytes(type->scalar) >= 4;
   if (!integer) {
     report(CheckId::kAtomicType, target.location, {std::string(rule.name), to_string(type)});
     return error_value();

@@ -46,17 +46,21 @@ ir::BinaryOp ir_operator(BinaryOp op) {
 }
 
 std::string_view spelling(BinaryOp op) {
-  static constexpr std::string_view kSpellings[] = {"*",  "/",  "%",  "+", "-", "<<", ">>",
-                                                    "<",  ">",  "<=", ">=", "==", "!=", "&",
-                                                    "^",  "|",  "&&", "||", ","};
+  static constexpr std::string_view kSpellings[] = {"*", "/", "%",  "+",  "-",  "<<", ">>",
+                                                    "<", ">", "<=", ">=", "==", "!=", "&",
+                                                    "^", "|", "&&", "||", ","};
   return kSpellings[static_cast<size_t>(op)];
 }
 
 bool is_bitwise(BinaryOp op) {
   return op == BinaryOp::kBitAnd || op == BinaryOp::kBitOr || op == BinaryOp::kBitXor;
 }
-bool is_shift(BinaryOp op) { return op == BinaryOp::kShl || op == BinaryOp::kShr; }
-bool is_comparison(BinaryOp op) { return op >= BinaryOp::kLess && op <= BinaryOp::kNotEqual; }
+bool is_shift(BinaryOp op) {
+  return op == BinaryOp::kShl || op == BinaryOp::kShr;
+}
+bool is_comparison(BinaryOp op) {
+  return op >= BinaryOp::kLess && op <= BinaryOp::kNotEqual;
+}
 
 }  // namespace
 
@@ -175,8 +179,8 @@ Value Checker::binary_value(BinaryOp op, const Value& left, const Value& right,
   }
   const auto numeric = [](const Type* type) { return type->is_numeric() || type->is_enum(); };
   if (left.type->is_struct() || right.type->is_struct()) {
-    if (auto result = overloaded_operator("operator" + std::string(spelling(op)), left, {right},
-                                          location)) {
+    if (auto result =
+            overloaded_operator("operator" + std::string(spelling(op)), left, {right}, location)) {
       return *result;
     }
   }
@@ -411,8 +415,7 @@ Value Checker::lower_conditional(const ConditionalExpr* expr) {
               arms[1].type ? to_string(arms[1].type) : "a heap element"});
       return error_value();
     }
-    if (type->is_numeric() && is_literal(type->scalar) &&
-        chosen->kind != ir::ExprKind::kLiteral) {
+    if (type->is_numeric() && is_literal(type->scalar) && chosen->kind != ir::ExprKind::kLiteral) {
       const bool big = settled(settle(arms[0]).type)->scalar == Scalar::kUint32 ||
                        settled(settle(arms[1]).type)->scalar == Scalar::kUint32;
       type = type->scalar == Scalar::kLiteralInt && big ? types_.with_scalar(type, Scalar::kUint32)

@@ -24,7 +24,9 @@ bool has_repeats(const std::vector<uint8_t>& components) {
 
 }  // namespace
 
-Value Checker::error_value() { return Value{}; }
+Value Checker::error_value() {
+  return Value{};
+}
 
 Value Checker::rvalue(const ir::Expr* expr, const Type* type) {
   if (!expr) return error_value();
@@ -175,8 +177,8 @@ const ir::Expr* Checker::load(const Value& value) {
       return value.expr;
     case ValueKind::kTyped: {
       const Type* type = value.whole ? value.whole : value.type;
-      ir::Expr* node = build_.expr(ir::ExprKind::kTypedLoad, type->ir,
-                                   {value.expr, value.coordinates});
+      ir::Expr* node =
+          build_.expr(ir::ExprKind::kTypedLoad, type->ir, {value.expr, value.coordinates});
       if (value.mip) node->operands.push_back(value.mip);
       return value.whole ? build_.swizzle(node, value.components) : node;
     }
@@ -206,7 +208,8 @@ const ir::Expr* Checker::load(const Value& value) {
         return build_.construct(value.type->ir, std::move(parts));
       }
       if (!value.whole) return read(type, value.offset);
-      if (type->is_matrix()) return build_.matrix_swizzle(read(type, value.offset), value.components);
+      if (type->is_matrix())
+        return build_.matrix_swizzle(read(type, value.offset), value.components);
       if (value.components.size() == 1) {
         return read(scalar, build_.add(value.offset, value.components[0] * bytes));
       }
@@ -432,8 +435,8 @@ Value Checker::element_of(const Value& base, const Value& index, SourceLocation 
   result.type = element;
   result.expr = build_.element(expr, at_index);
   // Only a plain variable, field or element can be indexed as a place.
-  if (base.kind != ValueKind::kExpr || (expr->kind == ir::ExprKind::kSwizzle &&
-                                        at_index->kind != ir::ExprKind::kLiteral)) {
+  if (base.kind != ValueKind::kExpr ||
+      (expr->kind == ir::ExprKind::kSwizzle && at_index->kind != ir::ExprKind::kLiteral)) {
     result.is_place = false;
   }
   result.whole = nullptr;

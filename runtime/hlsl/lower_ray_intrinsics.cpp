@@ -5,8 +5,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-constexpr uint32_t kTraceStages =
-    ir::kStageRayGeneration | ir::kStageClosestHit | ir::kStageMiss;
+constexpr uint32_t kTraceStages = ir::kStageRayGeneration | ir::kStageClosestHit | ir::kStageMiss;
 constexpr uint32_t kCallStages = kTraceStages | ir::kStageCallable;
 
 }  // namespace
@@ -54,8 +53,8 @@ Value Checker::call_trace_ray(std::vector<Value>& arguments, SourceLocation loca
   Value payload = arguments[7];
   size_t position = block().size();
   freeze(payload, &position);
-  const ir::Variable* variable = pass_by_reference(payload, "the payload of TraceRay",
-                                                   payload.location, copied);
+  const ir::Variable* variable =
+      pass_by_reference(payload, "the payload of TraceRay", payload.location, copied);
   if (!variable) return error_value();
   statement->place = build_.read(variable);
   emit(statement);
@@ -93,8 +92,7 @@ Value Checker::call_report_hit(std::vector<Value>& arguments, SourceLocation loc
   const Type* attributes = arguments[2].type;
   if (!attributes || !attributes->is_struct() || contains_resource(attributes)) {
     report(CheckId::kUserStruct, arguments[2].location,
-           {"the attributes of ReportHit",
-            attributes ? to_string(attributes) : "a resource"});
+           {"the attributes of ReportHit", attributes ? to_string(attributes) : "a resource"});
     return error_value();
   }
   if (payload_bytes(attributes) > 32) {
@@ -102,8 +100,7 @@ Value Checker::call_report_hit(std::vector<Value>& arguments, SourceLocation loc
            {to_string(attributes), std::to_string(payload_bytes(attributes))});
     return error_value();
   }
-  const ir::Expr* t =
-      convert(arguments[0], types_.scalar(Scalar::kFloat32), arguments[0].location);
+  const ir::Expr* t = convert(arguments[0], types_.scalar(Scalar::kFloat32), arguments[0].location);
   const ir::Expr* kind =
       convert(arguments[1], types_.scalar(Scalar::kUint32), arguments[1].location);
   const ir::Expr* data = load(arguments[2]);

@@ -52,8 +52,8 @@ Value Checker::index_resource(const Value& base, const Value& index, SourceLocat
   const bool is_unsigned = index.type && index.type->is_numeric() &&
                            index.type->scalar != Scalar::kInt32 &&
                            index.type->scalar != Scalar::kLiteralInt;
-  const ir::Expr* coordinates = to_vector(
-      index, is_unsigned ? Scalar::kUint32 : Scalar::kInt32, traits.coordinates, location);
+  const ir::Expr* coordinates = to_vector(index, is_unsigned ? Scalar::kUint32 : Scalar::kInt32,
+                                          traits.coordinates, location);
   if (!coordinates) return error_value();
   const ir::Expr* mip = nullptr;
   if (is_mips) {

@@ -27,8 +27,7 @@ bool Checker::ends(const ir::Block& body) {
       const std::function<bool(const ir::Block&)> breaks = [&](const ir::Block& statements) {
         return std::any_of(statements.begin(), statements.end(), [&](const ir::Stmt* statement) {
           if (statement->kind == ir::StmtKind::kBreak) return true;
-          if (statement->kind == ir::StmtKind::kLoop ||
-              statement->kind == ir::StmtKind::kSwitch) {
+          if (statement->kind == ir::StmtKind::kLoop || statement->kind == ir::StmtKind::kSwitch) {
             return false;
           }
           return breaks(statement->body) || breaks(statement->orelse);
@@ -41,8 +40,7 @@ bool Checker::ends(const ir::Block& body) {
       const std::function<bool(const ir::Block&)> breaks = [&](const ir::Block& statements) {
         return std::any_of(statements.begin(), statements.end(), [&](const ir::Stmt* statement) {
           if (statement->kind == ir::StmtKind::kBreak) return true;
-          if (statement->kind == ir::StmtKind::kLoop ||
-              statement->kind == ir::StmtKind::kSwitch) {
+          if (statement->kind == ir::StmtKind::kLoop || statement->kind == ir::StmtKind::kSwitch) {
             return false;
           }
           return breaks(statement->body) || breaks(statement->orelse);
@@ -279,8 +277,7 @@ void Checker::lower_loop(const Expr* condition, const Expr* step, const Stmt* bo
     const Value value = lower(condition);
     const ir::Expr* test = as_condition(value, condition->location);
     node->value = test ? test : build_.boolean(false);
-    if (test && test->kind == ir::ExprKind::kLiteral && test->literal[0] &&
-        node->prelude.empty()) {
+    if (test && test->kind == ir::ExprKind::kLiteral && test->literal[0] && node->prelude.empty()) {
       node->value = nullptr;
     }
     block_ = outer;
@@ -308,9 +305,9 @@ void Checker::lower_switch(const SwitchStmt* statement) {
   ir::Stmt* node = build_.stmt(ir::StmtKind::kSwitch);
   const Type* type = types_.scalar(Scalar::kInt32);
   if (!selector.failed()) {
-    const bool integer = selector.type && (selector.type->is_enum() ||
-                                           (selector.type->is_scalar() &&
-                                            !is_floating(selector.type->scalar)));
+    const bool integer =
+        selector.type && (selector.type->is_enum() ||
+                          (selector.type->is_scalar() && !is_floating(selector.type->scalar)));
     if (!integer) {
       report(CheckId::kSwitchType, statement->condition->location,
              {selector.type ? to_string(selector.type) : "a resource"});

@@ -12,9 +12,9 @@ std::optional<Value> Checker::call_texture_method(const Value& object, const Nam
   if (name == "Load") return call_load(object, arguments, location);
   if (!sampled) return std::nullopt;
   if (name.starts_with("CalculateLevelOfDetail")) {
-    use_in_stages(name.ends_with("Unclamped") ? "CalculateLevelOfDetailUnclamped"
-                                              : "CalculateLevelOfDetail",
-                  0, location);
+    use_in_stages(
+        name.ends_with("Unclamped") ? "CalculateLevelOfDetailUnclamped" : "CalculateLevelOfDetail",
+        0, location);
     const Type* type = types_.scalar(Scalar::kFloat32);
     return rvalue(build_.zero(type->ir), type);
   }
@@ -65,13 +65,11 @@ Value Checker::call_load(const Value& object, std::vector<Value>& arguments,
   const ir::Expr* mip = build_.swizzle(all, {traits.coordinates});
   if (arguments.size() == 2) {
     const uint32_t size = traits.coordinates - (traits.is_array ? 1u : 0u);
-    const ir::Expr* offset =
-        to_vector(arguments[1], Scalar::kInt32, size, arguments[1].location);
+    const ir::Expr* offset = to_vector(arguments[1], Scalar::kInt32, size, arguments[1].location);
     if (!offset) return error_value();
     at(location);
     return rvalue(build_.expr(ir::ExprKind::kTypedLoad, type->element->ir,
-                              {resource, coordinates, mip, offset})
-                      ,
+                              {resource, coordinates, mip, offset}),
                   type->element);
   }
   Value value = texel(resource, type, coordinates, mip, true);
@@ -203,14 +201,14 @@ Value Checker::call_dimensions(const Value& object, std::vector<Value>& argument
     }
   }
   const bool with_mip = has_mips && arguments.size() == outputs.size() + 2;
-  if (!with_mip && !check_count("GetDimensions", arguments.size(), outputs.size(), outputs.size(),
-                                location)) {
+  if (!with_mip &&
+      !check_count("GetDimensions", arguments.size(), outputs.size(), outputs.size(), location)) {
     return error_value();
   }
   const ir::Expr* resource = load(object);
   if (!resource) return error_value();
-  ir::Expr* node = build_.expr(ir::ExprKind::kDimensions,
-                               types_.vector(Scalar::kUint32, 4)->ir, {resource});
+  ir::Expr* node =
+      build_.expr(ir::ExprKind::kDimensions, types_.vector(Scalar::kUint32, 4)->ir, {resource});
   if (has_mips) {
     const ir::Expr* mip = build_.uint32(0);
     if (with_mip) {
@@ -227,8 +225,7 @@ Value Checker::call_dimensions(const Value& object, std::vector<Value>& argument
     if (!require_place(target, target.location, "an output of GetDimensions")) {
       return error_value();
     }
-    const Value value =
-        rvalue(build_.swizzle(all, {outputs[i]}), types_.scalar(Scalar::kUint32));
+    const Value value = rvalue(build_.swizzle(all, {outputs[i]}), types_.scalar(Scalar::kUint32));
     store(target, convert(value, target.type, target.location));
   }
   return rvalue(build_.int32(0), types_.void_type());

@@ -46,7 +46,7 @@ class Mangler {
   }
 
   void numeric(const Type* type) {
-    static constexpr std::string_view kCodes[] = {"_N", "F", "G",   "H", "I", "_J",
+    static constexpr std::string_view kCodes[] = {"_N", "F",     "G", "H", "I",  "_J",
                                                   "_K", "$f16@", "M", "N", "_J", "N"};
     const std::string code(kCodes[static_cast<size_t>(type->scalar)]);
     if (type->is_scalar()) {
@@ -128,8 +128,8 @@ class Mangler {
 
 std::string mangle_number(int64_t value) {
   std::string text = value < 0 ? "?" : "";
-  uint64_t magnitude = value < 0 ? uint64_t{0} - static_cast<uint64_t>(value)
-                                 : static_cast<uint64_t>(value);
+  uint64_t magnitude =
+      value < 0 ? uint64_t{0} - static_cast<uint64_t>(value) : static_cast<uint64_t>(value);
   if (magnitude >= 1 && magnitude <= 10) {
     return text + static_cast<char>('0' + magnitude - 1);
   }

@@ -28,12 +28,14 @@ uint32_t scalar_bytes(ir::Scalar scalar) {
   }
 }
 
-uint32_t scalar_bytes(Scalar scalar) { return is_literal(scalar) ? 4 : scalar_bytes(ir_scalar(scalar)); }
+uint32_t scalar_bytes(Scalar scalar) {
+  return is_literal(scalar) ? 4 : scalar_bytes(ir_scalar(scalar));
+}
 
 std::string_view name_of(Scalar scalar) {
-  static constexpr std::string_view kNames[] = {
-      "bool",     "int16_t",   "uint16_t", "int",    "uint",        "int64_t",
-      "uint64_t", "float16_t", "float",    "double", "literal int", "literal float"};
+  static constexpr std::string_view kNames[] = {"bool",  "int16_t", "uint16_t",    "int",
+                                                "uint",  "int64_t", "uint64_t",    "float16_t",
+                                                "float", "double",  "literal int", "literal float"};
   return kNames[static_cast<size_t>(scalar)];
 }
 
@@ -45,7 +47,8 @@ uint64_t flat_component_count(const Type* type) {
     case TypeKind::kArray:
       return std::min(kMany, flat_component_count(type->element) * std::max(type->count, 1u));
     case TypeKind::kStruct: {
-      uint64_t count = type->structure->base ? flat_component_count(type->structure->base->type) : 0;
+      uint64_t count =
+          type->structure->base ? flat_component_count(type->structure->base->type) : 0;
       for (const FieldInfo& field : type->structure->fields) {
         count = std::min(kMany, count + flat_component_count(field.type));
       }

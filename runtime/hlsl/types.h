@@ -47,7 +47,9 @@ constexpr bool is_signed_integer(Scalar scalar) {
   return scalar == Scalar::kInt16 || scalar == Scalar::kInt32 || scalar == Scalar::kInt64 ||
          scalar == Scalar::kLiteralInt;
 }
-constexpr bool is_integer(Scalar scalar) { return !is_floating(scalar) && scalar != Scalar::kBool; }
+constexpr bool is_integer(Scalar scalar) {
+  return !is_floating(scalar) && scalar != Scalar::kBool;
+}
 ir::Scalar ir_scalar(Scalar scalar);
 // Bytes in memory; a bool takes 4.
 uint32_t scalar_bytes(Scalar scalar);
@@ -99,7 +101,9 @@ struct Type {
   }
 };
 
-inline bool same_type(const Type* a, const Type* b) { return a->canonical == b->canonical; }
+inline bool same_type(const Type* a, const Type* b) {
+  return a->canonical == b->canonical;
+}
 
 // Scalars, vectors, matrices, arrays and structs in all: what a value takes when it is flattened.
 // Saturates at 2^31 so that nested arrays cannot overflow.
