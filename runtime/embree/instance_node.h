@@ -65,6 +65,15 @@ inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128
           to_object_vector(node, direction)};
 }
 
+// `v`, whose fourth lane is 0, with another one.
+inline __m128 with_fourth_lane(__m128 v, float lane) {
+  return _mm_or_ps(
+      v, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(_mm_set_ss(lane)), 12)));
+}
+inline __m128 without_fourth_lane(__m128 v) {
+  return _mm_and_ps(v, _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)));
+}
+
 // Whether Embree may be called with it: finite, and below its limit. The fourth lanes must be too.
 inline bool is_traceable(const ObjectRay& ray) {
   const __m128 absolute = _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF));

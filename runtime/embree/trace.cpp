@@ -4,6 +4,7 @@
 #include "runtime/embree/trace.h"
 
 #include <cfloat>
+#include <cstddef>
 #include <limits>
 
 #include "runtime/embree/fault.h"
@@ -42,10 +43,15 @@ struct ClassTable {
 };
 constexpr ClassTable kClassTable;
 
-// What Embree may be given: all else, NaN included, is a miss. [embree-notes 2.3]
-bool is_valid(const shader::RayDesc& ray) {
-  const ObjectRay spatial = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
-                             _mm_setr_ps(ray.direction[0], ray.direction[1], ray.direction[2], 0)};
+// The spatial part of a ray; fourth lanes 0.
+ObjectRay world_ray(const shader::RayDesc& ray) {
+  static_assert(offsetof(shader::RayDesc, t_min) == 12 && offsetof(shader::RayDesc, t_max) == 28);
+  return {without_fourth_lane(_mm_loadu_ps(ray.origin)),
+          without_fourth_lane(_mm_loadu_ps(ray.direction))};
+}
+
+// What Embree may be given: all else, NaN included, is a miss.
+bool is_valid(const ObjectRay& spatial, const shader::RayDesc& ray) {
   return is_traceable(spatial) && ray.t_min <= ray.t_max && ray.t_min <= FLT_MAX;
 }
 
@@ -79,17 +85,10 @@ void begin_query(RayState& state, const TraceRayArguments& arguments, const TopL
   state.committed_t = std::numeric_limits<float>::infinity();
 }
 
-void begin_embree_ray(const RayState& state, RTCRay& ray) {
-  const shader::RayDesc& desc = state.arguments->ray;
+void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {
   const bool closed = state.top_level->has_procedurals();
-  ray.org_x = desc.origin[0];
-  ray.org_y = desc.origin[1];
-  ray.org_z = desc.origin[2];
-  ray.tnear = closed ? state.t_min : state.t_near;
-  ray.dir_x = desc.direction[0];
-  ray.dir_y = desc.direction[1];
-  ray.dir_z = desc.direction[2];
-  ray.time = 0;
+  _mm_store_ps(&ray.org_x, with_fourth_lane(world.origin, closed ? state.t_min : state.t_near));
+  _mm_store_ps(&ray.dir_x, world.direction);  // time 0
   ray.tfar = closed ? state.t_max : state.t_far;
   ray.mask = kAllClasses;
   ray.id = 0;
@@ -165,13 +164,14 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   state.caller = &caller;
   state.payload = payload;
   const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
-  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(arguments.ray)) {
+  const ObjectRay world = world_ray(arguments.ray);
+  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, arguments.ray)) {
     return run_miss(state);
   }
   begin_query(state, arguments, top_level);
 
   RTCRayHit ray_hit;
-  begin_embree_ray(state, ray_hit.ray);
+  begin_embree_ray(state, world, ray_hit.ray);
   if (asks_visibility(state)) {
     ++worker.counters.visibility_rays;
     shim::occluded(top_level->scene(), state.query, &ray_hit.ray);

@@ -20,15 +20,6 @@ void select_filter(RayState& state, const InstanceNode& node) {
   shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
 }
 
-// In a top level with procedural instances Embree's ray has the closed interval. Triangles must see
-// the open one, which also ends just before a hit that is already there [DXR: Ray extents].
-void enter_interval(const RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
-  if (node.procedural) return;
-  ray.tnear = state.t_near;
-  ray.tfar = committed ? next_below(ray.tfar) : state.t_far;
-}
-
-// Calls trace with the ray in object space; puts the world-space ray back afterwards.
 // `committed` says whether there was a hit before, `hit_here` whether this instance was hit.
 template <typename HitHere, typename Trace>
 void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
@@ -43,17 +34,19 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed
   const __m128 world_direction = _mm_load_ps(&ray.dir_x);  // w: time
   const ObjectRay object = to_object_space(node, world_origin, world_direction);
   if (!is_traceable(object)) return;
-  const float t_near = ray.tnear;
+  // In a top level with procedural instances Embree's ray has the closed interval. Triangles must
+  // see the open one, which also ends just before a hit that is there [DXR: Ray extents].
   const float t_far = ray.tfar;
   const bool mixed = state.top_level->has_procedurals();
-  _mm_store_ps(&ray.org_x, object.origin);
+  const float t_near = mixed && node.procedural ? state.t_min : state.t_near;
+  if (mixed && !node.procedural) ray.tfar = committed ? next_below(t_far) : state.t_far;
+  // Whole stores: Embree loads origin and tnear at once, and would wait for two partial ones.
+  _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, t_near));
   _mm_store_ps(&ray.dir_x, object.direction);
-  ray.tnear = t_near;
   ray.mask = classes;
   state.instance = &node;
   shim::set_instance(state.query, index);
   select_filter(state, node);
-  if (mixed) enter_interval(state, node, committed, ray);
 
   trace(node.scene);
 
