@@ -126,9 +126,6 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
 rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& command,
                                  const AccelerationStructure* source,
                                  AccelerationStructure& structure) {
-  for (uint32_t i = 0; i < command.geometries.size(); ++i) {
-    if (auto s = check_inputs(command.geometries[i], i, *device.context().addresses); !s) return s;
-  }
   if (source == nullptr) {
     auto level = BottomLevel::build(device.build_context(), command.geometries, command.flags);
     if (!level) return level.error();
@@ -204,6 +201,9 @@ rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(
 }
 
 rtapi::Status build(Device& device, const runtime::BuildCommand& command) {
+  for (uint32_t i = 0; i < command.geometries.size(); ++i) {
+    if (auto s = check_inputs(command.geometries[i], i, *device.context().addresses); !s) return s;
+  }
   std::shared_ptr<const AccelerationStructure> source;
   if (HasAny(command.flags, BuildFlags::kPerformUpdate)) {
     auto found = update_source(device, command);

@@ -67,8 +67,7 @@ inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128
 
 // `v`, whose fourth lane is 0, with another one.
 inline __m128 with_fourth_lane(__m128 v, float lane) {
-  return _mm_or_ps(
-      v, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(_mm_set_ss(lane)), 12)));
+  return _mm_or_ps(v, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(_mm_set_ss(lane)), 12)));
 }
 inline __m128 without_fourth_lane(__m128 v) {
   return _mm_and_ps(v, _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)));

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/acceleration_structure.h"
+
+#include <gtest/gtest.h>
+
+#include "runtime/embree/testing/harness.h"
+#include "runtime/embree/top_level.h"
+
+namespace kaamos::embree {
+namespace {
+
+using testing::End;
+using testing::GeometryInput;
+using testing::Harness;
+using testing::instance_of;
+using testing::ray_along_z;
+using testing::triangle_at;
+using Flags = rtapi::RaytracingAccelerationStructureBuildFlags;
+using InfoType = rtapi::RaytracingAccelerationStructurePostbuildInfoType;
+using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
+
+// t of the hit at the centre of one instance; negative for a miss.
+float depth_of(Harness& h, uint64_t bottom_level) {
+  const auto payload = h.trace(ray_along_z(h.top_level({instance_of(bottom_level)})));
+  return payload.end == End::kClosestHit ? payload.values.t_current : -1;
+}
+
+TEST(As03And04, InputsMayGoOnceTheBuildHasRun) {
+  Harness h;
+  h.use_standard_pipeline();
+  for (const Flags flags : {Flags::kNone, Flags::kMinimizeMemory, Flags::kPreferFastBuild,
+                            Flags::kAllowUpdate | Flags::kPreferFastTrace}) {
+    const auto command = h.bottom_level_command({triangle_at(3)}, flags);
+    ASSERT_TRUE(h.execute(command).ok());
+    std::memset(reinterpret_cast<void*>(command.geometries[0].Triangles.VertexBuffer.StartAddress),
+                0xFF, 36);
+    EXPECT_EQ(depth_of(h, command.dest), 3.0f);
+  }
+}
+
+TEST(As02, InstancesAsArrayOrThroughPointers) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t level = h.bottom_level({triangle_at(3)});
+  std::vector<uint64_t> pointers;
+  for (uint32_t i = 0; i < 3; ++i) {
+    auto instance = instance_of(i == 1 ? level : 0);
+    instance.InstanceID = 70 + i;
+    pointers.push_back(h.upload(std::vector{instance}));
+  }
+  auto command = h.top_level_command(std::vector<rtapi::RaytracingInstanceDesc>(3));
+  command.instance_layout = rtapi::ElementsLayout::kArrayOfPointers;
+  command.instance_descs = h.upload(pointers);
+  ASSERT_TRUE(h.execute(command).ok());
+  const auto payload = h.trace(ray_along_z(command.dest));
+  EXPECT_EQ(payload.values.instance_index, 1u);
+  EXPECT_EQ(payload.values.instance_id, 71u);
+  pointers[2] = 0x1000;
+  command.instance_descs = h.upload(pointers);
+  const auto status = h.execute(command);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().id, "KA0796");
+}
+
+TEST(As30, ALaterBuildOverAnyPartEndsAStructure) {
+  Harness h;
+  h.use_standard_pipeline();
+  auto block = h.buffer(1 << 16);
+  auto command = h.bottom_level_command({triangle_at(3)});
+  command.dest = block->address();
+  ASSERT_TRUE(h.execute(command).ok());
+  EXPECT_EQ(depth_of(h, block->address()), 3.0f);
+  command.dest = block->address() + 256;
+  ASSERT_TRUE(h.execute(command).ok());
+  h.messages.clear();
+  EXPECT_EQ(depth_of(h, block->address()), -1.0f);
+  ASSERT_FALSE(h.messages.empty());
+  EXPECT_EQ(h.messages[0].Id, "KA0797");
+  EXPECT_EQ(depth_of(h, block->address() + 256), 3.0f);
+}
+
+TEST(As29, WritingOverItsBytesEndsAStructure) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t level = h.bottom_level({triangle_at(3)});
+  const uint64_t scene = h.top_level({instance_of(level)});
+  std::memset(reinterpret_cast<void*>(scene), 0, 16);
+  EXPECT_EQ(h.trace(ray_along_z(scene)).end, End::kMiss);
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id, "KA0894");
+  // A top level keeps what it refers to, so that nothing dangles.
+  const uint64_t other = h.top_level({instance_of(level)});
+  std::memset(reinterpret_cast<void*>(level), 0, 16);
+  EXPECT_EQ(h.trace(ray_along_z(other)).end, End::kClosestHit);
+}
+
+TEST(As29, FreeingTheBufferEndsAStructure) {
+  Harness h;
+  h.use_standard_pipeline();
+  auto command = h.bottom_level_command({triangle_at(3)});
+  auto block = h.buffer(1 << 21);
+  command.dest = block->address();
+  ASSERT_TRUE(h.execute(command).ok());
+  h.free(block);
+  EXPECT_EQ(depth_of(h, command.dest), -1.0f);
+}
+
+TEST(As55, AnUpdateInPlaceMovesTheGeometry) {
+  Harness h;
+  h.use_standard_pipeline();
+  for (const Flags flags : {Flags::kAllowUpdate, Flags::kAllowUpdate | Flags::kPreferFastBuild,
+                            Flags::kAllowUpdate | Flags::kMinimizeMemory}) {
+    auto command = h.bottom_level_command({triangle_at(3), triangle_at(9)}, flags);
+    ASSERT_TRUE(h.execute(command).ok());
+    command.flags = flags | Flags::kPerformUpdate;
+    command.source = command.dest;
+    for (const float z : {5.0f, 4.0f, 2.0f, 8.0f}) {
+      command.geometries[0] = h.geometry(triangle_at(z));
+      ASSERT_TRUE(h.execute(command).ok());
+      EXPECT_EQ(depth_of(h, command.dest), z);
+    }
+  }
+}
+
+TEST(As55, AnUpdateElsewhereLeavesTheSourceAsItWas) {
+  Harness h;
+  h.use_standard_pipeline();
+  auto indexed = triangle_at(3);
+  indexed.indices = {0, 1, 2};
+  auto command = h.bottom_level_command({indexed}, Flags::kAllowUpdate);
+  ASSERT_TRUE(h.execute(command).ok());
+  command.source = command.dest;
+  command.dest = h.buffer(1 << 16)->address();
+  command.flags = Flags::kAllowUpdate | Flags::kPerformUpdate;
+  indexed = triangle_at(6);
+  indexed.indices = {2, 2, 2};  // an update does not read indices anew
+  command.geometries = {h.geometry(indexed)};
+  ASSERT_TRUE(h.execute(command).ok());
+  EXPECT_EQ(depth_of(h, command.source), 3.0f);
+  EXPECT_EQ(depth_of(h, command.dest), 6.0f);
+}
+
+TEST(As60To62, AnUpdateThatChangesMoreIsAnError) {
+  Harness h;
+  const auto update = [&](Flags built, Flags flags, auto change) {
+    auto command = h.bottom_level_command({triangle_at(3)}, built);
+    EXPECT_TRUE(h.execute(command).ok());
+    command.flags = flags | Flags::kPerformUpdate;
+    command.source = command.dest;
+    change(command);
+    return h.execute(command);
+  };
+  const auto nothing = [](auto&) {};
+  EXPECT_TRUE(update(Flags::kAllowUpdate, Flags::kAllowUpdate, nothing).ok());
+  EXPECT_FALSE(update(Flags::kNone, Flags::kAllowUpdate, nothing).ok());
+  EXPECT_FALSE(
+      update(Flags::kAllowUpdate, Flags::kAllowUpdate | Flags::kPreferFastTrace, nothing).ok());
+  const auto fails = [&](auto change) {
+    const auto status = update(Flags::kAllowUpdate, Flags::kAllowUpdate, change);
+    return !status.ok() && status.error().id == "KA0793";
+  };
+  EXPECT_TRUE(fails([](auto& c) { c.geometries[0].Triangles.VertexCount = 2; }));
+  EXPECT_TRUE(fails([](auto& c) { c.geometries[0].Flags = testing::kNonOpaque; }));
+  EXPECT_TRUE(fails([](auto& c) { c.geometries.push_back(c.geometries[0]); }));
+  EXPECT_TRUE(fails([&](auto& c) {
+    c.geometries[0].Triangles.Transform3x4 =
+        h.upload(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  }));
+  EXPECT_TRUE(fails([&](auto& c) { c.geometries[0] = h.geometry(testing::box_at(3)); }));
+  EXPECT_TRUE(fails([&](auto& c) { c.source = h.buffer(256)->address(); }));
+}
+
+TEST(As64And65, ATopLevelUpdateRedefinesEverything) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t near_level = h.bottom_level({triangle_at(3)});
+  const uint64_t far_level = h.bottom_level({triangle_at(7)});
+  auto command = h.top_level_command({instance_of(0), instance_of(far_level)});
+  command.flags = Flags::kAllowUpdate;
+  ASSERT_TRUE(h.execute(command).ok());
+  EXPECT_EQ(h.trace(ray_along_z(command.dest)).values.t_current, 7.0f);
+  command.source = command.dest;
+  command.flags = command.flags | Flags::kPerformUpdate;
+  command.instance_descs = h.upload(std::vector{instance_of(near_level), instance_of(0)});
+  ASSERT_TRUE(h.execute(command).ok());
+  EXPECT_EQ(h.trace(ray_along_z(command.dest)).values.t_current, 3.0f);
+  command.instance_count = 1;
+  EXPECT_FALSE(h.execute(command).ok());
+}
+
+uint64_t info_of(Harness& h, uint64_t structure, InfoType type) {
+  const auto out = h.buffer(8);
+  runtime::EmitPostbuildInfoCommand command;
+  command.desc = {out->address(), type};
+  command.sources = {structure};
+  EXPECT_TRUE(h.execute(command).ok());
+  uint64_t value;
+  std::memcpy(&value, out->host(), sizeof(value));
+  return value;
+}
+
+TEST(As43And44And71And72, ClonesAndCompaction) {
+  Harness h;
+  h.use_standard_pipeline();
+  GeometryInput many;
+  many.flags = testing::kOpaque;
+  for (int i = 0; i < 5000; ++i) {
+    for (const auto& v : triangle_at(3 + 0.001f * static_cast<float>(i)).vertices) {
+      many.vertices.push_back(v);
+    }
+  }
+  auto command = h.bottom_level_command({many}, Flags::kAllowCompaction | Flags::kAllowUpdate);
+  const auto out = h.buffer(8);
+  command.postbuild_infos = {{out->address(), InfoType::kCompactedSize}};
+  ASSERT_TRUE(h.execute(command).ok());
+  uint64_t compacted;
+  std::memcpy(&compacted, out->host(), sizeof(compacted));
+  const uint64_t current = info_of(h, command.dest, InfoType::kCurrentSize);
+  EXPECT_EQ(compacted, info_of(h, command.dest, InfoType::kCompactedSize));  // AS-26
+  EXPECT_LE(compacted, current);
+  EXPECT_GT(compacted, 5000u * 36);
+
+  runtime::CopyAccelerationStructureCommand copy;
+  copy.source = command.dest;
+  copy.dest = h.buffer(compacted)->address();
+  copy.mode = CopyMode::kCompact;
+  ASSERT_TRUE(h.execute(copy).ok());
+  EXPECT_EQ(info_of(h, copy.dest, InfoType::kCurrentSize), compacted);
+  EXPECT_EQ(depth_of(h, copy.dest), 3.0f);
+
+  // Updated in place, the source moves and the copy stays; then the copy outlives the source.
+  for (auto& v : many.vertices) v.z += 10;
+  command.geometries = {h.geometry(many)};
+  command.flags = command.flags | Flags::kPerformUpdate;
+  command.source = command.dest;
+  command.postbuild_infos.clear();
+  ASSERT_TRUE(h.execute(command).ok());
+  EXPECT_EQ(depth_of(h, command.dest), 13.0f);
+  EXPECT_EQ(depth_of(h, copy.dest), 3.0f);
+  std::memset(reinterpret_cast<void*>(command.dest), 0, 16);
+  EXPECT_EQ(depth_of(h, copy.dest), 3.0f);
+
+  copy.mode = CopyMode::kClone;
+  copy.source = copy.dest;
+  copy.dest = h.buffer(compacted)->address();
+  ASSERT_TRUE(h.execute(copy).ok());
+  EXPECT_EQ(depth_of(h, copy.dest), 3.0f);
+}
+
+TEST(As72, CompactionNeedsItsFlag) {
+  Harness h;
+  runtime::CopyAccelerationStructureCommand copy;
+  copy.source = h.bottom_level({triangle_at(3)});
+  copy.dest = h.buffer(4096)->address();
+  copy.mode = CopyMode::kCompact;
+  EXPECT_FALSE(h.execute(copy).ok());
+  copy.mode = CopyMode::kClone;
+  copy.source = h.buffer(4096)->address();
+  EXPECT_FALSE(h.execute(copy).ok());
+}
+
+TEST(As41, SizesGrowWithEveryCount) {
+  Harness h;
+  const auto size = [&](uint32_t vertices, uint32_t indices, size_t geometries, Flags flags) {
+    rtapi::RaytracingGeometryDesc desc;
+    desc.Triangles.VertexCount = vertices;
+    desc.Triangles.IndexCount = indices;
+    desc.Triangles.IndexFormat = indices != 0 ? rtapi::Format::kR32Uint : rtapi::Format::kUnknown;
+    const std::vector<rtapi::RaytracingGeometryDesc> descs(geometries, desc);
+    return h.device()
+        .prebuild_info(rtapi::RaytracingAccelerationStructureType::kBottomLevel, flags, descs, 0)
+        .ResultDataMaxSizeInBytes;
+  };
+  for (const Flags flags : {Flags::kNone, Flags::kAllowUpdate, Flags::kMinimizeMemory}) {
+    EXPECT_LE(size(100, 300, 1, flags), size(200, 300, 1, flags));
+    EXPECT_LT(size(100, 300, 1, flags), size(100, 600, 1, flags));
+    EXPECT_LT(size(100, 300, 1, flags), size(100, 300, 2, flags));
+    EXPECT_EQ(size(100, 300, 1, flags) % 256, 0u);
+  }
+}
+
+TEST(Build, TooSmallADestinationIsAnError) {
+  Harness h;
+  auto command = h.bottom_level_command({triangle_at(3)});
+  command.dest = h.buffer(16)->address();
+  const auto status = h.execute(command);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().id, "KA0795");
+}
+
+TEST(TopLevel, UnusableInstancesAreInactiveWithAMessage) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t level = h.bottom_level({triangle_at(3)});
+  auto flat = instance_of(level);
+  flat.Transform[2][2] = 0;
+  auto lost = instance_of(h.buffer(64)->address());
+  const auto payload = h.trace(ray_along_z(h.top_level({flat, lost, instance_of(level)})));
+  EXPECT_EQ(payload.values.instance_index, 2u);
+  ASSERT_EQ(h.messages.size(), 2u);
+  EXPECT_NE(h.messages[0].Text.find("instance 0"), std::string::npos);
+  EXPECT_NE(h.messages[0].Text.find("singular"), std::string::npos);
+}
+
+TEST(InvertTransform, RoundTrips) {
+  const float matrix[12] = {1, 2, 0, 5, 0, 1, -3, 6, 4, 0, 1, -7};
+  float inverse[12];
+  float back[12];
+  ASSERT_TRUE(invert_transform(matrix, inverse));
+  ASSERT_TRUE(invert_transform(inverse, back));
+  for (int i = 0; i < 12; ++i) EXPECT_NEAR(matrix[i], back[i], 1e-5);
+  const float singular[12] = {1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0};
+  EXPECT_FALSE(invert_transform(singular, inverse));
+}
+
+}  // namespace
+}  // namespace kaamos::embree
