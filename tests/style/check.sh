@@ -45,7 +45,7 @@ check_marks() {
 check_readme() {
   local folder lines
   list_files "${code[@]}" | sed -n 's|^\([^.][^/]*/.*\)/[^/]*$|\1|p; s|^\([^./][^/]*\)/[^/]*$|\1|p' |
-    grep -vE '(^|/)(src|include|lib|shaders|consumer)(/|$)' | LC_ALL=C sort -u |
+    grep -vE '(^|/)(src|include|lib|shaders|testing|consumer)(/|$)' | LC_ALL=C sort -u |
     while read -r folder; do
       if [[ ! -f $folder/README.md ]]; then
         echo "$folder:1: has no README.md: what lives here, what it may include, where to start reading"
