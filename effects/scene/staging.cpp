@@ -113,10 +113,18 @@ bool is_interior(const Scene& scene) {
   if (bounds.empty()) return false;
   std::vector<Probe> probes = cube_probes();
   cast(scene, bounds.center(), probes);
-  const auto closed = std::count_if(probes.begin(), probes.end(), [](const Probe& probe) {
-    return probe.front && std::isfinite(probe.distance);
-  });
-  return closed >= 22;
+  int closed = 0, near = 0;
+  for (const Probe& probe : probes) {
+    const bool hit = probe.front && std::isfinite(probe.distance);
+    closed += hit;
+    // The hall within a house is closed in as well, but the house is what the file shows: walls,
+    // floor and ceiling of a room stand where the scene ends.
+    for (int axis = 0; axis < 3; ++axis)
+      near += hit && std::abs(probe.direction[axis]) > 0.99 &&
+              probe.distance < 0.25 * bounds.size()[axis];
+  }
+  // One near hit may be a thing in the middle of the room.
+  return closed >= 22 && near <= 1;
 }
 
 Camera default_camera(const Scene& scene) {
@@ -157,7 +165,7 @@ void add_ground(Scene& scene) {
   if (bounds.empty()) return;
   Material material;
   material.name = "ground";
-  material.constants.base_color = glm::vec4(0.45f, 0.44f, 0.42f, 1.0f);
+  material.constants.base_color = glm::vec4(0.33f, 0.32f, 0.30f, 1.0f);
   const double half = 6.0 * std::max({bounds.size().x, bounds.size().z, 0.2 * bounds.size().y});
   Mesh mesh;
   mesh.name = "ground";
