@@ -125,6 +125,15 @@ bool Parser::expect_closing(Kind kind, size_t open, std::string_view after) {
   return false;
 }
 
+bool Parser::expect_list_end(Kind kind, size_t open, std::string_view after) {
+  if (panic_) return false;
+  if (accept(kind)) return true;
+  const std::string expected = "',' or '" + std::string(token_kind_text(kind)) + "'";
+  fail_here(DiagnosticId::kExpectedClosing, {expected, after, describe(token())})
+      .note(token_at(open).location, "to match this " + describe(token_at(open)));
+  return false;
+}
+
 bool Parser::expect_template_end(size_t open) {
   if (panic_) return false;
   if (accept_template_end()) return true;

@@ -164,7 +164,7 @@ void Parser::payload_access(std::vector<PayloadAccess>& out) {
     stages.push_back({name->location, name->text});
     if (!accept(Kind::kComma)) break;
   }
-  expect_closing(Kind::kRightParen, open, "the shader stages");
+  expect_list_end(Kind::kRightParen, open, "a shader stage");
   result.stages = list(stages);
   out.push_back(result);
 }

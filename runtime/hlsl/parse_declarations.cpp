@@ -83,6 +83,10 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
 
 void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
   const size_t begin = pos_;
+  if (at(Kind::kOperator) && behind_type(pos_ + 1) != pos_ + 1) {
+    fail_here(DiagnosticId::kNoConversionOperator, {});
+    return;
+  }
   if (prefix.context != Context::kLocal && !starts_declaration(pos_) && !at_name() &&
       !at(Kind::kColonColon)) {
     fail_here(DiagnosticId::kExpectedDeclaration, {describe(token())});

@@ -53,7 +53,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   if (!expect(Kind::kLeftParen, "'(' after the name of the function")) return;
   std::vector<const ParameterDecl*> found;
   parameters(found);
-  expect_closing(Kind::kRightParen, open, "the parameters");
+  expect_list_end(Kind::kRightParen, open, "a parameter");
   recover_behind_paren(open);
   if (panic_) return;
   decl->parameters = list(found);
@@ -157,11 +157,7 @@ std::string_view Parser::operator_name() {
       return arena_.copy("operator" + std::string(token_kind_text(op.kind)));
     }
     default:
-      if (behind_type(pos_) != pos_) {
-        fail_here(DiagnosticId::kNoConversionOperator, {});
-      } else {
-        fail_here(DiagnosticId::kNotOverloadable, {describe(op)});
-      }
+      fail_here(DiagnosticId::kNotOverloadable, {describe(op)});
       return "operator";
   }
 }

@@ -77,7 +77,8 @@ size_t Parser::behind_template_arguments(size_t index) const {
         if (--depth == 0) return i + 1;
         break;
       case Kind::kGreaterGreater:
-        if (depth <= 2) return i + 1;
+        if (depth == 1) return i;
+        if (depth == 2) return i + 1;
         depth -= 2;
         break;
       case Kind::kGreaterEqual:
@@ -124,7 +125,8 @@ size_t Parser::behind_plain_template_arguments(size_t index, bool first_is_type)
     } else {
       return index;
     }
-    if (token_at(i).is(Kind::kGreater)) return i + 1;
+    // `>>`: its first half closed a list inside.
+    if (token_at(i).is(Kind::kGreater) || token_at(i).is(Kind::kGreaterGreater)) return i + 1;
     if (!token_at(i).is(Kind::kComma) || i > index + kMaxLookAhead) return index;
     ++i;
   }

@@ -77,7 +77,7 @@ std::span<const Expr* const> Parser::call_arguments() {
   do {
     arguments.push_back(assignment());
   } while (!panic_ && accept(Kind::kComma));
-  expect_closing(Kind::kRightParen, open, "the arguments");
+  expect_list_end(Kind::kRightParen, open, "an argument");
   return list(arguments);
 }
 
@@ -235,7 +235,7 @@ const Expr* Parser::init_list() {
     elements.push_back(assignment_value());
     if (!accept(Kind::kComma)) break;
   }
-  expect_closing(Kind::kRightBrace, open, "the initializer list");
+  expect_list_end(Kind::kRightBrace, open, "an element of the list");
   result->elements = list(elements);
   return finish(result, {}, result->elements);
 }

@@ -55,6 +55,7 @@ void ParseScopes::declare(ScopeId scope, uint32_t name, Symbol symbol) {
 void ParseScopes::declare_value(ScopeId scope, const Token& name) {
   // A name that is no type anywhere so far hides none.
   NameInfo& info = infos_[name.value];
+  info.is_value = true;
   if (!info.is_recorded && builtin(name).kind == BuiltinName::kNone) return;
   info.is_recorded = true;
   // Overloads of a function template do not make it less of a template.

@@ -54,6 +54,8 @@ class ParseScopes {
   Symbol find_in(ScopeId scope, uint32_t name) const;
   // Is `name` a function template somewhere? Decides `x.name<`, where the type of x is not known.
   bool is_template_function(uint32_t name) const { return infos_[name].is_template_function; }
+  // Was it ever declared as a variable, parameter, function or enumerator?
+  bool is_known_value(const Token& name) const { return infos_[name.value].is_value; }
   const BuiltinName& builtin(const Token& name);
 
  private:
@@ -63,6 +65,7 @@ class ParseScopes {
   };
   struct NameInfo {
     bool is_recorded = false;  // Declared in some scope.
+    bool is_value = false;
     bool is_classified = false;
     bool is_template_function = false;
     BuiltinName builtin;

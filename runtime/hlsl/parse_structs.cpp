@@ -163,7 +163,7 @@ const EnumDecl* Parser::enum_definition() {
   const size_t open = pos_;
   if (panic_ || !expect(Kind::kLeftBrace, "'{' of the enum")) return nullptr;
   enumerators(*decl, scope);
-  expect_closing(Kind::kRightBrace, open, "the last enumerator");
+  expect_list_end(Kind::kRightBrace, open, "an enumerator");
   recover_behind_brace(open);
   type_scope_ = scope;
   return decl;

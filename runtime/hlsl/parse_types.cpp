@@ -316,9 +316,12 @@ TypeSyntax* Parser::definition_type(DeclList* definitions) {
     return named_type();
   }
   if (definitions == nullptr) {
-    fail_here(DiagnosticId::kDeclarationNotHere,
-              {is_enum ? "an enum" : "a struct", "outside of parameters, casts and arguments"});
-    return error_type(here());
+    const SourceLocation location = here();
+    report(DiagnosticId::kDeclarationNotHere, location,
+           {is_enum ? "an enum" : "a struct", "outside of parameters, casts and arguments"});
+    pos_ = is_name(i) ? i + 1 : i;
+    if (at(Kind::kLeftBrace)) pos_ = behind_closing(pos_);
+    return error_type(location);
   }
   TypeSyntax* type = make<TypeSyntax>(here());
   const Decl* decl = nullptr;

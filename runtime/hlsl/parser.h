@@ -94,6 +94,8 @@ class Parser {
   bool expect_semicolon(std::string_view after);
   // The bracket that closes the one at token `open`.
   bool expect_closing(Kind kind, size_t open, std::string_view after);
+  // The same where a ',' could stand as well.
+  bool expect_list_end(Kind kind, size_t open, std::string_view after);
   bool expect_template_end(size_t open);
   // A name for `what` ("a variable"); null after an error.
   const Token* expect_name(std::string_view what);
@@ -145,7 +147,8 @@ class Parser {
                                  bool is_member);
   // Index behind the type (modifiers included) that begins at `index`, or `index`: there is none.
   size_t behind_type(size_t index);
-  // Index behind `<...>` at `index`, or `index` where it does not look like such a list.
+  // Index behind `<...>` at `index`, or `index` where it does not look like such a list. Where the
+  // list ends with the first half of a `>>`, the index of the `>>`.
   size_t behind_template_arguments(size_t index) const;
   size_t behind_plain_template_arguments(size_t index, bool first_is_type);
   // Parses `::a::b<float>::c`. `is_member`: behind a `.`. `container` gets the scope in which the
