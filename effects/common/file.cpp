@@ -61,6 +61,9 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
   struct stat info = {};
   if (::fstat(file.get(), &info) != 0) return file_error("read", path, errno);
   if (S_ISDIR(info.st_mode)) return file_error("read", path, EISDIR);
+  // Devices such as /dev/zero never end.
+  if (!S_ISREG(info.st_mode))
+    return Status::failure("cannot read \"" + path + "\": it is not a regular file");
   std::vector<std::uint8_t> bytes;
   bytes.reserve(std::min(static_cast<std::size_t>(info.st_size), max_bytes));
   std::vector<std::uint8_t> block(1 << 20);

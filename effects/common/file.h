@@ -13,7 +13,7 @@
 
 namespace kaamos::effects {
 
-/// Reads a whole file. Errors: missing, a directory, unreadable, larger than `max_bytes`.
+/// Reads a whole file. Errors: missing, not a regular file, unreadable, larger than `max_bytes`.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path,
                                             std::size_t max_bytes = std::size_t{4} << 30);
 

@@ -84,6 +84,7 @@ TEST_F(FileTest, MissingFolderAndMissingFileAreNamed) {
 
 TEST_F(FileTest, FoldersAndTooLargeFilesAreRefused) {
   EXPECT_FALSE(read_file(folder_.string()).ok());
+  EXPECT_FALSE(read_file("/dev/zero").ok());
   ASSERT_TRUE(write_file_atomically(path("a"), bytes("0123456789")).ok());
   EXPECT_FALSE(read_file(path("a"), 9).ok());
   EXPECT_TRUE(read_file(path("a"), 10).ok());

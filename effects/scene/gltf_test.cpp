@@ -347,6 +347,40 @@ TEST(GltfLoad, CamerasAndLights) {
   EXPECT_EQ(scene.lights[0].outer_cone_angle, 0.5f);
 }
 
+TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
+  Glb glb;
+  glb.add(kQuad);
+  // The lower two vertices go with joint 0, the upper two half with each.
+  const std::size_t joints =
+      glb.add(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  const std::size_t weights =
+      glb.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0});
+  const auto file = [&](const std::string& skin_joints) {
+    return glb.bytes(
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+        R"({"bufferView":1,"componentType":5121,"count":4,"type":"VEC4"},)"
+        R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC4"}],)"
+        R"("bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":)" +
+        std::to_string(joints) + R"(,"byteLength":16},{"buffer":0,"byteOffset":)" +
+        std::to_string(weights) +
+        R"(,"byteLength":64}],)"
+        R"("meshes":[{"primitives":[{"mode":5,"attributes":{"POSITION":0,"JOINTS_0":1,)"
+        R"("WEIGHTS_0":2}}]}],"skins":[{"joints":)" +
+        skin_joints +
+        R"(}],"nodes":[{"mesh":0,"skin":0,"translation":[50,0,0]},{"translation":[0,0,1]},)"
+        R"({"translation":[0,4,0]}])");
+  };
+  const auto loaded = load(file("[1,2]"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  const Bounds box = scene_bounds(loaded.value().scene);
+  // The node's own transform does not count. Upper vertices: mean of (y+0, 1) and (y+4, 0).
+  EXPECT_EQ(box.min, glm::dvec3(0, 0, 0.5));
+  EXPECT_EQ(box.max, glm::dvec3(1, 3, 1));
+  EXPECT_EQ(loaded.value().scene.meshes.size(), 1u) << "the bind pose is not kept";
+  expect_error(load(file("[1]")), "names joint 1 of 1");
+  expect_error(load(file("[1,9]")), "names joint node 9 of 3");
+}
+
 TEST(GltfBroken, SaysWhatAndWhere) {
   QuadFile file;
   file.positions = R"({"bufferView":0,"componentType":5126,"count":5,"type":"VEC3"})";

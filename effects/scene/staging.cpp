@@ -110,7 +110,7 @@ Camera framing_camera(const Bounds& bounds) {
 
 bool is_interior(const Scene& scene) {
   const Bounds bounds = scene_bounds(scene);
-  if (bounds.empty()) return false;
+  if (bounds.empty() || instanced_triangle_count(scene) > 4'000'000) return false;
   std::vector<Probe> probes = cube_probes();
   cast(scene, bounds.center(), probes);
   int closed = 0, near = 0;

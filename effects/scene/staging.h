@@ -9,7 +9,8 @@ namespace kaamos::effects {
 /// A camera that frames `bounds` seen from the front, the right and a little above.
 Camera framing_camera(const Bounds& bounds);
 
-/// True where the middle of the scene is closed in by surfaces that face it: a room.
+/// True where the middle of the scene is closed in by surfaces that face it: a room. Scenes of more
+/// than 4 million triangles are not looked at, and count as seen from outside.
 bool is_interior(const Scene& scene);
 
 /// Inside a room a camera before one of its corners that looks across; else the framing camera.
