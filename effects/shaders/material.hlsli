@@ -37,7 +37,7 @@ bool HasTexture(MaterialConstants material, uint slot) { return material.image[s
 // Texture coordinates of a slot. [KHR_texture_transform]
 float2 MaterialUv(MaterialConstants material, uint slot, float2 uv) {
   const float4 m = material.uv_matrix[slot];
-  return float2(dot(m.xy, uv), dot(m.zw, uv)) + material.uv_offset[slot];
+  return float2(m.x * uv.x + m.y * uv.y, m.z * uv.x + m.w * uv.y) + material.uv_offset[slot];
 }
 
 // What an any-hit shader asks: `texture_alpha` is 1 where the material has no base colour texture.
@@ -50,10 +50,9 @@ bool IsOpen(MaterialConstants material, float texture_alpha) {
 // vectors of world space, `handedness` is +1 or -1.
 float3 ApplyNormalTexture(float3 texel, float normal_scale, float3 normal, float3 tangent,
                           float handedness) {
-  float3 local = texel * 2.0f - 1.0f;
-  local.xy *= normal_scale;
+  const float3 local = texel * 2.0f - 1.0f;
   const float3 bitangent = handedness * cross(normal, tangent);
-  const float3 bent = tangent * local.x + bitangent * local.y + normal * local.z;
+  const float3 bent = (tangent * local.x + bitangent * local.y) * normal_scale + normal * local.z;
   const float length_squared = dot(bent, bent);
   return length_squared > 0.0f ? bent / sqrt(length_squared) : normal;
 }
