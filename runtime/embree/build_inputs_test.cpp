@@ -22,7 +22,7 @@ std::vector<float> decode(Format format, std::vector<uint8_t> bytes,
                           const float* transform = nullptr) {
   alignas(16) uint8_t padded[16] = {};
   std::memcpy(padded, bytes.data(), bytes.size());
-  rtapi::RaytracingGeometryTrianglesDesc desc;
+  rtapi::RaytracingGeometryTrianglesDesc desc = {};
   desc.VertexFormat = format;
   desc.VertexCount = 1;
   desc.VertexBuffer = {reinterpret_cast<uint64_t>(padded), bytes.size()};
@@ -69,7 +69,8 @@ TEST(As10, ATwoComponentFormatIsTransformedWithZZero) {
 
 TEST(As11, OnlyTheLowHalfOfTheStrideCounts) {
   const std::vector<float> vertices = {1, 2, 3, 4, 5, 6};
-  rtapi::RaytracingGeometryTrianglesDesc desc;
+  rtapi::RaytracingGeometryTrianglesDesc desc = {};
+  desc.VertexFormat = Format::kR32G32B32Float;
   desc.VertexCount = 2;
   desc.VertexBuffer = {reinterpret_cast<uint64_t>(vertices.data()), 0x10000000Cull};
   float xyz[6];
@@ -89,7 +90,7 @@ TEST(As08, ARestOfIndicesIsIgnored) {
 TEST(As05And06, IndicesOfBothSizes) {
   const std::vector<uint16_t> small = {0, 1, 2, 3, 2, 1};
   const std::vector<uint32_t> large = {0, 1, 2, 3, 2, 9};
-  rtapi::RaytracingGeometryTrianglesDesc desc;
+  rtapi::RaytracingGeometryTrianglesDesc desc = {};
   desc.VertexCount = 4;
   desc.IndexCount = 6;
   desc.IndexFormat = Format::kR16Uint;

@@ -250,6 +250,7 @@ rtapi::RaytracingGeometryDesc Harness::geometry(const GeometryInput& input) {
     desc.AABBs.AABBs = {upload(input.boxes), sizeof(rtapi::RaytracingAabb)};
     return desc;
   }
+  desc.Triangles.VertexFormat = rtapi::Format::kR32G32B32Float;
   desc.Triangles.VertexCount = static_cast<uint32_t>(input.vertices.size());
   desc.Triangles.VertexBuffer = {upload(input.vertices), sizeof(Vertex)};
   if (!input.indices.empty()) {

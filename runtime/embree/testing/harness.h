@@ -133,7 +133,7 @@ class Harness {
   template <typename T>
   uint64_t upload(const std::vector<T>& values) {
     auto block = buffer(values.empty() ? 1 : values.size() * sizeof(T));
-    std::memcpy(block->host(), values.data(), values.size() * sizeof(T));
+    if (!values.empty()) std::memcpy(block->host(), values.data(), values.size() * sizeof(T));
     return block->address();
   }
 
