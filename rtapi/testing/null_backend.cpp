@@ -74,8 +74,9 @@ class NullBackend : public runtime::BackendDevice {
   RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       RaytracingAccelerationStructureType, RaytracingAccelerationStructureBuildFlags flags,
       std::span<const RaytracingGeometryDesc> geometries, uint32_t instances) const override {
-    const bool update = HasAny(flags, RaytracingAccelerationStructureBuildFlags::kAllowUpdate |
-                                          RaytracingAccelerationStructureBuildFlags::kPerformUpdate);
+    const bool update =
+        HasAny(flags, RaytracingAccelerationStructureBuildFlags::kAllowUpdate |
+                          RaytracingAccelerationStructureBuildFlags::kPerformUpdate);
     return {512 + 256 * (geometries.size() + instances), 256, update ? 256u : 0u};
   }
 
@@ -96,7 +97,9 @@ class NullBackend : public runtime::BackendDevice {
   DeviceInfo info_;
 };
 
-std::vector<DeviceInfo> Enumerate() { return {NullBackend().info()}; }
+std::vector<DeviceInfo> Enumerate() {
+  return {NullBackend().info()};
+}
 
 Result<std::unique_ptr<runtime::BackendDevice>> Create(const DeviceDesc&, const runtime::Context&) {
   return std::unique_ptr<runtime::BackendDevice>(std::make_unique<NullBackend>());
@@ -113,6 +116,8 @@ Device CreateNullDevice(DeviceDesc desc) {
   return CreateDevice(desc).value();
 }
 
-NullLog& null_log() { return g_log; }
+NullLog& null_log() {
+  return g_log;
+}
 
 }  // namespace rtapi::testing

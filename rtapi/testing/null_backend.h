@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A backend for unit tests: memory is real, buffer copies are done, everything else is only recorded.
+// A backend for unit tests: memory is real, buffer copies are done, everything else is only
+// recorded.
 #pragma once
 
 #include <memory>

@@ -1,0 +1,592 @@
+// SPDX-License-Identifier: MIT
+//
+// Composition, hit groups, configs, collections, identifiers. Associations: associations_test.cpp.
+#include <cstring>
+
+#include "rtapi/testing/state_object_fixture.h"
+
+namespace rtapi::testing {
+namespace {
+
+constexpr auto kCollection = StateObjectType::kCollection;
+constexpr auto kExternal = StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions;
+constexpr auto kUnresolved = StateObjectFlags::kAllowLocalDependenciesOnExternalDefinitions;
+constexpr auto kAdditions = StateObjectFlags::kAllowStateObjectAdditions;
+
+TEST_F(StateObjectTest, MinimalPipelineLinks) {
+  auto so = Make(Base());
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_EQ(null_log().last_raytracing->max_payload_bytes, 16u);
+  EXPECT_EQ(null_log().last_raytracing->max_recursion_depth, 1u);
+  EXPECT_EQ(so->GetIdentifiableExports(), (std::vector<std::string>{"RayGen", "Miss", "Call"}));
+}
+
+TEST_F(StateObjectTest, EmptyDescriptionIsAPipelineWithoutExports) {
+  EXPECT_OK(Make({}));
+}
+
+TEST_F(StateObjectTest, SO_01_CollectionsDoNotNest) {
+  auto inner = Make(Base(kCollection));
+  ASSERT_TRUE(inner.ok()) << MessageOf(inner);
+  StateObjectDesc outer{.Type = kCollection};
+  outer.Add(ExistingCollectionDesc::Of(*inner));
+  EXPECT_ERROR(Make(outer), "KA0501", "subobject 0");
+}
+
+TEST_F(StateObjectTest, SO_01_PipelinesAreNoCollections) {
+  StateObjectDesc outer;
+  outer.Add(ExistingCollectionDesc::Of(Make(Base()).value()));
+  EXPECT_ERROR(Make(outer), "KA0501", "AddToStateObject");
+}
+
+TEST_F(StateObjectTest, SO_01_OtherTypesAreRefused) {
+  EXPECT_ERROR(Make({.Type = static_cast<StateObjectType>(1)}), "KA0500", "type 1");
+}
+
+TEST_F(StateObjectTest, EmptyHandlesAndForeignObjectsAreErrors) {
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{});
+  EXPECT_ERROR(Make(desc), "KA0904");
+  desc = {};
+  desc.Add(ExistingCollectionDesc{});
+  EXPECT_ERROR(Make(desc), "KA0904");
+  desc = {};
+  desc.Add(GlobalRootSignature{});
+  EXPECT_ERROR(Make(desc), "KA0904");
+  desc = {};
+  desc.Add(GlobalRootSignature{CreateNullDevice().CreateRootSignature("").value()});
+  EXPECT_ERROR(Make(desc), "KA0903");
+  EXPECT_ERROR(Device().CreateStateObject({}), "KA0904");
+}
+
+TEST_F(StateObjectTest, SO_03_LibraryTargetIsLib63OrLater) {
+  for (const char* target : {"lib_6_2", "lib_5_0", "cs_6_0", "", "lib_"}) {
+    LibraryBuilder old("old.hlsl", target);
+    old.Export("RayGen", Stage::kRayGeneration);
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{old.Build()});
+    EXPECT_ERROR(Make(desc), "KA0502", "lib_6_3", "old.hlsl");
+  }
+}
+
+TEST_F(StateObjectTest, SO_04_ExportListLimitsWhatIsVisible) {
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"RayGen"}};
+  auto so = Make(desc);
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_NE(so->GetShaderIdentifier("RayGen"), nullptr);
+  EXPECT_EQ(so->GetShaderIdentifier("Miss"), nullptr);
+  desc.Add(Triangles("group"));
+  EXPECT_ERROR(Make(desc), "KA0518", "\"group\"", "\"Hit\"");
+}
+
+TEST_F(StateObjectTest, SO_04_ListedExportMustExist) {
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"RayGenn"}};
+  EXPECT_ERROR(Make(desc), "KA0503", "\"RayGenn\"", "\"RayGen\"");
+}
+
+TEST_F(StateObjectTest, SO_05_OneFunctionUnderTwoNames) {
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {
+      {"A", "Miss"}, {"B", "Miss"}, {"RayGen"}};
+  auto so = Make(desc);
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_NE(so->GetShaderIdentifier("A"), nullptr);
+  EXPECT_NE(so->GetShaderIdentifier("B"), nullptr);
+  EXPECT_EQ(so->GetShaderIdentifier("Miss"), nullptr);
+}
+
+TEST_F(StateObjectTest, SO_05_RenamedByMangledName) {
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"A", "\x01?Miss@@YAXXZ"}};
+  EXPECT_NE(Make(desc).value().GetShaderIdentifier("A"), nullptr);
+}
+
+TEST_F(StateObjectTest, SO_05_ExportsHaveNames) {
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"", "Miss"}};
+  EXPECT_ERROR(Make(desc), "KA0506");
+  desc = Base();
+  desc.Add(Triangles(""));
+  EXPECT_ERROR(Make(desc), "KA0506", "HitGroupExport");
+}
+
+TEST_F(StateObjectTest, SO_06_ClashingExportsAreRefused) {
+  StateObjectDesc desc = Base();
+  desc.Add(DxilLibraryDesc{library_});
+  EXPECT_ERROR(Make(desc), "KA0504", "test.hlsl");
+  std::get<DxilLibraryDesc>(desc.Subobjects.back()).Exports = {{"Miss2", "Miss"}};
+  EXPECT_OK(Make(desc));
+  std::get<DxilLibraryDesc>(desc.Subobjects.back()).Exports = {{"X", "Miss"}, {"X", "RayGen"}};
+  EXPECT_ERROR(Make(desc), "KA0504", "\"X\"");
+}
+
+TEST_F(StateObjectTest, SO_06_HitGroupNamesClashToo) {
+  StateObjectDesc desc = Base();
+  desc.Add(Triangles("group"));
+  desc.Add(Triangles("group"));
+  EXPECT_ERROR(Make(desc), "KA0504", "\"group\"");
+  desc = Base();
+  desc.Add(Triangles("Miss"));
+  EXPECT_ERROR(Make(desc), "KA0504", "\"Miss\"");
+}
+
+TEST_F(StateObjectTest, SO_07_OverloadsAreFoundByMangledName) {
+  LibraryBuilder b;
+  b.Export("M", Stage::kMiss).mangled_name = "M(int)";
+  b.Export("M", Stage::kMiss).mangled_name = "M(float)";
+  StateObjectDesc desc = Base();
+  const ShaderLibrary overloads = b.Build();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).DXILLibrary = overloads;
+  auto so = Make(desc);
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_EQ(so->GetShaderIdentifier("M"), nullptr);
+  ASSERT_NE(so->GetShaderIdentifier("M(int)"), nullptr);
+  EXPECT_NE(*so->GetShaderIdentifier("M(int)"), *so->GetShaderIdentifier("M(float)"));
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"N", "M"}};
+  EXPECT_ERROR(Make(desc), "KA0505", "2 overloads");
+}
+
+// --- hit groups and configs ---
+
+TEST_F(StateObjectTest, SO_20_MatrixOfShadersAndTypes) {
+  for (int bits = 0; bits < 8; ++bits) {
+    for (auto type : {HitGroupType::kTriangles, HitGroupType::kProceduralPrimitive}) {
+      StateObjectDesc desc = Base();
+      desc.Add(HitGroupDesc{.HitGroupExport = "group",
+                            .Type = type,
+                            .AnyHitShaderImport = bits & 1 ? "Any" : "",
+                            .ClosestHitShaderImport = bits & 2 ? "Hit" : "",
+                            .IntersectionShaderImport = bits & 4 ? "Intersect" : ""});
+      const bool legal = (type == HitGroupType::kProceduralPrimitive) == ((bits & 4) != 0);
+      auto so = Make(desc);
+      if (!legal) {
+        EXPECT_ERROR(so, "KA0516", "\"group\"");
+        continue;
+      }
+      ASSERT_TRUE(so.ok()) << MessageOf(so);
+      const auto* record = Linked("group");
+      ASSERT_NE(record, nullptr);
+      EXPECT_EQ(record->any_hit != nullptr, (bits & 1) != 0);
+      EXPECT_EQ(record->closest_hit != nullptr, (bits & 2) != 0);
+      EXPECT_EQ(record->intersection != nullptr, (bits & 4) != 0);
+      EXPECT_EQ(record->hit_group_type, type);
+    }
+  }
+}
+
+TEST_F(StateObjectTest, SO_20_UndefinedTypeAndWrongStages) {
+  StateObjectDesc desc = Base();
+  HitGroupDesc group = Triangles("group");
+  group.Type = static_cast<HitGroupType>(7);
+  desc.Add(group);
+  EXPECT_ERROR(Make(desc), "KA0516", "type 7");
+  desc = Base();
+  desc.Add(Triangles("group", "Any"));
+  EXPECT_ERROR(Make(desc), "KA0517", "any-hit", "closest-hit");
+  desc = Base();
+  desc.Add(Triangles("group", "helper"));
+  EXPECT_ERROR(Make(desc), "KA0517", "library function");
+}
+
+TEST_F(StateObjectTest, SO_21_HitGroupsDeclaredInHlsl) {
+  builder_.Subobject("HlslGroup", 11, {"Any", "Hit", ""}, {0});
+  builder_.Subobject("HlslBoxes", 11, {"", "", "Intersect"}, {1});
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).DXILLibrary = builder_.Build();
+  ASSERT_TRUE(Make(desc).ok());
+  EXPECT_NE(Linked("HlslGroup")->any_hit, nullptr);
+  EXPECT_EQ(Linked("HlslBoxes")->closest_hit, nullptr);
+  EXPECT_NE(Linked("HlslBoxes")->intersection, nullptr);
+}
+
+TEST_F(StateObjectTest, SO_22_RecursionDepthUpTo31) {
+  for (uint32_t depth : {0u, 31u, 32u, 0xFFFFFFFFu}) {
+    StateObjectDesc desc = Base();
+    std::get<RaytracingPipelineConfig>(desc.Subobjects[2]).MaxTraceRecursionDepth = depth;
+    if (depth <= 31) {
+      EXPECT_OK(Make(desc));
+    } else {
+      EXPECT_ERROR(Make(desc), "KA0519", std::to_string(depth));
+    }
+  }
+}
+
+TEST_F(StateObjectTest, SO_23_PipelineConfig1NeedsTier11) {
+  StateObjectDesc desc = Base();
+  desc.Subobjects[2] = RaytracingPipelineConfig1{3, RaytracingPipelineFlags::kSkipTriangles};
+  ASSERT_TRUE(Make(desc).ok());
+  EXPECT_EQ(null_log().last_raytracing->max_recursion_depth, 3u);
+  EXPECT_EQ(null_log().last_raytracing->flags, RaytracingPipelineFlags::kSkipTriangles);
+  Device old = CreateNullDevice({.Tier = RaytracingTier::kTier1_0});
+  EXPECT_ERROR(old.CreateStateObject(desc), "KA0520", "tier 1.0");
+}
+
+TEST_F(StateObjectTest, SO_23_PipelineFlags) {
+  StateObjectDesc desc = Base();
+  desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x300)};
+  EXPECT_ERROR(Make(desc), "KA0539");
+  desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x400)};
+  EXPECT_ERROR(Make(desc), "KA0539", "0x400");
+}
+
+TEST_F(StateObjectTest, SO_24_CollectionsAgreeOnTheShaderConfig) {
+  StateObjectDesc collection = Base(kCollection);
+  std::get<RaytracingShaderConfig>(collection.Subobjects[1]).MaxPayloadSizeInBytes = 32;
+  StateObjectDesc desc;
+  desc.Add(ExistingCollectionDesc::Of(Make(collection).value()));
+  EXPECT_OK(Make(desc));
+  LibraryBuilder other("other.hlsl");
+  other.Export("Miss2", Stage::kMiss);
+  const ShaderLibrary library = other.Build();
+  desc.Add(DxilLibraryDesc{library});
+  desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+  desc.Add(RaytracingPipelineConfig{});
+  EXPECT_ERROR(Make(desc), "KA0513", "16", "32");
+  std::get<RaytracingShaderConfig>(desc.Subobjects[2]).MaxPayloadSizeInBytes = 32;
+  EXPECT_OK(Make(desc));
+}
+
+TEST_F(StateObjectTest, SO_23_CollectionsAgreeOnThePipelineConfig) {
+  StateObjectDesc desc;
+  desc.Add(ExistingCollectionDesc::Of(Make(Base(kCollection)).value()));
+  LibraryBuilder other;
+  other.Export("Miss2", Stage::kMiss);
+  const ShaderLibrary library = other.Build();
+  desc.Add(DxilLibraryDesc{library});
+  desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 2});
+  EXPECT_ERROR(Make(desc), "KA0514", "depth 2");
+}
+
+TEST_F(StateObjectTest, PAY_02_PayloadsFitTheConfig) {
+  LibraryBuilder b;
+  b.Export("M", Stage::kMiss).payload_bytes = 36;
+  auto& callable = b.Export("C", Stage::kCallable);
+  callable.callable_data_bytes = 256;  // not limited by the config
+  const ShaderLibrary library = b.Build();
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{library});
+  desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 32});
+  desc.Add(RaytracingPipelineConfig{});
+  EXPECT_ERROR(Make(desc), "KA0522", "miss shader \"M\"", "36", "32");
+  std::get<RaytracingShaderConfig>(desc.Subobjects[1]).MaxPayloadSizeInBytes = 36;
+  EXPECT_OK(Make(desc));
+}
+
+TEST_F(StateObjectTest, PAY_03_AttributesUpTo32Bytes) {
+  StateObjectDesc desc = Base();
+  std::get<RaytracingShaderConfig>(desc.Subobjects[1]).MaxAttributeSizeInBytes = 33;
+  EXPECT_ERROR(Make(desc), "KA0521", "33", "32");
+  desc = Base();
+  std::get<RaytracingShaderConfig>(desc.Subobjects[1]).MaxAttributeSizeInBytes = 4;
+  desc.Add(Triangles("group"));
+  EXPECT_ERROR(Make(desc), "KA0523", "\"Hit\"", "8");
+}
+
+TEST_F(StateObjectTest, PAY_04_AttributesAgreeWithinAGroup) {
+  LibraryBuilder b;
+  b.Export("I", Stage::kIntersection).attribute_bytes = 12;
+  b.Export("H", Stage::kClosestHit).attribute_bytes = 16;
+  const ShaderLibrary library = b.Build();
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{library});
+  desc.Add(RaytracingShaderConfig{16, 32});
+  desc.Add(RaytracingPipelineConfig{});
+  HitGroupDesc group = Triangles("group", "H");
+  desc.Add(group);
+  EXPECT_ERROR(Make(desc), "KA0524", "8 bytes");  // SV-13
+  group.Type = HitGroupType::kProceduralPrimitive;
+  group.IntersectionShaderImport = "I";
+  desc.Subobjects.back() = group;
+  EXPECT_ERROR(Make(desc), "KA0524", "12", "16");
+}
+
+TEST_F(StateObjectTest, UndefinedStateObjectFlags) {
+  EXPECT_ERROR(Make(WithFlags(static_cast<StateObjectFlags>(8))), "KA0539", "0x8");
+  StateObjectDesc desc = WithFlags(kAdditions);
+  desc.Add(StateObjectConfig{});
+  EXPECT_ERROR(Make(desc), "KA0509");
+}
+
+// --- collections ---
+
+TEST_F(StateObjectTest, SO_25_DefaultCollectionResolvesEverything) {
+  StateObjectDesc desc = Base(kCollection);
+  desc.Add(Triangles("group", "NotHere"));
+  EXPECT_ERROR(Make(desc), "KA0518", "\"NotHere\"");
+  desc = Base(kCollection);
+  desc.Subobjects.erase(desc.Subobjects.begin() + 1);
+  EXPECT_ERROR(Make(desc), "KA0511");
+  desc = Base(kCollection);
+  desc.Subobjects.erase(desc.Subobjects.begin() + 2);
+  EXPECT_ERROR(Make(desc), "KA0512");
+  LibraryBuilder b;
+  b.Export("M", Stage::kMiss, {b.Binding("tex", BindingType::kTexture, 0)});
+  const ShaderLibrary library = b.Build();
+  desc = Base(kCollection);
+  desc.Add(DxilLibraryDesc{library});
+  EXPECT_ERROR(Make(desc), "KA0528", "\"tex\" (t0)");
+}
+
+TEST_F(StateObjectTest, SO_26_UnresolvedCollectionIsCompletedByThePipeline) {
+  LibraryBuilder b;
+  b.Export("M", Stage::kMiss, {b.Binding("tex", BindingType::kTexture, 0)});
+  const ShaderLibrary library = b.Build();
+  StateObjectDesc collection{.Type = kCollection};
+  collection.Add(DxilLibraryDesc{library});
+  collection.Add(StateObjectConfig{kUnresolved});
+  collection.Add(Triangles("group", "Hit"));
+  auto c = Make(collection);
+  ASSERT_TRUE(c.ok()) << MessageOf(c);
+  EXPECT_EQ(c->GetShaderIdentifier("M"), nullptr);
+  EXPECT_EQ(c->GetShaderIdentifier("group"), nullptr);
+
+  StateObjectDesc desc = Base();
+  desc.Add(ExistingCollectionDesc::Of(*c));
+  EXPECT_ERROR(Make(desc), "KA0528");
+  desc.Add(GlobalRootSignature{Global("DescriptorTable(SRV(t0))")});
+  auto so = Make(desc);
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_NE(so->GetShaderIdentifier("M"), nullptr);
+  EXPECT_NE(so->GetShaderIdentifier("group"), nullptr);
+}
+
+TEST_F(StateObjectTest, SO_27_OutsideGroupsNeedTheFlag) {
+  for (bool flag : {false, true}) {
+    StateObjectDesc desc;
+    desc.Add(ExistingCollectionDesc::Of(
+        Make(WithFlags(flag ? kExternal : StateObjectFlags::kNone, kCollection)).value()));
+    desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+    desc.Add(RaytracingPipelineConfig{});
+    desc.Add(Triangles("group"));
+    if (flag) {
+      EXPECT_OK(Make(desc));
+    } else {
+      EXPECT_ERROR(Make(desc), "KA0525", "0x2");
+      desc.Subobjects.pop_back();
+      auto so = Make(desc);  // entry points are usable either way
+      ASSERT_TRUE(so.ok()) << MessageOf(so);
+      EXPECT_NE(so->GetShaderIdentifier("RayGen"), nullptr);
+    }
+  }
+}
+
+TEST_F(StateObjectTest, SO_28_AdditionsFlagOfCollectionAndPipeline) {
+  for (bool of_collection : {false, true}) {
+    for (bool of_pipeline : {false, true}) {
+      const auto none = StateObjectFlags::kNone;
+      auto c = Make(WithFlags(of_collection ? kAdditions : none, kCollection));
+      StateObjectDesc desc;
+      desc.Add(StateObjectConfig{of_pipeline ? kAdditions : none});
+      desc.Add(ExistingCollectionDesc::Of(c.value()));
+      if (of_pipeline && !of_collection) {
+        EXPECT_ERROR(Make(desc), "KA0526", "0x4");
+      } else {
+        EXPECT_OK(Make(desc));
+      }
+    }
+  }
+}
+
+TEST_F(StateObjectTest, SO_29_CollectionFlagsMeanNothingOnPipelines) {
+  EXPECT_OK(Make(WithFlags(kUnresolved | kExternal)));
+  StateObjectDesc desc = WithFlags(kUnresolved);
+  desc.Add(Triangles("group", "NotHere"));
+  EXPECT_ERROR(Make(desc), "KA0518");
+}
+
+TEST_F(StateObjectTest, SO_04_CollectionExportListsAndRenames) {
+  auto c = Make(Base(kCollection));
+  StateObjectDesc desc;
+  desc.Add(ExistingCollectionDesc::Of(c.value(), {{"Sky", "Miss"}, {"RayGen"}}));
+  auto so = Make(desc);
+  ASSERT_TRUE(so.ok()) << MessageOf(so);
+  EXPECT_EQ(*so->GetShaderIdentifier("Sky"), *c->GetShaderIdentifier("Miss"));
+  EXPECT_EQ(so->GetShaderIdentifier("Miss"), nullptr);
+  EXPECT_EQ(so->GetShaderIdentifier("Call"), nullptr);
+  desc = {};
+  desc.Add(ExistingCollectionDesc::Of(c.value(), {{"Nope"}}));
+  EXPECT_ERROR(Make(desc), "KA0503", "\"Nope\"");
+}
+
+TEST_F(StateObjectTest, SO_31_ObjectsKeepWhatTheyUse) {
+  Result<StateObject> so = Make({});
+  {
+    LibraryBuilder b;
+    StateObjectDesc desc = Base();
+    desc.Add(GlobalRootSignature{Global("StaticSampler(s0)")});
+    so = Make(desc);
+  }
+  ASSERT_TRUE(so.ok());
+  EXPECT_EQ(Linked("RayGen")->shader->global_root_signature.GetDesc().StaticSamplers.size(), 1u);
+}
+
+TEST_F(StateObjectTest, SO_32_CollectionIdentifiersStay) {
+  auto c = Make(Base(kCollection));
+  StateObjectDesc desc;
+  desc.Add(ExistingCollectionDesc::Of(c.value()));
+  auto so = Make(desc);
+  for (const char* name : {"RayGen", "Miss", "Call"}) {
+    EXPECT_EQ(*so->GetShaderIdentifier(name), *c->GetShaderIdentifier(name)) << name;
+  }
+  const auto& pipeline = *null_log().last_raytracing;
+  EXPECT_EQ(pipeline.identifiers.find(so->GetShaderIdentifier("Miss")->data()), Linked("Miss"));
+}
+
+// --- identifiers and stack ---
+
+TEST_F(StateObjectTest, SO_40_OnlyEntriesAndGroupsHaveIdentifiers) {
+  StateObjectDesc desc = Base();
+  desc.Add(Triangles("group", "Hit", "Any"));
+  auto so = Make(desc).value();
+  for (const char* name : {"RayGen", "Miss", "Call", "group", "\x01?Miss@@YAXXZ"}) {
+    EXPECT_NE(so.GetShaderIdentifier(name), nullptr) << name;
+  }
+  for (const char* name : {"Hit", "Any", "Intersect", "helper", "", "Nope", "group::closesthit"}) {
+    EXPECT_EQ(so.GetShaderIdentifier(name), nullptr) << name;
+  }
+  EXPECT_EQ(StateObject().GetShaderIdentifier("RayGen"), nullptr);
+}
+
+TEST_F(StateObjectTest, SBT_29_IdentifiersAreUniqueAndNeverNull) {
+  auto a = Make(Base()).value();
+  auto b = Make(Base()).value();
+  EXPECT_NE(*a.GetShaderIdentifier("Miss"), *b.GetShaderIdentifier("Miss"));
+  EXPECT_NE(*a.GetShaderIdentifier("Miss"), *a.GetShaderIdentifier("RayGen"));
+  EXPECT_FALSE(kaamos::runtime::is_null_identifier(a.GetShaderIdentifier("Miss")->data()));
+  const auto& pipeline = *null_log().last_raytracing;
+  EXPECT_EQ(pipeline.identifiers.find(a.GetShaderIdentifier("Miss")->data()), nullptr);
+  ShaderIdentifier forged = *b.GetShaderIdentifier("Miss");
+  EXPECT_NE(pipeline.identifiers.find(forged.data()), nullptr);
+  forged[31] ^= 1;
+  EXPECT_EQ(pipeline.identifiers.find(forged.data()), nullptr);
+  forged.fill(0);
+  EXPECT_EQ(pipeline.identifiers.find(forged.data()), nullptr);
+  forged.fill(0xFF);
+  EXPECT_EQ(pipeline.identifiers.find(forged.data()), nullptr);
+}
+
+TEST_F(StateObjectTest, SO_41_StackSizes) {
+  StateObjectDesc desc = Base();
+  desc.Add(Triangles("group", "Hit"));
+  auto so = Make(desc).value();
+  EXPECT_EQ(so.GetShaderStackSize("RayGen"), 100u);
+  EXPECT_EQ(so.GetShaderStackSize("group::closesthit"), 100u);
+  for (const char* name : {"group", "group::anyhit", "group::ClosestHit", "group::intersection",
+                           "Hit", "Nope", "", "::", "Miss::closesthit", "group::"}) {
+    EXPECT_EQ(so.GetShaderStackSize(name), 0xFFFFFFFFu) << name;
+  }
+}
+
+TEST_F(StateObjectTest, SO_43_DefaultStackSize) {
+  LibraryBuilder b;
+  b.Export("R", Stage::kRayGeneration).stack_bytes = 1;
+  b.Export("M", Stage::kMiss).stack_bytes = 10;
+  auto& hit = b.Export("H", Stage::kClosestHit);
+  hit.stack_bytes = 100;
+  b.Export("A", Stage::kAnyHit).stack_bytes = 1000;
+  b.Export("I", Stage::kIntersection).stack_bytes = 10000;
+  b.Export("C", Stage::kCallable).stack_bytes = 100000;
+  const ShaderLibrary library = b.Build();
+  for (auto [depth, expected] : {std::pair<uint32_t, uint64_t>{0, 200001},
+                                 {1, 200001 + 11000},
+                                 {5, 200001 + 11000 + 4 * 100}}) {
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{library});
+    desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+    desc.Add(RaytracingPipelineConfig{depth});
+    desc.Add(HitGroupDesc{"group", HitGroupType::kProceduralPrimitive, "A", "H", "I"});
+    EXPECT_EQ(Make(desc).value().GetPipelineStackSize(), expected) << depth;
+  }
+}
+
+TEST_F(StateObjectTest, SO_44_BadStackSizesAreDropped) {
+  auto so = Make(Base()).value();
+  const uint64_t before = so.GetPipelineStackSize();
+  EXPECT_ERROR(so.SetPipelineStackSize(0xFFFFFFFFu), "KA0532");
+  EXPECT_EQ(so.GetPipelineStackSize(), before);
+  EXPECT_OK(so.SetPipelineStackSize(4096));
+  EXPECT_EQ(so.GetPipelineStackSize(), 4096u);
+  auto c = Make(Base(kCollection)).value();
+  EXPECT_ERROR(c.SetPipelineStackSize(4096), "KA0532", "collection");
+  EXPECT_EQ(c.GetPipelineStackSize(), 0u);
+  StateObject empty;
+  EXPECT_ERROR(empty.SetPipelineStackSize(1), "KA0904");
+}
+
+// --- AddToStateObject ---
+
+class AddToStateObjectTest : public StateObjectTest {
+ protected:
+  AddToStateObjectTest() {
+    more_.Export("Miss2", Stage::kMiss);
+    more_library_ = more_.Build();
+    parent_ = Make(WithFlags(kAdditions)).value();
+  }
+  StateObjectDesc Addition(StateObjectFlags flags = kAdditions) {
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{more_library_});
+    desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+    desc.Add(RaytracingPipelineConfig{});
+    desc.Add(StateObjectConfig{flags});
+    return desc;
+  }
+  LibraryBuilder more_{"more.hlsl"};
+  ShaderLibrary more_library_;
+  StateObject parent_;
+};
+
+TEST_F(AddToStateObjectTest, SO_60_BothCarryTheFlagAndAreNoCollections) {
+  EXPECT_OK(device_.AddToStateObject(Addition(), parent_));
+  EXPECT_ERROR(device_.AddToStateObject(Addition(StateObjectFlags::kNone), parent_), "KA0533");
+  EXPECT_ERROR(device_.AddToStateObject(Addition(), Make(Base()).value()), "KA0533", "parent");
+  EXPECT_ERROR(
+      device_.AddToStateObject(Addition(), Make(WithFlags(kAdditions, kCollection)).value()),
+      "KA0533", "collection");
+  EXPECT_ERROR(device_.AddToStateObject(Addition(), StateObject()), "KA0904");
+}
+
+TEST_F(AddToStateObjectTest, SO_61_AdditionSeesNothingOfItsParent) {
+  StateObjectDesc desc = Addition();
+  desc.Add(Triangles("group", "Hit"));
+  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0518");
+}
+
+TEST_F(AddToStateObjectTest, SO_62_ConfigsEqualTheParents) {
+  StateObjectDesc desc = Addition();
+  std::get<RaytracingPipelineConfig>(desc.Subobjects[2]).MaxTraceRecursionDepth = 2;
+  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0534");
+}
+
+TEST_F(AddToStateObjectTest, SO_63_NewEntryNamesOnly) {
+  StateObjectDesc desc = Addition();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"Miss", "Miss2"}};
+  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0535", "\"Miss\"");
+}
+
+TEST_F(AddToStateObjectTest, SO_64_65_67_ChildHasBothAndTheParentsIdentifiersAndStack) {
+  ASSERT_TRUE(parent_.SetPipelineStackSize(777).ok());
+  const ShaderIdentifier miss = *parent_.GetShaderIdentifier("Miss");
+  auto child = device_.AddToStateObject(Addition(), parent_);
+  ASSERT_TRUE(child.ok()) << MessageOf(child);
+  parent_ = {};
+  EXPECT_EQ(*child->GetShaderIdentifier("Miss"), miss);
+  EXPECT_NE(child->GetShaderIdentifier("Miss2"), nullptr);
+  EXPECT_EQ(child->GetPipelineStackSize(), 777u);
+  EXPECT_EQ(Linked("Miss2")->kind, kaamos::runtime::RecordKind::kMiss);
+}
+
+TEST_F(AddToStateObjectTest, SO_64_SiblingsAreNotVisible) {
+  auto one = device_.AddToStateObject(Addition(), parent_);
+  StateObjectDesc other = Addition();
+  std::get<DxilLibraryDesc>(other.Subobjects[0]).Exports = {{"Miss3", "Miss2"}};
+  auto two = device_.AddToStateObject(other, parent_);
+  EXPECT_EQ(two->GetShaderIdentifier("Miss2"), nullptr);
+  EXPECT_NE(two->GetShaderIdentifier("Miss3"), nullptr);
+  EXPECT_EQ(one->GetShaderIdentifier("Miss3"), nullptr);
+}
+
+}  // namespace
+}  // namespace rtapi::testing
