@@ -241,7 +241,7 @@ void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
            {"a global variable of type '" + to_string(type) + "', which holds resources"});
     return;
   }
-  const bool is_const = (decl->type->modifiers & kModConst) != 0;
+  const bool is_const = is_const_type(decl->type);
   if (is_static || (is_const && decl->initializer)) {
     if (!is_static) report(CheckId::kConstWithoutStatic, decl->location, {std::string(decl->name)});
     declare_static(decl, type, scope);
@@ -254,7 +254,7 @@ void Checker::declare_static(const VariableDecl* decl, const Type* type, Scope* 
   VariableInfo* info = &variables_.emplace_back();
   info->kind = VariableKind::kGlobal;
   info->name = decl->name;
-  info->is_const = (decl->type->modifiers & kModConst) != 0;
+  info->is_const = is_const_type(decl->type);
   info->decl = decl;
   info->scope = scope;
   info->state = VariableInfo::State::kPending;
@@ -365,7 +365,7 @@ void Checker::resolve_signature(FunctionInfo* function) {
     info.type = resolve_type(parameter->type, function->scope);
     info.is_out = (parameter->modifiers & kModOut) != 0;
     info.is_in = !info.is_out || (parameter->modifiers & kModIn) != 0;
-    info.is_const = (parameter->type->modifiers & kModConst) != 0;
+    info.is_const = is_const_type(parameter->type);
     info.decl = parameter;
     info.default_value = parameter->default_value;
     if (!check_variable_type(info.type, parameter->location, parameter->name)) {

@@ -79,6 +79,10 @@ Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope
     case SymbolKind::kNamespace:
       return symbol->scope;
     case SymbolKind::kType:
+      if (StructTemplate* own = template_of(symbol, part)) {
+        StructInfo* info = instantiate_struct(own, part, part.location, scope);
+        return info ? info->scope : nullptr;
+      }
       if (symbol->scope) return symbol->scope;
       return symbol->type->is_struct() ? symbol->type->structure->scope : nullptr;
     case SymbolKind::kStructTemplate: {

@@ -90,6 +90,17 @@ std::string Checker::template_suffix(const TemplateValues& values) {
   return text + ">";
 }
 
+// Inside of Pair<float>, `Pair` alone is that instance and `Pair<int>` is another.
+StructTemplate* Checker::template_of(const Symbol* symbol, const NamePart& part) {
+  if (symbol->kind == SymbolKind::kStructTemplate) return symbol->struct_template;
+  if (symbol->kind != SymbolKind::kType || !part.has_template_arguments ||
+      !symbol->type->is_struct() || symbol->type->structure->template_name != part.identifier) {
+    return nullptr;
+  }
+  const auto found = instance_arguments_.find(symbol->type->structure);
+  return found == instance_arguments_.end() ? nullptr : found->second.first;
+}
+
 StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePart& part,
                                         SourceLocation location, Scope* scope) {
   const StructDecl* decl = structure->decl;

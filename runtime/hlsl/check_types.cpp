@@ -49,6 +49,13 @@ Scalar Checker::scalar_of(ScalarKind kind, SourceLocation location) {
   return Scalar::kInt32;
 }
 
+bool Checker::is_const_type(const TypeSyntax* syntax) {
+  for (; syntax; syntax = syntax->element) {
+    if (syntax->modifiers & kModConst) return true;
+  }
+  return false;
+}
+
 const Type* Checker::apply_storage(const Type* type, Modifiers modifiers) {
   const bool row = (modifiers & kModRowMajor) != 0;
   const bool column = (modifiers & kModColumnMajor) != 0;
@@ -137,6 +144,10 @@ const Type* Checker::resolve_named(const TypeSyntax* syntax, Scope* scope) {
   }
   switch (symbol->kind) {
     case SymbolKind::kType:
+      if (StructTemplate* own = template_of(symbol, name.last())) {
+        StructInfo* info = instantiate_struct(own, name.last(), syntax->location, scope);
+        return info ? info->type : types_.error();
+      }
       if (name.last().has_template_arguments) {
         report(CheckId::kNotATemplate, syntax->location, {spell(name)});
         return types_.error();

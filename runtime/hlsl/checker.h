@@ -256,6 +256,7 @@ class Checker {
   const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
   std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope);
+  static bool is_const_type(const TypeSyntax* syntax);
   const Type* apply_storage(const Type* type, Modifiers modifiers);
   Scalar scalar_of(ScalarKind kind, SourceLocation location);
   std::optional<int64_t> constant_integer(const Expr* expression, Scope* scope,
@@ -284,6 +285,7 @@ class Checker {
   void declare_builtins();
 
   // -- Templates (check_templates.cpp)
+  StructTemplate* template_of(const Symbol* symbol, const NamePart& part);
   StructInfo* instantiate_struct(StructTemplate* structure, const NamePart& part,
                                  SourceLocation location, Scope* scope);
   const Type* instantiate_alias(const TypeAliasDecl* alias, Scope* alias_scope,

@@ -176,7 +176,7 @@ void Checker::lower_local(const VariableDecl* decl) {
   VariableInfo* info = &variables_.emplace_back();
   info->name = decl->name;
   info->type = types_.error();
-  info->is_const = (decl->type->modifiers & kModConst) != 0;
+  info->is_const = is_const_type(decl->type);
   const bool valid = check_variable_type(type, decl->location, decl->name);
   if (find_local(scope_, decl->name)) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
