@@ -107,7 +107,8 @@ function(kaamos_install_headers)
   # Headers of the effects include each other as "effects/...", with which they keep working in
   # include/kaamos; their shader files go with them.
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
-    FILES_MATCHING PATTERN "*.h" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE)
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
+    PATTERN "*_test_support.h" EXCLUDE)
 endfunction()
 
 function(kaamos_install_package)

@@ -144,14 +144,15 @@ Shape dome_ring(double polar, double radius, double inset) {
       path, [=](double) { return radius; }, 10);
 }
 
-/// A thin closed band at the foot of the dome, 4 mm of sheet metal.
+/// A thin closed band at the foot of the dome, 4 mm of sheet metal. It reaches into the ceiling, so
+/// that no light comes in beside it.
 Shape dome_band() {
   std::vector<glm::dvec2> profile;
   for (int side = 0; side < 2; ++side)
     for (int i = 0; i <= 10; ++i) {
       const double t = side == 0 ? i / 10.0 : 1.0 - i / 10.0;
       const glm::dvec3 p =
-          dome_point(glm::mix(0.5 * kPi + 0.05, 1.33, t), 0.0, side == 0 ? -0.020 : -0.016);
+          dome_point(glm::mix(0.5 * kPi + 0.05, 1.33, t), 0.0, side == 0 ? -0.034 : -0.030);
       profile.emplace_back(p.z, p.y);
     }
   profile.push_back(profile.front());
