@@ -3,6 +3,8 @@
 // `(Name)x` from expressions.
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "ast.h"
@@ -12,9 +14,11 @@ namespace kaamos::hlsl {
 struct BuiltinName {
   enum Kind : uint8_t {
     kNone,
-    kNumeric,    // float3, int64_t2x2; scalar, rows, columns as in TypeSyntax.
-    kType,       // Texture2D, RayDesc, vector, ...
-    kSubobject,  // TriangleHitGroup, ...
+    kNumeric,     // float3, int64_t2x2; scalar, rows, columns as in TypeSyntax.
+    kType,        // Texture2D, RayDesc, vector, ...
+    kSubobject,   // TriangleHitGroup, ...
+    kNamespace,   // dx
+    kScopedType,  // HitObject of dx::HitObject
   };
   Kind kind = kNone;
   ScalarKind scalar = ScalarKind::kFloat;
@@ -24,5 +28,9 @@ struct BuiltinName {
 };
 
 BuiltinName find_builtin_name(std::string_view text);
+
+// What a writer of the unknown type `text` may have meant: a name of `declared` or a built-in one
+// with one or two letters changed, or HLSL's word for a GLSL type. Empty: no idea.
+std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared);
 
 }  // namespace kaamos::hlsl

@@ -75,6 +75,15 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
     default:
       break;
   }
+  const bool is_technique =
+      is_global && at_name() && token().text.starts_with("technique") &&
+      (peek(1).is(Kind::kLeftBrace) || (is_name(pos_ + 1) && peek(2).is(Kind::kLeftBrace)));
+  if (is_technique) {
+    report(DiagnosticId::kStateBlockIgnored, here(), {"the technique"});
+    while (!at(Kind::kLeftBrace)) advance();
+    pos_ = behind_closing(pos_);
+    return;
+  }
   const bool is_subobject =
       at_name() && is_name(pos_ + 1) && scopes_.find(token()).kind == SymbolKind::kSubobject;
   if (!is_subobject) return simple_declaration(prefix, out);
@@ -192,7 +201,7 @@ void Parser::namespace_declaration(DeclList& out) {
   ScopeId scope = kNoScope;
   if (name != nullptr) {
     decl->name = name->text;
-    const Symbol known = scopes_.find_in(scopes_.current(), name->value);
+    const Symbol known = scopes_.find_in(scopes_.current(), *name);
     scope = known.kind == SymbolKind::kNamespace ? known.scope : scopes_.create(scopes_.current());
     scopes_.declare(scopes_.current(), name->value, {SymbolKind::kNamespace, scope});
   } else {
@@ -243,6 +252,7 @@ void Parser::using_declaration(const Prefix& prefix, DeclList& out) {
     reject_declarator_prefix();
     decl->type = array_bounds(type);
     scopes_.declare(scope_of(prefix), name->value, {SymbolKind::kType, members});
+    type_names_.push_back(name->text);
     if (expect_semicolon("the type")) out.push_back(decl);
     return;
   }
@@ -273,6 +283,7 @@ void Parser::typedef_declaration(const Prefix& prefix, DeclList& out) {
     decl->attributes = prefix.attributes;
     decl->type = array_bounds(type);
     scopes_.declare(scopes_.current(), name->value, {SymbolKind::kType, members});
+    type_names_.push_back(name->text);
     out.push_back(decl);
   } while (!panic_ && accept(Kind::kComma));
   if (!panic_) expect_semicolon("the typedef");

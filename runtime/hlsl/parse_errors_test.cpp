@@ -297,7 +297,38 @@ TEST(ParseLimit, LongChainsAreAnError) {
 TEST(ParseLimit, ElseIfChainsMayBeLong) {
   EXPECT_EQ(dump_statements(repeated("if (a) b; else ", 1000) + "c;").substr(0, 5), "if a\n");
   EXPECT_EQ(positions(Parsed("void f() {\n" + repeated("if (a) b; else\n", 1100) + "c; }")),
-            "KA2209 1026:1");
+            "KA2209 1027:1");
+}
+
+// Chains inside chains, and expressions inside template arguments, count together: what walks the
+// tree must not run out of its stack.
+TEST(ParseLimit, LimitsHoldForTheWholePath) {
+  std::string chains = "void f() {";
+  for (int level = 0; level < 20; ++level) chains += repeated("if (a) b; else ", 100) + "{";
+  EXPECT_THAT(positions(Parsed(chains + repeated("}", 21))), testing::HasSubstr("KA2209 1:"));
+
+  std::string nested = "1";
+  for (int level = 0; level < 20; ++level) {
+    nested = "g<(" + nested + repeated("+1", 100) + ")>(0)";
+  }
+  EXPECT_THAT(
+      positions(Parsed("template<int N> int g(int a) { return N; }\nint a = " + nested + ";")),
+      testing::HasSubstr("KA2210 2:"));
+}
+
+TEST(ParseSuggestion, ForMisspeltTypesAndThoseOfGlsl) {
+  const auto note = [](std::string_view type) {
+    const Parsed parsed("struct MaterialData { int a; };\n" + std::string(type) + " a;");
+    const auto& all = parsed.diagnostics.diagnostics();
+    return all.empty() || all[0].notes.empty() ? std::string() : all[0].notes[0].message;
+  };
+  EXPECT_EQ(note("Texture2d"), "did you mean 'Texture2D'?");
+  EXPECT_EQ(note("MaterialDatum"), "did you mean 'MaterialData'?");
+  EXPECT_EQ(note("flaot"), "did you mean 'float'?");
+  EXPECT_EQ(note("flot3"), "did you mean 'float3'?");
+  EXPECT_EQ(note("vec3"), "did you mean 'float3'?");
+  EXPECT_EQ(note("mat3x4"), "did you mean 'float4x3'?");
+  EXPECT_EQ(note("Quaternion"), "");
 }
 
 // Texts that lead a careless parser into the end of its stack or into quadratic time.

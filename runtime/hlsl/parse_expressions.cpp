@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Expressions made of operators, from comma down to prefix operators and casts.
 #include <algorithm>
+#include <utility>
 
 #include "parser.h"
 
@@ -100,7 +101,7 @@ bool assignment_operator(TokenKind kind, std::optional<BinaryOp>* op) {
 
 const Expr* Parser::finish(Expr* expr, std::initializer_list<const Expr*> children,
                            std::span<const Expr* const> more) {
-  uint32_t height = 0;
+  uint32_t height = std::exchange(pending_height_, 0);
   for (const Expr* child : children) {
     if (child != nullptr) height = std::max<uint32_t>(height, child->height + 1u);
   }

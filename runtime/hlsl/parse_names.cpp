@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Names, what they mean, and where `<` begins template arguments.
+#include <algorithm>
+
 #include "parser.h"
 
 namespace kaamos::hlsl {
@@ -18,7 +20,7 @@ Parser::NameLookup Parser::look_up(size_t index) {
   result.end = index;
   if (!is_name(i)) return result;
   result.symbol =
-      is_global ? scopes_.find_in(kGlobalScope, token_at(i).value) : scopes_.find(token_at(i));
+      is_global ? scopes_.find_in(kGlobalScope, token_at(i)) : scopes_.find(token_at(i));
   // `::float3`, `::RayDesc`: the built-in names stand in the global scope.
   if (is_global && result.symbol.kind == SymbolKind::kUnknown) {
     const ScopeId previous = scopes_.enter(kGlobalScope);
@@ -37,7 +39,7 @@ Parser::NameLookup Parser::look_up(size_t index) {
     ++i;
     const ScopeId scope = result.symbol.scope;
     result.is_dependent = scope == kDependentScope;
-    result.symbol = scopes_.find_in(scope, token_at(i).value);
+    result.symbol = scopes_.find_in(scope, token_at(i));
     if (result.is_dependent) result.symbol.scope = kDependentScope;
   }
   if (result.end == index) result.end = i;
@@ -67,8 +69,7 @@ bool Parser::begins_template_arguments(size_t index, size_t name_index, const Sy
 size_t Parser::behind_template_arguments(size_t index) const {
   size_t depth = 0;
   size_t i = index;
-  const size_t limit = index + kMaxLookAhead;
-  while (i < limit) {
+  for (size_t steps = 0; steps < kMaxLookAhead; ++steps) {
     switch (token_at(i).kind) {
       case Kind::kLess:
         ++depth;
@@ -176,7 +177,7 @@ const QualifiedName* Parser::qualified_name(bool is_member, Symbol* symbol, Scop
     }
     const Token& name = token();
     if (!parts.empty() || result->is_global) {
-      current = scopes_.find_in(scope, name.value);
+      current = scopes_.find_in(scope, name);
       if (current.kind == SymbolKind::kUnknown && parts.empty()) current = scopes_.find(name);
     } else if (!is_member) {
       current = scopes_.find(name);
@@ -226,6 +227,7 @@ TemplateArgument Parser::template_argument() {
   } else {
     Setting setting(greater_is_operator_, false);
     result.value = conditional();
+    pending_height_ = std::max<uint32_t>(pending_height_, result.value->height) + 1;
   }
   return result;
 }

@@ -46,6 +46,7 @@ const Expr* Parser::postfix() {
 
 const Expr* Parser::member(const Expr* base) {
   advance();
+  accept(Kind::kTemplate);  // `x.template f<T>()`
   if (!at_name()) {
     fail_here(DiagnosticId::kExpectedName, {"a member", describe(token())});
     return base;

@@ -83,14 +83,19 @@ Symbol ParseScopes::find(const Token& name) {
     }
   }
   if (found.kind == BuiltinName::kType) return {SymbolKind::kType, kNoScope};
+  if (found.kind == BuiltinName::kNamespace) return {SymbolKind::kNamespace, kBuiltinScope};
   if (found.kind == BuiltinName::kSubobject) return {SymbolKind::kSubobject, kNoScope};
   return {};
 }
 
-Symbol ParseScopes::find_in(ScopeId scope, uint32_t name) const {
-  if (scope >= scopes_.size() || !infos_[name].is_recorded) return {};
+Symbol ParseScopes::find_in(ScopeId scope, const Token& name) {
+  if (scope == kBuiltinScope) {
+    const bool is_type = builtin(name).kind == BuiltinName::kScopedType;
+    return is_type ? Symbol{SymbolKind::kType, kNoScope} : Symbol{};
+  }
+  if (scope >= scopes_.size() || !infos_[name.value].is_recorded) return {};
   int visits = kMaxVisits;
-  return find_linked(scope, name, visits);
+  return find_linked(scope, name.value, visits);
 }
 
 Symbol ParseScopes::find_linked(ScopeId scope, uint32_t name, int& visits) const {

@@ -28,6 +28,8 @@ inline constexpr ScopeId kGlobalScope = 0;
 inline constexpr ScopeId kNoScope = 0xFFFFFFFFu;
 // The inside of a type that is not known before a template is instantiated.
 inline constexpr ScopeId kDependentScope = 0xFFFFFFFEu;
+// `dx::`, whose types are built in.
+inline constexpr ScopeId kBuiltinScope = 0xFFFFFFFDu;
 
 struct Symbol {
   SymbolKind kind = SymbolKind::kUnknown;
@@ -51,7 +53,7 @@ class ParseScopes {
   // A variable, parameter, function or enumerator.
   void declare_value(ScopeId scope, const Token& name);
   Symbol find(const Token& name);
-  Symbol find_in(ScopeId scope, uint32_t name) const;
+  Symbol find_in(ScopeId scope, const Token& name);
   // Is `name` a function template somewhere? Decides `x.name<`, where the type of x is not known.
   bool is_template_function(uint32_t name) const { return infos_[name].is_template_function; }
   // Was it ever declared as a variable, parameter, function or enumerator?

@@ -156,6 +156,7 @@ Stmt* Parser::if_statement() {
   std::span<const Attribute> kept;
   // A chain of `else if` is no nesting for the parser; each link has a scope for its condition.
   const ScopeId outer = scopes_.current();
+  const uint32_t outer_else_ifs = else_ifs_;
   for (;;) {
     scopes_.enter(scopes_.create(scopes_.current()));
     IfStmt* result = make<IfStmt>(here());
@@ -169,7 +170,7 @@ Stmt* Parser::if_statement() {
     const bool has_attributes = at(Kind::kLeftBracket);
     if (has_attributes) attributes(found);
     kept = list(found);
-    if (!at(Kind::kIf) || links.size() >= kMaxElseIf) {
+    if (!at(Kind::kIf) || ++else_ifs_ > kMaxElseIf) {
       if (at(Kind::kIf)) fail_here(DiagnosticId::kNestedTooDeep, {std::to_string(kMaxElseIf)});
       Stmt* final_branch = panic_ ? make<ErrorStmt>(here()) : statement();
       if (has_attributes) final_branch->attributes = kept;
@@ -178,6 +179,7 @@ Stmt* Parser::if_statement() {
     }
   }
   scopes_.enter(outer);
+  else_ifs_ = outer_else_ifs;
   Stmt* result = nullptr;
   for (size_t i = links.size(); i-- > 0;) {
     links[i].statement->else_branch = last;

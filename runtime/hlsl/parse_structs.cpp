@@ -37,11 +37,12 @@ const StructDecl* Parser::struct_definition() {
     decl->name = name->text;
     decl->location = name->location;
     // A definition behind a forward declaration fills the same scope.
-    const Symbol known = scopes_.find_in(outer, name->value);
+    const Symbol known = scopes_.find_in(outer, *name);
     const bool is_forward =
         known.kind == SymbolKind::kType && known.scope < scope && !decl->is_template;
     if (is_forward && at(Kind::kSemicolon)) scope = known.scope;
     scopes_.declare(outer, name->value, {SymbolKind::kType, scope});
+    type_names_.push_back(name->text);
   }
   type_scope_ = scope;
   if (at(Kind::kSemicolon) && name != nullptr) return decl;
@@ -158,6 +159,7 @@ const EnumDecl* Parser::enum_definition() {
     decl->name = name->text;
     decl->location = name->location;
     scopes_.declare(scopes_.current(), name->value, {SymbolKind::kType, scope});
+    type_names_.push_back(name->text);
   }
   if (accept(Kind::kColon)) decl->underlying = type_without_bounds();
   const size_t open = pos_;

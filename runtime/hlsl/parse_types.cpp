@@ -71,10 +71,8 @@ constexpr Conflict kConflicts[] = {
     {kModRowMajor, "row_major", kModColumnMajor, "column_major"},
     {kModSnorm, "snorm", kModUnorm, "unorm"},
     {kModStatic, "static", kModExtern, "extern"},
-    {kModStatic, "static", kModGroupshared, "groupshared"},
     {kModStatic, "static", kModUniform, "uniform"},
     {kModNoInterpolation, "nointerpolation", kModLinear, "linear"},
-    {kModConst, "const", kModOut, "out"},
 };
 
 bool is_word(TokenKind kind) {
@@ -251,12 +249,14 @@ TypeSyntax* Parser::unknown_type() {
   }
   const SourceLocation location = here();
   const std::string text = text_between(begin, end);
-  if (is_name(end) || token_at(end).is(Kind::kOperator)) {
-    report(DiagnosticId::kUnknownTypeName, location, {text});
-    pos_ = end;
-  } else {
-    fail(DiagnosticId::kUnknownTypeName, location, {text});
+  const bool reads_on = is_name(end) || token_at(end).is(Kind::kOperator);
+  auto message = reads_on ? report(DiagnosticId::kUnknownTypeName, location, {text})
+                          : fail(DiagnosticId::kUnknownTypeName, location, {text});
+  const std::string similar = similar_type_name(token_at(begin).text, type_names_);
+  if (end == begin + 1 && !similar.empty()) {
+    message.note(location, "did you mean '" + similar + "'?");
   }
+  if (reads_on) pos_ = end;
   return error_type(location);
 }
 
@@ -352,6 +352,7 @@ const TypeSyntax* Parser::array_bounds(const TypeSyntax* element) {
     advance();
     Setting setting(greater_is_operator_, true);
     const Expr* size = at(Kind::kRightBracket) ? nullptr : assignment();
+    if (size != nullptr) pending_height_ = std::max<uint32_t>(pending_height_, size->height) + 1;
     bounds.push_back({token_at(open).location, size});
     expect_closing(Kind::kRightBracket, open, "the size of the array");
   }

@@ -37,7 +37,7 @@ class Parser {
   static constexpr uint32_t kMaxHeight = 1024;
   static constexpr uint32_t kMaxElseIf = 1024;
   static constexpr size_t kMaxArrayBounds = 32;
-  // Tokens that a look ahead into template arguments reads.
+  // Tokens that a look ahead into template arguments reads; what is in parentheses counts once.
   static constexpr size_t kMaxLookAhead = 512;
 
   struct Nesting {
@@ -323,11 +323,15 @@ class Parser {
   size_t pos_ = 0;
   uint32_t depth_ = 0;
   bool panic_ = false;
-  bool greater_is_operator_ = true;        // Not directly in template arguments.
+  bool greater_is_operator_ = true;  // Not directly in template arguments.
+  // Height of the expressions in types and template arguments, for the next expression made.
+  uint32_t pending_height_ = 0;
+  uint32_t else_ifs_ = 0;                  // Links of `else if` chains around.
   ScopeId type_scope_ = kNoScope;          // Of the type parsed last: its members.
   const Prefix* struct_prefix_ = nullptr;  // For the struct or enum that may come next.
   const Token* function_token_ = nullptr;  // The name of the function around.
   int look_ahead_depth_ = 0;
+  std::vector<std::string_view> type_names_;  // All declared so far, for suggestions.
 };
 
 }  // namespace kaamos::hlsl
