@@ -129,9 +129,10 @@ Status locate(const tinygltf::Model& model, int id, const std::string& where, El
   if (component_size(a.componentType) == 0)
     return fail(where, "component type " + std::to_string(a.componentType) +
                            " is unknown, 5120..5126 and 5130 are allowed");
-  if (a.count > kMaxAccessorElements)
-    return fail(where, "has " + std::to_string(a.count) + " elements, " +
-                           std::to_string(kMaxAccessorElements) + " are allowed");
+  const std::size_t limit = a.bufferView < 0 ? kMaxZeroElements : kMaxAccessorElements;
+  if (a.count > limit)
+    return fail(where, "has " + std::to_string(a.count) + " elements, " + std::to_string(limit) +
+                           " are allowed");
   if (a.bufferView < 0) return {};
   if (static_cast<std::size_t>(a.bufferView) < model.bufferViews.size())
     view.stride = model.bufferViews[static_cast<std::size_t>(a.bufferView)].byteStride;

@@ -16,9 +16,11 @@ class Model;
 
 namespace kaamos::effects {
 
-/// Most elements that an accessor may have. An accessor without a buffer view is all zeros, so
-/// without a limit a file of 200 bytes could ask for any amount of memory.
-inline constexpr std::size_t kMaxAccessorElements = std::size_t{1} << 25;
+/// Most elements that an accessor may have.
+inline constexpr std::size_t kMaxAccessorElements = std::size_t{1} << 27;
+/// The same for one without a buffer view: it is all zeros, so a file of 200 bytes could ask for any
+/// amount of memory.
+inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 22;
 
 /// Elements of an accessor as floats, `components` per element. Integers are converted, normalised
 /// ones to 0..1 or -1..1 [glTF 2.0: Animations, normalised integers]. Sparse values are applied.
