@@ -140,6 +140,35 @@ TEST(As55, AnUpdateElsewhereLeavesTheSourceAsItWas) {
   EXPECT_EQ(depth_of(h, command.dest), 6.0f);
 }
 
+TEST(As57And61, ManyUpdatesOfBoxesAndTriangles) {
+  Harness h;
+  h.use_standard_pipeline(nullptr, testing::report_all);
+  auto boxes = h.bottom_level_command({testing::box_at(3)}, Flags::kAllowUpdate);
+  auto triangles = h.bottom_level_command({triangle_at(3)}, Flags::kAllowUpdate);
+  ASSERT_TRUE(h.execute(boxes).ok());
+  ASSERT_TRUE(h.execute(triangles).ok());
+  for (auto* command : {&boxes, &triangles}) {
+    command->flags = command->flags | Flags::kPerformUpdate;
+    command->source = command->dest;
+  }
+  const auto box = h.buffer(24);
+  const auto vertices = h.buffer(36);
+  boxes.geometries[0].AABBs.AABBs.StartAddress = box->address();
+  triangles.geometries[0].Triangles.VertexBuffer.StartAddress = vertices->address();
+  for (int i = 0; i < 200; ++i) {
+    const float z = 1 + 0.1f * static_cast<float>((i * 37) % 200);
+    std::memcpy(box->host(), testing::box_at(z).boxes.data(), 24);
+    std::memcpy(vertices->host(), triangle_at(z).vertices.data(), 36);
+    ASSERT_TRUE(h.execute(boxes).ok());
+    ASSERT_TRUE(h.execute(triangles).ok());
+  }
+  const float last = 1 + 0.1f * static_cast<float>((199 * 37) % 200);
+  EXPECT_EQ(depth_of(h, triangles.dest), last);
+  testing::report_log() = {};
+  testing::report_log().reports = {{last, 1, {}}};
+  EXPECT_EQ(depth_of(h, boxes.dest), last);
+}
+
 TEST(As60To62, AnUpdateThatChangesMoreIsAnError) {
   Harness h;
   const auto update = [&](Flags built, Flags flags, auto change) {

@@ -70,6 +70,71 @@ TEST(Sbt07, LargestIndexNeedsSixtyFourBits) {
   EXPECT_EQ(hit_record_index(0xFFFFFFF1, 0xFFFFFFF2, 10, 0xFF000003), 1u + 20u + 3u);
 }
 
+TEST(Sbt09And10, MultipliersInterleaveRayTypesOrDropGeometry) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t scene = row_of_geometries(h, 0);
+  std::vector<bool> seen(8, false);
+  for (uint32_t type = 0; type < 2; ++type) {
+    for (uint32_t geometry = 0; geometry < 4; ++geometry) {
+      auto ray = ray_along_z(scene, 10.0f * static_cast<float>(geometry));
+      ray.ray_contribution_to_hit_group_index = type;
+      ray.multiplier_for_geometry_contribution = 2;
+      seen.at(h.trace(ray).record) = true;
+      ray.multiplier_for_geometry_contribution = 0;
+      const Payload payload = h.trace(ray);
+      EXPECT_EQ(payload.record, type);
+      EXPECT_EQ(payload.values.geometry_index, geometry);
+    }
+  }
+  EXPECT_EQ(seen, std::vector<bool>(8, true));
+}
+
+TEST(Sbt12, CallableIndexIsNotMasked) {
+  Harness h;
+  PipelineBuilder builder;
+  const auto rg = builder.ray_generation([](shader::Invocation& invocation) {
+    uint32_t* value;
+    std::memcpy(&value, invocation.dispatch->root_arguments, sizeof(value));
+    invocation.dispatch->services->call_shader(invocation, 70000, value, 4);
+  });
+  const auto callable = builder.callable([](shader::Invocation& invocation, void* data) {
+    std::memcpy(data, invocation.local_arguments, 4);
+  });
+  h.set_pipeline(builder, rg);
+  std::vector<Record> records(70001);
+  records[70000] = {callable, 4242};
+  h.set_callable_table(records);
+  uint32_t value = kSentinel;
+  const uint32_t* root = &value;
+  ASSERT_TRUE(h.dispatch(1, 1, 1, &root, sizeof(root)).ok());
+  EXPECT_EQ(value, 4242u);
+}
+
+TEST(Sbt13, RayGenerationIsTheRecordThatTheDispatchNames) {
+  Harness h;
+  PipelineBuilder builder;
+  const auto rg = builder.ray_generation([](shader::Invocation& invocation) {
+    uint32_t* value;
+    std::memcpy(&value, invocation.dispatch->root_arguments, sizeof(value));
+    std::memcpy(value, invocation.local_arguments, 4);
+  });
+  h.set_pipeline(builder, rg);
+  std::vector<uint8_t> table(192);
+  for (uint32_t i = 0; i < 3; ++i) {
+    std::memcpy(&table[64 * i], rg.data(), 32);
+    std::memcpy(&table[64 * i + 32], &i, 4);
+  }
+  const uint64_t start = h.upload(table);
+  for (uint32_t i = 0; i < 3; ++i) {
+    h.desc().RayGenerationShaderRecord = {start + 64 * i, 64};
+    uint32_t value = kSentinel;
+    const uint32_t* root = &value;
+    ASSERT_TRUE(h.dispatch(1, 1, 1, &root, sizeof(root)).ok());
+    EXPECT_EQ(value, i);
+  }
+}
+
 TEST(Sbt11, MissRecordTakesNoOtherTerm) {
   Harness h;
   h.use_standard_pipeline();

@@ -196,6 +196,39 @@ TEST(Trv28, ARejectedCandidateLeavesTheCommittedHitWhole) {
   EXPECT_NEAR(x, 0, 1e-5);
 }
 
+TEST(Trv24To26, AnyHitCallsComeOneAtATimeBeforeTheClosestHit) {
+  Harness h(2);
+  // `user` counts all calls; the closest-hit shader must find every any-hit call in it.
+  PipelineBuilder builder;
+  const auto rg = builder.ray_generation(trace_job);
+  const auto hit = builder.hit_group(
+      [](shader::Invocation& invocation, void* data, const void* attributes) {
+        auto& payload = *static_cast<Payload*>(data);
+        EXPECT_EQ(payload.user, payload.any_hits);
+        closest_hit(invocation, data, attributes);
+      },
+      [](shader::Invocation& invocation, void* data, const void* attributes) {
+        auto& payload = *static_cast<Payload*>(data);
+        ++payload.user;  // persists, whatever the answer
+        const auto ignored = any_hit_ignore(invocation, data, attributes);
+        return invocation.ray->primitive_index == 9 ? shader::AnyHitResult::kAccept : ignored;
+      });
+  h.set_pipeline(builder, rg);
+  h.set_hit_table({{hit, 0}});
+  GeometryInput stack;
+  stack.flags = rtapi::RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+  for (int i = 0; i < 10; ++i) {
+    for (const Vertex& v : triangle_at(2 + static_cast<float>(i)).vertices) {
+      stack.vertices.push_back(v);
+    }
+  }
+  const std::vector<shader::TraceRayArguments> rays(500, ray_along_z(h.scene({stack})));
+  for (const Payload& payload : h.trace(rays)) {
+    EXPECT_EQ(payload.any_hits, 10u);
+    EXPECT_EQ(payload.end, End::kClosestHit);
+  }
+}
+
 TEST(Trv46, NullStructureIsAMiss) {
   Harness h;
   h.use_standard_pipeline();

@@ -199,6 +199,38 @@ TEST(Pay06, ChangesByIgnoredAnyHitShadersPersist) {
   EXPECT_EQ(payload.end, End::kClosestHit);
 }
 
+TEST(Pay07AndFlg36AndRoot19, ANestedTraceHasItsOwnPayloadFlagsAndRecord) {
+  Harness h;
+  PipelineBuilder builder(2);
+  const auto rg = builder.ray_generation(trace_job);
+  const auto outer = builder.hit_group(
+      [](shader::Invocation& invocation, void* data, const void* attributes) {
+        Payload inner;
+        auto ray = ray_along_z(0);
+        ray.ray_flags = 1;
+        ray.miss_shader_index = 1;
+        invocation.dispatch->services->trace_ray(invocation, ray, &inner);
+        EXPECT_EQ(inner.end, End::kMiss);
+        EXPECT_EQ(inner.record, 501u);
+        EXPECT_EQ(inner.values.ray_flags, 1u);
+        EXPECT_EQ(inner.depth, 2u);
+        EXPECT_EQ(static_cast<Payload*>(data)->calls, 0u);
+        closest_hit(invocation, data, attributes);
+      },
+      nullptr);
+  const auto missed = builder.miss(miss);
+  h.set_pipeline(builder, rg);
+  h.set_hit_table({{outer, 400}});
+  h.set_miss_table({{missed, 500}, {missed, 501}});
+  auto ray = ray_along_z(h.scene({triangle_at(3)}));
+  ray.ray_flags = 2;
+  const Payload payload = h.trace(ray);
+  EXPECT_EQ(payload.end, End::kClosestHit);
+  EXPECT_EQ(payload.record, 400u);
+  EXPECT_EQ(payload.values.ray_flags, 2u);
+  EXPECT_EQ(payload.depth, 1u);
+}
+
 // -------------------------------------------------------------------------------------------------
 // The grid
 
