@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Devices, the table of errors, buffers, textures, footprints.
-#include <cstring>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "rtapi/src/error_table.h"
 #include "rtapi/testing/expect_error.h"
@@ -28,6 +29,21 @@ TEST(ErrorTableTest, IdsAreSortedUniqueAndDescribed) {
     const Error error = detail::MakeError(table[i].id, "detail");
     EXPECT_EQ(error.code, table[i].code);
     EXPECT_EQ(error.message, error.id + " " + table[i].title + ": detail");
+  }
+}
+
+TEST(ErrorTableTest, EveryIdStandsInTheDocument) {
+  std::ifstream file(KAAMOS_SOURCE_DIR "/rtapi/errors.md");
+  std::stringstream text;
+  text << file.rdbuf();
+  static constexpr const char* kCodes[] = {"kInvalidArgument", "kInvalidCall", "kOutOfMemory",
+                                           "kUnsupported",     "kNotFound",    "kDeviceRemoved",
+                                           "kFailed"};
+  for (const auto& entry : detail::ErrorTable()) {
+    const std::string row =
+        detail::Text("| ", detail::MakeError(entry.id, "").id, " | ", entry.title, " | ",
+                     kCodes[static_cast<size_t>(entry.code)], " | ", entry.source, " |\n");
+    EXPECT_THAT(text.str(), ::testing::HasSubstr(row));
   }
 }
 

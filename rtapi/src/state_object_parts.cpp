@@ -602,7 +602,7 @@ class Gatherer {
       if (!is_new) {
         return MakeError(Id::kExportDuplicate, Quoted(s->name), " is exported twice",
                          Origin(*it->second), Origin(*s),
-                         "; rename one of them in its export list");
+                         "; rename one of them in its export list, or leave it out");
       }
     }
     // A hit group and a shader of one name cannot be told apart.

@@ -26,7 +26,7 @@ enum class ErrorCode : uint32_t {
 // What went wrong. `message` begins with the id and says what, where, the actual and the allowed
 // value, and what to do, e.g. "KA0712 vertex buffer misaligned: ...".
 struct Error {
-  std::string id;  // "KA0712"; stable, listed in rtapi/README.md
+  std::string id;  // "KA0712"; stable, listed in rtapi/errors.md
   ErrorCode code = ErrorCode::kFailed;
   std::string message;
 };
