@@ -31,11 +31,15 @@ using glm::cross;
 using glm::dot;
 using glm::floor;
 using glm::max;
+using glm::min;
 using glm::normalize;
 using std::cos;
 using std::sin;
 using std::sqrt;
 
+float3 lerp(const float3& a, const float3& b, float t) {
+  return glm::mix(a, b, t);
+}
 uint reversebits(uint x) {
   return kaamos::effects::reverse_bits(x);
 }
@@ -99,6 +103,7 @@ class ByteAddressBuffer {
 #include "effects/shaders/geometry.hlsli"
 #include "effects/shaders/material.hlsli"
 #include "effects/shaders/sampling.hlsli"
+#include "effects/shaders/sky.hlsli"
 #undef precise
 
 }  // namespace hlsl
@@ -204,6 +209,18 @@ TEST(HlslMirror, TrianglesAndAttributes) {
                 expected.position);
     }
   }
+}
+
+TEST(HlslMirror, SkyRadiance) {
+  const Sky sky = {{0.1f, 0.2f, 0.9f}, {0.7f, 0.8f, 0.9f}, {0.3f, 0.2f, 0.1f}};
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    glm::vec3 d = sample_cosine_hemisphere(sobol_owen(i, 1));
+    d = glm::vec3(d.x, i & 1 ? d.z : -d.z, d.y);
+    ASSERT_EQ(hlsl::SkyRadiance(sky.zenith, sky.horizon, sky.ground, d), sky_radiance(sky, d));
+  }
+  EXPECT_EQ(sky_radiance(sky, {0, 1, 0}), sky.zenith);
+  EXPECT_EQ(sky_radiance(sky, {1, 0, 0}), sky.horizon);
+  EXPECT_EQ(sky_radiance(sky, {0, -1, 0}), sky.ground);
 }
 
 TEST(HlslMirror, MaterialLayout) {
