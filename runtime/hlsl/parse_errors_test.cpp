@@ -141,6 +141,10 @@ constexpr Mistake kMistakes[] = {
     {"ModifiersThatExclude", "row_major column_major float2x2 a;", "KA2253 1:11",
      "'row_major' cannot be combined with 'column_major'"},
 
+    {"ModifierTwice", "static const static float a = 1;", "KA2254 1:14", "'static' is given twice"},
+    {"AccessSpecifiers", "class C { public: int a; private: int b; };", "KA2241 1:11\nKA2241 1:26",
+     "access specifier 'public' is ignored: all members are public"},
+
     // ---- What HLSL does not have
     {"Pointer", "void f(float* a) { }", "KA2220 1:13", "HLSL has no pointers"},
     {"PointerVariable", "void f() { int *a = 0; }", "KA2220 1:16", "HLSL has no pointers"},
