@@ -195,8 +195,8 @@ TEST_F(EndToEnd, ADispatchWritesWhatItsRecordsSay) {
     for (uint32_t x = 0; x < kWidth; ++x) {
       uint32_t color;
       std::memcpy(&color, &bytes[4 * (y * kWidth + x)], sizeof(color));
-      const float diagonal = (static_cast<float>(x) + 0.5f) / kWidth +
-                             (static_cast<float>(y) + 0.5f) / kHeight;
+      const float diagonal =
+          (static_cast<float>(x) + 0.5f) / kWidth + (static_cast<float>(y) + 0.5f) / kHeight;
       if (std::abs(diagonal - 1) < 1e-4f) continue;
       EXPECT_EQ(color, diagonal < 1 ? 0xAAAAu : 0xBBBBu) << x << "," << y;
     }
