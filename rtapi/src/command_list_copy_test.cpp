@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// Barriers, copies and clears.
+#include "rtapi/testing/command_list_fixture.h"
+
+namespace rtapi::testing {
+namespace {
+
+namespace runtime = kaamos::runtime;
+
+// --- barriers ---
+
+TEST_F(CommandListTest, Barriers) {
+  auto buffer = MakeBuffer(64, HeapType::kDefault, "buf");
+  auto upload = MakeBuffer(64, HeapType::kUpload, "up");
+  const auto read = ResourceStates::kNonPixelShaderResource;
+  const auto common = ResourceStates::kCommon;
+  auto barrier = [&](const ResourceBarrier& b) {
+    return Record([&](CommandList& l) { l.ResourceBarrier(b); });
+  };
+  EXPECT_OK(barrier(ResourceBarrier::Uav()));
+  EXPECT_OK(barrier(ResourceBarrier::Uav(buffer)));
+  EXPECT_OK(barrier(ResourceBarrier::Transition(buffer, common, read)));
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, read, read)), "KA0802", "\"buf\"");
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition({}, common, read)), "KA0904");
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition(upload, common, read)), "KA0802", "one state");
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, common, read, 1)), "KA0802",
+               "subresource 1");
+  ResourceBarrier odd;
+  odd.Type = static_cast<ResourceBarrierType>(7);
+  EXPECT_ERROR(barrier(odd), "KA0802", "type 7");
+}
+
+TEST_F(CommandListTest, AS_22_NoTransitionOfStructures) {
+  auto buffer = MakeBuffer(64);
+  auto structure =
+      device_
+          .CreateBuffer({.SizeInBytes = 256,
+                         .Flags = ResourceFlags::kAllowUnorderedAccess,
+                         .InitialState = ResourceStates::kRaytracingAccelerationStructure,
+                         .Name = "tlas"})
+          .value();
+  const auto as = ResourceStates::kRaytracingAccelerationStructure;
+  EXPECT_ERROR(
+      Record([&](CommandList& l) {
+        l.ResourceBarrier(ResourceBarrier::Transition(structure, as, ResourceStates::kCommon));
+      }),
+      "KA0803", "\"tlas\"");
+  EXPECT_ERROR(
+      Record([&](CommandList& l) {
+        l.ResourceBarrier(ResourceBarrier::Transition(buffer, ResourceStates::kCommon, as));
+      }),
+      "KA0803");
+  EXPECT_OK(Record([&](CommandList& l) { l.ResourceBarrier(ResourceBarrier::Uav(structure)); }));
+}
+
+// --- copies ---
+
+TEST_F(CommandListTest, BufferCopies) {
+  auto up = MakeBuffer(16, HeapType::kUpload, "up");
+  auto gpu = MakeBuffer(16, HeapType::kDefault, "gpu");
+  auto back = MakeBuffer(16, HeapType::kReadback, "back");
+  for (int i = 0; i < 16; ++i) up.data<uint8_t>()[static_cast<size_t>(i)] = static_cast<uint8_t>(i);
+  list_.CopyBufferRegion(gpu, 4, up, 0, 8);
+  list_.CopyResource(back, gpu);
+  ASSERT_TRUE(queue_.ExecuteAndWait(list_).ok());
+  EXPECT_EQ(back.data<uint8_t>()[3], 0);
+  EXPECT_EQ(back.data<uint8_t>()[11], 7);
+  auto copy = [&](const Buffer& d, uint64_t at, const Buffer& s, uint64_t from, uint64_t n) {
+    return Record([&](CommandList& l) { l.CopyBufferRegion(d, at, s, from, n); });
+  };
+  EXPECT_ERROR(copy(gpu, 9, up, 0, 8), "KA0817", "dest", "\"gpu\"");
+  EXPECT_ERROR(copy(gpu, 0, up, 9, 8), "KA0817", "source", "\"up\"");
+  EXPECT_ERROR(copy(gpu, UINT64_MAX, up, 0, 2), "KA0817");
+  EXPECT_ERROR(copy(gpu, 0, up, 2, UINT64_MAX), "KA0817");
+  EXPECT_ERROR(copy(gpu, 0, gpu, 4, 8), "KA0818");
+  EXPECT_OK(copy(gpu, 0, gpu, 8, 8));
+  EXPECT_ERROR(copy(up, 0, gpu, 0, 8), "KA0821", "upload");
+  EXPECT_ERROR(copy(gpu, 0, back, 0, 8), "KA0821", "readback");
+  EXPECT_ERROR(copy({}, 0, back, 0, 8), "KA0904", "dest");
+  EXPECT_ERROR(Record([&](CommandList& l) { l.CopyResource(gpu, MakeBuffer(8)); }), "KA0819");
+}
+
+class TextureCopyTest : public CommandListTest {
+ protected:
+  Texture MakeTexture(Format format = Format::kR8G8B8A8Unorm, uint16_t mips = 1) {
+    return device_
+        .CreateTexture({.Width = 8, .Height = 4, .MipLevels = mips, .Format = format, .Name = "t"})
+        .value();
+  }
+  static PlacedSubresourceFootprint Footprint(uint64_t offset, uint32_t pitch = 256) {
+    return {offset, {Format::kR8G8B8A8Unorm, 8, 4, 1, pitch}};
+  }
+  Status Copy(const TextureCopyLocation& dest, uint32_t x, uint32_t y,
+              const TextureCopyLocation& source, const Box* box = nullptr) {
+    return Record([&](CommandList& l) { l.CopyTextureRegion(dest, x, y, 0, source, box); });
+  }
+};
+
+TEST_F(TextureCopyTest, BufferToTexture) {
+  auto buffer = MakeBuffer(2048, HeapType::kUpload);
+  auto texture = MakeTexture();
+  const Box box = {2, 1, 0, 6, 3, 1};
+  list_.CopyTextureRegion({texture, 0}, 4, 2, 0, {buffer, Footprint(512)}, &box);
+  ASSERT_TRUE(queue_.ExecuteAndWait(list_).ok()) << list_.GetErrors().at(0).message;
+  const auto& c = Executed<runtime::CopyTextureCommand>(0);
+  EXPECT_EQ(c.extent[0], 4u);
+  EXPECT_EQ(c.extent[1], 2u);
+  EXPECT_EQ(c.source.origin[0], 2u);
+  EXPECT_EQ(c.dest.origin[0], 4u);
+  EXPECT_EQ(c.source.offset, 512u);
+  EXPECT_EQ(c.source.row_pitch, 256u);
+  EXPECT_EQ(c.source.slice_pitch, 1024u);
+}
+
+TEST_F(TextureCopyTest, Errors) {
+  auto buffer = MakeBuffer(2048, HeapType::kUpload, "pixels");
+  auto texture = MakeTexture();
+  EXPECT_ERROR(Copy({texture, 1}, 0, 0, {buffer, Footprint(0)}), "KA0817", "subresource 1");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Footprint(100)}), "KA0820", "512");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Footprint(0, 100)}), "KA0820");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Footprint(0, 0)}), "KA0820");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Footprint(1536)}), "KA0817", "\"pixels\"");
+  EXPECT_ERROR(Copy({texture, 0}, 1, 0, {buffer, Footprint(0)}), "KA0817", "axis 0");
+  EXPECT_ERROR(Copy({texture, 0}, 0xFFFFFFFF, 0, {buffer, Footprint(0)}), "KA0817");
+  const Box box = {0, 0, 0, 9, 1, 1};
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Footprint(0)}, &box), "KA0817");
+  EXPECT_ERROR(Copy({buffer, Footprint(0)}, 0, 0, {buffer, Footprint(0)}), "KA0819", "buffers");
+  EXPECT_ERROR(Copy({MakeTexture(Format::kR32Float), 0}, 0, 0, {texture, 0}), "KA0819", "family");
+  EXPECT_OK(Copy({MakeTexture(Format::kR8G8B8A8UnormSrgb), 0}, 0, 0, {texture, 0}));
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {texture, 0}), "KA0818");
+  EXPECT_ERROR(Copy({Texture(), 0}, 0, 0, {texture, 0}), "KA0904");
+  auto whole = [&](const Resource& d, const Resource& s) {
+    return Record([&](CommandList& l) { l.CopyResource(d, s); });
+  };
+  EXPECT_OK(whole(MakeTexture(), texture));
+  EXPECT_ERROR(whole(MakeTexture(Format::kR8G8B8A8Unorm, 2), texture), "KA0819", "mip");
+  EXPECT_ERROR(whole(texture, buffer), "KA0819");
+}
+
+TEST_F(CommandListTest, ClearsNeedTheSameViewTwice) {
+  auto buffer = MakeBuffer(64, HeapType::kDefault, "buf", ResourceFlags::kAllowUnorderedAccess);
+  auto other = MakeBuffer(64, HeapType::kDefault, "other", ResourceFlags::kAllowUnorderedAccess);
+  auto heap =
+      device_
+          .CreateDescriptorHeap({.NumDescriptors = 2, .Flags = DescriptorHeapFlags::kShaderVisible})
+          .value();
+  const UnorderedAccessViewDesc view = {.Format = Format::kR32Uint,
+                                        .ViewDimension = UavDimension::kBuffer};
+  auto cpu = heap.GetCPUDescriptorHandle(0);
+  auto gpu = heap.GetGPUDescriptorHandle(0);
+  ASSERT_TRUE(device_.CreateUnorderedAccessView(buffer, view, cpu).ok());
+  const uint32_t values[4] = {7, 0, 0, 0};
+  auto clear = [&](GpuDescriptorHandle g, CpuDescriptorHandle c, const Resource& r,
+                   const uint32_t* v) {
+    return Record([&](CommandList& l) {
+      l.SetDescriptorHeaps({heap});
+      l.ClearUnorderedAccessViewUint(g, c, r, v);
+    });
+  };
+  EXPECT_OK(clear(gpu, cpu, buffer, values));
+  EXPECT_ERROR(clear(gpu, {5}, buffer, values), "KA0822", "CPU handle");
+  EXPECT_ERROR(clear({5}, cpu, buffer, values), "KA0822", "GPU handle");
+  EXPECT_ERROR(clear(gpu, cpu, other, values), "KA0822", "\"other\"");
+  EXPECT_ERROR(clear(gpu, cpu, buffer, nullptr), "KA0822", "null");
+  EXPECT_ERROR(clear(gpu, heap.GetCPUDescriptorHandle(1), buffer, values), "KA0822",
+               "no unordered access view");
+}
+
+TEST_F(CommandListTest, EventsAreBalanced) {
+  list_.BeginEvent("pass");
+  EXPECT_ERROR(list_.Close(), "KA0824", "1 BeginEvent");
+  EXPECT_ERROR(Record([](CommandList& l) { l.EndEvent(); }), "KA0824");
+}
+
+}  // namespace
+}  // namespace rtapi::testing
