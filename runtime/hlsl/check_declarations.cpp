@@ -368,7 +368,9 @@ void Checker::resolve_signature(FunctionInfo* function) {
     info.is_const = is_const_type(parameter->type);
     info.decl = parameter;
     info.default_value = parameter->default_value;
-    if (!check_variable_type(info.type, parameter->location, parameter->name)) {
+    // A method may take its own struct, which is complete when its body is lowered.
+    const bool is_own = function->owner && info.type->is_struct();
+    if (!is_own && !check_variable_type(info.type, parameter->location, parameter->name)) {
       info.type = types_.error();
       function->signature_failed = true;
     } else if (info.type->is_array() && info.type->count == 0) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: compute InterlockedAdd
+// EXPECT u32 0 15
+// EXPECT u32 4 10
+// EXPECT u32 8 15
+// EXPECT u32 12 10
+// EXPECT u32 16 15
+// EXPECT u32 20 10
+// EXPECT u32 24 10
+// EXPECT u32 28 15
+groupshared uint shared_value;
+groupshared int signed_value;
+RWStructuredBuffer<uint> words : register(u1);
+RWBuffer<uint> typed : register(u2);
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  uint before;
+  shared_value = 10;
+  InterlockedAdd(shared_value, 5, before);
+  results.Store2(0, uint2(shared_value, before));
+  words[3] = 10;
+  InterlockedAdd(words[3], 5u, before);
+  results.Store2(8, uint2(words[3], before));
+  typed[4] = 10;
+  InterlockedAdd(typed[4], 5u, before);
+  results.Store2(16, uint2(typed[4], before));
+  results.Store(28, 10);
+  results.InterlockedAdd(28, 5u, before);
+  results.Store(24, before);
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: core intrinsic cos
+// EXPECT f32 0 0.8775825618903728 4
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  const uint z = results.Load(65532);  // 0, known at run time only
+  results.Store(0, asuint(cos(0.5 + z)));
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: core intrinsic log2
+// EXPECT f32 0 3.0 2
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  const uint z = results.Load(65532);  // 0, known at run time only
+  results.Store(0, asuint(log2(8.0 + z)));
+}

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: core intrinsic saturate
+// EXPECT f32 0 1.0
+// EXPECT f32 4 0.0
+// EXPECT f32 8 0.25
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  const uint z = results.Load(65532);  // 0, known at run time only
+  results.Store(0, asuint(saturate(1.5 + z)));
+  results.Store(4, asuint(saturate(-0.5 + z)));
+  results.Store(8, asuint(saturate(0.25)));
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: core intrinsic smoothstep
+// EXPECT f32 0 0.5
+// EXPECT f32 4 1.0
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  const uint z = results.Load(65532);  // 0, known at run time only
+  results.Store(0, asuint(smoothstep(0.0, 2.0, 1.0 + z)));
+  results.Store(4, asuint(smoothstep(0.0, 1.0, 5.0)));
+}

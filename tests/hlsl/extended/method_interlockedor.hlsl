@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// FEATURE: extended .InterlockedOr
+// EXPECT u32 0 15
+// EXPECT u32 4 10
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  uint before;
+  results.Store(0, 10);
+  results.InterlockedOr(0, 5u, before);
+  results.Store(4, before);
+  results.InterlockedOr(8, 0u);
+}
