@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TRAP: 24 deep call chains without recursion
-// EXPECT u32 0 24
+// EXPECT u32 0 21
 uint f0(uint x) { return x + 1; }
 uint f1(uint x) { return f0(x) * 2; }
 uint f2(uint x) { return f1(x) + f0(x); }
