@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "example.h"
+
+#include <effects/image/png.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstring>
+#include <string>
+
+namespace example {
+namespace {
+
+using namespace rtapi;
+
+bool ParseSize(const std::string& text, uint32_t& width, uint32_t& height) {
+  unsigned w = 0;
+  unsigned h = 0;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%ux%u%n", &w, &h, &end) != 2 ||
+      static_cast<size_t>(end) != text.size() || w == 0 || h == 0 || w > 16384 || h > 16384) {
+    return false;
+  }
+  width = w;
+  height = h;
+  return true;
+}
+
+Buffer Build(const Setup& setup, const BuildRaytracingAccelerationStructureInputs& inputs,
+             const char* name) {
+  const auto sizes = setup.device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+  Buffer result =
+      setup.device
+          .CreateBuffer({.SizeInBytes = sizes.ResultDataMaxSizeInBytes,
+                         .Flags = ResourceFlags::kAllowUnorderedAccess,
+                         .InitialState = ResourceStates::kRaytracingAccelerationStructure,
+                         .Name = name})
+          .value();
+  Buffer scratch = setup.device
+                       .CreateBuffer({.SizeInBytes = sizes.ScratchDataSizeInBytes,
+                                      .Flags = ResourceFlags::kAllowUnorderedAccess,
+                                      .Name = "scratch"})
+                       .value();
+  CommandList list = setup.device.CreateCommandList().value();
+  list.BuildRaytracingAccelerationStructure(
+      {.DestAccelerationStructureData = result.GetGPUVirtualAddress(),
+       .Inputs = inputs,
+       .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
+  CommandQueue queue = setup.queue;
+  queue.ExecuteAndWait(list).value();
+  return result;
+}
+
+}  // namespace
+
+int Main(int argc, char** argv, const char* name, Body body) {
+  std::string backend = "embree";
+  std::string size = "640x360";
+  std::string out = std::string(name) + ".png";
+  CLI::App app(std::string(name) + ", an example of Kaamos");
+  app.add_option("--backend", backend, "which backend runs it")->capture_default_str();
+  app.add_option("--size", size, "width and height of the picture")->capture_default_str();
+  app.add_option("--out", out, "the picture file, a PNG")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  Setup setup;
+  if (!ParseSize(size, setup.width, setup.height)) {
+    std::fprintf(stderr,
+                 "%s: --size %s is not a size: give width and height of 1 to 16384, like 640x360\n",
+                 name, size.c_str());
+    return 2;
+  }
+  try {
+    DeviceDesc desc;
+    desc.Backend = backend;
+    desc.OnMessage = [](const Message& message) {
+      std::fprintf(stderr, "%s\n", message.Text.c_str());
+    };
+    setup.device = CreateDevice(desc).value();
+    setup.queue = setup.device.CreateCommandQueue().value();
+    const Texture picture = body(setup);
+    const std::vector<std::byte> texels =
+        ReadbackTexture(setup.device, setup.queue, picture, 0).value();
+    const auto written = kaamos::effects::write_png(
+        out, setup.width, setup.height,
+        {reinterpret_cast<const uint8_t*>(texels.data()), texels.size()});
+    if (!written.ok()) {
+      std::fprintf(stderr, "%s: %s\n", name, written.message().c_str());
+      return 1;
+    }
+    std::printf("%s: %ux%u on %s -> %s\n", name, setup.width, setup.height,
+                setup.device.GetInfo().Name.c_str(), out.c_str());
+    return 0;
+  } catch (const ResultError& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 1;
+  }
+}
+
+Image CreateImage(const Setup& setup, uint32_t descriptors) {
+  Image image;
+  image.texture = setup.device
+                      .CreateTexture({.Width = setup.width,
+                                      .Height = setup.height,
+                                      .Format = Format::kR8G8B8A8Unorm,
+                                      .Flags = ResourceFlags::kAllowUnorderedAccess,
+                                      .InitialState = ResourceStates::kUnorderedAccess,
+                                      .Name = "image"})
+                      .value();
+  image.heap = setup.device
+                   .CreateDescriptorHeap({.NumDescriptors = descriptors,
+                                          .Flags = DescriptorHeapFlags::kShaderVisible,
+                                          .Name = "descriptors"})
+                   .value();
+  setup.device
+      .CreateUnorderedAccessView(image.texture, image.heap.GetCPUDescriptorHandleForHeapStart())
+      .value();
+  return image;
+}
+
+Buffer BuildBottomLevel(const Setup& setup, const std::vector<RaytracingGeometryDesc>& geometries) {
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<uint32_t>(geometries.size());
+  inputs.pGeometryDescs = geometries.data();
+  return Build(setup, inputs, "bottom level");
+}
+
+Buffer BuildTopLevel(const Setup& setup, const std::vector<RaytracingInstanceDesc>& instances) {
+  const Buffer records = CreateUploadBuffer(setup.device, instances, "instances").value();
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<uint32_t>(instances.size());
+  inputs.InstanceDescs = records.GetGPUVirtualAddress();
+  return Build(setup, inputs, "top level");
+}
+
+Mesh CreateMesh(const Setup& setup, const std::vector<float>& positions,
+                const std::vector<uint32_t>& indices, RaytracingGeometryFlags flags) {
+  Mesh mesh;
+  mesh.vertices = CreateUploadBuffer(setup.device, positions, "vertices").value();
+  mesh.geometry.Type = RaytracingGeometryType::kTriangles;
+  mesh.geometry.Flags = flags;
+  mesh.geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
+  mesh.geometry.Triangles.VertexCount = static_cast<uint32_t>(positions.size() / 3);
+  mesh.geometry.Triangles.VertexBuffer = {mesh.vertices.GetGPUVirtualAddress(), 12};
+  if (!indices.empty()) {
+    mesh.indices = CreateUploadBuffer(setup.device, indices, "indices").value();
+    mesh.geometry.Triangles.IndexFormat = Format::kR32Uint;
+    mesh.geometry.Triangles.IndexCount = static_cast<uint32_t>(indices.size());
+    mesh.geometry.Triangles.IndexBuffer = mesh.indices.GetGPUVirtualAddress();
+  }
+  return mesh;
+}
+
+RaytracingInstanceDesc Instance(const Buffer& bottom_level, float x, float y, float z,
+                                float scale) {
+  RaytracingInstanceDesc instance;
+  const float place[3] = {x, y, z};
+  for (int row = 0; row < 3; ++row) {
+    instance.Transform[row][row] = scale;
+    instance.Transform[row][3] = place[row];
+  }
+  instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
+  return instance;
+}
+
+}  // namespace example

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// What stands around an example and is not DXR: the command line, the device, building an
+// acceleration structure in one call, and the picture file.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace example {
+
+struct Setup {
+  rtapi::Device device;
+  rtapi::CommandQueue queue;
+  uint32_t width = 0;
+  uint32_t height = 0;
+};
+
+// Renders into a texture of Setup's size, format kR8G8B8A8Unorm. Errors leave as
+// rtapi::ResultError.
+using Body = rtapi::Texture (*)(const Setup&);
+
+// Parses `--backend NAME --size WxH --out FILE`, runs `body` and writes its picture to
+// "<name>.png". Returns the exit code; an error is printed.
+int Main(int argc, char** argv, const char* name, Body body);
+
+// A texture that a shader can write, and a heap whose descriptor 0 is its unordered access view.
+struct Image {
+  rtapi::Texture texture;
+  rtapi::DescriptorHeap heap;
+};
+Image CreateImage(const Setup& setup, uint32_t descriptors = 1);
+
+// Builds a bottom level of `geometries`, or a top level of `instances`, and waits. 01-triangle
+// shows the calls behind it.
+rtapi::Buffer BuildBottomLevel(const Setup& setup,
+                               const std::vector<rtapi::RaytracingGeometryDesc>& geometries);
+rtapi::Buffer BuildTopLevel(const Setup& setup,
+                            const std::vector<rtapi::RaytracingInstanceDesc>& instances);
+
+// A geometry of float3 vertices, and 32-bit indices unless `indices` is empty. The buffers live as
+// long as the result.
+struct Mesh {
+  rtapi::Buffer vertices;
+  rtapi::Buffer indices;
+  rtapi::RaytracingGeometryDesc geometry;
+};
+Mesh CreateMesh(const Setup& setup, const std::vector<float>& positions,
+                const std::vector<uint32_t>& indices,
+                rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
+
+// An instance of `bottom_level` at a place.
+rtapi::RaytracingInstanceDesc Instance(const rtapi::Buffer& bottom_level, float x, float y, float z,
+                                       float scale = 1);
+
+}  // namespace example
