@@ -3,6 +3,8 @@
 // three shader tables.
 #include <shaders/triangle.h>
 
+#include <algorithm>
+
 #include "../common/example.h"
 
 using namespace rtapi;

@@ -7,8 +7,8 @@
 using namespace rtapi;
 
 // A box with the four triangles of one axis after those of the other.
-static example::Mesh Box(const example::Setup& setup, float x0, float y0, float z0, float x1,
-                         float y1, float z1) {
+static example::Mesh MakeBox(const example::Setup& setup, float x0, float y0, float z0, float x1,
+                             float y1, float z1) {
   const std::vector<float> corners = {x0, y0, z0, x1, y0, z0, x0, y1, z0, x1, y1, z0,
                                       x0, y0, z1, x1, y0, z1, x0, y1, z1, x1, y1, z1};
   return example::CreateMesh(setup, corners, {0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7,    // x
@@ -21,11 +21,11 @@ static Texture Render(const example::Setup& setup) {
   const example::Image image = example::CreateImage(setup);
 
   const example::Mesh boxes[] = {
-      Box(setup, -8, -0.1f, -8, 8, 0, 8),        // floor
-      Box(setup, -3, 0, 2.5f, 3, 2.6f, 2.7f),    // mirror behind
-      Box(setup, -3.2f, 0, -2, -3, 2.6f, 2.5f),  // mirror on the left
-      Box(setup, -0.6f, 0, -0.4f, 0.4f, 1.3f, 0.6f),
-      Box(setup, 1.2f, 0, 0.2f, 1.8f, 0.7f, 0.8f),
+      MakeBox(setup, -8, -0.1f, -8, 8, 0, 8),        // floor
+      MakeBox(setup, -3, 0, 2.5f, 3, 2.6f, 2.7f),    // mirror behind
+      MakeBox(setup, -3.2f, 0, -2, -3, 2.6f, 2.5f),  // mirror on the left
+      MakeBox(setup, -0.6f, 0, -0.4f, 0.4f, 1.3f, 0.6f),
+      MakeBox(setup, 1.2f, 0, 0.2f, 1.8f, 0.7f, 0.8f),
   };
   const uint32_t callable_of_box[] = {0, 1, 1, 2, 2};
   std::vector<RaytracingGeometryDesc> geometries;

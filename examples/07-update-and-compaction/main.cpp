@@ -2,8 +2,10 @@
 // A bottom level is compacted, and updated after its vertices have moved.
 #include <shaders/wave.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "../common/example.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "example.h"
 
-#include <effects/image/png.h>
+#include "effects/image/png.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -81,11 +81,11 @@ int Main(int argc, char** argv, const char* name, Body body) {
     const Texture picture = body(setup);
     const std::vector<std::byte> texels =
         ReadbackTexture(setup.device, setup.queue, picture, 0).value();
-    const auto written = kaamos::effects::write_png(
-        out, setup.width, setup.height,
-        {reinterpret_cast<const uint8_t*>(texels.data()), texels.size()});
-    if (!written.ok()) {
-      std::fprintf(stderr, "%s: %s\n", name, written.message().c_str());
+    kaamos::effects::ByteImage image{setup.width, setup.height, 4, {}};
+    image.values.resize(texels.size());
+    std::memcpy(image.values.data(), texels.data(), texels.size());
+    if (const auto written = kaamos::effects::write_png(out, image); !written.ok()) {
+      std::fprintf(stderr, "%s: %s\n", name, written.error().c_str());
       return 1;
     }
     std::printf("%s: %ux%u on %s -> %s\n", name, setup.width, setup.height,

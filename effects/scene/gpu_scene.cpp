@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "effects/scene/gpu_scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+
+namespace kaamos::effects {
+namespace {
+
+using namespace rtapi;
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+rtapi::Result<Buffer> create_acceleration_structure(const Device& device, std::uint64_t bytes,
+                                                    std::string name) {
+  BufferDesc desc;
+  desc.SizeInBytes = bytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  desc.Name = std::move(name);
+  return device.CreateBuffer(desc);
+}
+
+// Builds and waits; `bytes` grows by the result's size.
+rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
+                            const BuildRaytracingAccelerationStructureInputs& inputs,
+                            std::string name, std::uint64_t& bytes) {
+  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
+  if (!sizes) return sizes.error();
+  auto result = create_acceleration_structure(device, sizes->ResultDataMaxSizeInBytes, name);
+  if (!result) return result.error();
+  BufferDesc scratch_desc;
+  scratch_desc.SizeInBytes = std::max<std::uint64_t>(sizes->ScratchDataSizeInBytes, 1);
+  scratch_desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  scratch_desc.Name = name + " scratch";
+  const auto scratch = device.CreateBuffer(scratch_desc);
+  if (!scratch) return scratch.error();
+  auto list = device.CreateCommandList();
+  if (!list) return list.error();
+  BuildRaytracingAccelerationStructureDesc desc;
+  desc.DestAccelerationStructureData = result->GetGPUVirtualAddress();
+  desc.Inputs = inputs;
+  desc.ScratchAccelerationStructureData = scratch->GetGPUVirtualAddress();
+  list->BuildRaytracingAccelerationStructure(desc);
+  if (const rtapi::Status done = queue.ExecuteAndWait(*list); !done) return done.error();
+  bytes += sizes->ResultDataMaxSizeInBytes;
+  return result;
+}
+
+RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu) {
+  RaytracingGeometryDesc desc;
+  desc.Type = RaytracingGeometryType::kTriangles;
+  desc.Flags =
+      geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
+  desc.Triangles.VertexFormat = Format::kR32G32B32Float;
+  desc.Triangles.VertexCount = geometry.vertex_count;
+  desc.Triangles.VertexBuffer = {gpu.vertices, kVertexStride};
+  desc.Triangles.IndexFormat = geometry.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint;
+  desc.Triangles.IndexCount = geometry.index_count;
+  desc.Triangles.IndexBuffer = gpu.indices;
+  return desc;
+}
+
+// Buffers of one mesh, the records' arguments of its geometries, and its bottom level.
+rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& scene,
+                       std::uint32_t mesh_id, GpuScene& out) {
+  const Mesh& mesh = scene.meshes[mesh_id];
+  auto vertices =
+      CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), mesh.name + " vertices");
+  if (!vertices) return vertices.error();
+  auto indices =
+      CreateUploadBuffer(device, std::as_bytes(std::span(mesh.indices)), mesh.name + " indices");
+  if (!indices) return indices.error();
+  std::vector<RaytracingGeometryDesc> descs;
+  for (std::uint32_t i = 0; i < mesh.geometries.size(); ++i) {
+    const Geometry& geometry = mesh.geometries[i];
+    GpuGeometry gpu;
+    gpu.vertices = vertices->GetGPUVirtualAddress() +
+                   static_cast<std::uint64_t>(geometry.first_vertex) * kVertexStride;
+    gpu.indices = indices->GetGPUVirtualAddress() + geometry.index_offset_bytes;
+    gpu.constants.index_size_bytes = geometry.index_size_bytes;
+    gpu.constants.material_id = geometry.material;
+    gpu.constants.mesh_id = mesh_id;
+    gpu.constants.geometry_id = i;
+    gpu.alpha_tested = geometry.alpha_tested;
+    descs.push_back(geometry_desc(geometry, gpu));
+    out.geometries.push_back(gpu);
+  }
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<std::uint32_t>(descs.size());
+  inputs.pGeometryDescs = descs.data();
+  auto bottom_level =
+      build(device, queue, inputs, mesh.name + " bottom level", out.statistics.bottom_level_bytes);
+  if (!bottom_level) return bottom_level.error();
+  out.vertices.push_back(*vertices);
+  out.indices.push_back(*indices);
+  out.bottom_levels.push_back(*bottom_level);
+  return {};
+}
+
+std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const GpuScene& gpu,
+                                                   const glm::dvec3& origin) {
+  std::vector<std::uint32_t> first_geometry(scene.meshes.size());
+  std::vector<bool> opaque(scene.meshes.size(), true);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    first_geometry[i] = count;
+    count += static_cast<std::uint32_t>(scene.meshes[i].geometries.size());
+    for (const Geometry& geometry : scene.meshes[i].geometries) {
+      opaque[i] = opaque[i] && !geometry.alpha_tested;
+    }
+  }
+  std::vector<RaytracingInstanceDesc> descs;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    RaytracingInstanceDesc desc;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 4; ++column) {
+        const double value = instance.transform[column][row] - (column == 3 ? origin[row] : 0.0);
+        desc.Transform[row][column] = static_cast<float>(value);
+      }
+    }
+    desc.InstanceID = i & 0xFFFFFFu;
+    desc.InstanceMask = instance.mask;
+    desc.InstanceContributionToHitGroupIndex =
+        (first_geometry[instance.mesh] * kRayTypeCount) & 0xFFFFFFu;
+    // Opaque instances never look for an any-hit shader. [Northlight deck: FORCE_OPAQUE]
+    desc.Flags = opaque[instance.mesh]
+                     ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
+                     : 0u;
+    desc.AccelerationStructure = gpu.bottom_levels[instance.mesh].GetGPUVirtualAddress();
+    descs.push_back(desc);
+  }
+  return descs;
+}
+
+rtapi::Status add_top_level(const Device& device, CommandQueue& queue, const Scene& scene,
+                            const glm::dvec3& origin, GpuScene& out) {
+  const std::vector<RaytracingInstanceDesc> descs = instance_descs(scene, out, origin);
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
+  inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;
+  inputs.NumDescs = static_cast<std::uint32_t>(descs.size());
+  if (!descs.empty()) {
+    auto instances = CreateUploadBuffer(device, descs, "instances");
+    if (!instances) return instances.error();
+    out.instances = *instances;
+    inputs.InstanceDescs = out.instances.GetGPUVirtualAddress();
+  }
+  auto top_level = build(device, queue, inputs, "top level", out.statistics.top_level_bytes);
+  if (!top_level) return top_level.error();
+  out.top_level = *top_level;
+  return {};
+}
+
+rtapi::Status add_textures(const Device& device, CommandQueue& queue, const Scene& scene,
+                           GpuScene& out) {
+  for (const TextureImage& image : scene.images) {
+    TextureDesc desc;
+    desc.Width = image.width;
+    desc.Height = image.height;
+    desc.MipLevels = static_cast<std::uint16_t>(image.mips.size());
+    desc.Format = image.srgb ? Format::kR8G8B8A8UnormSrgb : Format::kR8G8B8A8Unorm;
+    desc.Name = image.name;
+    auto texture = device.CreateTexture(desc);
+    if (!texture) return texture.error();
+    for (std::uint32_t mip = 0; mip < image.mips.size(); ++mip) {
+      const rtapi::Status uploaded =
+          UploadTexture(device, queue, *texture, mip, std::as_bytes(std::span(image.mips[mip])));
+      if (!uploaded) return uploaded;
+    }
+    out.textures.push_back(*texture);
+  }
+  return {};
+}
+
+}  // namespace
+
+rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
+                                         const Scene& scene, const glm::dvec3& origin) {
+  GpuScene out;
+  out.statistics.unique_triangles = unique_triangle_count(scene);
+  out.statistics.instanced_triangles = instanced_triangle_count(scene);
+
+  const auto bottom_start = Clock::now();
+  for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
+    if (const rtapi::Status added = add_mesh(device, queue, scene, i, out); !added) {
+      return added.error();
+    }
+  }
+  out.statistics.bottom_level_ms = milliseconds_since(bottom_start);
+  const auto top_start = Clock::now();
+  if (const rtapi::Status added = add_top_level(device, queue, scene, origin, out); !added) {
+    return added.error();
+  }
+  out.statistics.top_level_ms = milliseconds_since(top_start);
+
+  std::vector<MaterialConstants> constants;
+  for (const Material& material : scene.materials) {
+    constants.push_back(material.constants);
+  }
+  auto materials = CreateUploadBuffer(device, constants, "materials");
+  if (!materials) return materials.error();
+  out.materials = *materials;
+  if (const rtapi::Status added = add_textures(device, queue, scene, out); !added) {
+    return added.error();
+  }
+  return out;
+}
+
+}  // namespace kaamos::effects
