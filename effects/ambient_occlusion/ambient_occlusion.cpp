@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+
+#include <shaders/ambient_occlusion.h>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> ambient_occlusion_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_ambient_occlusion());
+}
+
+RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "ambient occlusion";
+  desc.library = std::move(library);
+  desc.ray_generation = "AmbientOcclusionRayGen";
+  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
+  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  return desc;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Ray traced ambient occlusion: kAmbientOcclusionSum grows by the number of open samples.
+#pragma once
+
+#include "effects/frame/ray_pass.h"
+
+namespace kaamos::effects {
+
+/// Metres and samples per pixel that the Northlight demo used. [effects-spec B3.6]
+inline constexpr float kDefaultAmbientOcclusionRadius = 4.0f;
+inline constexpr std::uint32_t kDefaultAmbientOcclusionSamples = 4;
+
+/// The pass, from the library that is built in or from one compiled at run time.
+RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library);
+rtapi::Result<rtapi::ShaderLibrary> ambient_occlusion_library();
+
+}  // namespace kaamos::effects

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "effects/frame/frame.h"
+
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "effects/common/blue_noise.h"
+#include "effects/frame/texel.h"
+
+namespace kaamos::effects {
+
+using namespace rtapi;
+
+namespace {
+
+struct TextureInfo {
+  const char* name;
+  Format format;
+};
+
+constexpr TextureInfo kTextures[kFrameTextureCount] = {
+    {"depth", Format::kR32Float},
+    {"view z", Format::kR32Float},
+    {"normal", Format::kR16G16Snorm},
+    {"shading normal", Format::kR16G16Snorm},
+    {"base color", Format::kR8G8B8A8Unorm},
+    {"emissive", Format::kR16G16B16A16Float},
+    {"material", Format::kR8G8B8A8Unorm},
+    {"ids", Format::kR32G32Uint},
+    {"position", Format::kR32G32B32A32Float},
+    {"ambient occlusion sum", Format::kR32Float},
+    {"sun visibility sum", Format::kR32Float},
+};
+
+// Descriptors of the view heap: t0..t2, then u0.., then the scene's textures.
+constexpr std::uint32_t kFirstPicture = 3;
+constexpr std::uint32_t kFirstSceneTexture = kFirstPicture + kFrameTextureCount;
+
+TextureAddressMode address_mode(Wrap wrap) {
+  switch (wrap) {
+    case Wrap::kRepeat:
+      return TextureAddressMode::kWrap;
+    case Wrap::kMirror:
+      return TextureAddressMode::kMirror;
+    case Wrap::kClamp:
+      return TextureAddressMode::kClamp;
+  }
+  return TextureAddressMode::kWrap;
+}
+
+// D3D12's filter number: bit 0 linear between mips, bit 2 linear magnification, bit 4 linear
+// minification.
+rtapi::Filter filter(const Sampler& sampler) {
+  const auto linear = [](Filter f) { return f == Filter::kLinear ? 1u : 0u; };
+  return static_cast<rtapi::Filter>(linear(sampler.mip_filter) | linear(sampler.mag_filter) << 2 |
+                                    linear(sampler.min_filter) << 4);
+}
+
+}  // namespace
+
+FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc) {
+  FrameConstants c = {};
+  const double half_height = std::tan(camera.vertical_fov / 2);
+  const double aspect = static_cast<double>(desc.width) / desc.height;
+  c.camera_right = glm::vec3(glm::dvec3(camera.camera_to_world[0]) * half_height * aspect);
+  c.camera_up = glm::vec3(glm::dvec3(camera.camera_to_world[1]) * half_height);
+  c.camera_forward = glm::vec3(camera.forward());
+  c.near_plane = static_cast<float>(camera.near_plane);
+  c.pixel_angle = static_cast<float>(2 * half_height / desc.height);
+  c.seed = desc.seed;
+  const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0.0f), 0.0f});
+  const float radius =
+      desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;
+  c.direction_to_sun = sun.direction_to_sun;
+  c.tan_sun_radius = std::tan(radius);
+  c.sun_irradiance = sun.irradiance;
+  c.sky_zenith = scene.sky.zenith;
+  c.sky_horizon = scene.sky.horizon;
+  c.sky_ground = scene.sky.ground;
+  return c;
+}
+
+rtapi::Status Frame::create_root_signatures(const Device& device) {
+  RootSignatureDesc global;
+  std::vector<DescriptorRange> views;
+  views.push_back({.RangeType = DescriptorRangeType::kSrv, .NumDescriptors = kFirstPicture});
+  views.push_back({.RangeType = DescriptorRangeType::kUav, .NumDescriptors = kFrameTextureCount});
+  views.push_back({.RangeType = DescriptorRangeType::kSrv,
+                   .NumDescriptors = kUnboundedDescriptors,
+                   .RegisterSpace = 1});
+  global.Parameters.push_back(RootParameter::Table(views));
+  global.Parameters.push_back(RootParameter::Table({{.RangeType = DescriptorRangeType::kSampler,
+                                                     .NumDescriptors = kUnboundedDescriptors,
+                                                     .RegisterSpace = 1}}));
+  global.Parameters.push_back(RootParameter::Cbv(0));
+  global.Parameters.push_back(RootParameter::Constants32(sizeof(PassConstants) / 4, 1));
+  const auto created = device.CreateRootSignature(global);
+  if (!created) return created.error();
+  root_signature_ = *created;
+
+  RootSignatureDesc local;
+  local.Flags = RootSignatureFlags::kLocalRootSignature;
+  local.Parameters.push_back(RootParameter::Srv(0, 2));
+  local.Parameters.push_back(RootParameter::Srv(1, 2));
+  local.Parameters.push_back(RootParameter::Constants32(sizeof(HitConstants) / 4, 0, 2));
+  const auto created_local = device.CreateRootSignature(local);
+  if (!created_local) return created_local.error();
+  local_root_signature_ = *created_local;
+  return {};
+}
+
+rtapi::Status Frame::create_textures(const Device& device) {
+  for (const TextureInfo& info : kTextures) {
+    TextureDesc desc;
+    desc.Width = desc_.width;
+    desc.Height = desc_.height;
+    desc.Format = info.format;
+    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+    desc.InitialState = ResourceStates::kUnorderedAccess;
+    desc.Name = info.name;
+    const auto created = device.CreateTexture(desc);
+    if (!created) return created.error();
+    textures_.push_back(*created);
+  }
+  return {};
+}
+
+rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
+  DescriptorHeapDesc heap;
+  heap.NumDescriptors = kFirstSceneTexture + static_cast<std::uint32_t>(gpu.textures.size());
+  heap.Flags = DescriptorHeapFlags::kShaderVisible;
+  heap.Name = "views";
+  const auto created = device.CreateDescriptorHeap(heap);
+  if (!created) return created.error();
+  views_ = *created;
+
+  ShaderResourceViewDesc top_level;
+  top_level.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+  top_level.RaytracingAccelerationStructure.Location = gpu.top_level.GetGPUVirtualAddress();
+  if (const auto s = device.CreateShaderResourceView({}, top_level, views_.GetCPUDescriptorHandle(0)); !s) {
+    return s;
+  }
+  const auto structured = [&](const Buffer& buffer, std::uint32_t stride, std::uint32_t index) {
+    ShaderResourceViewDesc view;
+    view.ViewDimension = SrvDimension::kBuffer;
+    view.Buffer.StructureByteStride = stride;
+    view.Buffer.NumElements = static_cast<std::uint32_t>(buffer.size() / stride);
+    return device.CreateShaderResourceView(buffer, view, views_.GetCPUDescriptorHandle(index));
+  };
+  if (const auto s = structured(gpu.materials, sizeof(MaterialConstants), 1); !s) return s;
+  if (const auto s = structured(blue_noise_, sizeof(glm::vec2), 2); !s) return s;
+  for (std::uint32_t i = 0; i < kFrameTextureCount; ++i) {
+    const auto handle = views_.GetCPUDescriptorHandle(kFirstPicture + i);
+    if (const auto s = device.CreateUnorderedAccessView(textures_[i], handle); !s) return s;
+  }
+  for (std::uint32_t i = 0; i < gpu.textures.size(); ++i) {
+    const auto handle = views_.GetCPUDescriptorHandle(kFirstSceneTexture + i);
+    if (const auto s = device.CreateShaderResourceView(gpu.textures[i], handle); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status Frame::create_samplers(const Device& device, const Scene& scene) {
+  DescriptorHeapDesc heap;
+  heap.Type = DescriptorHeapType::kSampler;
+  heap.NumDescriptors = static_cast<std::uint32_t>(scene.samplers.size());
+  heap.Flags = DescriptorHeapFlags::kShaderVisible;
+  heap.Name = "samplers";
+  const auto created = device.CreateDescriptorHeap(heap);
+  if (!created) return created.error();
+  samplers_ = *created;
+  for (std::uint32_t i = 0; i < scene.samplers.size(); ++i) {
+    const Sampler& sampler = scene.samplers[i];
+    SamplerDesc desc;
+    desc.Filter = filter(sampler);
+    desc.AddressU = address_mode(sampler.wrap_u);
+    desc.AddressV = address_mode(sampler.wrap_v);
+    if (!sampler.mipmapped) desc.MaxLOD = 0;
+    if (const auto s = device.CreateSampler(desc, samplers_.GetCPUDescriptorHandle(i)); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Scene& scene,
+                                   const GpuScene& gpu, const Camera& camera,
+                                   const FrameDesc& desc) {
+  Frame frame;
+  frame.desc_ = desc;
+  // Constant buffers are read in whole 256-byte blocks. [D3D12: constant buffer placement]
+  std::vector<std::byte> constants(256);
+  const FrameConstants values = frame_constants(scene, camera, desc);
+  std::memcpy(constants.data(), &values, sizeof values);
+  auto buffer = CreateUploadBuffer(device, constants, "frame constants");
+  if (!buffer) return buffer.error();
+  frame.constants_ = *buffer;
+  buffer = CreateUploadBuffer(device, blue_noise_tile(), "blue noise");
+  if (!buffer) return buffer.error();
+  frame.blue_noise_ = *buffer;
+  if (const auto s = frame.create_root_signatures(device); !s) return s.error();
+  if (const auto s = frame.create_textures(device); !s) return s.error();
+  if (const auto s = frame.create_views(device, gpu); !s) return s.error();
+  if (const auto s = frame.create_samplers(device, scene); !s) return s.error();
+  return frame;
+}
+
+void Frame::bind(CommandList& list, const PassConstants& constants) const {
+  list.SetDescriptorHeaps({views_, samplers_});
+  list.SetComputeRootSignature(root_signature_);
+  list.SetComputeRootDescriptorTable(kRootViews, views_.GetGPUDescriptorHandleForHeapStart());
+  list.SetComputeRootDescriptorTable(kRootSamplers, samplers_.GetGPUDescriptorHandleForHeapStart());
+  list.SetComputeRootConstantBufferView(kRootFrame, constants_.GetGPUVirtualAddress());
+  list.SetComputeRoot32BitConstants(kRootPass, constants);
+}
+
+void Frame::clear(CommandList& list, FrameTexture texture) const {
+  const float zero[4] = {0, 0, 0, 0};
+  list.SetDescriptorHeaps({views_, samplers_});
+  list.ClearUnorderedAccessViewFloat(views_.GetGPUDescriptorHandle(kFirstPicture + texture),
+                                     views_.GetCPUDescriptorHandle(kFirstPicture + texture),
+                                     textures_[texture], zero);
+}
+
+rtapi::Result<FloatImage> Frame::read(const Device& device, CommandQueue& queue,
+                                      FrameTexture texture) const {
+  const auto bytes = ReadbackTexture(device, queue, textures_[texture], 0);
+  if (!bytes) return bytes.error();
+  return decode_texels(kTextures[texture].format, desc_.width, desc_.height, *bytes);
+}
+
+}  // namespace kaamos::effects

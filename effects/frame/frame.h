@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// The pictures and the global root table that all effects of one frame share.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "effects/image/image.h"
+#include "effects/scene/gpu_scene.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// Mirrors FrameConstants of effects/shaders/frame.hlsli.
+struct FrameConstants {
+  glm::vec3 camera_right;
+  float near_plane;
+  glm::vec3 camera_up;
+  float pixel_angle;
+  glm::vec3 camera_forward;
+  std::uint32_t seed;
+  glm::vec3 direction_to_sun;
+  float tan_sun_radius;
+  glm::vec3 sun_irradiance;
+  float padding0;
+  glm::vec3 sky_zenith;
+  float padding1;
+  glm::vec3 sky_horizon;
+  float padding2;
+  glm::vec3 sky_ground;
+  float padding3;
+};
+static_assert(sizeof(FrameConstants) == 128);
+
+/// Mirrors PassConstants of frame.hlsli.
+struct PassConstants {
+  std::uint32_t first_sample = 0;
+  std::uint32_t sample_count = 0;
+  float radius = 0;
+  std::uint32_t first_row = 0;
+};
+
+/// Pictures of a frame in the order of their registers u0, u1, ...
+enum FrameTexture : std::uint32_t {
+  kDepth,
+  kViewZ,
+  kNormal,
+  kShadingNormal,
+  kBaseColor,
+  kEmissive,
+  kMaterial,
+  kIds,
+  kPosition,
+  kAmbientOcclusionSum,
+  kSunVisibilitySum,
+  kFrameTextureCount
+};
+
+/// Parameters of the global root signature.
+enum FrameRootParameter : std::uint32_t {
+  kRootViews,     ///< table: the scene, materials, blue noise, pictures, textures
+  kRootSamplers,  ///< table: the scene's samplers
+  kRootFrame,     ///< CBV b0
+  kRootPass,      ///< constants b1
+};
+
+/// What a frame looks like besides the scene.
+struct FrameDesc {
+  std::uint32_t width = 1280;
+  std::uint32_t height = 720;
+  std::uint32_t seed = 0;
+  /// Radians; replaces the scene's. Negative: the scene's own.
+  float sun_angular_radius = -1.0f;
+};
+
+/// Resources of one frame. Shared by its passes; a copy refers to the same pictures.
+class Frame {
+ public:
+  static rtapi::Result<Frame> create(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                     const Scene& scene, const GpuScene& gpu, const Camera& camera,
+                                     const FrameDesc& desc);
+
+  const rtapi::RootSignature& root_signature() const { return root_signature_; }
+  /// Of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
+  const rtapi::RootSignature& local_root_signature() const { return local_root_signature_; }
+  std::uint32_t width() const { return desc_.width; }
+  std::uint32_t height() const { return desc_.height; }
+
+  /// Sets heaps, root signature and root arguments of a dispatch.
+  void bind(rtapi::CommandList& list, const PassConstants& constants) const;
+  /// Writes zero to a picture of floats.
+  void clear(rtapi::CommandList& list, FrameTexture texture) const;
+  const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
+
+  /// A picture as floats: 1, 2 or 4 channels as its format has; kIds as exact whole numbers.
+  rtapi::Result<FloatImage> read(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                 FrameTexture texture) const;
+
+ private:
+  rtapi::Status create_root_signatures(const rtapi::Device& device);
+  rtapi::Status create_textures(const rtapi::Device& device);
+  rtapi::Status create_views(const rtapi::Device& device, const GpuScene& gpu);
+  rtapi::Status create_samplers(const rtapi::Device& device, const Scene& scene);
+
+  FrameDesc desc_;
+  rtapi::RootSignature root_signature_;
+  rtapi::RootSignature local_root_signature_;
+  rtapi::DescriptorHeap views_;
+  rtapi::DescriptorHeap samplers_;
+  rtapi::Buffer constants_;
+  rtapi::Buffer blue_noise_;
+  std::vector<rtapi::Texture> textures_;
+};
+
+/// The constants of a camera, sun and sky. `aspect` is width over height.
+FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// One ray tracing pipeline over a frame: state object, shader tables, dispatch. Each dispatch has a
+// state object of its own. [Northlight deck: One state object per dispatch]
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "effects/frame/frame.h"
+#include "effects/scene/gpu_scene.h"
+
+namespace kaamos::effects {
+
+/// Hit shaders of one ray type. The any-hit shader is for alpha-tested geometry only. Both empty: a
+/// hit runs nothing, which is all that a visibility ray needs.
+struct HitShaders {
+  std::string any_hit;
+  std::string closest_hit;
+};
+
+struct RayPassDesc {
+  std::string name;
+  rtapi::ShaderLibrary library;
+  std::string ray_generation;
+  /// By ray type; an empty name makes a record that runs nothing.
+  std::array<std::string, kRayTypeCount> miss;
+  std::array<HitShaders, kRayTypeCount> hit;
+  std::uint32_t payload_bytes = 4;
+};
+
+class RayPass {
+ public:
+  static rtapi::Result<RayPass> create(const rtapi::Device& device, const Frame& frame,
+                                       const GpuScene& scene, const RayPassDesc& desc);
+  /// Records a dispatch over `row_count` rows of the picture from constants.first_row on, and the
+  /// barrier behind it.
+  void dispatch(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
+                std::uint32_t row_count) const;
+
+ private:
+  rtapi::StateObject pipeline_;
+  rtapi::Buffer tables_[3];  // keeps them alive
+  rtapi::DispatchRaysDesc dispatch_;
+};
+
+}  // namespace kaamos::effects

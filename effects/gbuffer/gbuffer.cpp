@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "effects/gbuffer/gbuffer.h"
+
+#include <shaders/gbuffer.h>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> gbuffer_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_gbuffer());
+}
+
+RayPassDesc gbuffer_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "G-buffer";
+  desc.library = std::move(library);
+  desc.ray_generation = "GBufferRayGen";
+  desc.miss[kRayTypeSurface] = "GBufferMiss";
+  desc.hit[kRayTypeSurface] = {"GBufferAnyHit", "GBufferClosestHit"};
+  return desc;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// What every effect's shaders can reach: one global root table for all of them, and the arguments of
+// hit group records. effects/frame/frame.h holds the same layout for the host.
+// [Northlight deck: Root Tables]
+#ifndef KAAMOS_FRAME_HLSLI
+#define KAAMOS_FRAME_HLSLI
+
+#include "material.hlsli"
+
+// World space here is relative to the camera: the camera stands at the origin.
+struct FrameConstants {
+  float3 camera_right;    // half the picture's width at distance 1
+  float near_plane;       // metres; of the reversed-Z depth
+  float3 camera_up;       // half the picture's height at distance 1
+  float pixel_angle;      // radians that a pixel's side covers
+  float3 camera_forward;  // unit
+  uint seed;
+  float3 direction_to_sun;  // unit
+  float tan_sun_radius;
+  float3 sun_irradiance;
+  float padding0;
+  float3 sky_zenith;
+  float padding1;
+  float3 sky_horizon;
+  float padding2;
+  float3 sky_ground;
+  float padding3;
+};
+
+// Root constants of a dispatch.
+struct PassConstants {
+  uint first_sample;  // of the samples of a pixel, this dispatch takes
+  uint sample_count;  // [first_sample, first_sample + sample_count)
+  float radius;       // metres; of ambient occlusion
+  uint first_row;     // of the picture: a dispatch takes a band of rows
+};
+
+ConstantBuffer<FrameConstants> frame : register(b0);
+ConstantBuffer<PassConstants> pass_constants : register(b1);
+RaytracingAccelerationStructure scene : register(t0);
+StructuredBuffer<MaterialConstants> materials : register(t1);
+StructuredBuffer<float2> blue_noise : register(t2);
+Texture2D<float4> textures[] : register(t0, space1);
+SamplerState samplers[] : register(s0, space1);
+
+// The G-buffer. [effects-spec B0.2]
+RWTexture2D<float> g_depth : register(u0);       // reversed-Z, infinite far: near / view_z; 0 nothing
+RWTexture2D<float> g_view_z : register(u1);      // metres along the camera's axis
+RWTexture2D<float2> g_normal : register(u2);     // geometric, octahedral, towards the camera
+RWTexture2D<float2> g_shading_normal : register(u3);
+RWTexture2D<float4> g_base_color : register(u4);  // sRGB-encoded
+RWTexture2D<float4> g_emissive : register(u5);
+RWTexture2D<float4> g_material : register(u6);    // roughness, metallic, 0, 0
+RWTexture2D<uint2> g_ids : register(u7);          // instance + 1, primitive; 0 nothing
+// Position relative to the camera, and how far a ray must start from it along the geometric normal so
+// as not to meet its own surface.
+RWTexture2D<float4> g_position : register(u8);
+
+// Effects: sums over the samples taken so far.
+RWTexture2D<float> ambient_occlusion_sum : register(u9);
+RWTexture2D<float> sun_visibility_sum : register(u10);
+
+// Hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
+ByteAddressBuffer vertices : register(t0, space2);
+ByteAddressBuffer indices : register(t1, space2);
+ConstantBuffer<HitConstants> hit_constants : register(b0, space2);
+
+static const uint kRayTypeSurface = 0;
+static const uint kRayTypeVisibility = 1;
+static const uint kRayTypeCount = 2;
+
+static const uint kMaskVisible = 0xFF;
+
+// Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
+static const uint kAmbientOcclusionPair = 0;
+static const uint kSunPair = 1;
+
+// The pixel of this invocation.
+uint2 FramePixel() {
+  const uint2 index = DispatchRaysIndex().xy;
+  return uint2(index.x, index.y + pass_constants.first_row);
+}
+
+#endif

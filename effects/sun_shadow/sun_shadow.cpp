@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "effects/sun_shadow/sun_shadow.h"
+
+#include <shaders/sun_shadow.h>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> sun_shadow_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_sun_shadow());
+}
+
+RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "sun shadow";
+  desc.library = std::move(library);
+  desc.ray_generation = "SunShadowRayGen";
+  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
+  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  return desc;
+}
+
+}  // namespace kaamos::effects

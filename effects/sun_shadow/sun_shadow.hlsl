@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Visible part of the sun's disk. [effects-spec B2.11]
+#include "visibility.hlsli"
+#include "sampling.hlsli"
+
+static const float kSunDistance = 1e4;  // metres: further away nothing casts a shadow
+
+[shader("raygeneration")]
+void SunShadowRayGen() {
+  const uint2 pixel = FramePixel();
+  const uint count = pass_constants.sample_count;
+  if (g_ids[pixel].x == 0) {
+    sun_visibility_sum[pixel] += float(count);
+    return;
+  }
+  const float4 position = g_position[pixel];
+  const float3 normal = OctahedralDecode(g_normal[pixel]);
+  const float3 origin = position.xyz + normal * position.w;
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)];
+
+  float visible = 0.0;
+  for (uint i = 0; i < count; ++i) {
+    const float2 u = PixelSample(tile, pass_constants.first_sample + i, kSunPair, frame.seed);
+    const float3 direction = SampleSun(u, frame.direction_to_sun, frame.tan_sun_radius);
+    // A surface that faces away from the point of the sun needs no ray to be dark.
+    if (dot(direction, normal) > 0.0) {
+      visible += TraceVisibility(origin, direction, kSunDistance);
+    }
+  }
+  sun_visibility_sum[pixel] += visible;
+}
