@@ -31,6 +31,7 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"position", Format::kR32G32B32A32Float},
     {"ambient occlusion sum", Format::kR32Float},
     {"sun visibility sum", Format::kR32Float},
+    {"radiance", Format::kR32G32B32A32Float},
 };
 
 // Descriptors of the view heap: t0..t2, then u0.., then the scene's textures.
@@ -70,8 +71,7 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   c.pixel_angle = static_cast<float>(2 * half_height / desc.height);
   c.seed = desc.seed;
   const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0.0f), 0.0f});
-  const float radius =
-      desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;
+  const float radius = desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;
   c.direction_to_sun = sun.direction_to_sun;
   c.tan_sun_radius = std::tan(radius);
   c.sun_irradiance = sun.irradiance;
@@ -138,7 +138,9 @@ rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   ShaderResourceViewDesc top_level;
   top_level.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
   top_level.RaytracingAccelerationStructure.Location = gpu.top_level.GetGPUVirtualAddress();
-  if (const auto s = device.CreateShaderResourceView({}, top_level, views_.GetCPUDescriptorHandle(0)); !s) {
+  if (const auto s =
+          device.CreateShaderResourceView({}, top_level, views_.GetCPUDescriptorHandle(0));
+      !s) {
     return s;
   }
   const auto structured = [&](const Buffer& buffer, std::uint32_t stride, std::uint32_t index) {
@@ -177,7 +179,8 @@ rtapi::Status Frame::create_samplers(const Device& device, const Scene& scene) {
     desc.AddressU = address_mode(sampler.wrap_u);
     desc.AddressV = address_mode(sampler.wrap_v);
     if (!sampler.mipmapped) desc.MaxLOD = 0;
-    if (const auto s = device.CreateSampler(desc, samplers_.GetCPUDescriptorHandle(i)); !s) return s;
+    if (const auto s = device.CreateSampler(desc, samplers_.GetCPUDescriptorHandle(i)); !s)
+      return s;
   }
   return {};
 }

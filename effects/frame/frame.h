@@ -57,6 +57,7 @@ enum FrameTexture : std::uint32_t {
   kPosition,
   kAmbientOcclusionSum,
   kSunVisibilitySum,
+  kRadiance,
   kFrameTextureCount
 };
 
@@ -96,7 +97,8 @@ class Frame {
   void clear(rtapi::CommandList& list, FrameTexture texture) const;
   const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
 
-  /// A picture as floats: 1, 2 or 4 channels as its format has; kIds as exact whole numbers.
+  /// A picture as floats: 1, 2 or 4 channels as its format has; kIds as whole
+  /// numbers, exact up to 2^24.
   rtapi::Result<FloatImage> read(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                  FrameTexture texture) const;
 

@@ -59,6 +59,7 @@ RWTexture2D<float4> g_position : register(u8);
 // Effects: sums over the samples taken so far.
 RWTexture2D<float> ambient_occlusion_sum : register(u9);
 RWTexture2D<float> sun_visibility_sum : register(u10);
+RWTexture2D<float4> radiance : register(u11);
 
 // Hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
 ByteAddressBuffer vertices : register(t0, space2);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Radiance of each pixel: what a diffuse surface sends back of the sun it sees and of the open sky,
+// what it emits itself, and the sky behind everything.
+#include "frame.hlsli"
+#include "geometry.hlsli"
+
+static const float kPi = 3.14159265;
+
+float3 SkyRadiance(float3 direction) {
+  const float up = direction.y;
+  return up >= 0.0 ? lerp(frame.sky_horizon, frame.sky_zenith, sqrt(up))
+                   : lerp(frame.sky_horizon, frame.sky_ground, saturate(-up * 4.0));
+}
+
+// Mean radiance over the hemisphere about a normal, weighted by its cosine: the sky is a smooth
+// gradient, three directions are enough.
+float3 SkyAround(float3 normal) {
+  const float3 up = SkyRadiance(normal);
+  const float3 tilted = SkyRadiance(normalize(normal + float3(0.0, 0.8, 0.0)));
+  const float3 down = SkyRadiance(normalize(normal + float3(0.0, -0.8, 0.001)));
+  return (2.0 * up + tilted + down) * 0.25;
+}
+
+// pass_constants.first_sample and sample_count: samples in the sums of ambient occlusion and sun.
+[numthreads(8, 8, 1)]
+void Composite(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  radiance.GetDimensions(width, height);
+  const uint2 pixel = id.xy;
+  if (pixel.x >= width || pixel.y >= height) {
+    return;
+  }
+  const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
+  if (g_ids[pixel].x == 0) {
+    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+    radiance[pixel] = float4(SkyRadiance(normalize(direction)), 1.0);
+    return;
+  }
+  const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
+  const float3 base_color = LinearFromSrgb(g_base_color[pixel].rgb);
+  const uint ao_samples = pass_constants.first_sample;
+  const uint sun_samples = pass_constants.sample_count;
+  const float open = ao_samples > 0 ? ambient_occlusion_sum[pixel] / float(ao_samples) : 1.0;
+  const float sun = sun_samples > 0 ? sun_visibility_sum[pixel] / float(sun_samples) : 0.0;
+
+  const float3 from_sun = frame.sun_irradiance * (saturate(dot(normal, frame.direction_to_sun)) * sun / kPi);
+  const float3 from_sky = SkyAround(normal) * open;
+  radiance[pixel] = float4(base_color * (from_sun + from_sky) + g_emissive[pixel].rgb, 1.0);
+}

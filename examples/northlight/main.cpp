@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The demo frame: Northlight's ray traced ambient occlusion and sun shadow over a scene.
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "effects/scene/gltf_load.h"
+#include "effects/scene/gltf_write.h"
+#include "effects/scene/lounge.h"
+#include "options.h"
+#include "output.h"
+#include "renderer.h"
+#include "watch.h"
+
+namespace {
+
+using namespace northlight;
+using kaamos::effects::Scene;
+
+constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
+
+std::atomic<bool> stop_requested{false};
+void on_interrupt(int) {
+  stop_requested = true;
+}
+
+void say_error(const std::string& text) {
+  std::fprintf(stderr, "northlight: %s\n", text.c_str());
+}
+
+bool load_scene(const Options& options, Scene& scene) {
+  if (options.scene == "lounge") {
+    scene = kaamos::effects::make_lounge();
+    return true;
+  }
+  auto loaded = kaamos::effects::load_gltf(options.scene);
+  if (!loaded.ok()) {
+    say_error(loaded.error());
+    return false;
+  }
+  for (const std::string& warning : loaded.value().warnings) {
+    std::fprintf(stderr, "northlight: warning: %s\n", warning.c_str());
+  }
+  scene = std::move(loaded.value().scene);
+  return true;
+}
+
+// A bar on a terminal, nothing in a log.
+void show_progress(const std::string& pass, double done) {
+  static const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (!terminal) return;
+  constexpr int kWidth = 40;
+  const int filled = static_cast<int>(done * kWidth);
+  std::fprintf(stderr, "\r%-20s [%.*s%*s] %3.0f %%%s", pass.c_str(), filled,
+               "########################################", kWidth - filled, "", done * 100,
+               done >= 1 ? "\n" : "");
+  std::fflush(stderr);
+}
+
+int report(const rtapi::Error& error, const Options& options) {
+  if (error.id.empty()) {
+    std::fprintf(stderr, "\n");
+    say_error("interrupted: nothing was written, earlier results in " + options.out +
+              " are as they were");
+    return kInterrupted;
+  }
+  say_error(error.message);
+  return 1;
+}
+
+int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Options& options,
+                const Scene& scene) {
+  const auto frame = renderer.render(libraries, show_progress, stop_requested);
+  if (!frame) return report(frame.error(), options);
+  if (const std::string error = write_results(options, scene, renderer, *frame); !error.empty()) {
+    say_error(error);
+    return 1;
+  }
+  std::printf("%s\nwrote %s/frame.png, frame.exr, stats.json and a PNG for each layer\n",
+              describe(renderer, *frame).c_str(), options.out.c_str());
+  std::fflush(stdout);
+  return 0;
+}
+
+// Until Ctrl-C: an error in a shader is shown, and the next change tried.
+int watch(Renderer& renderer, const Options& options, const Scene& scene) {
+  const auto folder = find_effects_folder();
+  if (folder.empty()) {
+    say_error("--watch needs the effects' shader files: name their folder in $KAAMOS_EFFECTS");
+    return 1;
+  }
+  ShaderWatcher watcher(folder);
+  std::printf("watching %s; Ctrl-C ends\n", folder.c_str());
+  do {
+    const auto libraries = watcher.compile();
+    if (!libraries) {
+      std::fprintf(stderr, "%s\n", libraries.error().message.c_str());
+    } else if (const int code = render_once(renderer, *libraries, options, scene);
+               code == kInterrupted) {
+      return code;
+    }
+  } while (watcher.wait(stop_requested));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int exit_code = 0;
+  const auto options = parse_options(argc, argv, exit_code);
+  if (!options) return exit_code;
+  Scene scene;
+  if (!load_scene(*options, scene)) return 1;
+  if (!options->write_glb.empty()) {
+    if (const auto written = kaamos::effects::write_glb(options->write_glb, scene); !written.ok()) {
+      say_error(written.error());
+      return 1;
+    }
+  }
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  auto renderer = Renderer::create(*options, scene, say_error);
+  if (!renderer) return report(renderer.error(), *options);
+  if (options->watch) return watch(**renderer, *options, scene);
+  const auto libraries = built_in_libraries();
+  if (!libraries) return report(libraries.error(), *options);
+  return render_once(**renderer, *libraries, *options, scene);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <sstream>
+
+namespace northlight {
+namespace {
+
+constexpr std::uint32_t kMaxSamples = 65536;
+constexpr std::uint32_t kMaxSide = 16384;  // of a texture [D3D12: resource limits]
+
+std::string parse_size(const std::string& text, Options& options) {
+  unsigned width = 0;
+  unsigned height = 0;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%5ux%5u%n", &width, &height, &end) != 2 ||
+      static_cast<std::size_t>(end) != text.size() || width == 0 || height == 0 ||
+      width > kMaxSide || height > kMaxSide) {
+    return "\"" + text + "\" is not a size: give width and height from 1 to 16384, as in 1280x720";
+  }
+  options.width = width;
+  options.height = height;
+  return {};
+}
+
+std::string parse_effects(const std::string& text, Options& options) {
+  options.ao = false;
+  options.sun = false;
+  std::stringstream list(text);
+  for (std::string name; std::getline(list, name, ',');) {
+    if (name == "ao") {
+      options.ao = true;
+    } else if (name == "sun") {
+      options.sun = true;
+    } else {
+      return "\"" + name + "\" is not an effect: there are ao and sun, as in ao,sun";
+    }
+  }
+  return {};
+}
+
+std::string parse_radius(const std::string& text, Options& options) {
+  if (text == "inf") {
+    options.ao_radius = std::numeric_limits<float>::infinity();
+    return {};
+  }
+  char* end = nullptr;
+  options.ao_radius = std::strtof(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(options.ao_radius > 0)) {
+    return "\"" + text + "\" is not a radius: give metres greater than 0, or inf";
+  }
+  return {};
+}
+
+// A CLI11 validator that stores what it parses.
+template <class Parse>
+CLI::Validator parsed_by(Parse parse, Options& options) {
+  return CLI::Validator([parse, &options](std::string& text) { return parse(text, options); }, "");
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
+  Options options;
+  std::string size = "1280x720";
+  std::string effects = "ao,sun";
+  std::string radius = "4";
+  float sun_angle = 0;
+  CLI::App app(
+      "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow.\n"
+      "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
+      "northlight");
+  app.add_option("--scene", options.scene, "lounge (built in), or a .gltf or .glb file")
+      ->capture_default_str();
+  app.add_option("--backend", options.backend, "the backend that runs the shaders")
+      ->capture_default_str();
+  app.add_option("--size", size, "width and height in pixels")
+      ->capture_default_str()
+      ->check(parsed_by(parse_size, options));
+  app.add_option("--effects", effects, "comma-separated: ao, sun")
+      ->capture_default_str()
+      ->check(parsed_by(parse_effects, options));
+  app.add_option("--ao-samples", options.ao_samples, "ambient occlusion rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--ao-radius", radius, "how far away something occludes, in metres, or inf")
+      ->capture_default_str()
+      ->check(parsed_by(parse_radius, options));
+  app.add_option("--sun-samples", options.sun_samples, "sun shadow rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  auto* angle = app.add_option("--sun-angle", sun_angle,
+                               "how large the sun is in the sky, in degrees "
+                               "(the real one: 0.53); default: the scene's")
+                    ->check(CLI::Range(0.0f, 90.0f));
+  app.add_option("--seed", options.seed, "the same seed gives the same picture")
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "0: all; the picture does not depend on it")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 1024u));
+  app.add_option("--out", options.out, "folder for the results")->capture_default_str();
+  app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
+  app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error);
+    return std::nullopt;
+  }
+  if (angle->count() != 0) options.sun_angle_degrees = sun_angle;
+  return options;
+}
+
+}  // namespace northlight

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
+
+#include "effects/common/file.h"
+#include "effects/image/exr.h"
+#include "effects/image/png.h"
+#include "effects/image/tonemap.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A normal in octahedral form as a colour: each axis from -1..1 to 0..1; black where nothing is.
+FloatImage normal_picture(const FloatImage& encoded, const FloatImage& ids) {
+  FloatImage out(encoded.width, encoded.height, 3);
+  for (std::uint32_t y = 0; y < encoded.height; ++y) {
+    for (std::uint32_t x = 0; x < encoded.width; ++x) {
+      if (ids.at(x, y, 0) == 0) continue;
+      const float u = encoded.at(x, y, 0);
+      const float v = encoded.at(x, y, 1);
+      float n[3] = {u, v, 1 - std::abs(u) - std::abs(v)};
+      if (n[2] < 0) {
+        n[0] = (1 - std::abs(v)) * (u >= 0 ? 1.0f : -1.0f);
+        n[1] = (1 - std::abs(u)) * (v >= 0 ? 1.0f : -1.0f);
+      }
+      const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        out.at(x, y, c) = 0.5f + 0.5f * n[c] / length;
+      }
+    }
+  }
+  return out;
+}
+
+// A colour of its own for each instance.
+FloatImage id_picture(const FloatImage& ids) {
+  FloatImage out(ids.width, ids.height, 3);
+  for (std::uint32_t y = 0; y < ids.height; ++y) {
+    for (std::uint32_t x = 0; x < ids.width; ++x) {
+      const float id = ids.at(x, y, 0);
+      if (id == 0) continue;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const float phase = id * 2.399963f + 2.0943951f * static_cast<float>(c);
+        out.at(x, y, c) = 0.55f + 0.45f * std::cos(phase);
+      }
+    }
+  }
+  return out;
+}
+
+// Near is white, far is black: how much of the frame's depth range lies behind a pixel.
+FloatImage distance_picture(const FloatImage& view_z) {
+  float nearest = 1e30f;
+  for (const float z : view_z.values) {
+    if (z > 0) nearest = std::min(nearest, z);
+  }
+  FloatImage out(view_z.width, view_z.height, 1);
+  for (std::size_t i = 0; i < view_z.values.size(); ++i) {
+    out.values[i] = view_z.values[i] > 0 ? nearest / view_z.values[i] : 0.0f;
+  }
+  return out;
+}
+
+FloatImage first_channels(const FloatImage& image, std::uint32_t count) {
+  FloatImage out(image.width, image.height, count);
+  for (std::uint32_t y = 0; y < image.height; ++y) {
+    for (std::uint32_t x = 0; x < image.width; ++x) {
+      for (std::uint32_t c = 0; c < count; ++c) {
+        out.at(x, y, c) = image.at(x, y, c);
+      }
+    }
+  }
+  return out;
+}
+
+// What a viewer sees of a layer.
+ByteImage layer_picture(const std::string& name, const FloatImage& image,
+                        const FrameResult& result) {
+  const FloatImage& ids = result.layers.at("ids");
+  if (name == "normal" || name == "shading_normal") return to_bytes(normal_picture(image, ids));
+  if (name == "ids") return to_bytes(id_picture(ids));
+  if (name == "depth" || name == "view_z") {
+    return to_bytes(distance_picture(result.layers.at("view_z")), 1, 0, true);
+  }
+  if (name == "emissive") return tonemap(first_channels(image, 3), 1.0f);
+  if (name == "position") return to_bytes(first_channels(image, 3), 0.05f, 0.5f);
+  return to_bytes(image.channels == 4 ? first_channels(image, 3) : image);
+}
+
+nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
+                                  const Renderer& renderer, const FrameResult& result) {
+  nlohmann::ordered_json json;
+  json["scene"] = scene.name;
+  json["backend"] = renderer.device_info().Backend;
+  json["device"] = renderer.device_info().Name;
+  json["width"] = options.width;
+  json["height"] = options.height;
+  json["seed"] = options.seed;
+  json["threads"] = options.threads;
+  json["ao_samples"] = options.ao ? options.ao_samples : 0;
+  json["sun_samples"] = options.sun ? options.sun_samples : 0;
+  const GpuSceneStatistics& s = renderer.scene_statistics();
+  json["build"] = {
+      {"bottom_level_ms", s.bottom_level_ms},       {"top_level_ms", s.top_level_ms},
+      {"bottom_level_bytes", s.bottom_level_bytes}, {"top_level_bytes", s.top_level_bytes},
+      {"unique_triangles", s.unique_triangles},     {"instanced_triangles", s.instanced_triangles}};
+  for (const PassStatistics& pass : result.passes) {
+    const double rays = static_cast<double>(pass.rays.TraceRayCalls);
+    json["passes"].push_back({{"name", pass.name},
+                              {"ms", pass.ms},
+                              {"rays", pass.rays.TraceRayCalls},
+                              {"visibility_rays", pass.rays.VisibilityRays},
+                              {"hits", pass.rays.Hits},
+                              {"misses", pass.rays.Misses},
+                              {"any_hit_calls", pass.rays.AnyHitInvocations},
+                              {"mrays_per_s", pass.ms > 0 ? rays / pass.ms / 1000 : 0.0}});
+  }
+  return json;
+}
+
+struct File {
+  std::string name;
+  std::vector<std::uint8_t> bytes;  // empty: written already
+};
+
+std::string encode_pictures(const FrameResult& result, float exposure, std::vector<File>& files) {
+  const auto add = [&](const std::string& name, const ByteImage& image) -> std::string {
+    auto bytes = encode_png(image);
+    if (!bytes.ok()) return bytes.error();
+    files.push_back({name + ".png", std::move(bytes.value())});
+    return {};
+  };
+  if (auto error = add("frame", tonemap(first_channels(result.radiance, 3), exposure));
+      !error.empty()) {
+    return error;
+  }
+  for (const auto& [name, image] : result.layers) {
+    if (auto error = add(name, layer_picture(name, image, result)); !error.empty()) return error;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
+                          const FrameResult& result) {
+  std::error_code failed;
+  fs::create_directories(options.out, failed);
+  if (failed) {
+    return fmt::format("cannot make the folder {}: {}; choose another one with --out", options.out,
+                       failed.message());
+  }
+  std::vector<File> files;
+  if (auto error = encode_pictures(result, scene.exposure, files); !error.empty()) return error;
+  const std::string json = statistics(options, scene, renderer, result).dump(2) + "\n";
+  files.push_back({"stats.json", std::vector<std::uint8_t>(json.begin(), json.end())});
+
+  // Everything goes to names of its own first: a full disk must not leave half of a new frame over
+  // the old one.
+  const fs::path staging = fs::path(options.out) / ".northlight-new";
+  fs::remove_all(staging, failed);
+  fs::create_directory(staging, failed);
+  if (failed) {
+    return fmt::format("cannot write into {}: {}; choose another folder with --out", options.out,
+                       failed.message());
+  }
+  ExrFile exr;
+  exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.seed)}};
+  exr.layers.push_back({"", result.radiance, false, {}});
+  for (const auto& [name, image] : result.layers) {
+    exr.layers.push_back({name, image, false, {}});
+  }
+  std::string error;
+  if (const auto written = write_exr((staging / "frame.exr").string(), exr); !written.ok()) {
+    error = written.error();
+  }
+  for (const File& file : files) {
+    if (!error.empty()) break;
+    const auto written = write_file_atomically((staging / file.name).string(), file.bytes);
+    if (!written.ok()) error = written.error();
+  }
+  files.push_back({"frame.exr", {}});
+  for (const File& file : files) {
+    if (!error.empty()) break;
+    fs::rename(staging / file.name, fs::path(options.out) / file.name, failed);
+    if (failed) {
+      error = fmt::format("cannot write {}/{}: {}", options.out, file.name, failed.message());
+    }
+  }
+  std::error_code ignored;
+  fs::remove_all(staging, ignored);
+  return error;
+}
+
+std::string describe(const Renderer& renderer, const FrameResult& result) {
+  const GpuSceneStatistics& s = renderer.scene_statistics();
+  std::string out = fmt::format(
+      "{}\nscene: {} triangles ({} unique), built in {:.0f} ms, {:.1f} MiB\n\n"
+      "{:<20}{:>10}{:>12}{:>12}{:>12}{:>10}\n",
+      renderer.device_info().Name, s.instanced_triangles, s.unique_triangles,
+      s.bottom_level_ms + s.top_level_ms,
+      static_cast<double>(s.bottom_level_bytes + s.top_level_bytes) / 1048576.0, "pass", "ms",
+      "rays", "hits", "any-hit", "Mrays/s");
+  for (const PassStatistics& pass : result.passes) {
+    const double rays = static_cast<double>(pass.rays.TraceRayCalls);
+    out += fmt::format("{:<20}{:>10.1f}{:>12}{:>12}{:>12}{:>10.2f}\n", pass.name, pass.ms,
+                       pass.rays.TraceRayCalls, pass.rays.Hits, pass.rays.AnyHitInvocations,
+                       pass.ms > 0 ? rays / pass.ms / 1000 : 0.0);
+  }
+  return out;
+}
+
+}  // namespace northlight

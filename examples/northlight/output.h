@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// The files of a finished frame.
+#pragma once
+
+#include <string>
+
+#include "effects/scene/scene.h"
+#include "options.h"
+#include "renderer.h"
+
+namespace northlight {
+
+// Writes frame.png, frame.exr, a PNG for each layer and stats.json into options.out. Either all of
+// them are written or none is touched; the error text is empty on success.
+std::string write_results(const Options& options, const kaamos::effects::Scene& scene,
+                          const Renderer& renderer, const FrameResult& result);
+
+// The table that a person sees at the end.
+std::string describe(const Renderer& renderer, const FrameResult& result);
+
+}  // namespace northlight
