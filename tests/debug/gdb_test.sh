@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# gdb_test.sh PROGRAM SHADER: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
+# stops there, shows the whole stack down to the ray generation shader, and the shader's variables.
+set -u
+program=$1
+shader=$2
+
+if ! command -v gdb > /dev/null; then
+  echo "gdb is not installed (apt install gdb)"
+  exit 77
+fi
+line=$(grep -n 'BREAK HERE' "$shader" | cut -d: -f1)
+caller=$(grep -n 'CALLED FROM HERE' "$shader" | cut -d: -f1)
+name=$(basename "$shader")
+
+output=$(DEBUGINFOD_URLS='' gdb -nx -batch \
+  -ex 'set breakpoint pending on' \
+  -ex 'handle SIGSEGV nostop noprint pass' \
+  -ex "break $name:$line" \
+  -ex run -ex backtrace -ex 'info locals' -ex 'print payload' -ex 'print barycentrics' \
+  --args "$program" "$shader" 2>&1)
+
+failed=0
+expect() {
+  if ! grep -Eq "$1" <<< "$output"; then
+    echo "MISSING: $2 (pattern: $1)"
+    failed=1
+  fi
+}
+expect "Attenuate .*$name:$line" "the stop in the function of the breakpoint, at its line"
+expect "^#[0-9]+ .*ProbeAnyHit.*$name" "the any-hit shader on the stack"
+expect "^#[0-9]+ .*ProbeRayGen.*$name:$caller" "the ray generation shader on the stack, at its TraceRay"
+expect "transmittance = 1" "the payload's value"
+expect "thickness = 1\.25" "a local variable's value"
+if [ "$failed" != 0 ]; then
+  echo "--- gdb said:"
+  echo "$output"
+fi
+exit "$failed"
