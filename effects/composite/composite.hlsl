@@ -2,7 +2,6 @@
 // Radiance of each pixel: what a diffuse surface sends back of the sun it sees and of the open sky,
 // what it emits itself, and the sky behind everything.
 #include "frame.hlsli"
-#include "geometry.hlsli"
 
 static const float kPi = 3.14159265;
 

@@ -4,27 +4,23 @@
 #define KAAMOS_ALPHA_TEST_HLSLI
 
 #include "frame.hlsli"
-#include "geometry.hlsli"
 
 // True where the surface is open. Level 0 of the texture: shadows of a leaf do not depend on how far
 // the camera is.
 bool IsOpenAt(float2 barycentrics) {
   const MaterialConstants material = materials[hit_constants.material_id];
-  if ((material.flags & kMaterialAlphaTested) == 0) {
-    return false;
-  }
-  float alpha = material.base_color.a;
-  const int image = material.image[kBaseColorTexture];
-  if (image >= 0) {
-    const uint3 corners = LoadTriangle(indices, hit_constants, PrimitiveIndex());
+  float alpha = 1.0;
+  if (HasTexture(material, kBaseColorTexture)) {
+    const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
     const float2 uv = MaterialUv(material, kBaseColorTexture,
-                                 InterpolateUv(vertices, hit_constants, corners, barycentrics));
-    const uint sampler_id = material.sampler[kBaseColorTexture];
-    alpha *= textures[NonUniformResourceIndex(image)]
-                 .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)], uv, 0.0)
-                 .a;
+                                 LoadUv(vertices, hit_constants, corners, barycentrics));
+    const uint image = material.image[kBaseColorTexture];
+    const uint sampler_id = material.sampler_id[kBaseColorTexture];
+    alpha = textures[NonUniformResourceIndex(image)]
+                .SampleLevel(samplers[NonUniformResourceIndex(sampler_id)], uv, 0.0)
+                .a;
   }
-  return alpha < material.alpha_cutoff;
+  return IsOpen(material, alpha);
 }
 
 #endif

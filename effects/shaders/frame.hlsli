@@ -5,6 +5,8 @@
 #ifndef KAAMOS_FRAME_HLSLI
 #define KAAMOS_FRAME_HLSLI
 
+#include "encoding.hlsli"
+#include "geometry.hlsli"
 #include "material.hlsli"
 
 // World space here is relative to the camera: the camera stands at the origin.
