@@ -21,6 +21,7 @@ float3 SkyAround(float3 normal) {
 }
 
 // pass_constants.first_sample and sample_count: samples in the sums of ambient occlusion and sun.
+[shader("compute")]
 [numthreads(8, 8, 1)]
 void Composite(uint3 id : SV_DispatchThreadID) {
   uint width, height;

@@ -8,6 +8,7 @@ cbuffer Constants : register(b0) {
   int radius;
 };
 
+[shader("compute")]
 [numthreads(8, 8, 1)]
 void Draw(uint3 id : SV_DispatchThreadID) {
   if (any(id.xy >= size)) {
@@ -24,6 +25,7 @@ static const int kMaxRadius = 32;
 groupshared float3 row[kGroup + 2 * kMaxRadius];
 
 // Each thread loads its pixel, some also one of the border; behind the barrier all can be read.
+[shader("compute")]
 [numthreads(kGroup, 1, 1)]
 void BlurRows(uint3 id : SV_DispatchThreadID, uint3 group : SV_GroupID, uint thread : SV_GroupIndex) {
   const int first = int(group.x) * kGroup - kMaxRadius;
