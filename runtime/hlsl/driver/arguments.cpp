@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/driver/arguments.h"
+
+#include <charconv>
+#include <functional>
+
+namespace kaamos::hlsl {
+namespace {
+
+struct Option {
+  const char* name;        // as written, or as the start of "-Ifolder"
+  bool takes_value;
+  std::function<bool(Arguments&, const std::string&)> apply;  // false: the value is not allowed
+  const char* allowed;     // values, for the error
+};
+
+bool parse_number(const std::string& text, uint32_t& out) {
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return failed == std::errc() && end == text.data() + text.size();
+}
+
+bool parse_emit(Arguments& a, const std::string& value) {
+  if (value == "cpp") {
+    a.emit = Emit::kCpp;
+  } else if (value == "ir") {
+    a.emit = Emit::kIr;
+  } else if (value == "reflection") {
+    a.emit = Emit::kReflection;
+  } else if (value == "object") {
+    a.emit = Emit::kObject;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool is_c_identifier(const std::string& text) {
+  for (const char c : text) {
+    if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_')) {
+      return false;
+    }
+  }
+  return !text.empty() && !(text[0] >= '0' && text[0] <= '9');
+}
+
+const std::vector<Option>& options() {
+  const auto flag = [](bool Arguments::*member) {
+    return [member](Arguments& a, const std::string&) { return a.*member = true; };
+  };
+  const auto text = [](std::string Arguments::*member) {
+    return [member](Arguments& a, const std::string& value) {
+      a.*member = value;
+      return true;
+    };
+  };
+  static const std::vector<Option> table = {
+      {"-T", true, text(&Arguments::target), ""},
+      {"-E", true, text(&Arguments::entry_point), ""},
+      {"-D", true,
+       [](Arguments& a, const std::string& v) {
+         a.defines.push_back(v);
+         return true;
+       },
+       ""},
+      {"-I", true,
+       [](Arguments& a, const std::string& v) {
+         a.include_folders.push_back(v);
+         return true;
+       },
+       ""},
+      {"-HV", true,
+       [](Arguments& a, const std::string& v) {
+         return parse_number(v, a.hlsl_version) && (a.hlsl_version == 2018 || a.hlsl_version == 2021);
+       },
+       "2018 or 2021"},
+      {"-exports", true, text(&Arguments::exports), ""},
+      {"-default-linkage", true,
+       [](Arguments& a, const std::string& v) {
+         a.external_linkage = v == "external";
+         return v == "external" || v == "internal";
+       },
+       "external or internal"},
+      {"-auto-binding-space", true,
+       [](Arguments& a, const std::string& v) { return parse_number(v, a.automatic_space); },
+       "a whole number"},
+      {"-enable-16bit-types", false, flag(&Arguments::native_16bit), ""},
+      {"-Zpr", false, flag(&Arguments::row_major), ""},
+      {"-Zpc", false,
+       [](Arguments& a, const std::string&) {
+         a.row_major = false;
+         return true;
+       },
+       ""},
+      {"--strict", false, flag(&Arguments::strict), ""},
+      {"-WX", false, flag(&Arguments::warnings_as_errors), ""},
+      {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
+      {"-Zi", false, flag(&Arguments::debug), ""},
+      {"-check", false, flag(&Arguments::check_only), ""},
+      {"-emit", true, parse_emit, "cpp, ir, reflection or object"},
+      {"-Fo", true, text(&Arguments::output), ""},
+      {"-o", true, text(&Arguments::output), ""},
+      {"-MF", true, text(&Arguments::dependency_file), ""},
+      {"--entry-function", true,
+       [](Arguments& a, const std::string& v) {
+         a.entry_function = v;
+         return is_c_identifier(v);
+       },
+       "a C identifier"},
+      {"-help", false, flag(&Arguments::help), ""},
+      {"--help", false, flag(&Arguments::help), ""},
+      {"-h", false, flag(&Arguments::help), ""},
+  };
+  return table;
+}
+
+// The option of a word; "-Ifolder" and "-DNAME" carry their value with them.
+const Option* find_option(const std::string& word, std::string& attached) {
+  for (const Option& option : options()) {
+    if (word == option.name) return &option;
+  }
+  for (const Option& option : options()) {
+    const std::string name = option.name;
+    if ((name == "-I" || name == "-D" || name == "-T" || name == "-E") && word.starts_with(name)) {
+      attached = word.substr(name.size());
+      return &option;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
+                                         std::string& error) {
+  Arguments out;
+  for (size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word.empty() || word[0] != '-') {
+      if (!out.source.empty()) {
+        error = "two source files, \"" + out.source + "\" and \"" + word + "\": give one";
+        return std::nullopt;
+      }
+      out.source = word;
+      continue;
+    }
+    std::string value;
+    const Option* option = find_option(word, value);
+    if (option == nullptr) {
+      error = "unknown option \"" + word + "\"; -help lists the options";
+      return std::nullopt;
+    }
+    if (option->takes_value && value.empty()) {
+      if (++i == words.size()) {
+        error = std::string(option->name) + " needs a value behind it; -help lists the options";
+        return std::nullopt;
+      }
+      value = words[i];
+    }
+    if (!option->apply(out, value)) {
+      error = std::string(option->name) + " " + value + ": the value must be " + option->allowed;
+      return std::nullopt;
+    }
+  }
+  if (out.help) return out;
+  if (out.source.empty()) {
+    error = "no source file given; -help lists the options";
+    return std::nullopt;
+  }
+  if (out.emit == Emit::kObject && out.output.empty() && !out.check_only) {
+    error = "-emit object needs a file name: give it with -Fo";
+    return std::nullopt;
+  }
+  return out;
+}
+
+const char* help_text() {
+  return R"(kaamos-hlsl [options] FILE.hlsl: compiles HLSL shader libraries for Kaamos
+
+As in DXC:
+  -T PROFILE                lib_6_3 to lib_6_8 (default lib_6_6), or cs_6_0 to cs_6_8
+  -E NAME                   entry point of a cs profile
+  -D NAME[=VALUE]           defines a macro
+  -I FOLDER                 where to look for #include files
+  -HV 2018|2021             version of the language (default 2021)
+  -exports A;B=C            what the library exports, and under which name
+  -default-linkage external every non-static function is an export
+  -auto-binding-space N     space of resources without a register
+  -enable-16bit-types       half, int16_t and uint16_t are 16 bits wide
+  -Zpr, -Zpc                matrices are row- or column-major (default) in memory
+  -WX, -no-warnings         warnings are errors, or are not shown
+  -Zi                       with -emit object: for a debugger
+  -Fo FILE, -o FILE         where to write (default: standard output)
+Of its own:
+  -check                    checks only, writes nothing
+  -emit cpp|ir|reflection|object
+                            what to write: C++ (default), the typed intermediate form, the exports
+                            and bindings as JSON, or a shared object for LoadShaderLibraryFromFile
+  --strict                  refuses what DXC refuses, also where Kaamos could go on
+  --entry-function NAME     name of the C function that returns the library's table
+  -MF FILE                  writes the files that were read as a make rule
+)";
+}
+
+}  // namespace kaamos::hlsl

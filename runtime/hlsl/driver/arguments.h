@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// The command line of kaamos-hlsl: DXC's options by their names, and a few of its own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kaamos::hlsl {
+
+enum class Emit : uint8_t { kCpp, kIr, kReflection, kObject };
+
+struct Arguments {
+  std::string source;
+  std::string target = "lib_6_6";
+  std::string entry_point;
+  std::vector<std::string> defines;
+  std::vector<std::string> include_folders;
+  std::string exports;
+  bool external_linkage = false;
+  uint32_t automatic_space = 0;
+  uint32_t hlsl_version = 2021;
+  bool native_16bit = false;
+  bool row_major = false;
+  bool strict = false;
+  bool warnings_as_errors = false;
+  bool no_warnings = false;
+  bool debug = false;
+  bool check_only = false;
+  Emit emit = Emit::kCpp;
+  std::string output;           // empty: standard output; kObject: required
+  std::string dependency_file;  // -MF: a makefile rule for ninja and make
+  std::string entry_function = "kaamos_shader_library";
+  bool help = false;
+};
+
+// An error text in `error` says which argument is wrong, what is allowed, and points to -help.
+std::optional<Arguments> parse_arguments(const std::vector<std::string>& words, std::string& error);
+
+const char* help_text();
+
+}  // namespace kaamos::hlsl
