@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// The comments that make an .hlsl file a test:
+//   // FEATURE: core 12 swizzles       what of hlsl-subset's tables it covers
+//   // TRAP: 7                         or which trap
+//   // EXPECT u32 0 42                 type, byte offset in `results`, value
+//   // EXPECT f32 4 0.5 2              floats may be so many ulps off (default 0)
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace kaamos::test {
+
+enum class ValueKind : uint8_t { kU32, kI32, kF32, kU64, kF64 };
+
+struct Expectation {
+  ValueKind kind = ValueKind::kU32;
+  uint32_t offset = 0;
+  uint64_t bits = 0;  // of the expected value
+  uint32_t ulps = 0;
+  uint32_t line = 0;
+};
+
+struct HlslTest {
+  std::string path;
+  std::string name;     // "core/swizzles"
+  std::string feature;  // text behind FEATURE or "trap N"
+  std::vector<std::string> options;  // words behind "// OPTIONS:", as for kaamos-hlsl
+  std::vector<Expectation> expectations;
+  std::string error;    // what is wrong with the comments
+};
+
+// Every .hlsl file below `folder`, in the order of their names.
+std::vector<HlslTest> find_hlsl_tests(const std::string& folder);
+
+// Empty, or what was found and what was expected.
+std::string compare(const Expectation& expectation, const std::vector<std::byte>& results);
+
+}  // namespace kaamos::test
