@@ -178,9 +178,9 @@ std::string first_lines(const std::string& text, int count) {
 
 }  // namespace
 
-std::optional<HostCompiler> find_host_compiler(std::string& error) {
+std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& asked_for) {
   HostCompiler out;
-  const std::string wanted = environment("KAAMOS_CXX");
+  const std::string wanted = asked_for.empty() ? environment("KAAMOS_CXX") : asked_for;
   std::vector<std::string> names = {KAAMOS_HOST_CXX, "c++", "g++", "clang++"};
   if (!wanted.empty()) {
     names = {wanted};
@@ -196,9 +196,9 @@ std::optional<HostCompiler> find_host_compiler(std::string& error) {
                 ? "no C++ compiler found (looked for " KAAMOS_HOST_CXX
                   ", c++, g++ and clang++ in $PATH): install one (Debian: apt install g++) or name "
                   "it in $KAAMOS_CXX"
-                : "$KAAMOS_CXX names \"" + wanted +
-                      "\", which is not a program: set it to a C++20 "
-                      "compiler or unset it";
+                : "the compiler \"" + wanted +
+                      "\" ($KAAMOS_CXX or CxxCompiler) is not a program: name a C++20 compiler, or "
+                      "none";
     return std::nullopt;
   }
   const std::string folder = environment("KAAMOS_SHADER_INCLUDE");

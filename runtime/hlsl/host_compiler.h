@@ -23,13 +23,14 @@ struct SharedObject {
   std::string error;  // what, which program, its first messages, what to do
 };
 
-// $KAAMOS_CXX, else the compiler that built Kaamos, else c++, g++, clang++ in $PATH. The headers:
+// `wanted`, else $KAAMOS_CXX, else the compiler that built Kaamos, else c++, g++, clang++ in $PATH.
+// The headers:
 // $KAAMOS_SHADER_INCLUDE, else the installed or the source folder. `error` is set where one of them
 // is missing.
-std::optional<HostCompiler> find_host_compiler(std::string& error);
+std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& wanted = {});
 
-// $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a folder in /tmp of this
-// user.
+// $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a folder in /tmp of
+// this user.
 std::filesystem::path cache_folder();
 
 // Builds `source` unless the cache has it. Safe to call from many processes and threads at once:

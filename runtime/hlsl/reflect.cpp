@@ -86,8 +86,8 @@ nlohmann::ordered_json binding_json(const Binding& binding) {
   nlohmann::ordered_json json;
   json["name"] = binding.name;
   json["type"] = resource_name(binding.type->resource);
-  json["register"] = std::string(1, "tubs"[binding.register_class & 3]) +
-                     std::to_string(binding.register_index);
+  json["register"] =
+      std::string(1, "tubs"[binding.register_class & 3]) + std::to_string(binding.register_index);
   json["space"] = binding.space;
   if (binding.count == 0xFFFFFFFFu) {
     json["count"] = "unbounded";

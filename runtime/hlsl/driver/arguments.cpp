@@ -8,10 +8,10 @@ namespace kaamos::hlsl {
 namespace {
 
 struct Option {
-  const char* name;        // as written, or as the start of "-Ifolder"
+  const char* name;  // as written, or as the start of "-Ifolder"
   bool takes_value;
   std::function<bool(Arguments&, const std::string&)> apply;  // false: the value is not allowed
-  const char* allowed;     // values, for the error
+  const char* allowed;                                        // values, for the error
 };
 
 bool parse_number(const std::string& text, uint32_t& out) {
@@ -70,7 +70,8 @@ const std::vector<Option>& options() {
        ""},
       {"-HV", true,
        [](Arguments& a, const std::string& v) {
-         return parse_number(v, a.hlsl_version) && (a.hlsl_version == 2018 || a.hlsl_version == 2021);
+         return parse_number(v, a.hlsl_version) &&
+                (a.hlsl_version == 2018 || a.hlsl_version == 2021);
        },
        "2018 or 2021"},
       {"-exports", true, text(&Arguments::exports), ""},

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+//
+// kaamos-hlsl: the compiler as a program.
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <system_error>
+
+#include "runtime/hlsl/driver/arguments.h"
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/file_loader.h"
+#include "runtime/hlsl/frontend.h"
+#include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/ir_dump.h"
+#include "runtime/hlsl/reflect.h"
+
+namespace {
+
+using namespace kaamos::hlsl;
+namespace fs = std::filesystem;
+
+constexpr int kBadUsage = 2;
+
+int fail(const std::string& text, int code = 1) {
+  std::fprintf(stderr, "kaamos-hlsl: %s\n", text.c_str());
+  return code;
+}
+
+FrontendOptions frontend_options(const Arguments& arguments) {
+  FrontendOptions options;
+  options.path = arguments.source;
+  options.include_folders = arguments.include_folders;
+  options.defines = arguments.defines;
+  options.target = arguments.target;
+  if (!arguments.entry_point.empty()) options.entry_point = arguments.entry_point;
+  options.exports = arguments.exports;
+  options.external_linkage = arguments.external_linkage;
+  options.automatic_space = arguments.automatic_space;
+  options.hlsl_version = arguments.hlsl_version;
+  options.native_16bit = arguments.native_16bit;
+  options.row_major = arguments.row_major;
+  options.strict = arguments.strict;
+  return options;
+}
+
+// Writes to a name of its own first, so that an interrupted run leaves no half of a file.
+bool write_file(const std::string& path, const std::string& text) {
+  const std::string temporary = path + ".new";
+  std::ofstream file(temporary, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code failed;
+  if (file) fs::rename(temporary, path, failed);
+  if (!file || failed) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    return false;
+  }
+  return true;
+}
+
+// "output: source header ..." with spaces escaped as make and ninja read them.
+std::string make_rule(const std::string& output, const std::vector<std::string>& inputs) {
+  std::string rule = output + ":";
+  for (const std::string& input : inputs) {
+    rule += " \\\n  ";
+    for (const char c : input) {
+      if (c == ' ' || c == '#') rule += '\\';
+      if (c == '$') rule += '$';
+      rule += c;
+    }
+  }
+  return rule + "\n";
+}
+
+int write_object(const Arguments& arguments, const ir::Module& module) {
+  std::string error;
+  const auto compiler = find_host_compiler(error);
+  if (!compiler) return fail(error);
+  const SharedObject object =
+      build_shared_object(*compiler, emit_cpp(module, {}),
+                          arguments.debug ? Optimisation::kDebug : Optimisation::kFull);
+  if (!object.error.empty()) return fail(object.error);
+  std::error_code failed;
+  fs::copy_file(object.path, arguments.output, fs::copy_options::overwrite_existing, failed);
+  return failed ? fail("cannot write " + arguments.output + ": " + failed.message()) : 0;
+}
+
+int write_text(const Arguments& arguments, const ir::Module& module) {
+  std::string text;
+  switch (arguments.emit) {
+    case Emit::kCpp:
+      text = emit_cpp(module, {.entry_point = arguments.entry_function});
+      break;
+    case Emit::kIr:
+      text = dump(module);
+      break;
+    default:
+      text = reflect_json(module);
+      break;
+  }
+  if (arguments.output.empty()) {
+    std::cout << text << std::flush;
+    return std::cout ? 0 : fail("cannot write to standard output");
+  }
+  return write_file(arguments.output, text) ? 0 : fail("cannot write " + arguments.output);
+}
+
+int compile(const Arguments& arguments) {
+  DiskFileLoader loader;
+  SourceManager sources(loader);
+  DiagnosticEngine diagnostics({.strict = arguments.strict});
+  const auto module = compile_to_ir(frontend_options(arguments), sources, diagnostics);
+  if (diagnostics.has_errors() || !arguments.no_warnings) {
+    std::fputs(render_all(diagnostics, sources).c_str(), stderr);
+  }
+  if (!module) return 1;
+  if (arguments.warnings_as_errors && diagnostics.warning_count() > 0) {
+    return fail("warnings are errors [-WX]");
+  }
+  if (arguments.check_only) return 0;
+  if (!arguments.dependency_file.empty() &&
+      !write_file(arguments.dependency_file, make_rule(arguments.output, sources.loaded_paths()))) {
+    return fail("cannot write " + arguments.dependency_file);
+  }
+  return arguments.emit == Emit::kObject ? write_object(arguments, *module)
+                                         : write_text(arguments, *module);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string error;
+  const auto arguments = parse_arguments({argv + 1, argv + argc}, error);
+  if (!arguments) return fail(error, kBadUsage);
+  if (arguments->help) {
+    std::fputs(help_text(), stdout);
+    return 0;
+  }
+  return compile(*arguments);
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/shader_compiler.h>
+
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/file_loader.h"
+#include "runtime/hlsl/frontend.h"
+#include "runtime/hlsl/host_compiler.h"
+
+namespace rtapi {
+namespace {
+
+using namespace kaamos;
+
+hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
+  hlsl::FrontendOptions out;
+  out.path = options.File;
+  out.text = options.Source;
+  out.include_folders = options.IncludeDirectories;
+  for (const ShaderDefine& define : options.Defines) {
+    out.defines.push_back(define.Name + "=" + define.Value);
+  }
+  out.target = options.Target;
+  if (!options.EntryPoint.empty()) out.entry_point = options.EntryPoint;
+  for (const std::string& name : options.Exports) {
+    out.exports += (out.exports.empty() ? "" : ";") + name;
+  }
+  out.automatic_space = options.AutoBindingSpace.value_or(0);
+  out.hlsl_version = options.HlslVersion == "2018" ? 2018 : 2021;
+  out.row_major = options.RowMajorMatrices;
+  out.strict = options.Strict;
+  return out;
+}
+
+ShaderDiagnosticSeverity severity_of(hlsl::Severity severity) {
+  switch (severity) {
+    case hlsl::Severity::kWarning:
+      return ShaderDiagnosticSeverity::kWarning;
+    case hlsl::Severity::kError:
+      return ShaderDiagnosticSeverity::kError;
+    default:
+      return ShaderDiagnosticSeverity::kNote;
+  }
+}
+
+std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
+                                      const hlsl::SourceManager& sources) {
+  std::vector<ShaderDiagnostic> out;
+  for (const hlsl::Diagnostic& diagnostic : engine.diagnostics()) {
+    const hlsl::ResolvedLocation place = sources.resolve(diagnostic.location);
+    out.push_back({severity_of(diagnostic.severity), hlsl::diagnostic_code(diagnostic.id),
+                   std::string(place.path), place.line, place.column, diagnostic.message,
+                   hlsl::render(diagnostic, sources)});
+  }
+  return out;
+}
+
+Error error(const char* id, ErrorCode code, const std::string& text) {
+  return {id, code, std::string(id) + " " + text};
+}
+
+// Builds the emitted code and loads it.
+void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
+           ShaderCompilation& out) {
+  std::string missing;
+  const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
+  if (!compiler) {
+    out.Status = error("KA2750", ErrorCode::kNotFound, missing);
+    return;
+  }
+  const hlsl::SharedObject object = hlsl::build_shared_object(
+      *compiler, hlsl::emit_cpp(module, {}),
+      options.Debug ? hlsl::Optimisation::kDebug : hlsl::Optimisation::kFull,
+      options.CacheDirectory.empty() ? hlsl::cache_folder() : options.CacheDirectory);
+  if (!object.error.empty()) {
+    out.Status = error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);
+    return;
+  }
+  out.FromCache = object.from_cache;
+  const auto library = LoadShaderLibraryFromFile(object.path.string());
+  if (!library) {
+    out.Status = library.error();
+    return;
+  }
+  out.Library = *library;
+}
+
+}  // namespace
+
+ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
+  hlsl::DiskFileLoader loader;
+  hlsl::SourceManager sources(loader);
+  hlsl::DiagnosticEngine diagnostics({.strict = options.Strict});
+  const auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
+
+  ShaderCompilation out;
+  out.Diagnostics = convert(diagnostics, sources);
+  out.Dependencies = sources.loaded_paths();
+  if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
+    out.Status =
+        error("KA2752", ErrorCode::kInvalidArgument,
+              options.File + " does not compile:\n" + hlsl::render_all(diagnostics, sources));
+    return out;
+  }
+  build(options, *module, out);
+  return out;
+}
+
+}  // namespace rtapi
