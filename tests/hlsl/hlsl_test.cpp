@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+//
+// Every .hlsl file of this folder is a test: it is compiled as a user's would be, runs on a device,
+// and what it wrote to `results` must be what its EXPECT comments say. A batch of files becomes one
+// shared object, because starting the C++ compiler costs more than compiling a small shader.
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <kaamos/shader/abi.h>
+#include <rtapi/rtapi.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "expectations.h"
+#include "fixtures.h"
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/file_loader.h"
+#include "runtime/hlsl/frontend.h"
+#include "runtime/hlsl/host_compiler.h"
+
+namespace kaamos::test {
+namespace {
+
+constexpr size_t kBatch = 16;
+
+const std::vector<HlslTest>& all_tests() {
+  static const std::vector<HlslTest> tests =
+      find_hlsl_tests(std::string(KAAMOS_SOURCE_DIR) + "/tests/hlsl");
+  return tests;
+}
+
+// What became of the files of one batch.
+struct Compiled {
+  const shader::LibraryDesc* library = nullptr;
+  std::string error;
+};
+
+std::string unit_name(size_t index) { return "kaamos_test_unit_" + std::to_string(index); }
+
+hlsl::FrontendOptions options_of(const HlslTest& test) {
+  hlsl::FrontendOptions options;
+  options.path = test.path;
+  options.include_folders = {std::string(KAAMOS_SOURCE_DIR) + "/tests/hlsl"};
+  for (size_t i = 0; i < test.options.size(); ++i) {
+    const std::string& word = test.options[i];
+    const bool last = i + 1 == test.options.size();
+    if (word == "-enable-16bit-types") options.native_16bit = true;
+    if (word == "-Zpr") options.row_major = true;
+    if (word == "-HV" && !last) options.hlsl_version = static_cast<uint32_t>(std::stoul(test.options[++i]));
+    if (word == "-D" && !last) options.defines.push_back(test.options[++i]);
+    if (word == "-T" && !last) options.target = test.options[++i];
+  }
+  return options;
+}
+
+// The emitted C++ of a file; empty with `error` where it does not compile.
+std::string emit(size_t index, std::string& error) {
+  hlsl::DiskFileLoader loader;
+  hlsl::SourceManager sources(loader);
+  hlsl::DiagnosticEngine diagnostics;
+  const auto module = hlsl::compile_to_ir(options_of(all_tests()[index]), sources, diagnostics);
+  if (!module) {
+    error = hlsl::render_all(diagnostics, sources);
+    return {};
+  }
+  return hlsl::emit_cpp(*module, {.entry_point = unit_name(index)});
+}
+
+std::map<size_t, Compiled> compile_batch(size_t batch) {
+  std::map<size_t, Compiled> out;
+  std::string source;
+  const size_t end = std::min(all_tests().size(), (batch + 1) * kBatch);
+  for (size_t i = batch * kBatch; i < end; ++i) {
+    source += emit(i, out[i].error);
+  }
+  std::string error;
+  const auto compiler = hlsl::find_host_compiler(error);
+  hlsl::SharedObject object;
+  if (compiler) {
+    object = hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull,
+                                       std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
+    error = object.error;
+  }
+  void* handle = error.empty() ? dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
+  for (auto& [index, compiled] : out) {
+    if (!compiled.error.empty()) continue;
+    void* entry = handle != nullptr ? dlsym(handle, unit_name(index).c_str()) : nullptr;
+    if (entry == nullptr) {
+      compiled.error = error.empty() ? "the shared object lacks its entry" : error;
+    } else {
+      compiled.library = reinterpret_cast<shader::LibraryEntryPointFn>(entry)();
+    }
+  }
+  return out;
+}
+
+const Compiled& compiled(size_t index) {
+  static std::map<size_t, std::map<size_t, Compiled>> batches;
+  const size_t batch = index / kBatch;
+  if (batches.count(batch) == 0) batches[batch] = compile_batch(batch);
+  return batches[batch][index];
+}
+
+// Empty, or everything that is wrong.
+std::string run(size_t index) {
+  const HlslTest& test = all_tests()[index];
+  if (!test.error.empty()) return test.path + ": " + test.error;
+  const Compiled& code = compiled(index);
+  if (code.library == nullptr) return code.error;
+  std::string error;
+  const std::vector<std::byte> results = run_on_device(*code.library, error);
+  if (!error.empty()) return test.path + ": " + error;
+  std::string wrong;
+  for (const Expectation& expectation : test.expectations) {
+    const std::string difference = compare(expectation, results);
+    if (!difference.empty()) wrong += test.path + ", " + difference + "\n";
+  }
+  return wrong;
+}
+
+class HlslFile : public testing::Test {
+ public:
+  explicit HlslFile(size_t index) : index_(index) {}
+  void TestBody() override { EXPECT_EQ(run(index_), ""); }
+
+ private:
+  size_t index_;
+};
+
+// How many of the features of hlsl-subset's tables work.
+class FeatureReport : public testing::Test {
+ public:
+  void TestBody() override {
+    std::map<std::string, bool> features;
+    for (size_t i = 0; i < all_tests().size(); ++i) {
+      const bool passed = run(i).empty();
+      const auto known = features.emplace(all_tests()[i].feature, passed).first;
+      known->second = known->second && passed;
+    }
+    size_t passed = 0;
+    for (const auto& [feature, works] : features) {
+      passed += works ? 1 : 0;
+      if (!works) std::printf("missing: %s\n", feature.c_str());
+    }
+    std::printf("HLSL features: %zu passed / %zu total\n", passed, features.size());
+    EXPECT_EQ(passed, features.size());
+    EXPECT_GT(features.size(), 0u);
+  }
+};
+
+std::string test_name(const std::string& path) {
+  std::string name = path;
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
+}  // namespace
+}  // namespace kaamos::test
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  using namespace kaamos::test;
+  for (size_t i = 0; i < all_tests().size(); ++i) {
+    testing::RegisterTest("Hlsl", test_name(all_tests()[i].name).c_str(), nullptr, nullptr,
+                          __FILE__, __LINE__, [i]() -> testing::Test* { return new HlslFile(i); });
+  }
+  testing::RegisterTest("HlslReport", "Features", nullptr, nullptr, __FILE__, __LINE__,
+                        []() -> testing::Test* { return new FeatureReport; });
+  return RUN_ALL_TESTS();
+}
