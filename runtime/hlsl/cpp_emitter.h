@@ -126,6 +126,8 @@ class CppEmitter {
   int next_label_ = 0;
 };
 
+// As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".
+const char* scalar_name(ir::Scalar scalar);
 // Quoted for C and C++.
 std::string quote(std::string_view text);
 

@@ -384,7 +384,8 @@ std::string CppEmitter::value(const Expr* e) {
       return "ks::matrix_swizzle<" + component_list(expr.components) + ">(" +
              value(expr.operands[0]) + ")";
     case ExprKind::kConvert:
-      return call("ks::convert<" + type(expr.type) + ">", expr.operands);
+      return call(std::string("ks::convert<") + scalar_name(expr.type->scalar) + ">",
+                  expr.operands);
     case ExprKind::kSplat:
       return call("ks::splat<" + type(expr.type) + ">", expr.operands);
     case ExprKind::kTruncate:

@@ -11,32 +11,6 @@ using namespace ir;
 
 namespace {
 
-const char* scalar_name(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kBool:
-      return "bool";
-    case Scalar::kInt16:
-      return "int16_t";
-    case Scalar::kUint16:
-      return "uint16_t";
-    case Scalar::kInt32:
-      return "int32_t";
-    case Scalar::kUint32:
-      return "uint32_t";
-    case Scalar::kInt64:
-      return "int64_t";
-    case Scalar::kUint64:
-      return "uint64_t";
-    case Scalar::kFloat16:
-      return "ks::half";
-    case Scalar::kFloat32:
-      return "float";
-    case Scalar::kFloat64:
-      return "double";
-  }
-  return "int32_t";
-}
-
 uint32_t scalar_bytes(Scalar scalar) {
   switch (scalar) {
     case Scalar::kBool:
@@ -91,6 +65,32 @@ bool contains_struct(const Type* type) {
 }
 
 }  // namespace
+
+const char* scalar_name(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::kBool:
+      return "bool";
+    case Scalar::kInt16:
+      return "int16_t";
+    case Scalar::kUint16:
+      return "uint16_t";
+    case Scalar::kInt32:
+      return "int32_t";
+    case Scalar::kUint32:
+      return "uint32_t";
+    case Scalar::kInt64:
+      return "int64_t";
+    case Scalar::kUint64:
+      return "uint64_t";
+    case Scalar::kFloat16:
+      return "ks::half";
+    case Scalar::kFloat32:
+      return "float";
+    case Scalar::kFloat64:
+      return "double";
+  }
+  return "int32_t";
+}
 
 std::string CppEmitter::type(const Type* t) {
   switch (t->kind) {
