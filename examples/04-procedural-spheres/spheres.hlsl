@@ -62,7 +62,7 @@ void SphereClosestHit(inout Payload payload, in SphereAttributes attributes) {
   const float3 normal = normalize(mul((float3x3)ObjectToWorld3x4(), attributes.normal));
   const float light = 0.2 + 0.8 * saturate(dot(normal, normalize(float3(-0.5, 0.8, -0.6))));
   const float3 tint = 0.5 + 0.5 * cos(float(PrimitiveIndex()) * 1.7 + float3(0.0, 2.1, 4.2));
-  payload.color = HitKind() == kLeaving ? float3(1, 0, 1) : tint * light;
+  payload.color = HitKind() == kLeaving ? float3(0, 0, 0) : tint * light;
 }
 
 [shader("miss")]

@@ -6,14 +6,14 @@
 
 using namespace rtapi;
 
-// A box with the four triangles of one axis after those of the other.
+// A box with the four triangles of one axis after those of the other, front faces outside.
 static example::Mesh MakeBox(const example::Setup& setup, float x0, float y0, float z0, float x1,
                              float y1, float z1) {
   const std::vector<float> corners = {x0, y0, z0, x1, y0, z0, x0, y1, z0, x1, y1, z0,
                                       x0, y0, z1, x1, y0, z1, x0, y1, z1, x1, y1, z1};
-  return example::CreateMesh(setup, corners, {0, 2, 4, 4, 2, 6, 1, 5, 3, 3, 5, 7,    // x
-                                              0, 4, 1, 1, 4, 5, 2, 3, 6, 6, 3, 7,    // y
-                                              0, 1, 2, 2, 1, 3, 4, 6, 5, 5, 6, 7});  // z
+  return example::CreateMesh(setup, corners, {0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5,    // x
+                                              0, 1, 4, 1, 5, 4, 2, 6, 3, 6, 7, 3,    // y
+                                              0, 2, 1, 2, 3, 1, 4, 5, 6, 6, 5, 7});  // z
 }
 
 static Texture Render(const example::Setup& setup) {

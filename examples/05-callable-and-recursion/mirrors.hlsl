@@ -41,7 +41,7 @@ void RayGen() {
   Payload payload;
   payload.color = float3(0, 0, 0);
   payload.depth = 1;
-  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, ray, payload);
+  TraceRay(scene, RAY_FLAG_CULL_BACK_FACING_TRIANGLES, 0xFF, 0, 1, 0, ray, payload);
   image[pixel] = float4(pow(saturate(payload.color), 1.0 / 2.2), 1.0);
 }
 
@@ -81,7 +81,7 @@ void BoxClosestHit(inout Payload payload, in BuiltInTriangleIntersectionAttribut
     Payload reflected;
     reflected.color = float3(0, 0, 0);
     reflected.depth = payload.depth + 1;
-    TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, ray, reflected);
+    TraceRay(scene, RAY_FLAG_CULL_BACK_FACING_TRIANGLES, 0xFF, 0, 1, 0, ray, reflected);
     color = lerp(color, reflected.color, surface.mirror);
   }
   payload.color = color;

@@ -101,19 +101,26 @@ Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range
                      " is a root descriptor. Bind it through a descriptor table");
   }
   slot.source = SlotSource::kRootDescriptor;
-  slot.kind = KindOf(binding.type);
-  slot.access =
-      binding.register_class == RegisterClass::kUnorderedAccess ? DescriptorAccess::kUnorderedAccess
-      : binding.register_class == RegisterClass::kShaderResource ? DescriptorAccess::kShaderResource
-                                                                 : DescriptorAccess::kOther;
   if (binding.type == BindingType::kStructuredBuffer) slot.stride_bytes = binding.size_bytes;
   if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
   return {};
 }
 
+DescriptorAccess AccessOf(RegisterClass register_class) {
+  switch (register_class) {
+    case RegisterClass::kUnorderedAccess:
+      return DescriptorAccess::kUnorderedAccess;
+    case RegisterClass::kShaderResource:
+      return DescriptorAccess::kShaderResource;
+    default:
+      return DescriptorAccess::kOther;
+  }
+}
+
 Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
                 const RegisterRange& range, const std::string& where, BindingSlot& slot) {
   slot.kind = KindOf(binding.type);
+  slot.access = AccessOf(binding.register_class);
   if (range.static_sampler) {
     if (binding.count != 1) {
       return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
