@@ -48,6 +48,8 @@ struct LinkedRecord {
   const LinkedShader* closest_hit = nullptr;
   const LinkedShader* intersection = nullptr;
   uint32_t local_argument_bytes = 0;
+  // Of the export itself: a hit group without shaders has one too. May be empty.
+  rtapi::RootSignature local_root_signature;
 };
 
 // Bytes 0..3 of an identifier: its index, never 0. The rest makes it unique in the process, so that

@@ -34,7 +34,7 @@ void RayGen() {
   const float2 size = float2(DispatchRaysDimensions().xy);
   const float2 uv = (float2(pixel) + 0.5) / size * 2.0 - 1.0;
   RayDesc ray;
-  ray.Origin = float3(0.5, 1.7, -5.5);
+  ray.Origin = float3(0.53, 1.71, -5.5);
   ray.Direction = normalize(float3(uv.x * size.x / size.y, -uv.y - 0.3, 2.0));
   ray.TMin = 0.0;
   ray.TMax = 1000.0;

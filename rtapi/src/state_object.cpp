@@ -55,12 +55,7 @@ Status StateObject::SetPipelineStackSize(uint64_t bytes) {
 
 RootSignature StateObject::GetLocalRootSignature(std::string_view name) const {
   const auto* record = impl_ ? impl_->FindRecord(name) : nullptr;
-  if (!record) return {};
-  for (const auto* s :
-       {record->shader, record->any_hit, record->closest_hit, record->intersection}) {
-    if (s && s->local_root_signature) return s->local_root_signature;
-  }
-  return {};
+  return record ? record->local_root_signature : RootSignature();
 }
 
 std::vector<std::string> StateObject::GetIdentifiableExports() const {

@@ -289,8 +289,8 @@ class Linker {
       if (!linked.ok()) return linked.error();
       record->shader = *linked;
     }
-    const RootSignature local = SignatureOf(*effective, Category::kLocalRootSignature);
-    record->local_argument_bytes = local.GetArgumentBytes();
+    record->local_root_signature = SignatureOf(*effective, Category::kLocalRootSignature);
+    record->local_argument_bytes = record->local_root_signature.GetArgumentBytes();
     if (!s.identifier) s.identifier = parts_.device->MakeIdentifier(s.name);
     record->identifier = *s.identifier;
     if (record->kind == RecordKind::kRayGeneration) {

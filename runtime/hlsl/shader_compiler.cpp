@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <rtapi/shader_compiler.h>
 
+#include <filesystem>
+
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
@@ -70,7 +72,8 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   const hlsl::SharedObject object = hlsl::build_shared_object(
       *compiler, hlsl::emit_cpp(module, {}),
       options.Debug ? hlsl::Optimisation::kDebug : hlsl::Optimisation::kFull,
-      options.CacheDirectory.empty() ? hlsl::cache_folder() : options.CacheDirectory);
+      options.CacheDirectory.empty() ? hlsl::cache_folder()
+                                     : std::filesystem::path(options.CacheDirectory));
   if (!object.error.empty()) {
     out.Status = error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);
     return;
