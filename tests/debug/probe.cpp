@@ -25,11 +25,14 @@ static int Probe(const char* shader) {
   compiled.Status.value();
 
   const example::Mesh mesh =
-      example::CreateMesh(setup, {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 0, 1}, {}, RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation);
+      example::CreateMesh(setup, {0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 1, 1, 1, 0, 1}, {},
+                          RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation);
   const Buffer bottom_level = example::BuildBottomLevel(setup, {mesh.geometry});
-  const Buffer top_level = example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0, 0)});
+  const Buffer top_level =
+      example::BuildTopLevel(setup, {example::Instance(bottom_level, 0, 0, 0)});
   const Buffer results =
-      device.CreateBuffer({.SizeInBytes = 8, .Flags = ResourceFlags::kAllowUnorderedAccess}).value();
+      device.CreateBuffer({.SizeInBytes = 8, .Flags = ResourceFlags::kAllowUnorderedAccess})
+          .value();
 
   const RootSignature root_signature = device.CreateRootSignature("SRV(t0), UAV(u0)").value();
   StateObjectDesc desc;

@@ -132,10 +132,14 @@ std::string show(ValueKind kind, uint64_t bits) {
 
 }  // namespace
 
-std::vector<HlslTest> find_hlsl_tests(const std::string& folder) {
+std::vector<HlslTest> find_hlsl_tests(const std::string& folder,
+                                      const std::vector<std::string>& parts) {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.path().extension() == ".hlsl") paths.push_back(entry.path());
+  for (const std::string& part : parts) {
+    std::error_code missing;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(folder) / part, missing)) {
+      if (entry.path().extension() == ".hlsl") paths.push_back(entry.path());
+    }
   }
   std::sort(paths.begin(), paths.end());
   std::vector<HlslTest> tests;

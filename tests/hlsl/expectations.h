@@ -25,15 +25,16 @@ struct Expectation {
 
 struct HlslTest {
   std::string path;
-  std::string name;     // "core/swizzles"
-  std::string feature;  // text behind FEATURE or "trap N"
+  std::string name;                  // "core/swizzles"
+  std::string feature;               // text behind FEATURE or "trap N"
   std::vector<std::string> options;  // words behind "// OPTIONS:", as for kaamos-hlsl
   std::vector<Expectation> expectations;
-  std::string error;    // what is wrong with the comments
+  std::string error;  // what is wrong with the comments
 };
 
-// Every .hlsl file below `folder`, in the order of their names.
-std::vector<HlslTest> find_hlsl_tests(const std::string& folder);
+// Every .hlsl file in these parts of `folder`, in the order of their names.
+std::vector<HlslTest> find_hlsl_tests(const std::string& folder,
+                                      const std::vector<std::string>& parts);
 
 // Empty, or what was found and what was expected.
 std::string compare(const Expectation& expectation, const std::vector<std::byte>& results);

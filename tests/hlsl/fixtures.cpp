@@ -19,7 +19,7 @@ struct Fixture {
   CommandQueue queue;
   RootSignatureDesc desc;
   Buffer results;
-  std::vector<Buffer> buffers;               // one per root descriptor, in order
+  std::vector<Buffer> buffers;  // one per root descriptor, in order
   std::vector<std::pair<uint32_t, const shader::BindingDesc*>> tables;  // parameter, binding
   DescriptorHeap heap;
   std::vector<Texture> textures;
@@ -56,12 +56,13 @@ void add_binding(Fixture& f, const shader::BindingDesc& b) {
     f.desc.Parameters.push_back(RootParameter::Cbv(b.register_index, b.space));
     f.buffers.push_back(counting_buffer(f, ResourceFlags::kNone));
   } else if ((b.type == shader::BindingType::kRawBuffer ||
-              b.type == shader::BindingType::kStructuredBuffer) && b.count == 1) {
+              b.type == shader::BindingType::kStructuredBuffer) &&
+             b.count == 1) {
     f.desc.Parameters.push_back(writable ? RootParameter::Uav(b.register_index, b.space)
                                          : RootParameter::Srv(b.register_index, b.space));
     f.buffers.push_back(is_results(b) ? f.results
-                        : writable ? counting_buffer(f, ResourceFlags::kAllowUnorderedAccess)
-                                   : counting_buffer(f, ResourceFlags::kNone));
+                        : writable    ? counting_buffer(f, ResourceFlags::kAllowUnorderedAccess)
+                                      : counting_buffer(f, ResourceFlags::kNone));
   } else {
     DescriptorRange range;
     range.RangeType = writable ? DescriptorRangeType::kUav : DescriptorRangeType::kSrv;
@@ -95,8 +96,8 @@ Texture counting_texture(Fixture& f, Format format, ResourceFlags flags) {
           for (const uint32_t v : {x, y, mip, element}) texels.push_back(static_cast<float>(v));
         }
       }
-      UploadTexture(f.device, f.queue, texture, mip + element * 2,
-                    std::as_bytes(std::span(texels))).value();
+      UploadTexture(f.device, f.queue, texture, mip + element * 2, std::as_bytes(std::span(texels)))
+          .value();
     }
   }
   f.textures.push_back(texture);
@@ -134,8 +135,10 @@ void fill_table(Fixture& f, const shader::BindingDesc& b, uint32_t first, uint32
       view.Format = b.type == shader::BindingType::kTypedBuffer ? Format::kR32Uint
                     : b.type == shader::BindingType::kRawBuffer ? Format::kR32Typeless
                                                                 : Format::kUnknown;
-      view.Buffer.Flags = b.type == shader::BindingType::kRawBuffer ? BufferUavFlags::kRaw : BufferUavFlags::kNone;
-      view.Buffer.StructureByteStride = b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
+      view.Buffer.Flags =
+          b.type == shader::BindingType::kRawBuffer ? BufferUavFlags::kRaw : BufferUavFlags::kNone;
+      view.Buffer.StructureByteStride =
+          b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
       f.device.CreateUnorderedAccessView(buffer, view, handle).value();
     } else {
       ShaderResourceViewDesc view;
@@ -143,8 +146,10 @@ void fill_table(Fixture& f, const shader::BindingDesc& b, uint32_t first, uint32
       view.Format = b.type == shader::BindingType::kTypedBuffer ? Format::kR32Uint
                     : b.type == shader::BindingType::kRawBuffer ? Format::kR32Typeless
                                                                 : Format::kUnknown;
-      view.Buffer.Flags = b.type == shader::BindingType::kRawBuffer ? BufferSrvFlags::kRaw : BufferSrvFlags::kNone;
-      view.Buffer.StructureByteStride = b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
+      view.Buffer.Flags =
+          b.type == shader::BindingType::kRawBuffer ? BufferSrvFlags::kRaw : BufferSrvFlags::kNone;
+      view.Buffer.StructureByteStride =
+          b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
       f.device.CreateShaderResourceView(buffer, view, handle).value();
     }
   }
@@ -155,8 +160,9 @@ void bind(Fixture& f, CommandList& list) {
   constexpr uint32_t kTableSlots = 8;  // of an unbounded array
   if (!f.tables.empty()) {
     f.heap = f.device
-                 .CreateDescriptorHeap({.NumDescriptors = kTableSlots * static_cast<uint32_t>(f.tables.size()),
-                                        .Flags = DescriptorHeapFlags::kShaderVisible})
+                 .CreateDescriptorHeap(
+                     {.NumDescriptors = kTableSlots * static_cast<uint32_t>(f.tables.size()),
+                      .Flags = DescriptorHeapFlags::kShaderVisible})
                  .value();
     list.SetDescriptorHeaps({f.heap});
   }
@@ -168,10 +174,17 @@ void bind(Fixture& f, CommandList& list) {
   for (uint32_t i = 0; i < f.desc.Parameters.size(); ++i) {
     const GpuVirtualAddress address = f.buffers[i].GetGPUVirtualAddress();
     switch (f.desc.Parameters[i].ParameterType) {
-      case RootParameterType::kCbv: list.SetComputeRootConstantBufferView(i, address); break;
-      case RootParameterType::kSrv: list.SetComputeRootShaderResourceView(i, address); break;
-      case RootParameterType::kUav: list.SetComputeRootUnorderedAccessView(i, address); break;
-      default: break;
+      case RootParameterType::kCbv:
+        list.SetComputeRootConstantBufferView(i, address);
+        break;
+      case RootParameterType::kSrv:
+        list.SetComputeRootShaderResourceView(i, address);
+        break;
+      case RootParameterType::kUav:
+        list.SetComputeRootUnorderedAccessView(i, address);
+        break;
+      default:
+        break;
     }
   }
 }

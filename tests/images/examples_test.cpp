@@ -24,7 +24,9 @@ FloatImage floats(const ByteImage& image) {
   return out;
 }
 
-int run(const std::string& command) { return std::system((command + " > /dev/null").c_str()); }
+int run(const std::string& command) {
+  return std::system((command + " > /dev/null").c_str());
+}
 
 class ExamplePicture : public testing::TestWithParam<const char*> {};
 
@@ -47,18 +49,18 @@ TEST_P(ExamplePicture, IsTheOneThatWasLookedAt) {
   EXPECT_GT(difference.value().psnr, 40.0) << picture << ": " << describe(difference.value());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Examples, ExamplePicture,
-    testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks", "03-any-hit-alpha",
-                    "04-procedural-spheres", "05-callable-and-recursion",
-                    "06-local-root-signature", "07-update-and-compaction", "08-compute"),
-    [](const auto& info) {
-      std::string name = info.param;
-      for (char& c : name) {
-        if (c == '-') c = '_';
-      }
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
+                         testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks",
+                                         "03-any-hit-alpha", "04-procedural-spheres",
+                                         "05-callable-and-recursion", "06-local-root-signature",
+                                         "07-update-and-compaction", "08-compute"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           for (char& c : name) {
+                             if (c == '-') c = '_';
+                           }
+                           return name;
+                         });
 
 TEST(ExampleErrors, AWrongOptionIsNamed) {
   const std::string program = std::string(KAAMOS_BINARY_DIR) + "/bin/00-raygen-only";
