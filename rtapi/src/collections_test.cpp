@@ -165,6 +165,19 @@ TEST_F(StateObjectTest, SO_32_CollectionIdentifiersStay) {
   EXPECT_EQ(pipeline.identifiers.find(so->GetShaderIdentifier("Miss")->data()), Linked("Miss"));
 }
 
+TEST_F(StateObjectTest, SO_15_ConfigOfTheStateObjectOverridesItsLibraries) {
+  builder_.Subobject("Config", 0, {}, {4});
+  StateObjectDesc desc = Base();
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).DXILLibrary = builder_.Build();
+  StateObject parent = Make(desc).value();
+  StateObjectDesc addition;
+  addition.Add(StateObjectConfig{kAdditions});
+  EXPECT_OK(device_.AddToStateObject(addition, parent));
+  desc.Add(StateObjectConfig{});
+  parent = Make(desc).value();
+  EXPECT_ERROR(device_.AddToStateObject(addition, parent), "KA0533", "parent lacks");
+}
+
 // --- AddToStateObject ---
 
 class AddToStateObjectTest : public StateObjectTest {

@@ -29,7 +29,7 @@ class Gatherer {
 
   // --- subobjects of the description ---
 
-  Status Gather(const StateObjectConfig&, size_t);
+  Status Gather(const StateObjectConfig&, size_t) { return {}; }  // by GatherConfigs
   Status Gather(const NodeMask& mask, size_t i);
   Status Gather(const GlobalRootSignature& sub, size_t i);
   Status Gather(const LocalRootSignature& sub, size_t i);
@@ -95,7 +95,6 @@ class Gatherer {
 
   const StateObjectDesc& desc_;
   Parts parts_;
-  bool own_flags_ = false;
   std::vector<DefinitionPtr> definitions_;  // by subobject index
   std::vector<std::map<std::string, DefinitionPtr>> library_definitions_;
   std::vector<LibraryAssociation> library_associations_;

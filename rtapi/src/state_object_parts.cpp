@@ -76,9 +76,10 @@ Status Gatherer::GatherConfigs() {
     if (!config) continue;
     if (Status s = TakeFlags(config->Flags, Where(i), flags); !s.ok()) return s;
   }
-  for (const StateSubobject& sub : desc_.Subobjects) {  // API ones override those in libraries
+  const bool declared_here = flags.has_value();  // overrides those in libraries
+  for (const StateSubobject& sub : desc_.Subobjects) {
     const auto* library = std::get_if<DxilLibraryDesc>(&sub);
-    if (!library || !library->DXILLibrary || own_flags_) continue;
+    if (!library || !library->DXILLibrary || declared_here) continue;
     const auto& table = *library->DXILLibrary.impl()->desc;
     for (uint32_t i = 0; i < table.subobject_count; ++i) {
       const auto& s = table.subobjects[i];
@@ -108,11 +109,6 @@ Status Gatherer::TakeFlags(StateObjectFlags value, const std::string& where,
                      Hex(static_cast<uint32_t>(*flags)));
   }
   flags = value;
-  return {};
-}
-
-Status Gatherer::Gather(const StateObjectConfig&, size_t) {
-  own_flags_ = true;
   return {};
 }
 
