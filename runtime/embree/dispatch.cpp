@@ -89,21 +89,43 @@ void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& re
 
 // The one record of the ray generation table: no stride, no index. [DXR: Shader tables]
 ShaderRecord ray_generation_record(const RaytracingPipeline& pipeline,
-                                   const rtapi::GpuVirtualAddressRange& range) {
+                                   const rtapi::GpuVirtualAddressRange& range,
+                                   RecordProblems* problems) {
   const RecordTable table(range.StartAddress, std::max<uint64_t>(range.SizeInBytes, 32), 0,
-                          RecordKind::kRayGeneration, pipeline.lookup());
+                          RecordKind::kRayGeneration, pipeline.lookup(), problems);
   return table.at(0);
 }
 
 RecordTable table_of(const RaytracingPipeline& pipeline,
-                     const rtapi::GpuVirtualAddressRangeAndStride& range, RecordKind kind) {
+                     const rtapi::GpuVirtualAddressRangeAndStride& range, RecordKind kind,
+                     RecordProblems* problems) {
   return RecordTable(range.StartAddress, range.SizeInBytes, range.StrideInBytes, kind,
-                     pipeline.lookup());
+                     pipeline.lookup(), problems);
+}
+
+void warn_of_records(const char* name, const RecordTable& table, const RecordProblems& problems,
+                     const char* label, DispatchResult& result) {
+  const std::string where = std::string(" (") + label + ").";
+  if (const uint64_t index = problems.out_of_bounds; index != RecordProblems::kNone) {
+    result.warnings.push_back(
+        {"KA0895", std::string(name) + " table: record " + std::to_string(index) +
+                       " was reached, the table has " + std::to_string(table.count()) +
+                       ", and nothing ran for it" + where +
+                       " Do SizeInBytes, StrideInBytes and the index terms agree?"});
+  }
+  if (const uint64_t index = problems.unknown; index != RecordProblems::kNone) {
+    result.warnings.push_back(
+        {"KA0896", std::string(name) + " table: record " + std::to_string(index) +
+                       " holds no identifier of that kind of this pipeline, and nothing ran for "
+                       "it" +
+                       where + " Was it written, and with an identifier of this state object?"});
+  }
 }
 
 struct RecordRead {
   const RaytracingPipeline* pipeline;
   const rtapi::GpuVirtualAddressRange* range;
+  RecordProblems* problems;
   ShaderRecord record;
 };
 
@@ -138,7 +160,19 @@ void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch
 DispatchResult end_dispatch(DispatchState& dispatch) {
   DispatchResult result;
   result.counters = dispatch.counters;
-  result.unknown_structure = dispatch.unknown_structure;
+  if (const uint64_t address = dispatch.unknown_structure; address != 0) {
+    result.warnings.push_back(
+        {"KA0894", "rays were traced against address " + std::to_string(address) +
+                       ", where no top level stands, and missed (" + dispatch.label +
+                       "). Was it built, and not overwritten or freed since?"});
+  }
+  const RecordTable one_record;
+  warn_of_records("hit group", dispatch.hit_table, dispatch.hit_problems, dispatch.label, result);
+  warn_of_records("miss", dispatch.miss_table, dispatch.miss_problems, dispatch.label, result);
+  warn_of_records("callable", dispatch.callable_table, dispatch.callable_problems, dispatch.label,
+                  result);
+  warn_of_records("ray generation", one_record, dispatch.ray_generation_problems, dispatch.label,
+                  result);
   if (dispatch.removed) {
     const std::string id = dispatch.removal.message.substr(0, 6);
     result.status =
@@ -162,9 +196,12 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   dispatch.abi.dimensions[0] = desc.Width;
   dispatch.abi.dimensions[1] = desc.Height;
   dispatch.abi.dimensions[2] = desc.Depth;
-  dispatch.hit_table = table_of(pipeline, desc.HitGroupTable, RecordKind::kHitGroup);
-  dispatch.miss_table = table_of(pipeline, desc.MissShaderTable, RecordKind::kMiss);
-  dispatch.callable_table = table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable);
+  dispatch.hit_table =
+      table_of(pipeline, desc.HitGroupTable, RecordKind::kHitGroup, &dispatch.hit_problems);
+  dispatch.miss_table =
+      table_of(pipeline, desc.MissShaderTable, RecordKind::kMiss, &dispatch.miss_problems);
+  dispatch.callable_table = table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable,
+                                     &dispatch.callable_problems);
   dispatch.max_recursion_depth = pipeline.linked().max_recursion_depth;
   dispatch.pipeline_flags = static_cast<uint32_t>(pipeline.linked().flags);
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
@@ -172,12 +209,15 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   dispatch.label = label.c_str();
 
   // The tables may lie anywhere: even the first read of one is guarded.
-  RecordRead read = {&pipeline, &desc.RayGenerationShaderRecord, {&kNothing, nullptr}};
+  RecordRead read = {&pipeline,
+                     &desc.RayGenerationShaderRecord,
+                     &dispatch.ray_generation_problems,
+                     {&kNothing, nullptr}};
   Worker worker;
   worker.dispatch = &dispatch;
   const auto read_record = [](void* argument) {
     auto& r = *static_cast<RecordRead*>(argument);
-    r.record = ray_generation_record(*r.pipeline, *r.range);
+    r.record = ray_generation_record(*r.pipeline, *r.range, r.problems);
   };
   if (!run_guarded(worker, read_record, &read)) record_removal(worker);
   const Grid grid(desc.Width, desc.Height, desc.Depth);

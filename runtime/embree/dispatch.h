@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <rtapi/result.h>
 
@@ -25,7 +26,12 @@ struct DispatchEnvironment {
 struct DispatchResult {
   rtapi::Status status;
   Counters counters;
-  uint64_t unknown_structure = 0;  // rays were traced against it, and missed; 0: none
+  // What ran, or did not, unlike what the application may have meant: id and text.
+  struct Warning {
+    const char* id;
+    std::string text;
+  };
+  std::vector<Warning> warnings;
 };
 
 // Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.

@@ -59,12 +59,7 @@ class Executor {
 
 rtapi::Status Executor::finish(DispatchResult result) {
   device_.add_counters(result.counters);
-  if (result.unknown_structure != 0) {
-    device_.warn("KA0894",
-                 "rays were traced against address " + std::to_string(result.unknown_structure) +
-                     ", where no top level stands, and missed (command " + std::to_string(index_) +
-                     "). Was it built, and not overwritten or freed since?");
-  }
+  for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
   return std::move(result.status);
 }
 

@@ -29,6 +29,7 @@ enum RayFlags : uint32_t {
   kRaySkipTriangles = 0x100,
   kRaySkipProceduralPrimitives = 0x200,
 };
+inline constexpr uint32_t kAllRayFlags = 0x3FF;
 
 inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
@@ -130,7 +131,8 @@ inline void begin_invocation(const RayState& state, const Shader& shader,
   invocation.backend = caller.backend;
   invocation.values.ray = state.arguments->ray;
   invocation.values.t_current = t_current;
-  invocation.values.ray_flags = state.arguments->ray_flags;
+  // The argument of TraceRay, without the pipeline's flags and undefined bits. [DXR: RayFlags]
+  invocation.values.ray_flags = state.arguments->ray_flags & kAllRayFlags;
 }
 
 inline void set_hit_values(const RayState& state, const InstanceNode& instance, uint32_t geometry,

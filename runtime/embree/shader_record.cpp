@@ -22,11 +22,12 @@ bool is_null_identifier(const uint8_t* identifier) {
 const RecordTarget kNothing = {};
 
 RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_bytes,
-                         RecordKind kind, TargetLookup lookup)
+                         RecordKind kind, TargetLookup lookup, RecordProblems* problems)
     : start_(reinterpret_cast<const uint8_t*>(start)),
       stride_bytes_(stride_bytes),
       kind_(kind),
-      lookup_(lookup) {
+      lookup_(lookup),
+      problems_(problems) {
   if (start == 0 || size_bytes < kIdentifierBytes) return;
   count_ = stride_bytes == 0 ? 1 : (size_bytes - kIdentifierBytes) / stride_bytes + 1;
   const uint64_t wanted = std::min(count_, kMaxCachedRecords);
@@ -35,10 +36,21 @@ RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_by
   cached_ = cache_ ? wanted : 0;
 }
 
+ShaderRecord RecordTable::out_of_bounds(uint64_t index) const {
+  if (problems_ != nullptr) problems_->out_of_bounds.store(index, std::memory_order_relaxed);
+  return {&kNothing, nullptr};
+}
+
 ShaderRecord RecordTable::resolve(uint64_t slot, const uint8_t* address) const {
-  const RecordTarget* target = nullptr;
-  if (!is_null_identifier(address)) target = lookup_.find(lookup_.self, address);
-  if (target == nullptr || target->kind != kind_) target = &kNothing;
+  const RecordTarget* target = &kNothing;
+  if (!is_null_identifier(address)) {
+    const RecordTarget* found = lookup_.find(lookup_.self, address);
+    if (found != nullptr && found->kind == kind_) {
+      target = found;
+    } else if (problems_ != nullptr) {
+      problems_->unknown.store(slot, std::memory_order_relaxed);
+    }
+  }
   // Threads that meet here at once store the same value.
   if (slot < cached_) cache_.get()[slot].store(target, std::memory_order_relaxed);
   return {target, address};

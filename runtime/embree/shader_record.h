@@ -51,6 +51,13 @@ struct TargetLookup {
   const void* self = nullptr;
 };
 
+// What was reached in a table and should not have been; any one of each sort is kept.
+struct RecordProblems {
+  static constexpr uint64_t kNone = UINT64_MAX;
+  std::atomic<uint64_t> out_of_bounds = kNone;  // an index past the table
+  std::atomic<uint64_t> unknown = kNone;  // a record whose identifier is none of the table's kind
+};
+
 struct ShaderRecord {
   const RecordTarget* target;  // never null
   const uint8_t* address;      // null where target is kNothing
@@ -64,13 +71,13 @@ class RecordTable {
   RecordTable() = default;
   // start, size_bytes, stride_bytes as in D3D12_GPU_VIRTUAL_ADDRESS_RANGE_AND_STRIDE.
   RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_bytes, RecordKind kind,
-              TargetLookup lookup);
+              TargetLookup lookup, RecordProblems* problems);
 
   // A stride of 0 makes every index the first record [DXR: Shader record stride]; an index past
   // size_bytes runs nothing [DXR: Out of bounds shader table indexing].
   ShaderRecord at(uint64_t index) const {
     const uint64_t slot = stride_bytes_ == 0 ? 0 : index;
-    if (slot >= count_) return {&kNothing, nullptr};
+    if (slot >= count_) return out_of_bounds(index);
     const uint8_t* address = start_ + slot * stride_bytes_;
     if (slot < cached_) {
       const RecordTarget* target = cache_.get()[slot].load(std::memory_order_relaxed);
@@ -89,6 +96,7 @@ class RecordTable {
   };
 
   ShaderRecord resolve(uint64_t slot, const uint8_t* address) const;
+  ShaderRecord out_of_bounds(uint64_t index) const;
 
   const uint8_t* start_ = nullptr;
   uint64_t stride_bytes_ = 0;
@@ -96,6 +104,7 @@ class RecordTable {
   uint64_t cached_ = 0;
   RecordKind kind_ = RecordKind::kNone;
   TargetLookup lookup_;
+  RecordProblems* problems_ = nullptr;
   std::unique_ptr<Cell, Free> cache_;
 };
 

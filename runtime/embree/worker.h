@@ -56,6 +56,10 @@ struct DispatchState {
   RecordTable hit_table;
   RecordTable miss_table;
   RecordTable callable_table;
+  RecordProblems hit_problems;
+  RecordProblems miss_problems;
+  RecordProblems callable_problems;
+  RecordProblems ray_generation_problems;
   uint32_t max_recursion_depth = 0;  // MaxTraceRecursionDepth
   uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]

@@ -21,6 +21,12 @@ GeometryInput transformed(GeometryInput input, std::vector<float> matrix) {
 }
 const std::vector<float> kMirror = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
+TEST(Flg01, UndefinedBitsDoNotReachTheShader) {
+  Harness h;
+  h.use_standard_pipeline();
+  EXPECT_EQ(trace_flags(h, 0, 0xFFFFF3FF).values.ray_flags, 0x3FFu);
+}
+
 TEST(Flg12, OpacityIsGeometryThenInstanceThenRay) {
   Harness h;
   h.use_standard_pipeline(any_hit_accept);

@@ -236,6 +236,12 @@ TEST(Sbt23, AnIndexPastTheTableRunsNothing) {
   ray = ray_along_z(ray.acceleration_structure, 5);
   ray.miss_shader_index = 8;
   EXPECT_EQ(h.trace(ray).end, End::kNothing);
+  ASSERT_EQ(h.messages.size(), 2u);
+  EXPECT_EQ(h.messages[0].Id, "KA0895");
+  EXPECT_NE(h.messages[0].Text.find("record 16777215"), std::string::npos) << h.messages[0].Text;
+  EXPECT_NE(h.messages[1].Text.find("miss table: record 8 was reached, the table has 8"),
+            std::string::npos)
+      << h.messages[1].Text;
   ray.miss_shader_index = 7;
   EXPECT_EQ(h.trace(ray).record, 1007u);
 }
@@ -251,8 +257,11 @@ TEST(Sbt24, GarbageInUnreachedRecordsIsHarmless) {
   h.set_pipeline(builder, rg);
   h.set_hit_table({{garbage, 0}, {hit, 1}, {garbage, 2}});
   EXPECT_EQ(h.trace(ray_along_z(row_of_geometries(h, 1))).record, 1u);
+  EXPECT_TRUE(h.messages.empty());
   // Reached, an unknown identifier runs nothing.
   EXPECT_EQ(h.trace(ray_along_z(row_of_geometries(h, 0))).end, End::kNothing);
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id, "KA0896");
 }
 
 TEST(Sbt26, AllShadersOfAGroupSeeTheSameRecord) {
