@@ -418,6 +418,25 @@ TEST_F(BindingTest, ROOT_15_StaticSamplersOfLocalSignaturesAgree) {
   EXPECT_OK(Make(desc));
 }
 
+TEST_F(BindingTest, ROOT_15_StaticSamplersUpTo2032) {
+  auto link = [&](uint32_t count) {
+    LibraryBuilder b;
+    b.Export("A", Stage::kMiss);
+    RootSignatureDesc many;
+    for (uint32_t i = 0; i < count; ++i) {
+      many.StaticSamplers.push_back({.ShaderRegister = i});
+    }
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{b.Build()});
+    desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+    desc.Add(RaytracingPipelineConfig{});
+    desc.Add(GlobalRootSignature{device_.CreateRootSignature(many).value()});
+    return IdOf(Make(desc));
+  };
+  EXPECT_EQ(link(2032), "ok");
+  EXPECT_EQ(link(2033), "KA0531");
+}
+
 TEST_F(BindingTest, SBT_29_OneFunctionWithTwoLocalSignaturesIsNotAliased) {
   LibraryBuilder b;
   const uint32_t c = b.Binding("c", BindingType::kConstantBuffer, 0, 0, 1, 4);

@@ -194,8 +194,6 @@ constexpr ErrorEntry kTable[] = {
      "ROOT-04"},
     {Id::kNoBackend, ErrorCode::kUnsupported, "no backend", "CreateDevice"},
     {Id::kUnknownBackend, ErrorCode::kNotFound, "unknown backend", "CreateDevice"},
-    {Id::kDeviceRemoved, ErrorCode::kDeviceRemoved, "device removed",
-     "D3D12: GetDeviceRemovedReason"},
     {Id::kForeignObject, ErrorCode::kInvalidArgument, "object of another device", "D3D12: devices"},
     {Id::kNullHandle, ErrorCode::kInvalidArgument, "empty handle", "D3D12: E_INVALIDARG"},
     {Id::kBufferSize, ErrorCode::kInvalidArgument, "buffer size", "D3D12: CreateCommittedResource"},
@@ -210,7 +208,6 @@ constexpr ErrorEntry kTable[] = {
      "kaamos/shader/abi.h"},
     {Id::kMapDefaultHeap, ErrorCode::kInvalidArgument, "default heap cannot be mapped",
      "D3D12: ID3D12Resource::Map"},
-    {Id::kOutOfMemory, ErrorCode::kOutOfMemory, "out of memory", "D3D12: E_OUTOFMEMORY"},
     {Id::kDeviceDesc, ErrorCode::kInvalidArgument, "device description", "CreateDevice"},
 };
 

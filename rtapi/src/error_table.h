@@ -130,7 +130,6 @@ enum class Id : uint16_t {
   // Devices and resources
   kNoBackend = 900,
   kUnknownBackend = 901,
-  kDeviceRemoved = 902,
   kForeignObject = 903,
   kNullHandle = 904,
   kBufferSize = 905,
@@ -140,7 +139,6 @@ enum class Id : uint16_t {
   kTextureFormat = 909,
   kShaderLibrary = 910,
   kMapDefaultHeap = 911,
-  kOutOfMemory = 912,
   kDeviceDesc = 914,
 };
 

@@ -120,6 +120,10 @@ TEST_F(RootSignatureTest, StaticSamplersReachTheBackend) {
   EXPECT_EQ(d.BorderColor[3], 1.0f);
 }
 
+TEST_F(RootSignatureTest, ConstantsHaveValues) {
+  EXPECT_ERROR(Make("RootConstants(num32BitConstants=0, b0)"), "KA0609", "parameter 0");
+}
+
 TEST_F(RootSignatureTest, BadEnumsAreErrors) {
   RootParameter p;
   p.ParameterType = static_cast<RootParameterType>(9);

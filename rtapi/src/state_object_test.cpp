@@ -58,6 +58,15 @@ TEST_F(StateObjectTest, EmptyHandlesAndForeignObjectsAreErrors) {
   EXPECT_ERROR(Device().CreateStateObject({}), "KA0904");
 }
 
+TEST_F(StateObjectTest, SO_02_RefusalsAreInvalidArguments) {
+  StateObjectDesc desc = Base();
+  desc.Add(Triangles("group", "Nope"));
+  auto so = Make(desc);
+  ASSERT_FALSE(so.ok());
+  EXPECT_EQ(so.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_EQ(so.error().id, "KA0518");  // SO-30: a pipeline leaves nothing unresolved
+}
+
 TEST_F(StateObjectTest, SO_03_LibraryTargetIsLib63OrLater) {
   for (const char* target : {"lib_6_2", "lib_5_0", "cs_6_0", "", "lib_"}) {
     LibraryBuilder old("old.hlsl", target);
@@ -322,6 +331,18 @@ TEST_F(StateObjectTest, SO_41_StackSizes) {
   for (const char* name : {"group", "group::anyhit", "group::ClosestHit", "group::intersection",
                            "Hit", "Nope", "", "::", "Miss::closesthit", "group::"}) {
     EXPECT_EQ(so.GetShaderStackSize(name), 0xFFFFFFFFu) << name;
+  }
+}
+
+TEST_F(StateObjectTest, SO_42_StackSizesAreTheSameInEveryPipeline) {
+  StateObjectDesc desc = Base();
+  desc.Add(Triangles("group"));
+  auto one = Make(desc).value();
+  desc.Subobjects[2] = RaytracingPipelineConfig{7};
+  desc.Add(GlobalRootSignature{Global("CBV(b0)")});
+  auto two = Make(desc).value();
+  for (const char* name : {"RayGen", "Miss", "Call", "group::closesthit"}) {
+    EXPECT_EQ(one.GetShaderStackSize(name), two.GetShaderStackSize(name)) << name;
   }
 }
 
