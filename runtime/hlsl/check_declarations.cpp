@@ -449,6 +449,7 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
       }
     }
     before->is_exported = before->is_exported || function->is_exported;
+    function->definition = nullptr;  // it lives on in the one before
     return;
   }
   if (decl->qualifier && owner) {

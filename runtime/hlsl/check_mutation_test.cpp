@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
 #include <random>
 
 #include "check_test_support.h"
+#include "ir_verify.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -64,6 +66,26 @@ TEST(CheckMutation, TheSampleItselfIsAccepted) {
   EXPECT_NE(compilation.module, nullptr) << compilation.messages();
 }
 
+// The modules of all HLSL files that are tests hold to the rules of ir.h.
+TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
+  namespace fs = std::filesystem;
+  size_t count = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(KAAMOS_SOURCE_DIR "/tests/hlsl")) {
+    if (entry.path().extension() != ".hlsl") continue;
+    FrontendOptions options;
+    options.path = entry.path().string();
+    options.native_16bit = options.path.find("16_t") != std::string::npos;
+    DiskFileLoader loader;
+    SourceManager sources(loader);
+    DiagnosticEngine diagnostics;
+    const auto module = compile_to_ir(options, sources, diagnostics);
+    ASSERT_NE(module, nullptr) << render_all(diagnostics, sources);
+    EXPECT_EQ(verify(*module), "") << options.path;
+    ++count;
+  }
+  EXPECT_GT(count, 0u);
+}
+
 TEST(CheckMutation, HurtfulTexts) {
   const std::string texts[] = {
       kernel("int x = " + repeat("(1+", 3000) + "1" + repeat(")", 3000) + ";"),
@@ -116,6 +138,9 @@ TEST(CheckMutation, HurtfulTexts) {
       failed = failed || diagnostic.severity == Severity::kError;
     }
     EXPECT_EQ(failed, compilation.module == nullptr) << text.substr(0, 200);
+    if (compilation.module) {
+      EXPECT_EQ(verify(*compilation.module), "") << text.substr(0, 200);
+    }
   }
 }
 
@@ -165,6 +190,9 @@ TEST(CheckMutation, MutatedSample) {
       failed = failed || diagnostic.severity == Severity::kError;
     }
     EXPECT_EQ(failed, compilation.module == nullptr) << text;
+    if (compilation.module) {
+      EXPECT_EQ(verify(*compilation.module), "") << text;
+    }
     ++runs;
   }
   EXPECT_GT(runs, 20);

@@ -43,8 +43,9 @@ struct VariableInfo {
   const Type* type = nullptr;
   bool is_const = false;
   ir::Variable* variable = nullptr;
-  BindingInfo* binding = nullptr;  // kBufferMember, kBinding
-  uint32_t offset = 0;             // kBufferMember
+  BindingInfo* binding = nullptr;      // kBufferMember, kBinding
+  uint32_t offset = 0;                 // kBufferMember
+  const ir::Expr* constant = nullptr;  // kLocal: a const scalar whose value is known
   // kGlobal: the initialiser is lowered at the first use.
   const VariableDecl* decl = nullptr;
   Scope* scope = nullptr;

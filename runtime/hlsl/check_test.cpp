@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "check_test_support.h"
+#include "ir_verify.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -168,6 +169,36 @@ TEST(Lowering, GlobalsStartPerInvocation) {
   for (const ir::Variable* global : compilation.module->globals) {
     EXPECT_EQ(global->storage == ir::Storage::kConstant, global->name == "kTable") << global->name;
   }
+}
+
+TEST(Lowering, ConstLocalsAreConstants) {
+  const Compilation compilation(
+      kernel("const uint n = 2 + 1;\nuint a[n * 2];\nresults.Store(0, a[n]);"));
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_TRUE(contains(compilation.function("main"), "uint[6] a"));
+}
+
+TEST(Lowering, MethodsDefinedOutside) {
+  const Compilation compilation(kernel("S s = {1}; s.add(2); results.Store(0, s.a);",
+                                       "struct S { uint a; void add(uint x); };\n"
+                                       "void S::add(uint x) { a += x; }"));
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_TRUE(compilation.diagnostics().empty()) << compilation.messages();
+}
+
+TEST(Verifier, FindsBrokenRules) {
+  Compilation compilation(kernel("float x = results.Load(0); results.Store(0, asuint(x * 2));"));
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_EQ(verify(*compilation.module), "");
+  // A float times an integer: what a forgotten conversion would leave.
+  ir::Expr& integer = compilation.module->expr_pool.emplace_back();
+  integer.kind = ir::ExprKind::kLiteral;
+  integer.literal = {2};
+  for (ir::Expr& one : compilation.module->expr_pool) {
+    if (one.kind == ir::ExprKind::kLoad) integer.type = one.type;
+    if (one.kind == ir::ExprKind::kBinary) one.operands[1] = &integer;
+  }
+  EXPECT_NE(verify(*compilation.module), "");
 }
 
 TEST(Bindings, AutomaticRegistersFillGapsByClass) {

@@ -145,6 +145,11 @@ Value Checker::variable_value(VariableInfo* variable, SourceLocation location) {
   if (variable->type->is_error()) return error_value();
   switch (variable->kind) {
     case VariableKind::kLocal:
+      if (variable->constant) {
+        Value value = rvalue(variable->constant, variable->type);
+        value.is_const = true;
+        return value;
+      }
       return place(variable->variable, variable->type, variable->is_const);
     case VariableKind::kGlobal: {
       initialise(variable);

@@ -223,6 +223,10 @@ void Checker::lower_local(const VariableDecl* decl) {
     node->variable = info->variable;
     node->value = value;
     emit(node);
+    // `const uint n = 4; float a[n];`
+    const bool is_known = info->is_const && value && type->ir->kind == ir::TypeKind::kScalar &&
+                          value->kind == ir::ExprKind::kLiteral;
+    if (is_known) info->constant = value;
   }
   add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
 }
