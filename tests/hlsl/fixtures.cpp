@@ -108,6 +108,8 @@ Texture counting_texture(Fixture& f, Format format, ResourceFlags flags) {
 void fill_table(Fixture& f, const shader::BindingDesc& b, uint32_t first, uint32_t count) {
   const bool writable = b.register_class == shader::RegisterClass::kUnorderedAccess;
   const auto flags = writable ? ResourceFlags::kAllowUnorderedAccess : ResourceFlags::kNone;
+  // A null acceleration structure: every ray misses it.
+  if (b.type == shader::BindingType::kAccelerationStructure) return;
   for (uint32_t i = 0; i < count; ++i) {
     const CpuDescriptorHandle handle = f.heap.GetCPUDescriptorHandle(first + i);
     if (b.type == shader::BindingType::kTexture) {
@@ -239,6 +241,8 @@ std::vector<std::byte> run(const shader::LibraryDesc& library_desc) {
   for (uint32_t i = 0; i < library_desc.binding_count; ++i) {
     add_binding(f, library_desc.bindings[i]);
   }
+  f.desc.Flags = RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed |
+                 RootSignatureFlags::kSamplerHeapDirectlyIndexed;
   const RootSignature root = f.device.CreateRootSignature(f.desc).value();
   const ShaderLibrary library = LoadShaderLibrary(&library_desc).value();
   CommandList list = f.device.CreateCommandList().value();

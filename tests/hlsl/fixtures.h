@@ -4,7 +4,8 @@
 //
 // `results` (u0) is 64 KiB of zeros. Every other buffer holds 256 words, word i is i. A texture is
 // 8 x 8, two mips, texel (x, y) of mip m of element e is (x, y, m, e) as floats, or the same as
-// integers. Samplers are point and clamp, comparison samplers LESS.
+// integers. An acceleration structure is null: every ray misses it. Samplers are point and clamp,
+// comparison samplers LESS.
 #pragma once
 
 #include <cstddef>
