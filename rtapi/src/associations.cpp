@@ -3,6 +3,9 @@
 // Second stage: which config and root signature belongs to which export.
 // [DXR: Subobject association behavior]
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "rtapi/src/state_object_impl.h"
 
@@ -10,25 +13,41 @@ namespace rtapi::detail {
 
 namespace {
 
-bool Names(const ExplicitAssociation& association, const Subject& subject) {
-  return std::any_of(association.exports.begin(), association.exports.end(),
-                     [&](const std::string& name) { return subject.answers_to(name); });
+// Explicit associations by the export names they list: a large pipeline has thousands of exports.
+using Index = std::unordered_map<std::string_view, std::vector<const ExplicitAssociation*>>;
+
+Index MakeIndex(const Parts& parts) {
+  Index index;
+  for (const ExplicitAssociation& a : parts.explicit_associations) {
+    for (const std::string& name : a.exports) index[name].push_back(&a);
+  }
+  return index;
+}
+
+std::vector<const ExplicitAssociation*> Find(const Index& index, const Subject& subject) {
+  std::vector<const ExplicitAssociation*> found;
+  for (const std::string* name : {&subject.name, &subject.mangled}) {
+    auto it = index.find(*name);
+    if (name->empty() || it == index.end()) continue;
+    found.insert(found.end(), it->second.begin(), it->second.end());
+  }
+  return found;
 }
 
 // The explicit association of a category with a subject, from one level: the state object itself,
 // or any library in it. Several are fine if they agree.
-Result<DefinitionPtr> FindExplicit(const Parts& parts, const Subject& subject, Category category,
+Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>& candidates,
+                                   const Subject& subject, Category category,
                                    bool in_state_object) {
   const ExplicitAssociation* first = nullptr;
-  for (const ExplicitAssociation& a : parts.explicit_associations) {
-    if (a.definition->category != category || (a.library_scope < 0) != in_state_object) continue;
-    if (!Names(a, subject)) continue;
-    if (first && !SameDefinition(*first->definition, *a.definition)) {
+  for (const ExplicitAssociation* a : candidates) {
+    if (a->definition->category != category || (a->library_scope < 0) != in_state_object) continue;
+    if (first && !SameDefinition(*first->definition, *a->definition)) {
       return MakeError(Id::kAssociationConflict, Quoted(subject.name), " is associated with two ",
                        CategoryName(category), "s: ", first->definition->where, " (by ",
-                       first->where, ") and ", a.definition->where, " (by ", a.where, ")");
+                       first->where, ") and ", a->definition->where, " (by ", a->where, ")");
     }
-    if (!first) first = &a;
+    if (!first) first = a;
   }
   return first ? first->definition : nullptr;
 }
@@ -50,8 +69,10 @@ DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
   return nullptr;
 }
 
-Result<Associated> Resolve(const Parts& parts, const Subject& subject, Category category) {
-  const auto own = FindExplicit(parts, subject, category, true);
+Result<Associated> Resolve(const Parts& parts,
+                           const std::vector<const ExplicitAssociation*>& candidates,
+                           const Subject& subject, Category category) {
+  const auto own = FindExplicit(candidates, subject, category, true);
   if (!own.ok()) return own.error();
   const Associated& given = subject.associations[static_cast<size_t>(category)];
   if (given.definition) {  // by its collection: final
@@ -65,7 +86,7 @@ Result<Associated> Resolve(const Parts& parts, const Subject& subject, Category 
   }
   if (*own) return Associated{*own, Strength::kExplicit};
   if (auto d = FindDefault(parts.own_scope, category)) return Associated{d, Strength::kDefault};
-  const auto in_libraries = FindExplicit(parts, subject, category, false);
+  const auto in_libraries = FindExplicit(candidates, subject, category, false);
   if (!in_libraries.ok()) return in_libraries.error();
   if (*in_libraries) return Associated{*in_libraries, Strength::kExplicit};
   if (subject.library_scope >= 0) {
@@ -106,9 +127,11 @@ Status AssociateAll(Parts& parts) {
   if (!parts.is_collection()) {
     if (Status s = CheckNamesExist(parts); !s.ok()) return s;
   }
+  const Index index = MakeIndex(parts);
   for (const SubjectPtr& subject : parts.subjects) {
+    const auto candidates = Find(index, *subject);
     for (size_t c = 0; c < kCategories; ++c) {
-      auto associated = Resolve(parts, *subject, static_cast<Category>(c));
+      auto associated = Resolve(parts, candidates, *subject, static_cast<Category>(c));
       if (!associated.ok()) return associated.error();
       subject->associations[c] = *associated;
     }

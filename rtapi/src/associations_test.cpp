@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Which config and root signature an export gets, and how resources find their root arguments.
+#include <chrono>
+
 #include "rtapi/testing/state_object_fixture.h"
 
 namespace rtapi::testing {
@@ -277,6 +279,26 @@ TEST_F(AssociationTest, ROOT_08_KindsOfRootSignature) {
   desc = Two();
   desc.Add(GlobalRootSignature{Constants(1)});
   EXPECT_ERROR(Make(desc), "KA0536", "global");
+}
+
+TEST_F(AssociationTest, LargePipelinesLinkQuickly) {
+  LibraryBuilder big("big.hlsl");
+  std::vector<std::string> names;
+  for (int i = 0; i < 3000; ++i) {
+    names.push_back("Miss" + std::to_string(i));
+    big.Export(names.back(), Stage::kMiss);
+  }
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{big.Build()});
+  desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
+  desc.Add(RaytracingPipelineConfig{});
+  for (int i = 0; i < 8; ++i) {  // quadratic work would take minutes
+    desc.Associate(desc.Add(LocalRootSignature{Constants(2)}), names);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_TRUE(Make(desc).ok());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_EQ(LocalBytes("Miss2999"), 8u);
 }
 
 // --- bindings ---

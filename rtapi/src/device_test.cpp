@@ -115,7 +115,7 @@ TEST_F(ResourceTest, BuffersAreMappedAlignedAndZero) {
 TEST_F(ResourceTest, BufferSizes) {
   EXPECT_ERROR(device_.CreateBuffer({.SizeInBytes = 0, .Name = "none"}), "KA0905", "\"none\"");
   EXPECT_ERROR(device_.CreateBuffer({.SizeInBytes = UINT64_MAX}), "KA0905");
-  EXPECT_ERROR(device_.CreateBuffer({.SizeInBytes = uint64_t{1} << 40}), "KA0992");
+  EXPECT_ERROR(device_.CreateBuffer({.SizeInBytes = uint64_t{1} << 40}), "KA0990");
 }
 
 TEST_F(ResourceTest, BufferHeapsFlagsAndStates) {

@@ -153,13 +153,15 @@ Status Gatherer::CheckNames() {
     }
   }
   // A hit group and a shader of one name cannot be told apart.
+  std::map<std::string_view, const Subject*> shaders;
+  for (const SubjectPtr& s : parts_.subjects) {
+    if (!s->hidden && !s->is_group()) shaders.emplace(s->name, s.get());
+  }
   for (const SubjectPtr& s : parts_.subjects) {
     if (s->hidden || !s->is_group()) continue;
-    for (const SubjectPtr& other : parts_.subjects) {
-      if (!other->hidden && !other->is_group() && other->name == s->name) {
-        return MakeError(Id::kExportDuplicate, "hit group ", Quoted(s->name),
-                         " has the name of a shader", Origin(*other));
-      }
+    if (auto it = shaders.find(s->name); it != shaders.end()) {
+      return MakeError(Id::kExportDuplicate, "hit group ", Quoted(s->name),
+                       " has the name of a shader", Origin(*it->second));
     }
   }
   return {};
