@@ -127,6 +127,27 @@ TEST(Compute, AThreadThatEndsBeforeABarrierHoldsNobodyUp) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__)
+// Keeps a frame per call: no tail call, no inlining.
+__attribute__((noinline)) uint32_t deeper(uint32_t depth) {
+  volatile uint8_t frame[512];
+  frame[depth % 512] = static_cast<uint8_t>(depth);
+  return depth == 0xFFFFFFFF ? 0 : deeper(depth + 1) + frame[depth % 512];
+}
+
+TEST(Compute, AFibersStackMayOverflow) {
+  Harness h;
+  Kernel kernel;
+  kernel.compute.thread_group[0] = 4;
+  kernel.compute.thread_group[1] = kernel.compute.thread_group[2] = 1;
+  kernel.compute.thread = [](shader::Invocation&, shader::ComputeGroup&, const uint32_t[3]) {
+    deeper(0);
+  };
+  const uint64_t root = 0;
+  const auto status = kernel.run(h, 1, 1, 1, &root, sizeof(root));
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().id, "KA0891") << status.error().message;
+}
+
 TEST(Compute, AFaultOnAFiberEndsTheGroup) {
   Harness h(2);
   Kernel kernel;

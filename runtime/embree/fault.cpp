@@ -21,8 +21,9 @@ struct sigaction previous_actions[std::size(kSignals)];
 // The guarded run of this thread; null outside of shaders.
 thread_local Worker* guarded_worker = nullptr;
 
-// A fault near the end of the stack is an overflow: the guard page, or what a large frame skipped.
-constexpr uintptr_t kNearStackEnd = 1u << 20;
+// Bytes between the stack pointer and what a frame may reach: an overflow meets the guard page, or
+// what a large frame skipped.
+constexpr uintptr_t kNearStackPointer = 1u << 20;
 
 uintptr_t stack_pointer_of(const void* context) {
   const auto* machine = static_cast<const ucontext_t*>(context);
@@ -58,9 +59,9 @@ void on_signal(int signal_number, siginfo_t* info, void* context) {
   worker->fault_reason = shader::RemovalReason::kFault;
   const uintptr_t stack = stack_pointer_of(context);
   const bool memory_fault = signal_number == SIGSEGV || signal_number == SIGBUS;
-  if (memory_fault && stack < worker->stack_limit + 4096 &&
-      worker->fault_address + kNearStackEnd > stack &&
-      worker->fault_address < stack + kNearStackEnd) {
+  // Around the stack pointer everything is there, unless the stack has ended.
+  if (memory_fault && worker->fault_address + kNearStackPointer > stack &&
+      worker->fault_address < stack + kNearStackPointer) {
     worker->fault_reason = shader::RemovalReason::kStackOverflow;
   }
   siglongjmp(*worker->jump, 1);
