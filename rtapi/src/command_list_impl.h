@@ -39,9 +39,10 @@ struct CommandListImpl {
   runtime::RootArguments& WritableArguments();
   runtime::DispatchState Snapshot();
 
+  // In place: gcc 12 takes the members of a temporary variant for uninitialised at -O3.
   template <class T>
   void Record(T command) {
-    commands->push_back(std::move(command));
+    commands->emplace_back(std::in_place_type<T>, std::move(command));
   }
 };
 
