@@ -21,11 +21,12 @@ Checker::Checker(const CheckOptions& options, const SourceManager& sources,
 void Checker::report_with_notes(CheckId id, SourceLocation location,
                                 const std::vector<std::string>& arguments,
                                 const std::vector<std::pair<SourceLocation, std::string>>& notes) {
-  if (diagnostic_info(id).severity == DiagnosticClass::kError ||
-      (diagnostic_info(id).severity == DiagnosticClass::kStrict && options_.strict)) {
-    ++error_count_;
-  }
+  const bool is_error =
+      diagnostic_info(id).severity == DiagnosticClass::kError ||
+      (diagnostic_info(id).severity == DiagnosticClass::kStrict && options_.strict);
+  if (is_error) ++error_count_;
   if (muted_ > 0) return;
+  has_errors_ = has_errors_ || is_error;
   // An expression that stands for several (a default argument, an initialiser) says it once.
   if (!reported_.insert({static_cast<uint32_t>(id), location.raw, arguments}).second) return;
   std::string_view views[8];

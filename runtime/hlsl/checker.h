@@ -44,7 +44,7 @@ class Checker {
                          const std::vector<std::pair<SourceLocation, std::string>>& notes);
   ir::Location locate(SourceLocation location);
   void at(SourceLocation location) { build_.location = locate(location); }
-  bool has_errors() const { return error_count_ > 0; }
+  bool has_errors() const { return has_errors_; }
 
   // -- Scopes (check_scopes.cpp)
   Scope* make_scope(ScopeKind kind, Scope* parent, std::string_view name = {});
@@ -285,6 +285,7 @@ class Checker {
   void lower_loop(const Expr* condition, const Expr* step, const Stmt* body, bool test_at_end,
                   SourceLocation location);
   void lower_switch(const SwitchStmt* statement);
+  void share_section_variables(ir::Stmt* node);
   void lower_return(const ReturnStmt* statement);
   void lower_discarded(const Expr* expression);
   const ir::Expr* initial_value(const Expr* initialiser, const Type* type);
@@ -320,7 +321,8 @@ class Checker {
   std::unique_ptr<ir::Module> module_;
   TypeTable types_;
   IrBuilder build_;
-  size_t error_count_ = 0;
+  size_t error_count_ = 0;  // those of muted attempts too
+  bool has_errors_ = false;
   int muted_ = 0;  // inside: messages are dropped, since failing is no error
 
   std::deque<Scope> scopes_;

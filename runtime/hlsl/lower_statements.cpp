@@ -5,6 +5,34 @@
 #include "checker.h"
 
 namespace kaamos::hlsl {
+namespace {
+
+bool uses_variable(const ir::Expr* expr, const ir::Variable* variable) {
+  if (!expr) return false;
+  return expr->variable == variable ||
+         std::any_of(expr->operands.begin(), expr->operands.end(),
+                     [&](const ir::Expr* operand) { return uses_variable(operand, variable); });
+}
+
+bool uses_variable(const ir::Block& body, const ir::Variable* variable) {
+  return std::any_of(body.begin(), body.end(), [&](const ir::Stmt* statement) {
+    const auto in_list = [&](const std::vector<const ir::Expr*>& list) {
+      return std::any_of(list.begin(), list.end(),
+                         [&](const ir::Expr* expr) { return uses_variable(expr, variable); });
+    };
+    return statement->result == variable || uses_variable(statement->place, variable) ||
+           uses_variable(statement->value, variable) ||
+           uses_variable(statement->compare, variable) || in_list(statement->operands) ||
+           in_list(statement->arguments) || uses_variable(statement->prelude, variable) ||
+           uses_variable(statement->body, variable) || uses_variable(statement->orelse, variable) ||
+           uses_variable(statement->step, variable) ||
+           std::any_of(
+               statement->cases.begin(), statement->cases.end(),
+               [&](const ir::SwitchCase& one) { return uses_variable(one.body, variable); });
+  });
+}
+
+}  // namespace
 
 // True where the end of the block cannot be reached.
 bool Checker::ends(const ir::Block& body) {
@@ -354,7 +382,30 @@ void Checker::lower_switch(const SwitchStmt* statement) {
   }
   --switch_depth_;
   scope_ = scope;
+  share_section_variables(node);
   emit(node);
+}
+
+// All sections of a switch share one scope: what a later one uses is declared in front.
+void Checker::share_section_variables(ir::Stmt* node) {
+  for (size_t i = 0; i + 1 < node->cases.size(); ++i) {
+    for (const ir::Stmt*& statement : node->cases[i].body) {
+      if (statement->kind != ir::StmtKind::kDeclare || statement->variable->name.empty()) continue;
+      const ir::Variable* variable = statement->variable;
+      const bool is_shared = std::any_of(
+          node->cases.begin() + static_cast<ptrdiff_t>(i) + 1, node->cases.end(),
+          [&](const ir::SwitchCase& later) { return uses_variable(later.body, variable); });
+      if (!is_shared) continue;
+      ir::Stmt* front = build_.stmt(ir::StmtKind::kDeclare);
+      front->variable = variable;
+      emit(front);
+      ir::Stmt* assignment = build_.stmt(ir::StmtKind::kAssign);
+      assignment->location = statement->location;
+      assignment->place = build_.read(variable);
+      assignment->value = statement->value ? statement->value : build_.zero(variable->type);
+      statement = assignment;
+    }
+  }
 }
 
 void Checker::lower_return(const ReturnStmt* statement) {
