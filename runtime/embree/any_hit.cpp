@@ -57,10 +57,9 @@ shader::AnyHitResult run_any_hit(RayState& state, const ShaderRecord& record,
   Worker& worker = *state.worker;
   const Shader& shader = *record.target->any_hit;
   ++worker.counters.any_hit_calls;
-  RayInvocation invocation;
-  begin_invocation(state, shader, record, candidate.t, invocation);
-  set_hit_values(state, *state.instance, candidate.geometry, candidate.primitive,
-                 candidate.hit_kind, invocation.values);
+  RayInvocation invocation(state, shader, record,
+                           hit_values(state, *state.instance, candidate.geometry,
+                                      candidate.primitive, candidate.hit_kind, candidate.t));
   const RunningShader running(worker, shader);
   return shader.as<shader::AnyHitFn>()(invocation, state.payload, candidate.attributes);
 }

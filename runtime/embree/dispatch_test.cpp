@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 
@@ -119,8 +120,12 @@ std::vector<Payload> render(uint32_t threads) {
     rays.push_back(ray);
   }
   auto payloads = h.trace(rays);
-  for (Payload& payload : payloads) {  // addresses differ from run to run
-    payload.values.object_to_world = payload.values.world_to_object = nullptr;
+  for (Payload& payload : payloads) {  // addresses, and bytes between members, differ
+    shader::RaySystemValues& values = payload.values;
+    values.object_to_world = values.world_to_object = nullptr;
+    constexpr size_t kEnd = offsetof(shader::RaySystemValues, primitive_index) + sizeof(uint32_t);
+    constexpr size_t kNext = offsetof(shader::RaySystemValues, object_to_world);
+    std::memset(reinterpret_cast<uint8_t*>(&values) + kEnd, 0, kNext - kEnd);
   }
   return payloads;
 }

@@ -30,16 +30,17 @@ void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t pr
   const Shader& shader = *record.target->intersection;
   ++worker.counters.intersection_calls;
 
-  IntersectionInvocation invocation;
-  invocation.state = &state;
-  invocation.geometry = &geometry;
-  invocation.primitive = primitive;
-  invocation.record = record;
-  invocation.ray = &ray;
-  invocation.hit = hit;
   const bool committed = hit != nullptr && hit->geomID != RTC_INVALID_GEOMETRY_ID;
-  begin_invocation(state, shader, record, committed ? ray.tfar : state.t_max, invocation);
-  set_hit_values(state, *state.instance, geometry.index, primitive, 0, invocation.values);
+  IntersectionInvocation invocation = {
+      RayInvocation(state, shader, record,
+                    hit_values(state, *state.instance, geometry.index, primitive, 0,
+                               committed ? ray.tfar : state.t_max)),
+      &state,
+      &geometry,
+      primitive,
+      record,
+      &ray,
+      hit};
   const RunningShader running(worker, shader);
   shader.as<shader::IntersectionFn>()(invocation);
 }

@@ -66,10 +66,51 @@ inline RayState& ray_state_of(void* context) {
   return *reinterpret_cast<RayState*>(context);
 }
 
-// An invocation of a hit, miss or intersection shader.
+// An invocation of a hit, miss or intersection shader. Every member is given at once: gcc would
+// clear it all first, by a string instruction that costs more than the rest of a miss.
 struct RayInvocation : shader::Invocation {
   shader::RaySystemValues values;
+
+  RayInvocation(const RayState& state, const Shader& shader, const ShaderRecord& record,
+                const shader::RaySystemValues& system_values)
+      : shader::Invocation{state.caller->dispatch,
+                           shader.slots,
+                           record.local_arguments(),
+                           &values,
+                           {state.caller->index[0], state.caller->index[1], state.caller->index[2]},
+                           state.caller->depth + 1,
+                           state.caller->backend},
+        values(system_values) {}
 };
+
+// The argument of TraceRay, without the pipeline's flags and undefined bits. [DXR: RayFlags]
+inline uint32_t reported_ray_flags(const RayState& state) {
+  return state.arguments->ray_flags & kAllRayFlags;
+}
+
+// What miss shaders see.
+inline shader::RaySystemValues ray_values(const RayState& state, float t_current) {
+  return {
+      state.arguments->ray, t_current, reported_ray_flags(state), 0, 0, 0, 0, 0, nullptr, nullptr};
+}
+
+// What shaders of a hit, or of a candidate for one, see.
+inline shader::RaySystemValues hit_values(const RayState& state, const InstanceNode& instance,
+                                          uint32_t geometry, uint32_t primitive, uint32_t hit_kind,
+                                          float t_current) {
+  const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
+  const InstanceDetail& detail = state.top_level->detail(index);
+  return {state.arguments->ray,
+          t_current,
+          reported_ray_flags(state),
+          hit_kind,
+          index,
+          detail.id,
+          geometry,
+          primitive,
+          instance.object_to_world,
+          detail.world_to_object};
+}
 
 // Opacity by the order geometry, instance, ray; each replaces what is before it.
 // [DXR: TraceRay control flow]
@@ -113,39 +154,6 @@ inline float next_above(float t) {
 }
 inline float next_below(float t) {
   return t <= FLT_MIN ? 0.0f : std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1);
-}
-
-// Everything of an invocation but what is a hit's.
-inline void begin_invocation(const RayState& state, const Shader& shader,
-                             const ShaderRecord& record, float t_current,
-                             RayInvocation& invocation) {
-  const shader::Invocation& caller = *state.caller;
-  invocation.dispatch = caller.dispatch;
-  invocation.slots = shader.slots;
-  invocation.local_arguments = record.local_arguments();
-  invocation.ray = &invocation.values;
-  invocation.index[0] = caller.index[0];
-  invocation.index[1] = caller.index[1];
-  invocation.index[2] = caller.index[2];
-  invocation.depth = caller.depth + 1;
-  invocation.backend = caller.backend;
-  invocation.values.ray = state.arguments->ray;
-  invocation.values.t_current = t_current;
-  // The argument of TraceRay, without the pipeline's flags and undefined bits. [DXR: RayFlags]
-  invocation.values.ray_flags = state.arguments->ray_flags & kAllRayFlags;
-}
-
-inline void set_hit_values(const RayState& state, const InstanceNode& instance, uint32_t geometry,
-                           uint32_t primitive, uint32_t hit_kind, shader::RaySystemValues& values) {
-  const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
-  const InstanceDetail& detail = state.top_level->detail(index);
-  values.hit_kind = hit_kind;
-  values.instance_index = index;
-  values.instance_id = detail.id;
-  values.geometry_index = geometry;
-  values.primitive_index = primitive;
-  values.object_to_world = instance.object_to_world;
-  values.world_to_object = detail.world_to_object;
 }
 
 // Takes a shader's share of the pipeline's stack while it runs, and names it for fault messages.

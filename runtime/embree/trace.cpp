@@ -110,10 +110,8 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   const Shader& shader = *record.target->closest_hit;
   ++state.worker->counters.closest_hit_calls;
 
-  RayInvocation invocation;
   // A search that was ended early has lost its t in Embree's ray.
   const float t = state.ended ? state.committed_t : ray_hit.ray.tfar;
-  begin_invocation(state, shader, record, t, invocation);
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
@@ -128,8 +126,9 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
     attributes = barycentrics;
   }
-  set_hit_values(state, instance, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind,
-                 invocation.values);
+  RayInvocation invocation(
+      state, shader, record,
+      hit_values(state, instance, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t));
   const RunningShader running(*state.worker, shader);
   shader.as<shader::ClosestHitFn>()(invocation, state.payload, attributes);
 }
@@ -141,8 +140,7 @@ void run_miss(RayState& state) {
   if (record.target->shader == nullptr) return;
   const Shader& shader = *record.target->shader;
   ++state.worker->counters.miss_calls;
-  RayInvocation invocation;
-  begin_invocation(state, shader, record, state.arguments->ray.t_max, invocation);
+  RayInvocation invocation(state, shader, record, ray_values(state, state.arguments->ray.t_max));
   const RunningShader running(*state.worker, shader);
   shader.as<shader::MissFn>()(invocation, state.payload);
 }

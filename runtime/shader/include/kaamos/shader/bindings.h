@@ -52,30 +52,15 @@ KAAMOS_INLINE Descriptor from_table(const Dispatch& dispatch, const BindingSlot&
   return found != nullptr && matches(*found, slot.kind, slot.access) ? *found : Descriptor{};
 }
 
-inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot, uint32_t index) {
-  if (slot.source == SlotSource::kUnbound) return {};
-  if (slot.source == SlotSource::kStaticSampler) {
-    return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};
-  }
-  const uint8_t* arguments =
-      slot.local ? invocation.local_arguments : invocation.dispatch->root_arguments;
-  if (arguments == nullptr) return {};
-  arguments += slot.argument_offset;
+KAAMOS_INLINE const uint8_t* arguments_of(const Invocation& invocation, const BindingSlot& slot) {
+  return slot.local ? invocation.local_arguments : invocation.dispatch->root_arguments;
+}
 
-  if (slot.source == SlotSource::kDescriptorTable) {
-    return from_table(*invocation.dispatch, slot, arguments, index);
-  }
-  if (index != 0) return {};  // root parameters are no arrays
-  Descriptor result;
-  if (slot.source == SlotSource::kRootConstants) {
-    result.kind = DescriptorKind::kConstantBuffer;
-    result.access = DescriptorAccess::kOther;
-    result.address = reinterpret_cast<uintptr_t>(arguments);
-    result.size_bytes = slot.size_bytes;
-    return result;
-  }
-  const uint64_t address = read_address(arguments);
+KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* arguments) {
+  const uint64_t address =
+      arguments != nullptr ? read_address(arguments + slot.argument_offset) : 0;
   if (address == 0) return {};
+  Descriptor result;
   result.kind = slot.kind;
   result.access = slot.access;
   result.stride_bytes = slot.stride_bytes;
@@ -84,11 +69,36 @@ inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot,
   return result;
 }
 
+inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot, uint32_t index) {
+  if (slot.source == SlotSource::kUnbound) return {};
+  if (slot.source == SlotSource::kStaticSampler) {
+    return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};
+  }
+  const uint8_t* arguments = arguments_of(invocation, slot);
+  if (arguments == nullptr) return {};
+  if (slot.source == SlotSource::kDescriptorTable) {
+    return from_table(*invocation.dispatch, slot, arguments + slot.argument_offset, index);
+  }
+  if (index != 0) return {};  // root parameters are no arrays
+  if (slot.source == SlotSource::kRootDescriptor) return from_root(slot, arguments);
+  Descriptor result;
+  result.kind = DescriptorKind::kConstantBuffer;
+  result.access = DescriptorAccess::kOther;
+  result.address = reinterpret_cast<uintptr_t>(arguments + slot.argument_offset);
+  result.size_bytes = slot.size_bytes;
+  return result;
+}
+
 }  // namespace bindings
 
 // The resource of binding `slot` of the running export; index is 0 unless the binding is an array.
 KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, uint32_t index = 0) {
-  return bindings::resolve(invocation, invocation.slots[slot], index);
+  const BindingSlot& binding = invocation.slots[slot];
+  // In place, because shaders read root descriptors most; the other kinds stay out of the way.
+  if (binding.source == SlotSource::kRootDescriptor && index == 0) {
+    return bindings::from_root(binding, bindings::arguments_of(invocation, binding));
+  }
+  return bindings::resolve(invocation, binding, index);
 }
 
 // ResourceDescriptorHeap[index], SamplerDescriptorHeap[index]

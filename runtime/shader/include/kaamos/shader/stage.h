@@ -9,7 +9,9 @@
 
 namespace kaamos::shader {
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
+// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order. Each half
+// is written by one store of 16 bytes, because the backend loads it so: a load of what several
+// narrower stores wrote waits until they are all in the cache.
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
                       uint32_t ray_flags, uint32_t instance_inclusion_mask,
@@ -26,7 +28,12 @@ inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_str
   arguments.multiplier_for_geometry_contribution = multiplier_for_geometry_contribution & 0xFu;
   arguments.miss_shader_index = miss_shader_index & 0xFFFFu;
   arguments.payload_bytes = sizeof(Payload);
-  __builtin_memcpy(&arguments.ray, &ray, sizeof(Ray));
+  using Lanes [[gnu::vector_size(16)]] = float;
+  const auto& [origin, t_min, direction, t_max] = ray;
+  const Lanes start = {origin[0], origin[1], origin[2], t_min};
+  const Lanes way = {direction[0], direction[1], direction[2], t_max};
+  __builtin_memcpy(&arguments.ray.origin, &start, sizeof(start));
+  __builtin_memcpy(&arguments.ray.direction, &way, sizeof(way));
   invocation.dispatch->services->trace_ray(invocation, arguments, &payload);
 }
 
