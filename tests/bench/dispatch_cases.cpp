@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+//
+// dispatch/...: Mrays/s of DispatchRays against a loop by hand on the same rays, and whether both
+// found the same.
+#include <cmath>
+#include <stdexcept>
+
+#include "fixtures.h"
+
+namespace kaamos::bench {
+namespace {
+
+// Both sides may differ where rounding of the ray transform decides.
+constexpr double kAllowedDifference = 1e-4;
+
+bool is_hit(uint32_t visible) {
+  return visible == 0;
+}
+bool is_hit(const ClosestResult& result) {
+  return result.t >= 0;
+}
+bool is_hit(const ShadedResult& result) {
+  return result.t >= 0;
+}
+
+// Sums that agree when the hits do: distance, and colour.
+double sum_of(uint32_t visible) {
+  return visible;
+}
+double sum_of(const ClosestResult& result) {
+  return result.t;
+}
+double sum_of(const ShadedResult& result) {
+  return double{result.t} + result.color[0] + result.color[1] + result.color[2];
+}
+
+template <typename T>
+void check_same(const std::vector<T>& ours, const std::vector<T>& baseline) {
+  double hits[2] = {0, 0};
+  double sums[2] = {0, 0};
+  for (size_t i = 0; i < ours.size(); ++i) {
+    hits[0] += is_hit(ours[i]) ? 1 : 0;
+    hits[1] += is_hit(baseline[i]) ? 1 : 0;
+    sums[0] += sum_of(ours[i]);
+    sums[1] += sum_of(baseline[i]);
+  }
+  const double rays = static_cast<double>(ours.size());
+  // One ray of a small grid may differ.
+  const double allowed = std::max(kAllowedDifference * rays, 1.0);
+  if (std::fabs(hits[0] - hits[1]) > allowed) {
+    throw std::runtime_error("results differ: " + std::to_string(hits[0]) + " hits, the baseline " +
+                             std::to_string(hits[1]) + ", of " + std::to_string(rays) + " rays");
+  }
+  if (std::fabs(sums[0] - sums[1]) > 1e-3 * std::fabs(sums[1]) + 8 * allowed) {
+    throw std::runtime_error("results differ: the sum over all rays is " + std::to_string(sums[0]) +
+                             ", of the baseline " + std::to_string(sums[1]));
+  }
+}
+
+// Times, turned into rates.
+template <typename T, typename Baseline>
+Line compare(const std::string& name, Fixtures& fixtures, const Measure& measure, DxrScene& scene,
+             Program program, RaySet set, Baseline baseline) {
+  const RayGrid& grid = fixtures.rays(set);
+  DxrDispatch dispatch(scene, program, grid);
+  std::vector<T> expected(grid.rays.size());
+  // Short dispatches are repeated, so that a run takes some tens of milliseconds.
+  const uint64_t rays = grid.rays.size();
+  const int repeats = fixtures.options().quick ? 1 : static_cast<int>(1 + 200000 / rays);
+  const Pairs times = time_pairs(
+      measure,
+      [&] {
+        for (int i = 0; i < repeats; ++i) dispatch.run();
+      },
+      [&] {
+        for (int i = 0; i < repeats; ++i) baseline(grid, expected);
+      });
+  check_same(dispatch.results<T>(), expected);
+  const double mrays = 1e-6 * static_cast<double>(rays) * repeats;
+  return {name, 1 / times.ratio, mrays / times.ours, mrays / times.baseline, "Mrays/s", true};
+}
+
+Case minimal_case(RaySet set) {
+  const std::string name = std::string("dispatch/embree/") + name_of(set);
+  return {name, [=](Fixtures& f, const Measure& measure) {
+            const EmbreeScene& embree = f.embree_scene(false);
+            DxrScene& scene = f.dxr_scene(false);
+            if (is_visibility(set)) {
+              return compare<uint32_t>(
+                  name, f, measure, scene, Program::kVisible, set,
+                  [&](const RayGrid& grid, auto& out) { embree.visible(f.arena(), grid, out); });
+            }
+            return compare<ClosestResult>(
+                name, f, measure, scene, Program::kClosest, set,
+                [&](const RayGrid& grid, auto& out) { embree.closest(f.arena(), grid, out); });
+          }};
+}
+
+Case same_tlas_case(RaySet set) {
+  const std::string name = std::string("dispatch/same-tlas/") + name_of(set);
+  return {name, [=](Fixtures& f, const Measure& measure) {
+            const OwnTopLevel& own = f.own_top_level();
+            DxrScene& scene = f.dxr_scene(false);
+            if (is_visibility(set)) {
+              return compare<uint32_t>(
+                  name, f, measure, scene, Program::kVisible, set,
+                  [&](const RayGrid& grid, auto& out) { own.visible(f.arena(), grid, out); });
+            }
+            return compare<ClosestResult>(
+                name, f, measure, scene, Program::kClosest, set,
+                [&](const RayGrid& grid, auto& out) { own.closest(f.arena(), grid, out); });
+          }};
+}
+
+Line alpha_sun(Fixtures& f, const Measure& measure) {
+  const EmbreeScene& embree = f.embree_scene(true);
+  return compare<uint32_t>(
+      "dispatch/embree/alpha-sun", f, measure, f.dxr_scene(true), Program::kAlphaTested,
+      RaySet::kSun, [&](const RayGrid& grid, auto& out) { embree.visible(f.arena(), grid, out); });
+}
+
+Line shaded(Fixtures& f, const Measure& measure) {
+  const EmbreeScene& embree = f.embree_scene(false);
+  return compare<ShadedResult>(
+      "dispatch/embree/shaded", f, measure, f.dxr_scene(false), Program::kShaded, RaySet::kPrimary,
+      [&](const RayGrid& grid, auto& out) { embree.shaded(f.arena(), grid, out); });
+}
+
+}  // namespace
+
+std::vector<Case> dispatch_cases() {
+  std::vector<Case> cases;
+  for (RaySet set : kRaySets) cases.push_back(minimal_case(set));
+  cases.push_back({"dispatch/embree/alpha-sun", alpha_sun});
+  cases.push_back({"dispatch/embree/shaded", shaded});
+  for (RaySet set : kRaySets) cases.push_back(same_tlas_case(set));
+  return cases;
+}
+
+}  // namespace kaamos::bench

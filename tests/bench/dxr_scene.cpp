@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "dxr_scene.h"
+
+#include <rtapi/upload.h>
+
+#include <span>
+
+namespace kaamos::bench {
+namespace {
+
+using namespace rtapi;
+
+Buffer default_buffer(const Device& device, uint64_t bytes, const char* name) {
+  BufferDesc desc;
+  desc.SizeInBytes = bytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.Name = name;
+  return device.CreateBuffer(desc).value();
+}
+
+Device make_device(uint32_t threads) {
+  DeviceDesc desc;
+  desc.Threads = threads;
+  return CreateDevice(desc).value();
+}
+
+}  // namespace
+
+void build_structure(const Device& device, CommandQueue& queue,
+                     const BuildRaytracingAccelerationStructureInputs& inputs, Buffer& result) {
+  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+  BufferDesc desc;
+  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  desc.Name = "structure";
+  result = device.CreateBuffer(desc).value();
+  const Buffer scratch = default_buffer(
+      device, std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256), "scratch memory");
+  CommandList list = device.CreateCommandList().value();
+  BuildRaytracingAccelerationStructureDesc build;
+  build.Inputs = inputs;
+  build.DestAccelerationStructureData = result.GetGPUVirtualAddress();
+  build.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
+  list.BuildRaytracingAccelerationStructure(build);
+  queue.ExecuteAndWait(list).value();
+}
+
+DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested)
+    : data_(data), device_(make_device(threads)), queue_(device_.CreateCommandQueue().value()) {
+  meshes_.resize(data.meshes.size());
+  for (size_t i = 0; i < meshes_.size(); ++i) build_mesh(data.meshes[i], alpha_tested, meshes_[i]);
+  build_instances();
+  materials_ = CreateUploadBuffer(device_, materials_of(data.scene), "materials").value();
+  upload_images();
+}
+
+void DxrScene::build_mesh(const MeshData& mesh, bool alpha_tested, MeshBuffers& out) {
+  out.vertices = CreateUploadBuffer(device_, *mesh.vertices, "vertices").value();
+  out.indices = CreateUploadBuffer(device_, mesh.indices, "indices").value();
+  std::vector<RaytracingGeometryDesc> geometries;
+  for (const GeometryData& geometry : mesh.geometries) {
+    RaytracingGeometryDesc& desc = geometries.emplace_back();
+    desc.Flags = alpha_tested && geometry.alpha_tested ? RaytracingGeometryFlags::kNone
+                                                       : RaytracingGeometryFlags::kOpaque;
+    desc.Triangles.VertexFormat = Format::kR32G32B32Float;
+    desc.Triangles.IndexFormat = Format::kR32Uint;
+    desc.Triangles.IndexCount = 3 * geometry.triangle_count;
+    desc.Triangles.IndexBuffer =
+        out.indices.GetGPUVirtualAddress() + uint64_t{geometry.first_index} * 4;
+    desc.Triangles.VertexCount = geometry.vertex_count;
+    desc.Triangles.VertexBuffer = {out.vertices.GetGPUVirtualAddress() +
+                                       uint64_t{geometry.first_vertex} * effects::kVertexStride,
+                                   effects::kVertexStride};
+  }
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.NumDescs = static_cast<uint32_t>(geometries.size());
+  inputs.pGeometryDescs = geometries.data();
+  build_structure(device_, queue_, inputs, out.structure);
+}
+
+void DxrScene::build_instances() {
+  std::vector<RaytracingInstanceDesc> instances;
+  for (const InstanceData& instance : data_.instances) {
+    RaytracingInstanceDesc& desc = instances.emplace_back();
+    std::memcpy(desc.Transform, instance.transform.data(), sizeof(desc.Transform));
+    desc.InstanceContributionToHitGroupIndex = data_.meshes[instance.mesh].first_record;
+    desc.AccelerationStructure = meshes_[instance.mesh].structure.GetGPUVirtualAddress();
+  }
+  instances_ = CreateUploadBuffer(device_, instances, "instances").value();
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.NumDescs = static_cast<uint32_t>(instances.size());
+  inputs.InstanceDescs = instances_.GetGPUVirtualAddress();
+  build_structure(device_, queue_, inputs, top_level_);
+}
+
+void DxrScene::upload_images() {
+  DescriptorHeapDesc heap;
+  heap.NumDescriptors = std::max<uint32_t>(1, static_cast<uint32_t>(data_.scene.images.size()));
+  heap.Flags = DescriptorHeapFlags::kShaderVisible;
+  heap_ = device_.CreateDescriptorHeap(heap).value();
+  for (const effects::TextureImage& image : data_.scene.images) {
+    TextureDesc desc;
+    desc.Width = image.width;
+    desc.Height = image.height;
+    desc.Format = image.srgb ? Format::kR8G8B8A8UnormSrgb : Format::kR8G8B8A8Unorm;
+    desc.Name = image.name;
+    images_.push_back(device_.CreateTexture(desc).value());
+    UploadTexture(device_, queue_, images_.back(), 0,
+                  std::as_bytes(std::span<const uint8_t>(image.mips[0])))
+        .value();
+    device_
+        .CreateShaderResourceView(
+            images_.back(), heap_.GetCPUDescriptorHandle(static_cast<uint32_t>(images_.size() - 1)))
+        .value();
+  }
+}
+
+const DxrScene::MeshBuffers& DxrScene::buffers_of(const MeshData& mesh) const {
+  return meshes_[static_cast<size_t>(&mesh - data_.meshes.data())];
+}
+
+GpuVirtualAddress DxrScene::vertices_of(const MeshData& mesh, const GeometryData& geometry) const {
+  return buffers_of(mesh).vertices.GetGPUVirtualAddress() +
+         uint64_t{geometry.first_vertex} * effects::kVertexStride;
+}
+
+GpuVirtualAddress DxrScene::indices_of(const MeshData& mesh, const GeometryData& geometry) const {
+  return buffers_of(mesh).indices.GetGPUVirtualAddress() + uint64_t{geometry.first_index} * 4;
+}
+
+}  // namespace kaamos::bench

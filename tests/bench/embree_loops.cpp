@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "embree_loops.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "effects/scene/texture_image.h"
+#include "tiles.h"
+
+namespace kaamos::bench {
+namespace {
+
+namespace shim = embree::shim;
+
+void begin_ray(const Ray& in, RTCRay& ray) {
+  ray.org_x = in.origin[0];
+  ray.org_y = in.origin[1];
+  ray.org_z = in.origin[2];
+  ray.tnear = in.t_min;
+  ray.dir_x = in.direction[0];
+  ray.dir_y = in.direction[1];
+  ray.dir_z = in.direction[2];
+  ray.time = 0;
+  ray.tfar = in.t_max;
+  ray.mask = 0xFFFFFFFFu;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+void begin_hit(RTCHit& hit) {
+  hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+}
+
+struct Triangle {
+  const effects::Vertex* corners[3];
+
+  Triangle(const MeshData& mesh, const GeometryData& geometry, uint32_t primitive) {
+    const uint32_t* indices = mesh.indices.data() + geometry.first_index + 3 * size_t{primitive};
+    for (int i = 0; i < 3; ++i) {
+      corners[i] = mesh.vertices->data() + geometry.first_vertex + indices[i];
+    }
+  }
+  template <typename T>
+  T interpolate(T effects::Vertex::*member, float u, float v) const {
+    return corners[0]->*member * (1 - u - v) + corners[1]->*member * u + corners[2]->*member * v;
+  }
+};
+
+// Colours of 8 bits to linear.
+const std::array<float, 256>& linear_values(bool srgb) {
+  static const auto table = [](bool decode) {
+    std::array<float, 256> values;
+    for (int i = 0; i < 256; ++i) {
+      const float value = static_cast<float>(i) / 255.0f;
+      values[i] = decode ? effects::linear_from_srgb(value) : value;
+    }
+    return values;
+  };
+  static const std::array<float, 256> kSrgb = table(true);
+  static const std::array<float, 256> kLinear = table(false);
+  return srgb ? kSrgb : kLinear;
+}
+
+// Bilinear, repeated, level 0.
+struct Footprint {
+  const uint8_t* texels[4];
+  float weights[4];
+
+  Footprint(const effects::TextureImage& image, glm::vec2 uv) {
+    const int width = static_cast<int>(image.width);
+    const int height = static_cast<int>(image.height);
+    const float x = (uv.x - std::floor(uv.x)) * static_cast<float>(width) - 0.5f;
+    const float y = (uv.y - std::floor(uv.y)) * static_cast<float>(height) - 0.5f;
+    const float left = std::floor(x);
+    const float top = std::floor(y);
+    const float a = x - left;
+    const float b = y - top;
+    const int x0 = static_cast<int>(left);
+    const int y0 = static_cast<int>(top);
+    const int columns[2] = {x0 < 0 ? width - 1 : x0, x0 + 1 >= width ? 0 : x0 + 1};
+    const int rows[2] = {y0 < 0 ? height - 1 : y0, y0 + 1 >= height ? 0 : y0 + 1};
+    for (int i = 0; i < 4; ++i) {
+      texels[i] = image.mips[0].data() + 4 * (size_t(rows[i / 2]) * width + columns[i % 2]);
+      weights[i] = (i % 2 != 0 ? a : 1 - a) * (i / 2 != 0 ? b : 1 - b);
+    }
+  }
+};
+
+glm::vec3 sample_color(const effects::TextureImage& image, glm::vec2 uv) {
+  const Footprint at(image, uv);
+  const std::array<float, 256>& linear = linear_values(image.srgb);
+  glm::vec3 sum(0);
+  for (int i = 0; i < 4; ++i) {
+    const uint8_t* t = at.texels[i];
+    sum += at.weights[i] * glm::vec3(linear[t[0]], linear[t[1]], linear[t[2]]);
+  }
+  return sum;
+}
+
+float sample_alpha(const effects::TextureImage& image, glm::vec2 uv) {
+  const Footprint at(image, uv);
+  float sum = 0;
+  for (int i = 0; i < 4; ++i) sum += at.weights[i] * static_cast<float>(at.texels[i][3]);
+  return sum / 255.0f;
+}
+
+void alpha_filter(const RTCFilterFunctionNArguments* arguments) {
+  const auto& use = *static_cast<const EmbreeScene::GeometryUse*>(arguments->geometryUserPtr);
+  const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+  if (use.scene->is_open(use, hit.primID, hit.u, hit.v)) arguments->valid[0] = 0;
+}
+
+}  // namespace
+
+RTCDevice new_embree_device() {
+  return rtcNewDevice("frequency_level=simd256");
+}
+
+RTCGeometry new_triangles(RTCDevice device, const MeshData& mesh, const GeometryData& geometry) {
+  RTCGeometry out = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      out, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, geometry.vertex_count));
+  auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+      out, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, geometry.triangle_count));
+  const effects::Vertex* source = mesh.vertices->data() + geometry.first_vertex;
+  for (uint32_t i = 0; i < geometry.vertex_count; ++i) {
+    std::memcpy(vertices + 3 * size_t{i}, &source[i].position, 12);
+  }
+  std::memcpy(indices, mesh.indices.data() + geometry.first_index,
+              size_t{geometry.triangle_count} * 12);
+  return out;
+}
+
+EmbreeScene::EmbreeScene(const SceneData& data, bool alpha_tested)
+    : data_(data), materials_(materials_of(data.scene)), device_(new_embree_device()) {
+  std::vector<RTCScene> meshes;
+  for (const MeshData& mesh : data.meshes) meshes.push_back(build_mesh(mesh, alpha_tested));
+  scene_ = rtcNewScene(device_);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+  for (size_t i = 0; i < data.instances.size(); ++i) {
+    RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, meshes[data.instances[i].mesh]);
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR,
+                            data.instances[i].transform.data());
+    rtcSetGeometryMask(instance, 0xFFFFFFFFu);
+    rtcCommitGeometry(instance);
+    rtcAttachGeometryByID(scene_, instance, static_cast<uint32_t>(i));
+    rtcReleaseGeometry(instance);
+  }
+  rtcCommitScene(scene_);
+  for (RTCScene mesh : meshes) rtcReleaseScene(mesh);
+}
+
+EmbreeScene::~EmbreeScene() {
+  rtcReleaseScene(scene_);
+  rtcReleaseDevice(device_);
+}
+
+RTCScene EmbreeScene::build_mesh(const MeshData& mesh, bool alpha_tested) {
+  RTCScene scene = rtcNewScene(device_);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  for (size_t i = 0; i < mesh.geometries.size(); ++i) {
+    const GeometryData& geometry = mesh.geometries[i];
+    RTCGeometry triangles = new_triangles(device_, mesh, geometry);
+    if (alpha_tested && geometry.alpha_tested) {
+      uses_.push_back(std::make_unique<GeometryUse>(GeometryUse{this, &mesh, &geometry}));
+      rtcSetGeometryUserData(triangles, uses_.back().get());
+      rtcSetGeometryIntersectFilterFunction(triangles, alpha_filter);
+      rtcSetGeometryOccludedFilterFunction(triangles, alpha_filter);
+    }
+    rtcSetGeometryMask(triangles, 0xFFFFFFFFu);
+    rtcCommitGeometry(triangles);
+    rtcAttachGeometryByID(scene, triangles, static_cast<uint32_t>(i));
+    rtcReleaseGeometry(triangles);
+  }
+  rtcCommitScene(scene);
+  return scene;
+}
+
+bool EmbreeScene::is_open(const GeometryUse& use, uint32_t primitive, float u, float v) const {
+  const MaterialData& material = materials_[use.geometry->material];
+  float alpha = material.base_color[3];
+  if (material.image >= 0) {
+    const Triangle triangle(*use.mesh, *use.geometry, primitive);
+    alpha *= sample_alpha(data_.scene.images[material.image],
+                          triangle.interpolate(&effects::Vertex::uv, u, v));
+  }
+  return alpha < material.alpha_cutoff;
+}
+
+std::vector<SurfacePoint> EmbreeScene::surface_points(const RayGrid& primary) const {
+  std::vector<SurfacePoint> points;
+  SurfacePoint point = {{0, 1, 0}, {0, 1, 0}, {0, -1, 0}};
+  shim::QueryContext query;
+  shim::init(query);
+  for (const Ray& ray : primary.rays) {
+    RTCRayHit hit;
+    begin_ray(ray, hit.ray);
+    begin_hit(hit.hit);
+    shim::intersect(scene_, query, &hit);
+    if (hit.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+      const InstanceData& instance = data_.instances[hit.hit.instID[0]];
+      const float* m = instance.transform.data();
+      const glm::mat3 rows(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+      const glm::vec3 view(ray.direction[0], ray.direction[1], ray.direction[2]);
+      glm::vec3 normal =
+          glm::normalize(glm::inverse(rows) * glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
+      if (glm::dot(normal, view) > 0) normal = -normal;
+      const glm::vec3 position = glm::vec3(ray.origin[0], ray.origin[1], ray.origin[2]) +
+                                 hit.ray.tfar * view + 1e-3f * normal;
+      std::memcpy(point.position, &position, 12);
+      std::memcpy(point.normal, &normal, 12);
+      std::memcpy(point.view, &view, 12);
+    }
+    points.push_back(point);
+  }
+  return points;
+}
+
+void EmbreeScene::closest(tbb::task_arena& arena, const RayGrid& grid,
+                          std::vector<ClosestResult>& results) const {
+  for_each_cell(arena, grid.width, grid.height, [&] {
+    shim::QueryContext query;
+    shim::init(query);
+    return [this, &grid, &results, query](uint32_t index) mutable {
+      RTCRayHit hit;
+      begin_ray(grid.rays[index], hit.ray);
+      begin_hit(hit.hit);
+      shim::intersect(scene_, query, &hit);
+      const bool missed = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID;
+      results[index] = {missed ? -1.0f : hit.ray.tfar, missed ? ~0u : hit.hit.primID};
+    };
+  });
+}
+
+void EmbreeScene::visible(tbb::task_arena& arena, const RayGrid& grid,
+                          std::vector<uint32_t>& results) const {
+  for_each_cell(arena, grid.width, grid.height, [&] {
+    shim::QueryContext query;
+    shim::init(query);
+    return [this, &grid, &results, query](uint32_t index) mutable {
+      RTCRay ray;
+      begin_ray(grid.rays[index], ray);
+      shim::occluded(scene_, query, &ray);
+      results[index] = ray.tfar >= 0 ? 1 : 0;
+    };
+  });
+}
+
+void EmbreeScene::shade(const RTCRayHit& hit, ShadedResult& result) const {
+  const InstanceData& instance = data_.instances[hit.hit.instID[0]];
+  const MeshData& mesh = data_.meshes[instance.mesh];
+  const GeometryData& geometry = mesh.geometries[hit.hit.geomID];
+  const MaterialData& material = materials_[geometry.material];
+  const Triangle triangle(mesh, geometry, hit.hit.primID);
+  glm::vec3 color(material.base_color[0], material.base_color[1], material.base_color[2]);
+  if (material.image >= 0) {
+    color *= sample_color(data_.scene.images[material.image],
+                          triangle.interpolate(&effects::Vertex::uv, hit.hit.u, hit.hit.v));
+  }
+  const glm::vec3 local = triangle.interpolate(&effects::Vertex::normal, hit.hit.u, hit.hit.v);
+  const float* m = instance.transform.data();
+  const glm::vec3 normal =
+      glm::normalize(glm::vec3(m[0] * local.x + m[1] * local.y + m[2] * local.z,
+                               m[4] * local.x + m[5] * local.y + m[6] * local.z,
+                               m[8] * local.x + m[9] * local.y + m[10] * local.z));
+  result = {
+      {color.x, color.y, color.z}, hit.ray.tfar, {normal.x, normal.y, normal.z}, geometry.material};
+}
+
+void EmbreeScene::shaded(tbb::task_arena& arena, const RayGrid& grid,
+                         std::vector<ShadedResult>& results) const {
+  for_each_cell(arena, grid.width, grid.height, [&] {
+    shim::QueryContext query;
+    shim::init(query);
+    return [this, &grid, &results, query](uint32_t index) mutable {
+      RTCRayHit hit;
+      begin_ray(grid.rays[index], hit.ray);
+      begin_hit(hit.hit);
+      shim::intersect(scene_, query, &hit);
+      if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+        results[index] = {{0, 0, 0}, -1, {0, 0, 0}, ~0u};
+      } else {
+        shade(hit, results[index]);
+      }
+    };
+  });
+}
+
+}  // namespace kaamos::bench

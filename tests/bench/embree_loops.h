@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+//
+// The baselines: what somebody would write by hand on Embree for the same rays. Robust scenes,
+// Embree's own instances, 16 x 16 tiles on oneTBB, denormals flushed, one ray per call.
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "runtime/embree/embree_shim.h"
+#include "scene_data.h"
+
+namespace kaamos::bench {
+
+// What the shaders write; the layouts are bench.hlsl's. A miss has t = -1.
+struct ClosestResult {
+  float t;
+  uint32_t primitive;
+};
+struct ShadedResult {
+  float color[3];
+  float t;
+  float normal[3];
+  uint32_t material;
+};
+static_assert(sizeof(ShadedResult) == 32);
+
+// A grid of rays, row by row.
+struct RayGrid {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<Ray> rays;
+};
+
+// As the Embree backend starts it.
+RTCDevice new_embree_device();
+
+// A geometry with its own copies of a geometry's buffers, not committed.
+RTCGeometry new_triangles(RTCDevice device, const MeshData& mesh, const GeometryData& geometry);
+
+class EmbreeScene {
+ public:
+  // `alpha_tested`: plants get a filter that tests their texture; else everything is opaque.
+  EmbreeScene(const SceneData& data, bool alpha_tested);
+  ~EmbreeScene();
+  EmbreeScene(const EmbreeScene&) = delete;
+  EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  // The camera's hits; rays that miss get the point of the ray before.
+  std::vector<SurfacePoint> surface_points(const RayGrid& primary) const;
+
+  void closest(tbb::task_arena& arena, const RayGrid& grid,
+               std::vector<ClosestResult>& results) const;
+  // 1 where nothing is hit. Through the filters, if there are any.
+  void visible(tbb::task_arena& arena, const RayGrid& grid, std::vector<uint32_t>& results) const;
+  void shaded(tbb::task_arena& arena, const RayGrid& grid,
+              std::vector<ShadedResult>& results) const;
+
+  // For the filter.
+  struct GeometryUse {
+    const EmbreeScene* scene;
+    const MeshData* mesh;
+    const GeometryData* geometry;
+  };
+  bool is_open(const GeometryUse& use, uint32_t primitive, float u, float v) const;
+
+ private:
+  RTCScene build_mesh(const MeshData& mesh, bool alpha_tested);
+  void shade(const RTCRayHit& hit, ShadedResult& result) const;
+
+  const SceneData& data_;
+  std::vector<MaterialData> materials_;
+  std::vector<std::unique_ptr<GeometryUse>> uses_;
+  RTCDevice device_ = nullptr;
+  RTCScene scene_ = nullptr;
+};
+
+}  // namespace kaamos::bench

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "fixtures.h"
+
+namespace kaamos::bench {
+
+Fixtures::Fixtures(const Options& options)
+    : options_(options), arena_(static_cast<int>(options.threads)) {}
+
+const SceneData& Fixtures::scene() {
+  if (!scene_) scene_ = make_scene_data();
+  return *scene_;
+}
+
+const RayGrid& Fixtures::rays(RaySet set) {
+  RayGrid& grid = rays_[static_cast<int>(set)];
+  if (!grid.rays.empty()) return grid;
+  grid.width = options_.width;
+  grid.height = options_.height;
+  if (set == RaySet::kPrimary) {
+    grid.rays = primary_rays(scene().scene, grid.width, grid.height);
+    return grid;
+  }
+  if (points_.empty()) points_ = embree_scene(false).surface_points(rays(RaySet::kPrimary));
+  grid.rays = secondary_rays(scene().scene, points_, set);
+  return grid;
+}
+
+const EmbreeScene& Fixtures::embree_scene(bool alpha_tested) {
+  auto& made = embree_[alpha_tested ? 1 : 0];
+  if (!made) made = std::make_unique<EmbreeScene>(scene(), alpha_tested);
+  return *made;
+}
+
+DxrScene& Fixtures::dxr_scene(bool alpha_tested) {
+  auto& made = dxr_[alpha_tested ? 1 : 0];
+  if (!made) made = std::make_unique<DxrScene>(scene(), threads(), alpha_tested);
+  return *made;
+}
+
+const OwnTopLevel& Fixtures::own_top_level() {
+  if (!own_) own_ = std::make_unique<OwnTopLevel>(scene());
+  return *own_;
+}
+
+}  // namespace kaamos::bench

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// The list of cases, and the program around it: arguments, progress, output.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "measure.h"
+
+namespace kaamos::bench {
+
+struct Options {
+  bool summary = false;
+  bool list = false;
+  bool help = false;
+  std::string only;  // prefix of the names; empty: all
+  int pairs = 9;
+  Clock clock = Clock::kWall;
+  uint32_t threads = 0;  // 0: as many as the machine has
+  uint32_t width = 640;  // rays of a dispatch
+  uint32_t height = 360;
+  bool quick = false;  // small inputs: shows that it works, measures nothing
+};
+
+// One line of the output. `ours` and `baseline` are in `unit`; `value` is what counts: a ratio for
+// most, for others the figure itself (then it equals `ours`).
+struct Line {
+  std::string name;
+  double value = 0;
+  double ours = 0;
+  double baseline = 0;
+  std::string unit;
+  bool higher_is_better = true;
+};
+
+// name, value, ours, baseline, unit, higher or lower, between tabs; without the line's end.
+std::string format_line(const Line& line);
+
+// What the cases share and only some of them need; made on first use.
+class Fixtures;
+
+struct Case {
+  std::string name;
+  // Throws std::runtime_error, with a message for people.
+  std::function<Line(Fixtures&, const Measure&)> run;
+};
+
+std::vector<Case> dispatch_cases();  // dispatch_cases.cpp
+std::vector<Case> build_cases();     // build_cases.cpp
+std::vector<Case> hlsl_cases();      // hlsl_cases.cpp
+
+// Empty: `error` says which argument is wrong and what it may be. `arguments` without the program.
+bool parse_arguments(const std::vector<std::string>& arguments, Options& options,
+                     std::string& error);
+
+// The whole program; returns its exit status: 0, 1 where a case failed, 2 for wrong arguments.
+int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& errors,
+                bool errors_are_terminal);
+
+}  // namespace kaamos::bench
