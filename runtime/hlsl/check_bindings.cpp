@@ -233,6 +233,11 @@ void Checker::assign_automatic(BindingInfo* binding) {
 
 void Checker::assign_registers() {
   std::set<const BindingInfo*> automatic;
+  // DXC makes $Globals before any other constant buffer.
+  if (globals_buffer_ && globals_buffer_->reachable) {
+    assign_automatic(globals_buffer_);
+    automatic.insert(globals_buffer_);
+  }
   for (const bool unbounded : {false, true}) {
     for (BindingInfo& binding : bindings_) {
       if (!binding.reachable || binding.has_register) continue;

@@ -219,6 +219,15 @@ TEST(Bindings, AutomaticRegistersFillGapsByClass) {
   EXPECT_FALSE(binding(good, "b")->automatic);
 }
 
+TEST(Bindings, GlobalsComeFirst) {
+  const Compilation compilation(kernel("results.Store(0, a + b + c);",
+                                       "cbuffer A { uint a; };\nuint b;\n"
+                                       "cbuffer C : register(b0) { uint c; };"));
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_EQ(binding(compilation, "$Globals")->register_index, 1u);
+  EXPECT_EQ(binding(compilation, "A")->register_index, 2u);
+}
+
 TEST(Bindings, AutomaticSpace) {
   FrontendOptions options;
   options.automatic_space = 7;
