@@ -35,7 +35,9 @@ struct CheckOptions {
   uint32_t automatic_space = 0;  // of bindings without a register. [-auto-binding-space]
   bool native_16bit = false;     // [-enable-16bit-types]
   bool row_major = false;        // [-Zpr]
-  bool strict = false;           // older habits are errors
+  // Before 2021, logic and ?: work on vectors and evaluate both sides always. [-HV]
+  uint32_t hlsl_version = 2021;
+  bool strict = false;  // older habits are errors
 };
 
 // Null where there was an error; it stands in the engine.

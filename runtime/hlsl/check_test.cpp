@@ -114,6 +114,19 @@ TEST(Lowering, ShortCircuitKeepsCallsBehindTheTest) {
   EXPECT_LT(test, text.find("= f()")) << text;
 }
 
+TEST(Lowering, BothSidesBefore2021) {
+  FrontendOptions options;
+  options.hlsl_version = 2018;
+  const Compilation compilation(
+      kernel("bool b = results.Load(0) > 0 && f();\nbool2 v = b && bool2(true, false);\n"
+             "results.Store(0, b ? f() : v.y);",
+             "bool f() { return true; }"),
+      options);
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_TRUE(compilation.diagnostics().empty()) << compilation.messages();
+  EXPECT_FALSE(contains(compilation.function("main"), "if ")) << compilation.function("main");
+}
+
 TEST(Lowering, AliasedInoutGetsACopy) {
   const Compilation compilation(kernel("int x = 1;\nf(x, x);\nresults.Store(0, x);",
                                        "void f(inout int a, inout int b) { a += 1; b += 2; }"));

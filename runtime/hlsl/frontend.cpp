@@ -87,6 +87,7 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   check_options.automatic_space = options.automatic_space;
   check_options.native_16bit = options.native_16bit;
   check_options.row_major = options.row_major;
+  check_options.hlsl_version = options.hlsl_version;
   check_options.strict = options.strict;
   return check(*unit, check_options, sources, diagnostics);
 }

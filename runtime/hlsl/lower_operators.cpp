@@ -281,7 +281,9 @@ Value Checker::lower_logical(const BinaryExpr* expr) {
     return value.type && (value.type->is_scalar() || value.type->is_enum());
   };
   if (!is_single(left) || !is_single(right)) {
-    if (left.type && right.type && left.type->is_numeric() && right.type->is_numeric()) {
+    const bool vectors =
+        left.type && right.type && left.type->is_numeric() && right.type->is_numeric();
+    if (vectors && options_.hlsl_version >= 2021) {
       report(CheckId::kVectorLogic, expr->location, {is_and ? "&&" : "||", is_and ? "and" : "or"});
     }
     if (effects_ != effects) {
@@ -306,6 +308,12 @@ Value Checker::lower_logical(const BinaryExpr* expr) {
     }
     return rvalue(build_.expr(is_and ? ir::ExprKind::kLogicalAnd : ir::ExprKind::kLogicalOr,
                               boolean->ir, {a, b}),
+                  boolean);
+  }
+  if (options_.hlsl_version < 2021) {
+    const ir::Expr* first = build_.read(temporary(a));
+    block().insert(block().end(), right_block.begin(), right_block.end());
+    return rvalue(build_.binary(is_and ? ir::BinaryOp::kBitAnd : ir::BinaryOp::kBitOr, first, b),
                   boolean);
   }
   const ir::Variable* result = temporary(a);
@@ -433,6 +441,13 @@ Value Checker::lower_conditional(const ConditionalExpr* expr) {
     if (blocks[0].empty() && blocks[1].empty()) {
       return rvalue(build_.conditional(chosen, values[0], values[1]), type);
     }
+    if (options_.hlsl_version < 2021) {
+      const ir::Expr* test = build_.read(temporary(chosen));
+      block().insert(block().end(), blocks[0].begin(), blocks[0].end());
+      const ir::Expr* first = build_.read(temporary(values[0]));
+      block().insert(block().end(), blocks[1].begin(), blocks[1].end());
+      return rvalue(build_.conditional(test, first, values[1]), type);
+    }
     const ir::Variable* result = empty_temporary(type->ir);
     ir::Stmt* branch = build_.stmt(ir::StmtKind::kIf);
     branch->value = chosen;
@@ -447,7 +462,9 @@ Value Checker::lower_conditional(const ConditionalExpr* expr) {
     return rvalue(build_.read(result), type);
   }
   // A vector condition chooses component by component and evaluates both sides.
-  report(CheckId::kVectorLogic, expr->location, {"?:", "select"});
+  if (options_.hlsl_version >= 2021) {
+    report(CheckId::kVectorLogic, expr->location, {"?:", "select"});
+  }
   if (effects_ != effects) {
     size_t at_position = position;
     if (const ir::Expr* value = load(condition)) {
