@@ -138,7 +138,7 @@ void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
   };
   const auto shared = std::make_unique<Word[]>(shared_words);
   Worker worker;
-  worker.dispatch = job.dispatch;
+  begin_worker(*job.dispatch, worker);
   worker.running = &job.pipeline->shader();
   for (uint64_t i = begin; i < end && !job.dispatch->removed.load(std::memory_order_relaxed); ++i) {
     GroupRun run;
@@ -185,6 +185,7 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
   dispatch.label = label.c_str();
   const uint64_t count = uint64_t{command.groups[0]} * command.groups[1] * command.groups[2];
   const ComputeJob job = {&dispatch, &pipeline, command.groups};
+  dispatch.begun.store(true, std::memory_order_release);
   if (count != 0) {
     environment.arena->execute([&] {
       tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count),

@@ -72,8 +72,7 @@ void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& re
                uint64_t begin, uint64_t end) {
   const FloatMode float_mode;
   Worker worker;
-  worker.dispatch = &dispatch;
-  worker.stack_left = dispatch.stack_bytes;
+  begin_worker(dispatch, worker);
   for (uint64_t i = begin; i < end && !dispatch.removed.load(std::memory_order_relaxed); ++i) {
     Tile tile = {&worker, &grid, &record, {}, {}};
     const uint64_t position[3] = {i % grid.tiles[0], i / grid.tiles[0] % grid.tiles[1],
@@ -159,6 +158,7 @@ void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch
 
 DispatchResult end_dispatch(DispatchState& dispatch) {
   DispatchResult result;
+  const std::lock_guard lock(dispatch.mutex);
   result.counters = dispatch.counters;
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
     result.warnings.push_back(
@@ -179,6 +179,12 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
         rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, std::move(dispatch.removal.message)};
   }
   return result;
+}
+
+void begin_worker(DispatchState& dispatch, Worker& worker) {
+  dispatch.begun.load(std::memory_order_acquire);
+  worker.dispatch = &dispatch;
+  worker.stack_left = dispatch.stack_bytes;
 }
 
 void end_worker(Worker& worker) {
@@ -225,6 +231,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   if (read.record.target->shader == nullptr || grid.tile_count() == 0) {
     return end_dispatch(dispatch);
   }
+  dispatch.begun.store(true, std::memory_order_release);
   environment.arena->execute([&] {
     tbb::parallel_for(tbb::blocked_range<uint64_t>(0, grid.tile_count()),
                       [&](const tbb::blocked_range<uint64_t>& tiles) {

@@ -45,7 +45,8 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
 // Common to both: fills in what shaders see of the list's state.
 void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch);
 DispatchResult end_dispatch(DispatchState& dispatch);
-// Adds a worker's counters to its dispatch.
+// Of one thread's share of a dispatch: its worker, and the worker's counters to the dispatch.
+void begin_worker(DispatchState& dispatch, Worker& worker);
 void end_worker(Worker& worker);
 
 // Denormals are zero in shaders, as D3D's fp32 rules have it, and in Embree, which they would slow

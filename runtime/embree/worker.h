@@ -66,6 +66,9 @@ struct DispatchState {
   const Memory* memory = nullptr;
   const char* label = "";  // "DispatchRays 3 of the command list": for messages
 
+  // Set when all else is, and read first by each thread: with the mutex that end_worker and
+  // end_dispatch take, all that a dispatch needs of memory order, whatever the scheduler promises.
+  std::atomic<bool> begun = false;
   std::atomic<bool> removed = false;
   std::atomic<uint64_t> unknown_structure = 0;  // an address that a ray was traced against
   std::mutex mutex;                             // guards the members below
