@@ -126,7 +126,7 @@ TEST(Compute, AThreadThatEndsBeforeABarrierHoldsNobodyUp) {
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 4u);
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // Keeps a frame per call: no tail call, no inlining.
 __attribute__((noinline)) uint32_t deeper(uint32_t depth) {
   volatile uint8_t frame[512];
