@@ -9,9 +9,10 @@
 
 namespace kaamos::shader {
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order. Each half
-// is written by one store of 16 bytes, because the backend loads it so: a load of what several
-// narrower stores wrote waits until they are all in the cache.
+// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order. It is read
+// number by number (volatile keeps the compiler from joining the loads) and written by two stores of
+// 16 bytes, as the backend loads it: a load waits, for some 5 ns, where several narrower stores wrote
+// what it reads.
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
                       uint32_t ray_flags, uint32_t instance_inclusion_mask,
@@ -30,8 +31,10 @@ inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_str
   arguments.payload_bytes = sizeof(Payload);
   using Lanes [[gnu::vector_size(16)]] = float;
   const auto& [origin, t_min, direction, t_max] = ray;
-  const Lanes start = {origin[0], origin[1], origin[2], t_min};
-  const Lanes way = {direction[0], direction[1], direction[2], t_max};
+  const auto number = [](const volatile float& at) KAAMOS_INLINE_LAMBDA { return at; };
+  const Lanes start = {number(origin[0]), number(origin[1]), number(origin[2]), number(t_min)};
+  const Lanes way = {number(direction[0]), number(direction[1]), number(direction[2]),
+                     number(t_max)};
   __builtin_memcpy(&arguments.ray.origin, &start, sizeof(start));
   __builtin_memcpy(&arguments.ray.direction, &way, sizeof(way));
   invocation.dispatch->services->trace_ray(invocation, arguments, &payload);

@@ -8,35 +8,32 @@
 
 namespace kaamos::shader {
 
+// The bytes are worked out once for all members of a struct.
 struct MemoryView {
-  const Descriptor& buffer;
-};
-struct ElementView {
-  const Descriptor& buffer;
-  uint32_t index;
+  uint64_t address;
+  uint64_t bytes;
 };
 KAAMOS_INLINE MemoryView memory_view(const Descriptor& buffer) {
-  return {buffer};
+  return {buffer.address, memory::buffer_bytes(buffer)};
 }
-KAAMOS_INLINE ElementView element_view(const Descriptor& buffer, uint32_t index) {
-  return {buffer, index};
+KAAMOS_INLINE MemoryView element_view(const Descriptor& buffer, uint32_t index) {
+  const memory::Window element = memory::element_window(buffer, index, 0);
+  return {reinterpret_cast<uintptr_t>(element.base), element.bytes};
 }
+
+namespace memory {
+KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
+  return {pointer(view.address + offset), view.bytes > offset ? view.bytes - offset : 0};
+}
+}  // namespace memory
 
 template <class V, Layout L, bool RowMajor>
 KAAMOS_INLINE V read(const MemoryView& view, uint32_t offset) {
-  return load<V, L, RowMajor>(view.buffer, offset);
-}
-template <class V, Layout L, bool RowMajor>
-KAAMOS_INLINE V read(const ElementView& view, uint32_t offset) {
-  return load_element<V, L, RowMajor>(view.buffer, view.index, offset);
+  return memory::read<V, L, RowMajor>(memory::window(view, offset));
 }
 template <Layout L, bool RowMajor, class V>
 KAAMOS_INLINE void write(const MemoryView& view, uint32_t offset, const V& value) {
-  store<V, L, RowMajor>(view.buffer, offset, value);
-}
-template <Layout L, bool RowMajor, class V>
-KAAMOS_INLINE void write(const ElementView& view, uint32_t offset, const V& value) {
-  store_element<V, L, RowMajor>(view.buffer, view.index, offset, value);
+  memory::write<V, L, RowMajor>(memory::window(view, offset), value);
 }
 
 // Arrays of structs; stride in bytes.
