@@ -221,7 +221,9 @@ void CppEmitter::emit_context() {
 }
 
 void CppEmitter::emit_signature(const Function& function) {
-  std::string text = "static " + type(function.result) + " " + function_names_[&function] +
+  // "inline" is a hint that counts: without it g++ calls functions as small as one that reads a ray
+  // from a buffer, for 2 % of the time of a short ray.
+  std::string text = "static inline " + type(function.result) + " " + function_names_[&function] +
                      "([[maybe_unused]] Context& ctx";
   for (const Variable* parameter : function.parameters) {
     variable_names_[parameter] = local_names_.declare(parameter->name);

@@ -70,7 +70,8 @@ KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* argum
 }
 
 // Out of line: its code would keep the compiler from inlining the functions of a shader.
-[[gnu::noinline]] inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot, uint32_t index) {
+[[gnu::noinline]] inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot,
+                                            uint32_t index) {
   if (slot.source == SlotSource::kUnbound) return {};
   if (slot.source == SlotSource::kStaticSampler) {
     return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};

@@ -10,9 +10,9 @@
 namespace kaamos::shader {
 
 // Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order. It is read
-// number by number (volatile keeps the compiler from joining the loads) and written by two stores of
-// 16 bytes, as the backend loads it: a load waits, for some 5 ns, where several narrower stores wrote
-// what it reads.
+// number by number (volatile keeps the compiler from joining the loads) and written by two stores
+// of 16 bytes, as the backend loads it: a load waits, for some 5 ns, where several narrower stores
+// wrote what it reads.
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
                       uint32_t ray_flags, uint32_t instance_inclusion_mask,
