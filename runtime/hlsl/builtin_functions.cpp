@@ -267,6 +267,18 @@ bool is_builtin_function(std::string_view name) {
          !unsupported_function(name).empty();
 }
 
+const std::vector<std::string_view>& builtin_function_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> result(std::begin(kByName), std::end(kByName));
+    for (const auto& rule : kIntrinsics) result.push_back(rule.name);
+    for (const auto& rule : kSystemValues) result.push_back(rule.name);
+    for (const auto& rule : kAtomics) result.push_back(rule.name);
+    for (const auto& rule : kBarriers) result.push_back(rule.name);
+    return result;
+  }();
+  return names;
+}
+
 std::string_view stage_name(uint32_t stage) {
   switch (stage) {
     case ir::kStageRayGeneration:

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "intrinsics.h"
 #include "ir.h"
@@ -101,6 +102,9 @@ std::string_view unsupported_function(std::string_view name);
 bool is_pixel_function(std::string_view name);
 // Any of the above, or one that is handled by name.
 bool is_builtin_function(std::string_view name);
+
+// Those that are supported, for suggestions.
+const std::vector<std::string_view>& builtin_function_names();
 
 // "ray generation", "closest hit" ..; of one bit.
 std::string_view stage_name(uint32_t stage);

@@ -279,6 +279,16 @@ TEST(CheckMessages, AmbiguityListsCandidates) {
   EXPECT_NE(compilation.messages().find("candidate: void f(float, uint)"), std::string::npos);
 }
 
+TEST(CheckMessages, SuggestsSimilarNames) {
+  const Compilation compilation(
+      kernel("uint counter = 1;\nresults.Store(0, countr);\nfloat x = normalise(1.0);\n"
+             "S s = (S)0;\ns.colour = 1;",
+             "struct S { float color; };"));
+  EXPECT_NE(compilation.messages().find("did you mean 'counter'?"), std::string::npos);
+  EXPECT_NE(compilation.messages().find("did you mean 'normalize'?"), std::string::npos);
+  EXPECT_NE(compilation.messages().find("did you mean 'color'?"), std::string::npos);
+}
+
 TEST(CheckMessages, SeveralErrorsInOneRun) {
   const Compilation compilation(kernel("int a = missing1;\nint b = missing2;\nfloat2 c = 1.zz;"));
   EXPECT_GE(compilation.diagnostics().size(), 3u) << compilation.messages();

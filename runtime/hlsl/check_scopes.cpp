@@ -1,7 +1,67 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "checker.h"
 
 namespace kaamos::hlsl {
+namespace {
+
+// Letters to change, add or leave out.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t i = 0; i <= b.size(); ++i) row[i] = i;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+// What the writer of an unknown name may have meant; empty: no idea.
+std::string Checker::similar_name(std::string_view text, Scope* scope, bool with_outer) {
+  if (text.size() > 64) return {};
+  size_t best = (text.size() <= 4 ? 1 : 2) + 1;
+  std::string_view result;
+  const auto offer = [&](std::string_view candidate) {
+    if (candidate.size() > text.size() + 2 || text.size() > candidate.size() + 2) return;
+    const size_t found = edit_distance(text, candidate);
+    // Equal ones by name, so that the answer does not depend on the order of a hash table.
+    const bool is_better = found < best || (found == best && candidate < result);
+    if (!is_better) return;
+    best = found;
+    result = candidate;
+  };
+  for (Scope* at = scope; at; at = with_outer ? at->parent : nullptr) {
+    for (const auto& [name, symbol] : at->symbols) {
+      if (symbol->sequence <= visible_) offer(name);
+    }
+    if (at->structure && at->structure->base) {
+      for (const auto& [name, symbol] : at->structure->base->scope->symbols) offer(name);
+    }
+  }
+  if (with_outer) {
+    for (const std::string_view name : builtin_function_names()) offer(name);
+  }
+  return std::string(result);
+}
+
+void Checker::report_unknown(CheckId id, SourceLocation location,
+                             const std::vector<std::string>& arguments, std::string_view text,
+                             Scope* scope, bool with_outer) {
+  const std::string similar = similar_name(text, scope, with_outer);
+  if (similar.empty()) {
+    report_with_notes(id, location, arguments, {});
+  } else {
+    report_with_notes(id, location, arguments, {{location, "did you mean '" + similar + "'?"}});
+  }
+}
 
 Scope* Checker::make_scope(ScopeKind kind, Scope* parent, std::string_view name) {
   Scope* scope = &scopes_.emplace_back();
@@ -103,7 +163,8 @@ Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quie
     if (!symbol) {
       if (!quiet) {
         const std::string where = in && in != global_ ? " in '" + in->name + "'" : "";
-        report(CheckId::kUndeclared, part.location, {std::string(part.identifier), where});
+        report_unknown(CheckId::kUndeclared, part.location, {std::string(part.identifier), where},
+                       part.identifier, in ? in : scope, in == nullptr);
       }
       return nullptr;
     }

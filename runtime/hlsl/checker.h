@@ -56,6 +56,11 @@ class Checker {
   // Reports what is missing unless `quiet`.
   Symbol* resolve_name(const QualifiedName& name, Scope* scope, bool quiet);
   Scope* scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope);
+  std::string similar_name(std::string_view text, Scope* scope, bool with_outer);
+  // With a note of what may be meant.
+  void report_unknown(CheckId id, SourceLocation location,
+                      const std::vector<std::string>& arguments, std::string_view text,
+                      Scope* scope, bool with_outer);
   static std::string qualify(const Scope* scope, std::string_view name);
   static std::string spell(const QualifiedName& name);
   const FunctionInfo* enclosing_function() const { return function_; }

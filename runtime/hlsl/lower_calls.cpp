@@ -130,8 +130,9 @@ Value Checker::call_method(const MemberExpr* callee, const CallExpr* call_expr) 
   }
   Symbol* symbol = find_member(structure, part.identifier);
   if (!symbol || symbol->kind != SymbolKind::kFunctions) {
-    report(CheckId::kNoSuchMethod, location,
-           {to_string(object.type), std::string(part.identifier)});
+    report_unknown(CheckId::kNoSuchMethod, location,
+                   {to_string(object.type), std::string(part.identifier)}, part.identifier,
+                   structure->scope, false);
     return error_value();
   }
   return call_functions(symbol->functions, part, &object, std::move(arguments), location);

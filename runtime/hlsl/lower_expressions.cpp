@@ -289,7 +289,8 @@ Value Checker::member_of(const Value& base, const QualifiedName& name) {
     Value owner = base_of(object, info);
     return owner.failed() ? owner : field_of(owner, field.index, field.type);
   }
-  report(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)});
+  report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)}, member,
+                 structure->scope, false);
   return error_value();
 }
 
