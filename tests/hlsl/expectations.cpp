@@ -73,6 +73,12 @@ void parse_line(const std::string& line, uint32_t number, HlslTest& test) {
     test.feature = "trap " + test.feature;
   } else if (key == "OPTIONS:") {
     for (std::string word; words >> word;) test.options.push_back(word);
+  } else if (key == "DISPATCH:") {
+    for (uint32_t& count : test.dispatch) {
+      if (!(words >> count)) {
+        test.error = "line " + std::to_string(number) + ": DISPATCH needs three numbers";
+      }
+    }
   } else if (key == "EXPECT") {
     Expectation expectation;
     expectation.line = number;

@@ -4,7 +4,10 @@
 #include <kaamos/shader/abi.h>
 #include <rtapi/rtapi.h>
 
-#include <cstring>
+#include <algorithm>
+
+#include "scene.h"
+#include "views.h"
 
 namespace kaamos::test {
 namespace {
@@ -12,29 +15,48 @@ namespace {
 using namespace rtapi;
 
 constexpr uint32_t kResultBytes = 65536;
+constexpr uint32_t kTableSlots = 8;    // of each table, also of an unbounded array
+constexpr uint32_t kHeapSlots = 4;     // of ResourceDescriptorHeap
+constexpr uint32_t kSamplerSlots = 2;  // of SamplerDescriptorHeap
 
 // The root signature that a library's bindings ask for, and what stands behind each parameter.
 struct Fixture {
+  explicit Fixture(const shader::LibraryDesc& library);
+
   Device device;
   CommandQueue queue;
+  ShaderLibrary library;
+  CountingResources resources;
   RootSignatureDesc desc;
   Buffer results;
+  Scene scene;
   std::vector<Buffer> buffers;  // one per root descriptor, in order
   std::vector<std::pair<uint32_t, const shader::BindingDesc*>> tables;  // parameter, binding
   DescriptorHeap heap;
-  std::vector<Texture> textures;
+  DescriptorHeap sampler_heap;
 };
+
+Device single_threaded_device() {
+  DeviceDesc desc;
+  desc.Threads = 1;
+  return CreateDevice(desc).value();
+}
+
+Fixture::Fixture(const shader::LibraryDesc& library_desc)
+    : device(single_threaded_device()),
+      queue(device.CreateCommandQueue().value()),
+      library(LoadShaderLibrary(&library_desc).value()),
+      resources(device, queue) {
+  results = device
+                .CreateBuffer({.SizeInBytes = kResultBytes,
+                               .Flags = ResourceFlags::kAllowUnorderedAccess,
+                               .Name = "results"})
+                .value();
+}
 
 bool is_results(const shader::BindingDesc& binding) {
   return binding.register_class == shader::RegisterClass::kUnorderedAccess &&
          binding.register_index == 0 && binding.space == 0;
-}
-
-Buffer counting_buffer(Fixture& f, ResourceFlags flags) {
-  std::vector<uint32_t> words(256);
-  for (uint32_t i = 0; i < words.size(); ++i) words[i] = i;
-  if (flags == ResourceFlags::kNone) return CreateUploadBuffer(f.device, words).value();
-  return CreateDefaultBuffer(f.device, f.queue, std::as_bytes(std::span(words)), flags).value();
 }
 
 void add_sampler(Fixture& f, const shader::BindingDesc& binding) {
@@ -48,130 +70,63 @@ void add_sampler(Fixture& f, const shader::BindingDesc& binding) {
   f.desc.StaticSamplers.push_back(sampler);
 }
 
+void add_table(Fixture& f, const shader::BindingDesc& b) {
+  DescriptorRange range;
+  range.RangeType =
+      b.register_class == shader::RegisterClass::kUnorderedAccess  ? DescriptorRangeType::kUav
+      : b.register_class == shader::RegisterClass::kConstantBuffer ? DescriptorRangeType::kCbv
+                                                                   : DescriptorRangeType::kSrv;
+  range.NumDescriptors = b.count;
+  range.BaseShaderRegister = b.register_index;
+  range.RegisterSpace = b.space;
+  f.tables.emplace_back(static_cast<uint32_t>(f.desc.Parameters.size()), &b);
+  f.desc.Parameters.push_back(RootParameter::Table({range}));
+  f.buffers.emplace_back();
+}
+
 void add_binding(Fixture& f, const shader::BindingDesc& b) {
   const bool writable = b.register_class == shader::RegisterClass::kUnorderedAccess;
   if (b.register_class == shader::RegisterClass::kSampler) {
     add_sampler(f, b);
   } else if (b.type == shader::BindingType::kConstantBuffer && b.count == 1) {
     f.desc.Parameters.push_back(RootParameter::Cbv(b.register_index, b.space));
-    f.buffers.push_back(counting_buffer(f, ResourceFlags::kNone));
+    f.buffers.push_back(f.resources.buffer(false));
+  } else if (b.type == shader::BindingType::kAccelerationStructure && b.count == 1) {
+    if (!f.scene.top_level) f.scene = build_scene(f.device, f.queue, f.library);
+    f.desc.Parameters.push_back(RootParameter::Srv(b.register_index, b.space));
+    f.buffers.push_back(f.scene.top_level);
   } else if ((b.type == shader::BindingType::kRawBuffer ||
               b.type == shader::BindingType::kStructuredBuffer) &&
              b.count == 1) {
     f.desc.Parameters.push_back(writable ? RootParameter::Uav(b.register_index, b.space)
                                          : RootParameter::Srv(b.register_index, b.space));
-    f.buffers.push_back(is_results(b) ? f.results
-                        : writable    ? counting_buffer(f, ResourceFlags::kAllowUnorderedAccess)
-                                      : counting_buffer(f, ResourceFlags::kNone));
+    f.buffers.push_back(is_results(b) ? f.results : f.resources.buffer(writable));
   } else {
-    DescriptorRange range;
-    range.RangeType = writable ? DescriptorRangeType::kUav : DescriptorRangeType::kSrv;
-    if (b.register_class == shader::RegisterClass::kConstantBuffer) {
-      range.RangeType = DescriptorRangeType::kCbv;
-    }
-    range.NumDescriptors = b.count;
-    range.BaseShaderRegister = b.register_index;
-    range.RegisterSpace = b.space;
-    f.tables.emplace_back(static_cast<uint32_t>(f.desc.Parameters.size()), &b);
-    f.desc.Parameters.push_back(RootParameter::Table({range}));
-    f.buffers.emplace_back();
+    add_table(f, b);
   }
 }
 
-Texture counting_texture(Fixture& f, Format format, ResourceFlags flags) {
-  TextureDesc desc;
-  desc.Width = 8;
-  desc.Height = 8;
-  desc.MipLevels = 2;
-  desc.DepthOrArraySize = 2;
-  desc.Format = format;
-  desc.Flags = flags;
-  const Texture texture = f.device.CreateTexture(desc).value();
-  for (uint32_t element = 0; element < 2; ++element) {
-    for (uint32_t mip = 0; mip < 2; ++mip) {
-      const uint32_t side = 8u >> mip;
-      std::vector<float> texels;
-      for (uint32_t y = 0; y < side; ++y) {
-        for (uint32_t x = 0; x < side; ++x) {
-          for (const uint32_t v : {x, y, mip, element}) texels.push_back(static_cast<float>(v));
-        }
-      }
-      UploadTexture(f.device, f.queue, texture, mip + element * 2, std::as_bytes(std::span(texels)))
-          .value();
-    }
-  }
-  f.textures.push_back(texture);
-  return texture;
-}
-
-// Descriptors of one table: an array of constant buffers, typed buffers, or 2D textures.
-void fill_table(Fixture& f, const shader::BindingDesc& b, uint32_t first, uint32_t count) {
-  const bool writable = b.register_class == shader::RegisterClass::kUnorderedAccess;
-  const auto flags = writable ? ResourceFlags::kAllowUnorderedAccess : ResourceFlags::kNone;
-  // A null acceleration structure: every ray misses it.
-  if (b.type == shader::BindingType::kAccelerationStructure) return;
-  for (uint32_t i = 0; i < count; ++i) {
-    const CpuDescriptorHandle handle = f.heap.GetCPUDescriptorHandle(first + i);
-    if (b.type == shader::BindingType::kTexture) {
-      const Texture texture = counting_texture(f, Format::kR32G32B32A32Float, flags);
-      if (writable) {
-        UnorderedAccessViewDesc view;
-        view.Format = Format::kR32G32B32A32Float;
-        view.ViewDimension = UavDimension::kTexture2D;
-        f.device.CreateUnorderedAccessView(texture, view, handle).value();
-      } else {
-        ShaderResourceViewDesc view;
-        view.Format = Format::kR32G32B32A32Float;
-        view.ViewDimension = SrvDimension::kTexture2D;
-        f.device.CreateShaderResourceView(texture, view, handle).value();
-      }
-      continue;
-    }
-    const Buffer buffer = counting_buffer(f, flags);
-    f.buffers.push_back(buffer);
-    if (b.type == shader::BindingType::kConstantBuffer) {
-      f.device.CreateConstantBufferView({buffer.GetGPUVirtualAddress(), 1024}, handle).value();
-    } else if (writable) {
-      UnorderedAccessViewDesc view;
-      view.ViewDimension = UavDimension::kBuffer;
-      view.Format = b.type == shader::BindingType::kTypedBuffer ? Format::kR32Uint
-                    : b.type == shader::BindingType::kRawBuffer ? Format::kR32Typeless
-                                                                : Format::kUnknown;
-      view.Buffer.Flags =
-          b.type == shader::BindingType::kRawBuffer ? BufferUavFlags::kRaw : BufferUavFlags::kNone;
-      view.Buffer.StructureByteStride =
-          b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
-      f.device.CreateUnorderedAccessView(buffer, view, handle).value();
-    } else {
-      ShaderResourceViewDesc view;
-      view.ViewDimension = SrvDimension::kBuffer;
-      view.Format = b.type == shader::BindingType::kTypedBuffer ? Format::kR32Uint
-                    : b.type == shader::BindingType::kRawBuffer ? Format::kR32Typeless
-                                                                : Format::kUnknown;
-      view.Buffer.Flags =
-          b.type == shader::BindingType::kRawBuffer ? BufferSrvFlags::kRaw : BufferSrvFlags::kNone;
-      view.Buffer.StructureByteStride =
-          b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
-      f.device.CreateShaderResourceView(buffer, view, handle).value();
-    }
-  }
+// Slots of ResourceDescriptorHeap come first, those of the tables behind them.
+void set_heaps(Fixture& f, CommandList& list) {
+  const auto tables = static_cast<uint32_t>(f.tables.size());
+  const auto heap = [&f](DescriptorHeapType type, uint32_t slots) {
+    return f.device.CreateDescriptorHeap({type, slots, DescriptorHeapFlags::kShaderVisible, "test"})
+        .value();
+  };
+  f.heap = heap(DescriptorHeapType::kCbvSrvUav, kHeapSlots + kTableSlots * tables);
+  f.sampler_heap = heap(DescriptorHeapType::kSampler, kSamplerSlots);
+  f.resources.fill_view_heap(f.heap, f.results);
+  f.resources.fill_sampler_heap(f.sampler_heap);
+  list.SetDescriptorHeaps({f.heap, f.sampler_heap});
 }
 
 // Sets every root argument of the open list.
 void bind(Fixture& f, CommandList& list) {
-  constexpr uint32_t kTableSlots = 8;  // of an unbounded array
-  if (!f.tables.empty()) {
-    f.heap = f.device
-                 .CreateDescriptorHeap(
-                     {.NumDescriptors = kTableSlots * static_cast<uint32_t>(f.tables.size()),
-                      .Flags = DescriptorHeapFlags::kShaderVisible})
-                 .value();
-    list.SetDescriptorHeaps({f.heap});
-  }
   for (uint32_t i = 0; i < f.tables.size(); ++i) {
     const auto& [parameter, binding] = f.tables[i];
-    fill_table(f, *binding, i * kTableSlots, std::min(binding->count, kTableSlots));
-    list.SetComputeRootDescriptorTable(parameter, f.heap.GetGPUDescriptorHandle(i * kTableSlots));
+    const uint32_t first = kHeapSlots + i * kTableSlots;
+    f.resources.fill_table(*binding, f.heap, first, std::min(binding->count, kTableSlots));
+    list.SetComputeRootDescriptorTable(parameter, f.heap.GetGPUDescriptorHandle(first));
   }
   for (uint32_t i = 0; i < f.desc.Parameters.size(); ++i) {
     const GpuVirtualAddress address = f.buffers[i].GetGPUVirtualAddress();
@@ -191,82 +146,44 @@ void bind(Fixture& f, CommandList& list) {
   }
 }
 
-void dispatch_rays(Fixture& f, const ShaderLibrary& library, const RootSignature& root,
-                   CommandList& list) {
-  StateObjectDesc desc;
-  desc.Add(DxilLibraryDesc{library, {}});
-  desc.Add(RaytracingShaderConfig{64, 32});
-  desc.Add(RaytracingPipelineConfig{1});
-  desc.Add(GlobalRootSignature{root});
-  const StateObject pipeline = f.device.CreateStateObject(desc).value();
-  std::string miss_name;
-  std::string raygen_name;
-  std::string callable_name;
-  for (const ShaderExportInfo& e : library.GetExports()) {
-    if (e.Stage == ShaderStage::kRayGeneration) raygen_name = e.Name;
-    if (e.Stage == ShaderStage::kMiss) miss_name = e.Name;
-    if (e.Stage == ShaderStage::kCallable) callable_name = e.Name;
-  }
-  ShaderTable raygen(pipeline), miss(pipeline), callable(pipeline);
-  raygen.AddRecord(raygen_name).value();
-  raygen.Build(f.device).value();
-  DispatchRaysDesc dispatch;
-  dispatch.RayGenerationShaderRecord = raygen.GetRecord(0);
-  if (!miss_name.empty()) {
-    miss.AddRecord(miss_name).value();
-    miss.Build(f.device).value();
-    dispatch.MissShaderTable = miss.GetTable();
-  }
-  if (!callable_name.empty()) {
-    callable.AddRecord(callable_name).value();
-    callable.Build(f.device).value();
-    dispatch.CallableShaderTable = callable.GetTable();
-  }
-  list.SetPipelineState1(pipeline);
-  list.DispatchRays(dispatch);
-  f.queue.ExecuteAndWait(list).value();
-}
-
-std::vector<std::byte> run(const shader::LibraryDesc& library_desc) {
-  Fixture f;
-  DeviceDesc device_desc;
-  device_desc.Threads = 1;
-  f.device = CreateDevice(device_desc).value();
-  f.queue = f.device.CreateCommandQueue().value();
-  f.results = f.device
-                  .CreateBuffer({.SizeInBytes = kResultBytes,
-                                 .Flags = ResourceFlags::kAllowUnorderedAccess,
-                                 .Name = "results"})
-                  .value();
+std::vector<std::byte> run(const shader::LibraryDesc& library_desc, const uint32_t (&size)[3]) {
+  Fixture f(library_desc);
   for (uint32_t i = 0; i < library_desc.binding_count; ++i) {
     add_binding(f, library_desc.bindings[i]);
   }
-  f.desc.Flags = RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed |
-                 RootSignatureFlags::kSamplerHeapDirectlyIndexed;
+  uint32_t flags = 0;
+  bool compute = false;
+  for (uint32_t i = 0; i < library_desc.export_count; ++i) {
+    flags |= library_desc.exports[i].flags;
+    compute = compute || library_desc.exports[i].stage == shader::Stage::kCompute;
+  }
+  if ((flags & shader::kExportUsesViewHeap) != 0) {
+    f.desc.Flags = f.desc.Flags | RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed;
+  }
+  if ((flags & shader::kExportUsesSamplerHeap) != 0) {
+    f.desc.Flags = f.desc.Flags | RootSignatureFlags::kSamplerHeapDirectlyIndexed;
+  }
   const RootSignature root = f.device.CreateRootSignature(f.desc).value();
-  const ShaderLibrary library = LoadShaderLibrary(&library_desc).value();
   CommandList list = f.device.CreateCommandList().value();
+  set_heaps(f, list);
   list.SetComputeRootSignature(root);
   bind(f, list);
-  bool compute = false;
-  for (const ShaderExportInfo& e : library.GetExports()) {
-    compute = compute || e.Stage == ShaderStage::kCompute;
-  }
   if (compute) {
-    list.SetPipelineState(f.device.CreateComputePipelineState({root, library, "", ""}).value());
-    list.Dispatch(1, 1, 1);
+    list.SetPipelineState(f.device.CreateComputePipelineState({root, f.library, "", ""}).value());
+    list.Dispatch(size[0], size[1], size[2]);
     f.queue.ExecuteAndWait(list).value();
   } else {
-    dispatch_rays(f, library, root, list);
+    dispatch_rays(f.device, f.queue, f.library, root, list, size);
   }
   return ReadbackBuffer(f.device, f.queue, f.results).value();
 }
 
 }  // namespace
 
-std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, std::string& error) {
+std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, const uint32_t (&size)[3],
+                                     std::string& error) {
   try {
-    return run(library);
+    return run(library, size);
   } catch (const ResultError& failure) {
     error = failure.what();
     return {};

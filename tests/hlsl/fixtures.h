@@ -2,13 +2,21 @@
 //
 // What an HLSL test finds behind its registers, and running it.
 //
-// `results` (u0) is 64 KiB of zeros. Every other buffer holds 256 words, word i is i. A texture is
-// 8 x 8, two mips, texel (x, y) of mip m of element e is (x, y, m, e) as floats, or the same as
-// integers. An acceleration structure is null: every ray misses it. Samplers are point and clamp,
-// comparison samplers LESS.
+// `results` (u0) is 64 KiB of zeros. Every other buffer holds 256 words, word i is i.
+//
+// A texture is 8 x 8 with two mips; texel (x, y) of mip m of element e is (x, y, m, e). Its name
+// says what it is, because bindings do not: "_1d", "_3d" (depth 2, e is z), "_cube" (12 faces),
+// "_array" after these or alone for a 2D array (2 elements); "_uint" makes it one whole number
+// x + 10 y + 100 m + 1000 e. Samplers are point and clamp, comparison samplers LESS.
+//
+// ResourceDescriptorHeap: slot 0 a Texture2D, 1 a ByteAddressBuffer, 2 a constant buffer, 3
+// `results`. SamplerDescriptorHeap: slot 0 point and clamp, 1 point and wrap.
+//
+// Acceleration structures and hit groups: scene.h.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,8 +26,9 @@ struct LibraryDesc;
 
 namespace kaamos::test {
 
-// Runs the compute export `main` (or the only one) as one group, or the ray generation export as
-// one thread, and returns what is in `results`.
-std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, std::string& error);
+// Runs the compute export as `size` groups, or the ray generation export as `size` threads, and
+// returns what is in `results`.
+std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, const uint32_t (&size)[3],
+                                     std::string& error);
 
 }  // namespace kaamos::test

@@ -114,7 +114,7 @@ std::string run(size_t index) {
   const Compiled& code = compiled(index);
   if (code.library == nullptr) return code.error;
   std::string error;
-  const std::vector<std::byte> results = run_on_device(*code.library, error);
+  const std::vector<std::byte> results = run_on_device(*code.library, test.dispatch, error);
   if (!error.empty()) return test.path + ": " + error;
   std::string wrong;
   for (const Expectation& expectation : test.expectations) {
