@@ -1,24 +1,31 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core anyhit
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT f32 0 23 4
+// EXPECT f32 4 0.5 4
+// EXPECT f32 8 0
+// EXPECT f32 12 0
+// EXPECT u32 16 2
+// EXPECT u32 20 1
+// EXPECT u32 24 0
+// EXPECT u32 28 0
+#include "scene.hlsli"
+
+// Three candidates; the two nearer ones are ignored, and what they wrote stays.
 [shader("anyhit")]
 void Any(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  payload.count += 1;
-  if (attributes.barycentrics.x < 0.5) {
+  if (GeometryIndex() == 0 || PrimitiveIndex() == 1) {
+    payload.numbers.x += 1;
     IgnoreHit();
   }
-  if (payload.count > 3) {
-    AcceptHitAndEndSearch();
-  }
+  payload.numbers.y += 1;
+  payload.color.y = attributes.barycentrics.x;
 }
-RWByteAddressBuffer results : register(u0);
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.color.x = RayTCurrent();
+}
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  store(0, trace(RAY_FLAG_NONE, 0xff, test_ray(-10)));
 }

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core BuiltInTriangleIntersectionAttributes
-// EXPECT f32 0 0.5
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT f32 0 0.25 8
+// EXPECT f32 4 0.5 4
+// EXPECT f32 8 0.25 4
+// EXPECT f32 12 0
+#include "scene.hlsli"
+
 [shader("closesthit")]
 void Hit(inout Payload payload, in BuiltInTriangleIntersectionAttributes attributes) {
-  float3 bary = float3(1 - attributes.barycentrics.x - attributes.barycentrics.y,
-                       attributes.barycentrics);
-  payload.color.xyz = bary;
+  payload.color.xyz = float3(1 - attributes.barycentrics.x - attributes.barycentrics.y,
+                             attributes.barycentrics);
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  BuiltInTriangleIntersectionAttributes attributes;
-  attributes.barycentrics = float2(0.25, 0.5);
-  results.Store(0, asuint(attributes.barycentrics.y));
+  store(0, trace(RAY_FLAG_NONE, 0xff, test_ray(0)));
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core custom attribute struct
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT f32 0 0.5 4
+// EXPECT f32 4 0.25 4
+// EXPECT f32 8 0
+// EXPECT f32 12 0
+#include "scene.hlsli"
+
 struct Bary {
   float u;
   float v;
@@ -14,9 +14,8 @@ struct Bary {
 void Hit(inout Payload payload, Bary bary) {
   payload.color.xy = float2(bary.u, bary.v);
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  store(0, trace(RAY_FLAG_NONE, 0xff, test_ray(0)));
 }

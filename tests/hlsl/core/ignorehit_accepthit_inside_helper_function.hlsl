@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core IgnoreHit/AcceptHit inside helper function
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
-void decide(float u) {
-  if (u < 0.25) IgnoreHit();
-  if (u > 0.75) AcceptHitAndEndSearch();
+// EXPECT f32 0 15 4
+// EXPECT u32 4 0
+#include "scene.hlsli"
+
+uint decide(inout uint count) {
+  count += 1;
+  if (GeometryIndex() == 0) IgnoreHit();
+  if (PrimitiveIndex() == 1) AcceptHitAndEndSearch();
+  IgnoreHit();
+  return 7;
 }
+
 [shader("anyhit")]
 void Any(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  decide(attributes.barycentrics.x);
-  payload.count += 1;
+  payload.numbers.y = decide(payload.numbers.x) + decide(payload.numbers.x);
 }
-RWByteAddressBuffer results : register(u0);
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.color.x = RayTCurrent();
+}
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  Payload payload = trace(RAY_FLAG_NONE, 0xff, test_ray(-10));
+  results.Store(0, asuint(payload.color.x));
+  results.Store(4, payload.numbers.y);
 }

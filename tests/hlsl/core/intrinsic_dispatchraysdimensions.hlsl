@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core intrinsic DispatchRaysDimensions
-// EXPECT u32 0 3
-RWByteAddressBuffer results : register(u0);
+// DISPATCH: 2 3 4
+// EXPECT u32 0 2
+// EXPECT u32 4 3
+// EXPECT u32 8 4
+#include "scene.hlsli"
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, DispatchRaysDimensions().y + 2);
+  results.Store3(0, DispatchRaysDimensions());
 }

@@ -1,18 +1,34 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core intrinsic GeometryIndex
 // EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
+// EXPECT u32 4 0
+// EXPECT u32 8 0
+// EXPECT u32 12 0
+#include "scene.hlsli"
+
+struct Attributes {
+  float3 normal;
+  uint id;
 };
-[shader("anyhit")]
-void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  payload.color.x = GeometryIndex();
+
+[shader("intersection")]
+void Box() {
+  Attributes attributes = (Attributes)0;
+  ReportHit(19, 0, attributes);
 }
-RWByteAddressBuffer results : register(u0);
+[shader("closesthit")]
+void BoxHit(inout Payload payload, Attributes attributes) {
+  payload.numbers.x = GeometryIndex();
+}
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.numbers.x = GeometryIndex();
+}
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  results.Store(0, trace(RAY_FLAG_NONE, 0x0f, test_ray(0)).numbers.x);
+  results.Store(4, trace(RAY_FLAG_NONE, 0xf0, test_ray(0)).numbers.x);
+  results.Store(8, trace(RAY_FLAG_NONE, 0x0f, test_ray(-10)).numbers.x);
+  results.Store(12, trace(RAY_FLAG_SKIP_TRIANGLES, 0xff, test_ray(-10)).numbers.x);
 }

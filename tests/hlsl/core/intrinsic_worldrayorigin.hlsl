@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core intrinsic WorldRayOrigin
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT f32 0 -8
+// EXPECT f32 4 2
+// EXPECT f32 8 0
+// EXPECT f32 12 2.5 4
+#include "scene.hlsli"
+
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  payload.color.x = WorldRayOrigin().z;
+  payload.color = float4(WorldRayOrigin(), RayTCurrent());
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  RayDesc ray = {float3(-8, 2, 0), 0, float3(2, 0, 2), 100};  // its direction is no unit vector
+  store(0, trace(RAY_FLAG_NONE, 0xff, ray));
 }

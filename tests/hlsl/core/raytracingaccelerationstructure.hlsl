@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core RaytracingAccelerationStructure
-// EXPECT u32 0 3
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
-[shader("miss")]
-void Miss(inout Payload payload) {
-  payload.count = 3;
+// EXPECT u32 0 1
+// EXPECT u32 4 1
+#include "scene.hlsli"
+
+RaytracingAccelerationStructure other : register(t3, space2);
+uint shoot(RaytracingAccelerationStructure where) {
+  Payload payload = (Payload)0;
+  TraceRay(where, 0, 255, 0, 0, 0, test_ray(0), payload);
+  return payload.numbers.x;
 }
-void shoot(RaytracingAccelerationStructure where, inout Payload payload) {
-  RayDesc ray = {float3(0, 0, 0), 0, float3(0, 0, 1), 10};
-  TraceRay(where, 0, 255, 0, 0, 0, ray, payload);
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.numbers.x = 1;
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  Payload payload = (Payload)0;
-  shoot(scene, payload);
-  results.Store(0, payload.count);
+  RaytracingAccelerationStructure alias = other;
+  results.Store2(0, uint2(shoot(scene), shoot(alias)));
 }

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core >1 payload struct types in one library
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT u32 0 0
+// EXPECT u32 4 1
+// EXPECT u32 8 5
+#include "scene.hlsli"
+
 struct Shadow {
   bool visible;
 };
 [shader("miss")]
-void Miss(inout Shadow payload) {
+void ShadowMiss(inout Shadow payload) {
   payload.visible = true;
 }
 [shader("closesthit")]
-void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  payload.count = 1;
+void ShadowHit(inout Shadow payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.visible = false;
 }
-RWByteAddressBuffer results : register(u0);
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.numbers.x = 5;
+}
+bool visible(uint mask) {
+  Shadow shadow = {mask != 0};
+  TraceRay(scene, RAY_FLAG_NONE, mask, 1, 0, 1, test_ray(0), shadow);
+  return shadow.visible;
+}
 
 [shader("raygeneration")]
 void Main() {
-  RayDesc ray = {float3(0, 0, 0), 0, float3(0, 0, 1), 10};
-  Shadow shadow = {false};
-  TraceRay(scene, RAY_FLAG_SKIP_CLOSEST_HIT_SHADER, 255, 0, 1, 0, ray, shadow);
-  results.Store(0, shadow.visible);
+  results.Store2(0, uint2(visible(0xff), visible(0)));
+  results.Store(8, trace(RAY_FLAG_NONE, 0xff, test_ray(0)).numbers.x);
 }

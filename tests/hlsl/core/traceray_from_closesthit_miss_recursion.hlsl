@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: core TraceRay from closesthit/miss (recursion)
-// EXPECT u32 0 20
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
+// EXPECT f32 0 5 4
+// EXPECT f32 4 13 4
+// EXPECT f32 8 0
+// EXPECT f32 12 0
+// EXPECT u32 16 2
+// EXPECT u32 20 20
+// EXPECT u32 24 0
+// EXPECT u32 28 0
+#include "scene.hlsli"
+
+// From the first triangle on to the second, and from there into nothing.
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  if (payload.count < 3) {
-    payload.count += 1;
-    RayDesc ray = {WorldRayOrigin() + WorldRayDirection() * RayTCurrent(), 0.001,
-                   reflect(WorldRayDirection(), float3(0, 1, 0)), 1000};
-    TraceRay(scene, RAY_FLAG_NONE, 255, 0, 1, 0, ray, payload);
-  }
+  Payload next = payload;
+  next.numbers.x += 1;
+  RayDesc ray = {WorldRayOrigin() + WorldRayDirection() * RayTCurrent(), 0.001, WorldRayDirection(), 50};
+  const float here = ray.Origin.z;
+  TraceRay(scene, RAY_FLAG_NONE, 255, 0, 0, 1, ray, next);
+  payload.numbers = next.numbers;
+  payload.color = float4(here, next.color.x, next.color.y, 0);
 }
 [shader("miss")]
-void Miss(inout Payload payload) {
-  if (payload.count == 1000) {
-    RayDesc ray = {WorldRayOrigin(), 0, WorldRayDirection(), 1};
-    TraceRay(scene, RAY_FLAG_NONE, 255, 0, 1, 0, ray, payload);
+void MissToo(inout Payload payload) {
+  if (payload.numbers.y == 0) {
+    payload.numbers.y = 10;
+    TraceRay(scene, RAY_FLAG_NONE, 0, 0, 0, 1, test_ray(0), payload);
   }
-  payload.count += 20;
+  payload.numbers.y += 5;
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  RayDesc ray = {float3(0, 0, 0), 0, float3(0, 0, 1), 10};
-  Payload payload = (Payload)0;
-  TraceRay(scene, RAY_FLAG_NONE, 255, 0, 1, 0, ray, payload);
-  results.Store(0, payload.count);
+  store(0, trace(RAY_FLAG_NONE, 255, test_ray(0)));
 }

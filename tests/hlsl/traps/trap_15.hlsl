@@ -1,27 +1,38 @@
 // SPDX-License-Identifier: MIT
 // TRAP: 15 IgnoreHit ends the shader from any depth
-// EXPECT u32 0 1
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
-};
-bool inner(inout uint count) {
-  count += 1;
-  if (count > 2) IgnoreHit();
+// EXPECT f32 0 23 4
+// EXPECT f32 4 6
+// EXPECT f32 8 0
+// EXPECT f32 12 0
+// EXPECT u32 16 2
+// EXPECT u32 20 3
+// EXPECT u32 24 0
+// EXPECT u32 28 0
+#include "scene.hlsli"
+
+// inner() lets the far triangle pass and ends the shader for the two before it. What was written to
+// the payload on the way down stays.
+bool inner(inout Payload payload, bool far) {
+  if (!far) {
+    payload.numbers.x += 1;
+    IgnoreHit();
+  }
   return true;
 }
 uint outer(inout Payload payload) {
-  return inner(payload.count) ? 10 : 20;
+  return inner(payload, GeometryIndex() == 1 && PrimitiveIndex() == 0) ? 3 : 20;
 }
 [shader("anyhit")]
 void Any(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
-  payload.color.x = 1;
-  payload.color.y = outer(payload) + outer(payload);
+  payload.color.y += outer(payload) + outer(payload);
+  payload.numbers.y += 3;
 }
-RWByteAddressBuffer results : register(u0);
+[shader("closesthit")]
+void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
+  payload.color.x = RayTCurrent();
+}
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, 1);
+  store(0, trace(RAY_FLAG_NONE, 0xff, test_ray(-10)));
 }

@@ -1,13 +1,25 @@
 // SPDX-License-Identifier: MIT
-// TRAP: 17 triangle attributes in an own struct
-// EXPECT u32 0 32
-RaytracingAccelerationStructure scene : register(t0);
-struct Payload {
-  float4 color;
-  uint count;
+// TRAP: 17 attributes in own structs
+// EXPECT f32 0 0.25 8
+// EXPECT f32 4 0.5 4
+// EXPECT f32 8 0
+// EXPECT f32 12 0
+// EXPECT u32 16 32
+// EXPECT f32 36 2.5
+// EXPECT f32 40 3.5
+// EXPECT f32 44 -2
+// EXPECT f32 48 0.0625
+// EXPECT u32 52 6
+// EXPECT u32 56 0
+// EXPECT u32 60 0
+// EXPECT u32 64 0
+#include "scene.hlsli"
+
+struct Inner {
+  float u;
 };
 struct Own {
-  float u;
+  Inner inner;
   float v;
 };
 struct Big {
@@ -15,17 +27,33 @@ struct Big {
   uint id;
   float2 uv[2];
 };
+// The same 32 bytes in other words.
+struct BigToo {
+  float4 normal_and_id;
+  row_major float2x2 uv;
+};
 [shader("closesthit")]
 void Hit(inout Payload payload, Own own) {
-  payload.color.x = 1 - own.u - own.v;
+  payload.color.xy = float2(1 - own.inner.u - own.v, own.inner.u);
+}
+[shader("intersection")]
+void Box() {
+  Big big = {float3(1, 2, -2), 6, {float2(0.5, 0.25), float2(1.5, 0.0625)}};
+  ReportHit(19, 0, big);
+}
+[shader("anyhit")]
+void BoxAny(inout Payload payload, BigToo big) {
+  payload.color.xy = float2(big.normal_and_id.y + big.uv[0].x, big.normal_and_id.y + big.uv[1].x);
 }
 [shader("closesthit")]
 void BoxHit(inout Payload payload, Big big) {
-  payload.color.xyz = big.normal * big.uv[1].y;
+  payload.color.zw = float2(big.normal.z, big.uv[1].y);
+  payload.numbers.x = big.id;
 }
-RWByteAddressBuffer results : register(u0);
 
 [shader("raygeneration")]
 void Main() {
-  results.Store(0, sizeof(Big));
+  results.Store4(0, asuint(trace(RAY_FLAG_NONE, 0x0f, test_ray(0)).color));
+  results.Store(16, sizeof(Big));
+  store(36, trace(RAY_FLAG_NONE, 0xf0, test_ray(0)));
 }
