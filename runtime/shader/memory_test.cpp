@@ -33,10 +33,13 @@ TEST(ShaderMemory, RawLoadsAreCutOffPerComponent) {
   expect_components(load<uint4>(b.descriptor, 8), {3, 4, 0, 0});
   expect_components(load<uint3>(b.descriptor, 12), {4, 0, 0});
   EXPECT_EQ(load<uint32_t>(b.descriptor, 16), 0u);
-  EXPECT_EQ(load<uint32_t>(b.descriptor, 13), 0u);  // three of four bytes are inside
+  EXPECT_EQ(load<uint32_t>(b.descriptor, 13), 4u);  // the two low bits do not count
   EXPECT_EQ(load<uint32_t>(b.descriptor, 0xFFFFFFFCu), 0u);
   expect_components(load<uint4>(b.descriptor, 0xFFFFFFFCu), {0, 0, 0, 0});
-  EXPECT_EQ(load<uint32_t>(b.descriptor, 1), 0x02000000u);  // unaligned
+  EXPECT_EQ(load<uint32_t>(b.descriptor, 3), 1u);
+  EXPECT_EQ(load<uint64_t>(b.descriptor, 7), 0x0000000300000002u);
+  EXPECT_EQ(load<uint16_t>(b.descriptor, 5), 2);  // one low bit
+  EXPECT_EQ(load<uint16_t>(b.descriptor, 6), 0);
   EXPECT_EQ(load<uint64_t>(b.descriptor, 8), 0x0000000400000003u);
   EXPECT_EQ(load<uint64_t>(b.descriptor, 12), 0u);
   EXPECT_EQ(load<uint16_t>(b.descriptor, 4), 2);

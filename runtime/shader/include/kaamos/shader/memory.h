@@ -4,8 +4,9 @@
 // Structures are read and written member by member by the emitted code.
 //
 // Bounds hold for each scalar: what lies at or past Descriptor::size_bytes reads zero and is not
-// written. A descriptor that is no raw, structured or constant buffer has no bytes at all. Offsets
-// need no alignment. bool takes 4 bytes. [hlsl-subset 3.3, 3.4; D3D11.3 7.13]
+// written. A descriptor that is no raw, structured or constant buffer has no bytes at all. Of the
+// offset of a raw load or store the low bits are ignored: two for words and wider, one for 16-bit
+// scalars. bool takes 4 bytes. [hlsl-subset 3.3, 3.4; D3D11.3 7.13]
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -31,22 +32,26 @@ constexpr uint32_t row_aligned(uint32_t bytes) {
 // of its elements (array) or lines (matrix: columns, or rows if row-major).
 template <class V, Layout L, bool RowMajor>
 struct Extent {
-  static constexpr uint32_t bytes = sizeof(Stored<V>);
+  static constexpr uint32_t scalar_bytes = sizeof(Stored<V>);
+  static constexpr uint32_t bytes = scalar_bytes;
 };
 template <class T, int N, Layout L, bool RowMajor>
 struct Extent<vec<T, N>, L, RowMajor> {
-  static constexpr uint32_t bytes = sizeof(Stored<T>) * N;
+  static constexpr uint32_t scalar_bytes = sizeof(Stored<T>);
+  static constexpr uint32_t bytes = scalar_bytes * N;
 };
 template <class T, int R, int C, Layout L, bool RowMajor>
 struct Extent<mat<T, R, C>, L, RowMajor> {
+  static constexpr uint32_t scalar_bytes = sizeof(Stored<T>);
   static constexpr uint32_t lines = RowMajor ? R : C;
-  static constexpr uint32_t line_bytes = sizeof(Stored<T>) * (RowMajor ? C : R);
+  static constexpr uint32_t line_bytes = scalar_bytes * (RowMajor ? C : R);
   static constexpr uint32_t stride =
       L == Layout::kConstantBuffer ? row_aligned(line_bytes) : line_bytes;
   static constexpr uint32_t bytes = stride * (lines - 1) + line_bytes;
 };
 template <class T, uint32_t N, Layout L, bool RowMajor>
 struct Extent<array<T, N>, L, RowMajor> {
+  static constexpr uint32_t scalar_bytes = Extent<T, L, RowMajor>::scalar_bytes;
   static constexpr uint32_t element_bytes = Extent<T, L, RowMajor>::bytes;
   static constexpr uint32_t stride =
       L == Layout::kConstantBuffer ? row_aligned(element_bytes) : element_bytes;
@@ -74,6 +79,13 @@ KAAMOS_INLINE uint8_t* pointer(uint64_t address) {
 KAAMOS_INLINE Window window(const Descriptor& buffer, uint32_t offset) {
   const uint64_t size = buffer_bytes(buffer);
   return {pointer(buffer.address + offset), size > offset ? size - offset : 0};
+}
+
+// The offset that a raw access of a V counts from.
+template <class V>
+constexpr uint32_t aligned_offset(uint32_t offset) {
+  constexpr uint32_t kBytes = Extent<V, Layout::kStructured, false>::scalar_bytes;
+  return offset & ~((kBytes < 4 ? kBytes : 4u) - 1);
 }
 
 KAAMOS_INLINE Window element_window(const Descriptor& buffer, uint32_t index, uint32_t offset) {
@@ -190,12 +202,12 @@ KAAMOS_INLINE T* atomic_pointer(const Window& w) {
 // Raw and constant buffers; offset in bytes. RowMajor matters to matrices and arrays of them.
 template <class V, Layout L = Layout::kStructured, bool RowMajor = false>
 KAAMOS_INLINE V load(const Descriptor& buffer, uint32_t offset) {
-  return memory::read<V, L, RowMajor>(memory::window(buffer, offset));
+  return memory::read<V, L, RowMajor>(memory::window(buffer, memory::aligned_offset<V>(offset)));
 }
 template <class V, Layout L = Layout::kStructured, bool RowMajor = false>
 KAAMOS_INLINE void store(const Descriptor& buffer, uint32_t offset,
                          const std::type_identity_t<V>& value) {
-  memory::write<V, L, RowMajor>(memory::window(buffer, offset), value);
+  memory::write<V, L, RowMajor>(memory::window(buffer, memory::aligned_offset<V>(offset)), value);
 }
 
 // Structured buffers: byte `offset` of element `index`; the view's stride counts.

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "compile_input.h"
+
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/file_loader.h"
+#include "runtime/hlsl/frontend.h"
+#include "runtime/hlsl/ir_dump.h"
+#include "runtime/hlsl/ir_verify.h"
+#include "runtime/hlsl/reflect.h"
+
+namespace kaamos::test {
+
+std::string compile_input(const Corpus& corpus, const std::vector<std::string>& include_folders,
+                          const Input& input, uint64_t choice) {
+  // From memory only: a damaged #include must not open whatever lies on the disk.
+  hlsl::MemoryFileLoader loader(corpus.texts);
+  hlsl::SourceManager sources(loader);
+  hlsl::FrontendOptions options;
+  options.path = input.path;
+  options.text = input.text;
+  options.include_folders = include_folders;
+  const auto flag = [&choice](uint64_t one_in) {
+    const bool set = choice % one_in == 0;
+    choice /= one_in;
+    return set;
+  };
+  options.strict = flag(4);
+  options.native_16bit = flag(2);
+  options.row_major = flag(4);
+  options.external_linkage = flag(2);
+  if (flag(4)) options.hlsl_version = 2018;
+  if (flag(4)) options.target = "lib_6_7";
+  if (flag(16)) options.target = "cs_6_0";
+  if (flag(16)) options.exports = "Main;main=Other";
+  hlsl::DiagnosticEngine diagnostics({.strict = options.strict});
+  const auto module = hlsl::compile_to_ir(options, sources, diagnostics);
+  const std::string messages = hlsl::render_all(diagnostics, sources);
+  if (diagnostics.has_errors() == (module != nullptr)) {
+    return module != nullptr ? "a module in spite of errors:\n" + messages
+                             : "no module, and no error that says why";
+  }
+  if (!module) return {};
+  const std::string violations = hlsl::verify(*module);
+  if (!violations.empty()) return "the module breaks rules of ir.h:\n" + violations;
+  if (hlsl::dump(*module).empty()) return "an empty dump";
+  if (hlsl::reflect_json(*module).empty()) return "no reflection";
+  if (hlsl::emit_cpp(*module, {}).empty()) return "no C++";
+  return {};
+}
+
+}  // namespace kaamos::test

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+//
+// Feeds damaged HLSL to the compiler, which must neither crash, hang, nor eat memory. Inputs are
+// compiled in a child process; the parent watches it, and when it dies writes down what it ate.
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "compile_input.h"
+#include "mutate.h"
+
+namespace kaamos::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMaxCpuSeconds = 5;      // for one input
+constexpr uint64_t kMaxMegabytes = 3000;  // with what a sanitizer needs
+constexpr int kMaxFindings = 20;
+constexpr size_t kTextBytes = 8u << 20;
+
+constexpr char kUsage[] =
+    "hlsl_fuzz [--seed N] [--seconds S] [--out FOLDER] [--first N] [--replay PATH] SOURCE...\n"
+    "  SOURCE          folders with the HLSL files to damage\n"
+    "  --seed N        which sequence of inputs (default 1)\n"
+    "  --seconds S     how long (default 3)\n"
+    "  --first N       begin with input N of the sequence (default 0)\n"
+    "  --out FOLDER    where inputs that were too much are written (default .)\n"
+    "  --replay PATH   compiles this file, or the .hlsl files of this folder, as they are\n";
+
+struct Arguments {
+  uint64_t seed = 1;
+  uint64_t first = 0;
+  double seconds = 3;
+  std::string out = ".";
+  std::string replay;
+  std::vector<std::string> folders;
+};
+
+// What the child tells the parent, also when it dies.
+struct Shared {
+  std::atomic<uint64_t> number;    // of the input in work
+  std::atomic<uint64_t> finished;  // inputs done by all children
+  std::atomic<uint64_t> bytes;
+  char text[kTextBytes];
+  char path[4096];
+  char broken[65536];  // promise that was broken; empty where the child died of something else
+};
+
+std::optional<Arguments> parse_arguments(int argc, char** argv) {
+  Arguments out;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.rfind("--", 0) != 0) {
+      out.folders.push_back(word);
+      continue;
+    }
+    if (++i == argc) return std::nullopt;
+    const std::string value = argv[i];
+    if (word == "--seed") {
+      out.seed = std::strtoull(value.c_str(), nullptr, 0);
+    } else if (word == "--first") {
+      out.first = std::strtoull(value.c_str(), nullptr, 0);
+    } else if (word == "--seconds") {
+      out.seconds = std::strtod(value.c_str(), nullptr);
+    } else if (word == "--out") {
+      out.out = value;
+    } else if (word == "--replay") {
+      out.replay = value;
+    } else {
+      return std::nullopt;
+    }
+  }
+  if (out.folders.empty()) return std::nullopt;
+  return out;
+}
+
+// The inputs of a run: mutations until the time is over, or files as they are.
+class Inputs {
+ public:
+  explicit Inputs(const Arguments& arguments)
+      : arguments_(arguments), corpus_(read_corpus(arguments.folders)) {
+    if (arguments.replay.empty()) return;
+    if (fs::is_directory(arguments.replay)) {
+      for (const auto& entry : fs::directory_iterator(arguments.replay)) {
+        if (entry.path().extension() == ".hlsl") files_.push_back(entry.path());
+      }
+      std::sort(files_.begin(), files_.end());
+    } else {
+      files_.push_back(arguments.replay);
+    }
+  }
+  const Corpus& corpus() const { return corpus_; }
+  bool empty() const { return arguments_.replay.empty() ? corpus_.files.empty() : files_.empty(); }
+  bool ends_before(uint64_t number, Clock::time_point start) const {
+    if (!arguments_.replay.empty()) return number >= files_.size();
+    return std::chrono::duration<double>(Clock::now() - start).count() > arguments_.seconds;
+  }
+  Input get(uint64_t number) const {
+    if (arguments_.replay.empty()) return mutated_input(corpus_, arguments_.seed, number);
+    std::ifstream file(files_[number], std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return {files_[number].string(), text.str()};
+  }
+  // All options of a file of its own, one mutation's options by its number.
+  uint64_t choices() const { return arguments_.replay.empty() ? 1 : 64; }
+
+ private:
+  const Arguments& arguments_;
+  Corpus corpus_;
+  std::vector<fs::path> files_;
+};
+
+void copy_text(char* to, size_t room, const std::string& text) {
+  const size_t bytes = std::min(text.size(), room - 1);
+  std::memcpy(to, text.data(), bytes);
+  to[bytes] = '\0';
+}
+
+[[noreturn]] void child(const Arguments& arguments, const Inputs& inputs, Shared& shared,
+                        Clock::time_point start) {
+  for (uint64_t number = shared.number; !inputs.ends_before(number, start); ++number) {
+    const Input input = inputs.get(number);
+    copy_text(shared.text, kTextBytes, input.text);
+    copy_text(shared.path, sizeof(shared.path), input.path);
+    shared.bytes = std::min(input.text.size(), kTextBytes);
+    shared.number = number;
+    for (uint64_t i = 0; i < inputs.choices(); ++i) {
+      const uint64_t choice = (number + 1) * 0x9e3779b97f4a7c15u + i * 0x632be59bd9b4e019u;
+      const std::string broken =
+          compile_input(inputs.corpus(), arguments.folders, input, choice >> 16);
+      if (broken.empty()) continue;
+      copy_text(shared.broken, sizeof(shared.broken), broken);
+      std::_Exit(1);
+    }
+    ++shared.finished;
+  }
+  std::_Exit(0);
+}
+
+double cpu_seconds(pid_t process) {
+  clockid_t clock;
+  timespec time = {};
+  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+uint64_t resident_megabytes(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/statm");
+  uint64_t total = 0;
+  uint64_t resident = 0;
+  file >> total >> resident;
+  return resident * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) >> 20;
+}
+
+// Waits for the child's end. Empty: it finished all inputs; else what happened.
+std::string watch(pid_t process, Shared& shared) {
+  uint64_t done = shared.finished;
+  double began = cpu_seconds(process);
+  for (;;) {
+    int status = 0;
+    if (waitpid(process, &status, WNOHANG) == process) {
+      if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+      if (shared.broken[0] != '\0') return shared.broken;
+      return WIFSIGNALED(status) ? std::string("killed by ") + strsignal(WTERMSIG(status))
+                                 : "ended with status " + std::to_string(WEXITSTATUS(status));
+    }
+    const double now = cpu_seconds(process);
+    if (shared.finished != done) {
+      done = shared.finished;
+      began = now;
+    }
+    const uint64_t memory = resident_megabytes(process);
+    std::string reason;
+    if (now - began > kMaxCpuSeconds) reason = "took more than 5 s of processor time";
+    if (memory > kMaxMegabytes) reason = "took " + std::to_string(memory) + " MB";
+    if (!reason.empty()) {
+      kill(process, SIGKILL);
+      waitpid(process, &status, 0);
+      return reason;
+    }
+    usleep(20000);
+  }
+}
+
+void write_finding(const Arguments& arguments, const Shared& shared, const std::string& reason) {
+  const std::string name = arguments.out + "/fuzz_" + std::to_string(arguments.seed) + "_" +
+                           std::to_string(shared.number) + ".hlsl";
+  std::ofstream(name, std::ios::binary).write(shared.text, static_cast<ssize_t>(shared.bytes));
+  std::printf("FOUND: seed %llu, input %llu, made of %s: %s\nwritten to %s\n",
+              static_cast<unsigned long long>(arguments.seed),
+              static_cast<unsigned long long>(shared.number.load()), shared.path, reason.c_str(),
+              name.c_str());
+  std::fwrite(shared.text, 1, std::min<size_t>(shared.bytes, 4000), stdout);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+int fuzz(const Arguments& arguments) {
+  const Inputs inputs(arguments);
+  if (inputs.empty()) {
+    std::fprintf(stderr, "hlsl_fuzz: there are no .hlsl files in the folders given\n");
+    return 2;
+  }
+  void* memory =
+      mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) return 2;
+  Shared& shared = *static_cast<Shared*>(memory);
+  shared.number = arguments.first;
+  const auto start = Clock::now();
+  int findings = 0;
+  for (;;) {
+    shared.broken[0] = '\0';
+    const pid_t process = fork();
+    if (process < 0) return 2;
+    if (process == 0) child(arguments, inputs, shared, start);
+    const std::string reason = watch(process, shared);
+    if (reason.empty()) break;
+    write_finding(arguments, shared, reason);
+    if (++findings == kMaxFindings) break;
+    ++shared.number;
+  }
+  std::printf("hlsl_fuzz: seed %llu, %llu inputs, %d findings\n",
+              static_cast<unsigned long long>(arguments.seed),
+              static_cast<unsigned long long>(shared.finished.load()), findings);
+  return findings == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace kaamos::test
+
+int main(int argc, char** argv) {
+  const auto arguments = kaamos::test::parse_arguments(argc, argv);
+  if (!arguments) {
+    std::fputs(kaamos::test::kUsage, stderr);
+    return 2;
+  }
+  return kaamos::test::fuzz(*arguments);
+}
