@@ -74,6 +74,7 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
     if (entry.path().extension() != ".hlsl") continue;
     FrontendOptions options;
     options.path = entry.path().string();
+    options.include_folders = {KAAMOS_SOURCE_DIR "/tests/hlsl"};
     options.native_16bit = options.path.find("16_t") != std::string::npos;
     DiskFileLoader loader;
     SourceManager sources(loader);

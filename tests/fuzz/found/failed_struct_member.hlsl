@@ -1,0 +1,2 @@
+struct Payload{uint4 numbers}
+RayDesc test_ray(float ){}Payload trace(uint ,uint ,RayDesc ){trace(RAY_FLAG_NONE,0x0f,test_ray(0)).numbers
