@@ -16,7 +16,13 @@ Value Checker::lower(const Expr* expression) {
   }
   ++depth_;
   at(expression->location);
+  // Of all others each operand is used, also where the result is not.
+  const ExprKind kind = expression->kind;
+  const bool unused = result_unused_;
+  result_unused_ = unused && (kind == ExprKind::kCall || kind == ExprKind::kAssign ||
+                              kind == ExprKind::kConditional || kind == ExprKind::kUnary);
   Value value = lower_inner(expression);
+  result_unused_ = unused;
   value.location = expression->location;
   if (value.type && value.type->is_error()) value = error_value();
   --depth_;

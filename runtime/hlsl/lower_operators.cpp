@@ -109,7 +109,10 @@ std::optional<Value> Checker::overloaded_operator(std::string_view name, const V
 }
 
 Value Checker::lower_unary(const UnaryExpr* expr) {
+  const bool unused = result_unused_;
+  result_unused_ = false;
   Value operand = lower(expr->operand);
+  result_unused_ = unused;
   if (operand.failed()) return operand;
   at(expr->location);
   if (expr->op >= UnaryOp::kPreIncrement) return lower_increment(expr, operand);

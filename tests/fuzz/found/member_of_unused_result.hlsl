@@ -1,0 +1,13 @@
+// A member of what a call gives, as a statement of its own.
+struct Payload {
+  uint4 numbers;
+};
+Payload make() { return (Payload)0; }
+RWByteAddressBuffer results : register(u0);
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void main() {
+  make().numbers;
+  make().numbers.x && make().numbers.y;
+  results.Store(0, 1);
+}
