@@ -193,6 +193,8 @@ struct Value {
   BindingInfo* binding = nullptr;
   bool is_sampler_heap = false;
   const InitListExpr* init_list = nullptr;
+  // What the place held when it was evaluated, where a later argument may have changed it.
+  const ir::Expr* saved = nullptr;
   SourceLocation location;
 
   bool failed() const { return kind == ValueKind::kError; }

@@ -105,6 +105,19 @@ TEST(Lowering, EffectsKeepTheirOrder) {
   EXPECT_LT(increment, last) << text;
 }
 
+TEST(Lowering, ArgumentsAreReadBeforeLaterEffects) {
+  const Compilation compilation(
+      kernel("S s = {1, 2};\nresults.Store(0, sum(s.x, next(s), s.x));",
+             "struct S { uint x, y; };\nuint next(inout S s) { return s.x++; }\n"
+             "uint sum(uint a, uint b, uint c) { return a * 100 + b * 10 + c; }"));
+  const std::string text = compilation.function("main");
+  const size_t saved = text.find("= s$0.x\n");
+  const size_t call = text.find("= next(s$0)");
+  ASSERT_NE(saved, std::string::npos) << text;
+  EXPECT_LT(saved, call) << text;
+  EXPECT_TRUE(contains(text, ", s$0.x)")) << text;
+}
+
 TEST(Lowering, ShortCircuitKeepsCallsBehindTheTest) {
   const Compilation compilation(kernel("bool b = results.Load(0) > 0 && f();\nresults.Store(0, b);",
                                        "bool f() { return true; }"));

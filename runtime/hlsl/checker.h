@@ -197,7 +197,8 @@ class Checker {
   // -- Expressions (lower_expressions.cpp, lower_operators.cpp)
   Value lower(const Expr* expression);
   Value lower_inner(const Expr* expression);
-  std::vector<Value> lower_all(std::span<const Expr* const> expressions, bool keep_places);
+  std::vector<Value> lower_all(std::span<const Expr* const> expressions, bool keep_places,
+                               bool save_values = false);
   Value lower_name(const NameExpr* expr);
   Value symbol_value(Symbol* symbol, SourceLocation location);
   Value variable_value(VariableInfo* variable, SourceLocation location);

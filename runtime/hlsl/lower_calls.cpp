@@ -47,7 +47,7 @@ Value Checker::lower_call(const CallExpr* expr) {
   if (symbol && (symbol->kind == SymbolKind::kVariable || symbol->kind == SymbolKind::kField)) {
     Value object = lower(expr->callee);
     if (object.failed()) return object;
-    std::vector<Value> values = lower_all(expr->arguments, true);
+    std::vector<Value> values = lower_all(expr->arguments, true, true);
     if (object.type && object.type->is_struct()) {
       if (auto result = overloaded_operator("operator()", object, values, expr->location)) {
         return *result;
@@ -56,7 +56,7 @@ Value Checker::lower_call(const CallExpr* expr) {
     report(CheckId::kNotCallable, expr->location);
     return error_value();
   }
-  std::vector<Value> arguments = lower_all(expr->arguments, true);
+  std::vector<Value> arguments = lower_all(expr->arguments, true, true);
   for (const Value& argument : arguments) {
     if (argument.failed()) return error_value();
   }
@@ -94,7 +94,8 @@ Value Checker::call_method(const MemberExpr* callee, const CallExpr* call_expr) 
   const bool unused = result_unused_;
   std::vector<const Expr*> all = {callee->base};
   all.insert(all.end(), call_expr->arguments.begin(), call_expr->arguments.end());
-  std::vector<Value> values = lower_all(all, true);
+  std::vector<Value> values = lower_all(all, true, true);
+  values[0].saved = nullptr;  // the object is no value
   result_unused_ = unused;
   for (const Value& value : values) {
     if (value.failed()) return error_value();

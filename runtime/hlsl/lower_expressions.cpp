@@ -105,8 +105,10 @@ Value Checker::lower_inner(const Expr* expression) {
 }
 
 // Left to right. What an operand gives is saved before a later one's effects, where they could
-// change it; with `keep_places` a place stays one, and only its indices are saved.
-std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, bool keep_places) {
+// change it; with `keep_places` a place stays one, and only its indices are saved, with
+// `save_values` what it holds as well.
+std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, bool keep_places,
+                                      bool save_values) {
   std::vector<Value> values;
   values.reserve(expressions.size());
   size_t fixed = 0;  // values[0..fixed) cannot change any more
@@ -124,6 +126,12 @@ std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, 
         if (keep_places || !earlier.type || earlier.kind == ValueKind::kHeap ||
             earlier.kind == ValueKind::kBindings || earlier.kind == ValueKind::kMips) {
           freeze(earlier, &position);
+          const bool is_memory =
+              earlier.kind == ValueKind::kMemory || earlier.kind == ValueKind::kTyped;
+          if (save_values && (earlier.kind == ValueKind::kExpr || is_memory)) {
+            const ir::Expr* held = load(earlier);
+            if (held && !is_fixed(held)) earlier.saved = build_.read(temporary(held, &position));
+          }
           continue;
         }
         const ir::Expr* expr = load(earlier);

@@ -163,6 +163,7 @@ void Checker::freeze(Value& value, size_t* position) {
 }
 
 const ir::Expr* Checker::load(const Value& value) {
+  if (value.saved) return value.saved;
   switch (value.kind) {
     case ValueKind::kExpr:
       return value.expr;
@@ -292,6 +293,7 @@ void Checker::store(const Value& target, const ir::Expr* value) {
       // Part of a texel: read it, change it, write it back.
       Value all = target;
       all.whole = nullptr;
+      all.saved = nullptr;
       all.components.clear();
       all.type = target.whole;
       const ir::Expr* source = build_.read(temporary(value));
@@ -315,6 +317,7 @@ void Checker::store(const Value& target, const ir::Expr* value) {
 }
 
 Value Checker::field_of(const Value& base, uint32_t index, const Type* type) {
+  if (base.saved) return rvalue(build_.field(base.saved, index), type);
   Value result = base;
   result.type = type;
   if (base.kind == ValueKind::kMemory) {
