@@ -38,7 +38,7 @@ DxrScene& Fixtures::dxr_scene(bool alpha_tested) {
 }
 
 const OwnTopLevel& Fixtures::own_top_level() {
-  if (!own_) own_ = std::make_unique<OwnTopLevel>(scene());
+  if (!own_) own_ = std::make_unique<OwnTopLevel>(dxr_scene(false));
   return *own_;
 }
 

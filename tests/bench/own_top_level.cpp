@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "own_top_level.h"
 
-#include <cstring>
 #include <limits>
-#include <span>
-#include <string>
 
+#include "rtapi/src/device_impl.h"
+#include "runtime/embree/device.h"
+#include "runtime/embree/memory.h"
 #include "runtime/embree/ray_state.h"
 #include "tiles.h"
 
@@ -39,54 +39,11 @@ void begin_ray(const Ray& in, RayState& state, RTCRay& ray) {
   ray.flags = 0;
 }
 
-std::vector<rtapi::RaytracingGeometryDesc> describe(const MeshData& mesh) {
-  std::vector<rtapi::RaytracingGeometryDesc> out;
-  const auto vertices = reinterpret_cast<uint64_t>(mesh.vertices->data());
-  const auto indices = reinterpret_cast<uint64_t>(mesh.indices.data());
-  for (const GeometryData& geometry : mesh.geometries) {
-    rtapi::RaytracingGeometryDesc& desc = out.emplace_back();
-    desc.Flags = rtapi::RaytracingGeometryFlags::kOpaque;
-    desc.Triangles.VertexFormat = rtapi::Format::kR32G32B32Float;
-    desc.Triangles.IndexFormat = rtapi::Format::kR32Uint;
-    desc.Triangles.IndexCount = 3 * geometry.triangle_count;
-    desc.Triangles.IndexBuffer = indices + uint64_t{geometry.first_index} * 4;
-    desc.Triangles.VertexCount = geometry.vertex_count;
-    desc.Triangles.VertexBuffer = {
-        vertices + uint64_t{geometry.first_vertex} * effects::kVertexStride,
-        effects::kVertexStride};
-  }
-  return out;
-}
-
-// Addresses of bottom levels are their indices, from 1.
-std::shared_ptr<const embree::BottomLevel> find_mesh(const void* self, uint64_t address) {
-  using Meshes = std::vector<std::shared_ptr<const embree::BottomLevel>>;
-  return (*static_cast<const Meshes*>(self))[address - 1];
-}
-
 }  // namespace
 
-OwnTopLevel::OwnTopLevel(const SceneData& data) : device_(new_embree_device()) {
-  const embree::BuildContext context = {device_, true};
-  for (const MeshData& mesh : data.meshes) {
-    const auto geometries = describe(mesh);
-    meshes_.push_back(
-        embree::BottomLevel::build(context, geometries, embree::BuildFlags::kNone).value());
-  }
-  std::vector<rtapi::RaytracingInstanceDesc> instances;
-  for (const InstanceData& instance : data.instances) {
-    rtapi::RaytracingInstanceDesc& desc = instances.emplace_back();
-    std::memcpy(desc.Transform, instance.transform.data(), sizeof(desc.Transform));
-    desc.AccelerationStructure = instance.mesh + 1;
-  }
-  std::vector<std::string> notes;
-  top_level_ = embree::TopLevel::build(context, instances, find_mesh, &meshes_, notes).value();
-}
-
-OwnTopLevel::~OwnTopLevel() {
-  top_level_.reset();
-  meshes_.clear();
-  rtcReleaseDevice(device_);
+OwnTopLevel::OwnTopLevel(const DxrScene& scene) {
+  auto& device = static_cast<embree::Device&>(*scene.device().impl()->backend);
+  top_level_ = device.memory().find_top_level(scene.top_level().GetGPUVirtualAddress());
 }
 
 void OwnTopLevel::closest(tbb::task_arena& arena, const RayGrid& grid,
