@@ -171,6 +171,10 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
     error = "-emit object needs a file name: give it with -Fo";
     return std::nullopt;
   }
+  if (!out.dependency_file.empty() && out.output.empty()) {
+    error = "-MF needs the name of what is made: give it with -Fo";
+    return std::nullopt;
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-hlsl: the compiler as a program.
+#include <cerrno>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -44,20 +45,24 @@ FrontendOptions frontend_options(const Arguments& arguments) {
   return options;
 }
 
-// Writes to a name of its own first, so that an interrupted run leaves no half of a file.
-bool write_file(const std::string& path, const std::string& text) {
+// Writes to a name of its own first, so that an interrupted run leaves no half of a file. Returns
+// the exit status.
+int write_file(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".new";
+  errno = 0;
   std::ofstream file(temporary, std::ios::binary);
   file << text;
   file.close();
   std::error_code failed;
-  if (file) fs::rename(temporary, path, failed);
-  if (!file || failed) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    return false;
+  if (file) {
+    fs::rename(temporary, path, failed);
+  } else {
+    failed = std::error_code(errno != 0 ? errno : EIO, std::generic_category());
   }
-  return true;
+  if (!failed) return 0;
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  return fail("cannot write " + path + ": " + failed.message());
 }
 
 // "output: source header ..." with spaces escaped as make and ninja read them.
@@ -104,7 +109,7 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
     std::cout << text << std::flush;
     return std::cout ? 0 : fail("cannot write to standard output");
   }
-  return write_file(arguments.output, text) ? 0 : fail("cannot write " + arguments.output);
+  return write_file(arguments.output, text);
 }
 
 int compile(const Arguments& arguments) {
@@ -120,9 +125,9 @@ int compile(const Arguments& arguments) {
     return fail("warnings are errors [-WX]");
   }
   if (arguments.check_only) return 0;
-  if (!arguments.dependency_file.empty() &&
-      !write_file(arguments.dependency_file, make_rule(arguments.output, sources.loaded_paths()))) {
-    return fail("cannot write " + arguments.dependency_file);
+  if (!arguments.dependency_file.empty()) {
+    const std::string rule = make_rule(arguments.output, sources.loaded_paths());
+    if (const int status = write_file(arguments.dependency_file, rule)) return status;
   }
   return arguments.emit == Emit::kObject ? write_object(arguments, *module)
                                          : write_text(arguments, *module);

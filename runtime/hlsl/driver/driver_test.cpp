@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// kaamos-hlsl as it is called from a shell: exit status, what it prints, what it writes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr char kLibrary[] = R"(#include "numbers.hlsli"
+RWByteAddressBuffer results;
+uint helper(uint x) { return x * NUMBER; }
+uint other(uint x) { return x + NUMBER; }
+[shader("raygeneration")]
+void Main() {
+  results.Store(0, helper(2));
+}
+)";
+constexpr char kKernel[] = R"(RWByteAddressBuffer results : register(u0);
+[numthreads(4, 2, 1)]
+void kernel(uint i : SV_GroupIndex) { results.Store(4 * i, i); }
+)";
+
+struct Outcome {
+  int status = -1;
+  std::string out;
+  std::string error;
+};
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class Driver : public testing::Test {
+ protected:
+  Driver() {
+    std::string name = (fs::temp_directory_path() / "kaamos-driver-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+    write("main.hlsl", kLibrary);
+    write("numbers.hlsli", "#define NUMBER 7\n");
+    write("kernel.hlsl", kKernel);
+  }
+  ~Driver() override {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  std::string text_of(const std::string& name) const { return read(folder_ / name); }
+
+  // Runs in the folder; `arguments` are words for the shell.
+  Outcome run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" KAAMOS_HLSL "' " + arguments +
+                                " >out.txt 2>error.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("out.txt"), text_of("error.txt")};
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Driver, WrongCommandLines) {
+  const struct {
+    const char* arguments;
+    const char* message;
+  } cases[] = {
+      {"", "kaamos-hlsl: no source file given; -help lists the options\n"},
+      {"-foo main.hlsl", "kaamos-hlsl: unknown option \"-foo\"; -help lists the options\n"},
+      {"main.hlsl kernel.hlsl",
+       "kaamos-hlsl: two source files, \"main.hlsl\" and \"kernel.hlsl\": give one\n"},
+      {"main.hlsl -T", "kaamos-hlsl: -T needs a value behind it; -help lists the options\n"},
+      {"-HV 2017 main.hlsl", "kaamos-hlsl: -HV 2017: the value must be 2018 or 2021\n"},
+      {"-emit exe main.hlsl",
+       "kaamos-hlsl: -emit exe: the value must be cpp, ir, reflection or object\n"},
+      {"-default-linkage none main.hlsl",
+       "kaamos-hlsl: -default-linkage none: the value must be external or internal\n"},
+      {"-auto-binding-space 1x main.hlsl",
+       "kaamos-hlsl: -auto-binding-space 1x: the value must be a whole number\n"},
+      {"--entry-function 1a main.hlsl",
+       "kaamos-hlsl: --entry-function 1a: the value must be a C identifier\n"},
+      {"-emit object main.hlsl", "kaamos-hlsl: -emit object needs a file name: give it with -Fo\n"},
+      {"-MF rule main.hlsl", "kaamos-hlsl: -MF needs the name of what is made: give it with -Fo\n"},
+  };
+  for (const auto& one : cases) {
+    const Outcome outcome = run(one.arguments);
+    EXPECT_EQ(outcome.status, 2) << one.arguments;
+    EXPECT_EQ(outcome.error, one.message);
+    EXPECT_THAT(outcome.out, IsEmpty());
+  }
+}
+
+TEST_F(Driver, HelpNamesEveryOption) {
+  const Outcome outcome = run("-help");
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* option : {"-T ", "-E ", "-D ", "-I ", "-HV ", "-exports ", "-default-linkage ",
+                             "-auto-binding-space ", "-enable-16bit-types", "-Zpr, -Zpc", "-WX",
+                             "-Zi", "-Fo ", "-check", "-emit ", "--strict", "-MF "}) {
+    EXPECT_THAT(outcome.out, HasSubstr(option));
+  }
+}
+
+TEST_F(Driver, MissingFile) {
+  const Outcome outcome = run("nowhere.hlsl");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.error,
+            "error: cannot open 'nowhere.hlsl': there is no such file [KA2001]\n1 error\n");
+}
+
+TEST_F(Driver, ErrorsHavePlaceLineAndCaret) {
+  write("wrong.hlsl", "#include \"broken.hlsli\"\n");
+  write("broken.hlsli", "static const int a = 1;\nstatic const int b = c;\n");
+  const Outcome outcome = run("-check wrong.hlsl");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.error, AllOf(HasSubstr("broken.hlsli:2:22: error: "),
+                                   HasSubstr("static const int b = c;\n                     ^"),
+                                   HasSubstr("wrong.hlsl:1"), HasSubstr("1 error")));
+  EXPECT_THAT(outcome.out, IsEmpty());
+}
+
+TEST_F(Driver, UnwritableOutput) {
+  for (const char* emit : {"cpp", "ir", "reflection"}) {
+    const Outcome outcome = run(std::string("-no-warnings -o nowhere/x main.hlsl -emit ") + emit);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.error, "kaamos-hlsl: cannot write nowhere/x: No such file or directory\n");
+  }
+  const Outcome rule = run("-no-warnings -o x.cpp -MF nowhere/rule main.hlsl");
+  EXPECT_EQ(rule.status, 1);
+  EXPECT_EQ(rule.error, "kaamos-hlsl: cannot write nowhere/rule: No such file or directory\n");
+  fs::create_directory(folder_ / "taken");
+  EXPECT_EQ(run("-no-warnings -o taken main.hlsl").error,
+            "kaamos-hlsl: cannot write taken: Is a directory\n");
+  EXPECT_FALSE(fs::exists(folder_ / "taken.new"));
+}
+
+TEST_F(Driver, CheckWritesNothing) {
+  const Outcome outcome = run("-check -o x.cpp main.hlsl");
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_THAT(outcome.out, IsEmpty());
+  EXPECT_FALSE(fs::exists(folder_ / "x.cpp"));
+}
+
+TEST_F(Driver, EmitsEachForm) {
+  const Outcome ir = run("-emit ir main.hlsl");
+  EXPECT_EQ(ir.status, 0);
+  EXPECT_THAT(ir.out, AllOf(StartsWith("module main.hlsl lib_6_6\n"), HasSubstr("helper")));
+  const Outcome reflection = run("-emit reflection main.hlsl");
+  EXPECT_EQ(reflection.status, 0);
+  EXPECT_THAT(reflection.out,
+              AllOf(StartsWith("{"), HasSubstr("\"name\": \"Main\""), HasSubstr("\"results\"")));
+  const Outcome cpp = run("main.hlsl --entry-function my_table");
+  EXPECT_EQ(cpp.status, 0);
+  EXPECT_THAT(cpp.out,
+              AllOf(HasSubstr("#include <kaamos/shader/prelude.h>"), HasSubstr("my_table")));
+  EXPECT_EQ(run("-o x.cpp main.hlsl --entry-function my_table").status, 0);
+  EXPECT_EQ(text_of("x.cpp"), cpp.out);
+}
+
+TEST_F(Driver, DependencyFileNamesEveryInput) {
+  EXPECT_EQ(run("-o 'x y.cpp' -MF rule main.hlsl").status, 0);
+  const std::string rule = text_of("rule");
+  EXPECT_THAT(rule, AllOf(HasSubstr("main.hlsl"), HasSubstr("numbers.hlsli")));
+}
+
+TEST_F(Driver, DefinesAndIncludeFolders) {
+  fs::create_directory(folder_ / "inc");
+  write("inc/deep.hlsli", "static const uint kDeep = DEPTH;\n");
+  write("uses.hlsl", "#include <deep.hlsli>\n" + std::string(kKernel));
+  EXPECT_EQ(run("-check -T cs_6_0 -E kernel uses.hlsl").status, 1);
+  EXPECT_EQ(run("-check -T cs_6_0 -E kernel -I inc uses.hlsl").status, 1);
+  EXPECT_EQ(run("-check -T cs_6_0 -E kernel -Iinc -D DEPTH=3 uses.hlsl").status, 0);
+  EXPECT_EQ(run("-check -T cs_6_0 -E kernel -I inc -DDEPTH=3 uses.hlsl").status, 0);
+}
+
+TEST_F(Driver, Exports) {
+  const std::string reflect = "-emit reflection main.hlsl ";
+  EXPECT_THAT(run(reflect).out, Not(HasSubstr("\"name\": \"helper\"")));
+  EXPECT_THAT(run(reflect + "-default-linkage external").out,
+              AllOf(HasSubstr("\"name\": \"helper\""), HasSubstr("\"name\": \"other\""),
+                    HasSubstr("\"name\": \"Main\"")));
+  EXPECT_THAT(run(reflect + "-exports 'A,B=Main;helper'").out,
+              AllOf(HasSubstr("\"name\": \"A\""), HasSubstr("\"name\": \"B\""),
+                    HasSubstr("\"name\": \"helper\""), Not(HasSubstr("\"name\": \"Main\""))));
+  const Outcome unknown = run(reflect + "-exports nobody");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_EQ(unknown.error,
+            "error: export 'nobody' is asked for, but there is no such function [KA2577]\n"
+            "1 error\n");
+  EXPECT_EQ(run(reflect + "-exports '=Main'").status, 1);
+}
+
+TEST_F(Driver, AutomaticBindingSpace) {
+  EXPECT_THAT(run("-emit ir main.hlsl").out, HasSubstr("binding results RWByteAddressBuffer u0 "
+                                                       "space0"));
+  EXPECT_THAT(run("-emit ir -auto-binding-space 9 main.hlsl").out,
+              HasSubstr("binding results RWByteAddressBuffer u0 space9"));
+}
+
+TEST_F(Driver, ComputeTargets) {
+  const Outcome kernel = run("-T cs_6_0 -E kernel -emit reflection kernel.hlsl");
+  EXPECT_EQ(kernel.status, 0) << kernel.error;
+  EXPECT_THAT(kernel.out, HasSubstr("\"name\": \"kernel\""));
+  EXPECT_EQ(run("-T cs_6_0 -E nobody kernel.hlsl").error,
+            "error: there is no function 'nobody', the entry point asked for [KA2562]\n1 error\n");
+  const Outcome pixel = run("-T ps_6_0 kernel.hlsl");
+  EXPECT_EQ(pixel.status, 1);
+  EXPECT_THAT(pixel.error, HasSubstr("target 'ps_6_0' is not known"));
+}
+
+TEST_F(Driver, WarningsAsErrors) {
+  write("warns.hlsl",
+        "RWByteAddressBuffer results;\n[shader(\"raygeneration\")]\nvoid Main() {\n"
+        "  float4 a = results.Load(0);\n  float3 b = a;\n  results.Store(0, asuint(b.x));\n}\n");
+  const Outcome plain = run("-check warns.hlsl");
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_THAT(plain.error, AllOf(HasSubstr("warns.hlsl:5:14: warning: "), HasSubstr("1 warning")));
+  EXPECT_THAT(run("-check -no-warnings warns.hlsl").error, IsEmpty());
+  const Outcome strict = run("-WX -o x.cpp warns.hlsl");
+  EXPECT_EQ(strict.status, 1);
+  EXPECT_THAT(strict.error, HasSubstr("kaamos-hlsl: warnings are errors [-WX]\n"));
+  EXPECT_FALSE(fs::exists(folder_ / "x.cpp"));
+  EXPECT_EQ(run("-WX -check -default-linkage external main.hlsl").status, 0);
+}
+
+}  // namespace
