@@ -111,16 +111,17 @@ std::string place(const ResolvedLocation& at) {
   return std::string(at.path) + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
 }
 
+// From the main file down to the file of the location; of a long chain the inner end.
 std::string include_chain(const SourceManager& sources, SourceLocation location) {
   std::string result;
   SourceLocation from = sources.include_location(location);
   for (size_t i = 0; from.is_valid() && i < kMaxIncludeNotes; ++i) {
     ResolvedLocation at = sources.resolve(from);
-    result +=
-        "In file included from " + std::string(at.path) + ":" + std::to_string(at.line) + ":\n";
+    result.insert(
+        0, "In file included from " + std::string(at.path) + ":" + std::to_string(at.line) + ":\n");
     from = sources.include_location(from);
   }
-  if (from.is_valid()) result += "(more #include above)\n";
+  if (from.is_valid()) result.insert(0, "(more #include above)\n");
   return result;
 }
 

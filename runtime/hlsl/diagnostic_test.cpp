@@ -41,8 +41,8 @@ TEST(Render, IncludeAndMacroChains) {
                      {{"a.h", "// a\n#include \"b.h\"\n"},
                       {"b.h", "#define BAD(x) x + @\n#define OUTER BAD(1)\n  OUTER;\n"}});
   EXPECT_EQ(input.rendered(),
-            "In file included from a.h:2:\n"
             "In file included from main.hlsl:1:\n"
+            "In file included from a.h:2:\n"
             "b.h:3:3: error: unexpected character '@' [KA2100]\n"
             "  OUTER;\n"
             "  ^\n"

@@ -168,7 +168,8 @@ void Checker::warn_skipped() {
     const bool skipped = function.definition && !function.is_template &&
                          function.template_suffix.empty() &&
                          function.state == FunctionInfo::State::kPending;
-    if (!skipped) continue;
+    // What an included file offers and this library does not use is no news.
+    if (!skipped || sources_.include_location(function.definition->location).is_valid()) continue;
     if (count == 0) first = function.definition->location;
     if (count < kNamesShown) names += (count ? ", " : "") + function.qualified;
     ++count;
