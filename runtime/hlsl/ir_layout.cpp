@@ -32,24 +32,13 @@ uint32_t scalar_alignment(const Type* type) {
              : 1;
 }
 
-// Where a member goes whose predecessors end at `offset`.
-uint64_t place(uint64_t offset, const Type* type, Layout layout, bool row_major) {
-  const Extent extent = extent_of(type, layout, row_major);
-  if (layout == Layout::kStructured || extent.alignment == 16) {
-    return align(offset, extent.alignment);
-  }
-  offset = align(offset, scalar_alignment(type));
-  return offset % 16 + extent.size > 16 ? align(offset, 16) : offset;
-}
-
 Extent extent_of_matrix(const Type* type, Layout layout, bool row_major) {
   const uint32_t bytes = scalar_bytes(type->scalar);
   const uint32_t lines = row_major ? type->rows : type->columns;
   const uint32_t line = bytes * (row_major ? type->columns : type->rows);
-  if (layout == Layout::kStructured) {
-    return {uint64_t{line} * lines, bytes};
-  }
-  return {align(line, 16) * (lines - 1) + line, lines > 1 ? 16 : bytes};
+  const uint64_t size = uint64_t{matrix_stride(type, layout, row_major)} * (lines - 1) + line;
+  // A matrix of one line lies like a vector.
+  return {size, layout == Layout::kConstantBuffer && lines > 1 ? 16 : bytes};
 }
 
 Extent extent_of_struct(const Struct& structure, Layout layout) {
@@ -78,8 +67,7 @@ Extent extent_of(const Type* type, Layout layout, bool row_major) {
     case TypeKind::kArray: {
       const Extent element = extent_of(type->element, layout, row_major);
       const uint64_t stride = array_stride(type->element, layout, row_major);
-      const uint64_t count = std::max(type->count, 1u);
-      return {stride * (count - 1) + element.size,
+      return {type->count == 0 ? 0 : stride * (type->count - 1) + element.size,
               layout == Layout::kConstantBuffer ? 16 : element.alignment};
     }
     case TypeKind::kStruct:
@@ -94,11 +82,25 @@ uint64_t array_stride(const Type* element, Layout layout, bool row_major) {
   return align(extent.size, layout == Layout::kConstantBuffer ? 16 : extent.alignment);
 }
 
+uint32_t matrix_stride(const Type* matrix, Layout layout, bool row_major) {
+  const uint32_t line = scalar_bytes(matrix->scalar) * (row_major ? matrix->columns : matrix->rows);
+  return static_cast<uint32_t>(layout == Layout::kConstantBuffer ? align(line, 16) : line);
+}
+
+uint64_t place_member(const Type* type, uint64_t offset, Layout layout, bool row_major) {
+  const Extent extent = extent_of(type, layout, row_major);
+  if (layout == Layout::kStructured || extent.alignment == 16) {
+    return align(offset, extent.alignment);
+  }
+  offset = align(offset, scalar_alignment(type));
+  return offset % 16 + extent.size > 16 ? align(offset, 16) : offset;
+}
+
 std::vector<uint32_t> field_offsets(const Struct& structure, Layout layout) {
   std::vector<uint32_t> offsets;
   uint64_t end = 0;
   for (const Field& field : structure.fields) {
-    uint64_t at = place(end, field.type, layout, field.row_major);
+    uint64_t at = place_member(field.type, end, layout, field.row_major);
     if (layout == Layout::kConstantBuffer && field.packoffset >= 0) {
       at = static_cast<uint64_t>(field.packoffset);
     }

@@ -24,6 +24,10 @@ struct Extent {
 Extent extent_of(const Type* type, Layout layout, bool row_major);
 // Bytes from one element of an array to the next.
 uint64_t array_stride(const Type* element, Layout layout, bool row_major);
+// Bytes from one line of a matrix (row, or column) to the next.
+uint32_t matrix_stride(const Type* matrix, Layout layout, bool row_major);
+// Where a member goes whose predecessors end at `offset`.
+uint64_t place_member(const Type* type, uint64_t offset, Layout layout, bool row_major);
 // One for each field.
 std::vector<uint32_t> field_offsets(const Struct& structure, Layout layout);
 
