@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
                                          "03-any-hit-alpha", "04-procedural-spheres",
                                          "05-callable-and-recursion", "06-local-root-signature",
                                          "07-update-and-compaction", "08-compute"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& tested) {
+                           std::string name = tested.param;
                            for (char& c : name) {
                              if (c == '-') c = '_';
                            }
