@@ -22,7 +22,7 @@ void GBufferRayGen() {
   ray.TMax = 1e30;
   SurfacePayload payload;
   payload.unused = 0;
-  TraceRay(scene, RAY_FLAG_NONE, kMaskVisible, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <span>
 
 namespace kaamos::effects {
@@ -120,12 +121,8 @@ std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const Gpu
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     RaytracingInstanceDesc desc;
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 4; ++column) {
-        const double value = instance.transform[column][row] - (column == 3 ? origin[row] : 0.0);
-        desc.Transform[row][column] = static_cast<float>(value);
-      }
-    }
+    const glm::mat3x4 rows = transform_3x4(instance, origin);
+    std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
     desc.InstanceID = i & 0xFFFFFFu;
     desc.InstanceMask = instance.mask;
     desc.InstanceContributionToHitGroupIndex =

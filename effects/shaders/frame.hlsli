@@ -72,7 +72,9 @@ static const uint kRayTypeSurface = 0;
 static const uint kRayTypeVisibility = 1;
 static const uint kRayTypeCount = 2;
 
-static const uint kMaskVisible = 0xFF;
+// Instances that block rays: all but glass (bit 1), which the transparency effect is for; these
+// effects look through it. [effects/scene/scene.h: InstanceMask]
+static const uint kMaskSolid = 0xFD;
 
 // Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
 static const uint kAmbientOcclusionPair = 0;

@@ -31,7 +31,7 @@ float TraceVisibility(float3 origin, float3 direction, float t_max) {
   VisibilityPayload payload;
   payload.visibility = 0.0;
   TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
-           kMaskVisible, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
+           kMaskSolid, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
   return payload.visibility;
 }
 

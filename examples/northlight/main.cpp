@@ -10,6 +10,7 @@
 #include "effects/scene/gltf_load.h"
 #include "effects/scene/gltf_write.h"
 #include "effects/scene/lounge.h"
+#include "effects/scene/staging.h"
 #include "options.h"
 #include "output.h"
 #include "renderer.h"
@@ -45,6 +46,8 @@ bool load_scene(const Options& options, Scene& scene) {
     std::fprintf(stderr, "northlight: warning: %s\n", warning.c_str());
   }
   scene = std::move(loaded.value().scene);
+  // A tree on its own has nothing to cast its shadow on.
+  if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
   return true;
 }
 
