@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// One effect over one scene through the real passes, small enough for thousands of rays per pixel.
+#pragma once
+
+#include <cstdint>
+
+#include "effects/frame/ray_pass.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::test {
+
+enum class Effect { kAmbientOcclusion, kSunShadow };
+
+struct EffectRun {
+  Effect effect = Effect::kAmbientOcclusion;
+  std::uint32_t width = 24;
+  std::uint32_t height = 16;
+  std::uint32_t samples = 4096;
+  float radius = 4.0f;  // ambient occlusion
+  std::uint32_t seed = 0;
+  std::uint32_t threads = 0;
+};
+
+struct EffectResult {
+  effects::FloatImage visibility;  // mean over the samples
+  effects::FloatImage position;    // x, y, z relative to the camera
+  effects::FloatImage ids;         // instance + 1, primitive
+};
+
+// Throws rtapi::ResultError.
+EffectResult run_effect(const effects::Scene& scene, const EffectRun& run);
+
+}  // namespace kaamos::test
