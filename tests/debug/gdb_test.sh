@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# gdb_test.sh PROGRAM SHADER: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
+# gdb_test.sh GDB PROGRAM SHADER: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
 # stops there, shows the whole stack down to the ray generation shader, and the shader's variables.
 set -u
-program=$1
-shader=$2
+gdb=$1
+program=$2
+shader=$3
 
-if ! command -v gdb > /dev/null; then
+if ! command -v "$gdb" > /dev/null; then
   echo "gdb is not installed (apt install gdb)"
   exit 77
 fi
@@ -14,7 +15,7 @@ line=$(grep -n 'BREAK HERE' "$shader" | cut -d: -f1)
 caller=$(grep -n 'CALLED FROM HERE' "$shader" | cut -d: -f1)
 name=$(basename "$shader")
 
-output=$(DEBUGINFOD_URLS='' gdb -nx -batch \
+output=$(DEBUGINFOD_URLS='' "$gdb" -nx -batch \
   -ex 'set breakpoint pending on' \
   -ex 'handle SIGSEGV nostop noprint pass' \
   -ex "break $name:$line" \
