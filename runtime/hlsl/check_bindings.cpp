@@ -84,6 +84,8 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
   binding->name = decl->name;
   binding->location = decl->location;
   binding->register_class = 2;
+  // Set before the members: the size of an array may name one of them, wrongly.
+  binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
   apply_register(binding, decl->annotations);
   uint32_t offset = 0;
   for (const Decl* member : decl->members) {
@@ -150,7 +152,6 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
     }
     add_symbol(scope, SymbolKind::kVariable, variable->name, variable->location)->variable = info;
   }
-  binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
 }
 
 // A global that is neither static nor a resource is a member of the constant buffer $Globals.

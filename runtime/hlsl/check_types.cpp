@@ -278,6 +278,10 @@ std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* 
   at(expression->location);
   Value value = lower(expression);
   if (value.failed()) return std::nullopt;
+  if (!value.type) {  // a heap, an initialiser list: no value yet
+    report(CheckId::kNotConstant, expression->location, {std::string(purpose)});
+    return std::nullopt;
+  }
   if (!(value.type->is_scalar() || value.type->is_enum())) {
     report(CheckId::kNotAnInteger, expression->location,
            {std::string(purpose), to_string(value.type)});

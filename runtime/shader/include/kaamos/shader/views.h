@@ -29,11 +29,11 @@ KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
 
 template <class V, Layout L, bool RowMajor>
 KAAMOS_INLINE V read(const MemoryView& view, uint32_t offset) {
-  return memory::read<V, L, RowMajor>(memory::window(view, offset));
+  return memory::read<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)));
 }
 template <Layout L, bool RowMajor, class V>
 KAAMOS_INLINE void write(const MemoryView& view, uint32_t offset, const V& value) {
-  memory::write<V, L, RowMajor>(memory::window(view, offset), value);
+  memory::write<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)), value);
 }
 
 // Arrays of structs; stride in bytes.

@@ -1,0 +1,2 @@
+cbuffer:register(b0){int u0
+float3 row[u0

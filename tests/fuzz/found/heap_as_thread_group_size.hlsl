@@ -1,0 +1,1 @@
+[numthreads(ResourceDescriptorHeap,ResourceDescriptorHeap,ResourceDescriptorHeap)]void main(){
