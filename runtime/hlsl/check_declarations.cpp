@@ -206,6 +206,10 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
   }
   const Type* element = type;
   while (element->is_array()) element = element->element;
+  if (element->kind == TypeKind::kString) {
+    report(CheckId::kStringUse, location);
+    return false;
+  }
   if (element->is_struct() && !element->structure->complete) {
     report(CheckId::kIncomplete, location, {to_string(element)});
     return false;
@@ -354,6 +358,10 @@ void Checker::resolve_signature(FunctionInfo* function) {
   const FunctionDecl* decl = function->decl;
   function->result = resolve_type(decl->return_type, function->scope);
   if (function->result->is_error()) function->signature_failed = true;
+  if (function->result->kind == TypeKind::kString) {
+    report(CheckId::kStringUse, decl->location);
+    function->signature_failed = true;
+  }
   if (function->result->is_array()) {
     report(CheckId::kReturnsArray, decl->location, {std::string(decl->name)});
     function->signature_failed = true;

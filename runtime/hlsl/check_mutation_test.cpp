@@ -71,7 +71,10 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
   namespace fs = std::filesystem;
   size_t count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(KAAMOS_SOURCE_DIR "/tests/hlsl")) {
-    if (entry.path().extension() != ".hlsl") continue;
+    // Those in parse hold what the checker refuses.
+    if (entry.path().extension() != ".hlsl" || entry.path().parent_path().filename() == "parse") {
+      continue;
+    }
     FrontendOptions options;
     options.path = entry.path().string();
     options.include_folders = {KAAMOS_SOURCE_DIR "/tests/hlsl"};
