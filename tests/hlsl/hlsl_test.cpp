@@ -142,6 +142,11 @@ std::string feature_key(const std::string& feature) {
   return feature.substr(0, feature.find(' ', std::string("trap ").size()));
 }
 
+// Rows of the tables that the compiler refuses with an error; the report counts them.
+const char* const kUnsupported[] = {
+    "extended RayQuery",       "extended .TraceRayInline",  "extended .Proceed",
+    "extended .CandidateType", "extended .CommittedStatus", "extended .CommitNonOpaqueTriangleHit"};
+
 // How many of the features of hlsl-subset's tables work. A feature works if all its files pass.
 class FeatureReport : public testing::Test {
  public:
@@ -151,6 +156,10 @@ class FeatureReport : public testing::Test {
       const bool passed = run(i).empty();
       const auto known = features.emplace(feature_key(all_tests()[i].feature), passed).first;
       known->second = known->second && passed;
+    }
+    const size_t tested = features.size();
+    for (const char* feature : kUnsupported) {
+      EXPECT_TRUE(features.emplace(feature, false).second) << feature << " has a test: it works";
     }
     std::map<std::string, std::pair<size_t, size_t>> tiers;  // passed, total
     size_t passed = 0;
@@ -165,8 +174,8 @@ class FeatureReport : public testing::Test {
       std::printf("HLSL %s: %zu passed / %zu total\n", tier.c_str(), counts.first, counts.second);
     }
     std::printf("HLSL features: %zu passed / %zu total\n", passed, features.size());
-    EXPECT_EQ(passed, features.size());
-    EXPECT_GT(features.size(), 0u);
+    EXPECT_EQ(passed, tested);
+    EXPECT_GT(tested, 0u);
   }
 };
 

@@ -235,7 +235,7 @@ TEST_F(Driver, WarningsAsErrors) {
   EXPECT_EQ(strict.status, 1);
   EXPECT_THAT(strict.error, HasSubstr("kaamos-hlsl: warnings are errors [-WX]\n"));
   EXPECT_FALSE(fs::exists(folder_ / "x.cpp"));
-  EXPECT_EQ(run("-WX -check -default-linkage external main.hlsl").status, 0);
+  EXPECT_EQ(run("-WX -check main.hlsl").status, 0);
 }
 
 }  // namespace
