@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: MIT
 [numthreads(ResourceDescriptorHeap,ResourceDescriptorHeap,ResourceDescriptorHeap)]void main(){

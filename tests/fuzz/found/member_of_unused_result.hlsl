@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: MIT
 // A member of what a call gives, as a statement of its own.
 struct Payload {
   uint4 numbers;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Strings have no value in a shader.
 string result() {}
 string global;
