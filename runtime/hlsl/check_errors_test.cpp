@@ -55,7 +55,7 @@ const std::vector<Case>& cases() {
       {"HugeArray", Id::kArraySize, kernel("int a[@1000000000];")},
       {"HugeNestedArray", Id::kArraySize, kernel("int a[@65536][65536];")},
       {"ArraySizeNotConstant", Id::kNotConstant, kernel("int n = 3;\nint a[@n];")},
-      {"ArraySizeIsHeap", Id::kNotAnInteger, kernel("int a[@ResourceDescriptorHeap];")},
+      {"ArraySizeIsHeap", Id::kNotConstant, kernel("int a[@ResourceDescriptorHeap];")},
       {"UnboundedLocal", Id::kUnboundedVariable, kernel("int @a[];")},
       {"IncompleteStruct", Id::kIncomplete, kernel("S @s;", "struct S;")},
       {"StructHoldsItself", Id::kIncomplete, kernel("", "struct S { S @s; };")},
