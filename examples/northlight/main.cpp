@@ -115,6 +115,10 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   const auto options = parse_options(argc, argv, exit_code);
   if (!options) return exit_code;
+  if (const std::string error = prepare_folder(options->out); !error.empty()) {
+    say_error(error);
+    return 1;
+  }
   Scene scene;
   if (!load_scene(*options, scene)) return 1;
   if (!options->write_glb.empty()) {

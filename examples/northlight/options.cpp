@@ -108,7 +108,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    exit_code = app.exit(error);
+    exit_code = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;

@@ -2,9 +2,12 @@
 #include "output.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -154,14 +157,24 @@ std::string encode_pictures(const FrameResult& result, float exposure, std::vect
 
 }  // namespace
 
-std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
-                          const FrameResult& result) {
+std::string prepare_folder(const std::string& folder) {
   std::error_code failed;
-  fs::create_directories(options.out, failed);
+  fs::create_directories(folder, failed);
   if (failed) {
-    return fmt::format("cannot make the folder {}: {}; choose another one with --out", options.out,
+    return fmt::format("cannot make the folder {}: {}; choose another one with --out", folder,
                        failed.message());
   }
+  if (access(folder.c_str(), W_OK) != 0) {
+    return fmt::format("cannot write into {}: {}; choose another folder with --out", folder,
+                       std::strerror(errno));
+  }
+  return {};
+}
+
+std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
+                          const FrameResult& result) {
+  if (auto error = prepare_folder(options.out); !error.empty()) return error;
+  std::error_code failed;
   std::vector<File> files;
   if (auto error = encode_pictures(result, scene.exposure, files); !error.empty()) return error;
   const std::string json = statistics(options, scene, renderer, result).dump(2) + "\n";

@@ -10,6 +10,10 @@
 
 namespace northlight {
 
+// Makes the folder and sees that files can be written there, before hours of rendering. The error
+// text is empty on success.
+std::string prepare_folder(const std::string& folder);
+
 // Writes frame.png, frame.exr, a PNG for each layer and stats.json into options.out. Either all of
 // them are written or none is touched; the error text is empty on success.
 std::string write_results(const Options& options, const kaamos::effects::Scene& scene,

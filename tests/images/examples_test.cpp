@@ -62,6 +62,24 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
                            return name;
                          });
 
+// Small pictures of the lounge with the noise of these very samples.
+TEST(NorthlightPicture, IsTheOneThatWasLookedAt) {
+  const std::string folder = std::string(KAAMOS_BINARY_DIR) + "/pictures/northlight";
+  ASSERT_EQ(run(std::string(KAAMOS_BINARY_DIR) +
+                "/bin/northlight --size 320x180 --ao-samples 16 --sun-samples 8 --out " + folder),
+            0);
+  for (const std::string name : {"frame", "ao", "sun", "shading_normal", "base_color"}) {
+    const auto rendered = read_png(folder + "/" + name + ".png");
+    ASSERT_TRUE(rendered.ok()) << rendered.error();
+    const auto reference = read_png(std::string(KAAMOS_SOURCE_DIR) +
+                                    "/tests/images/reference/northlight-" + name + ".png");
+    ASSERT_TRUE(reference.ok()) << reference.error();
+    const auto difference = compare(floats(rendered.value()), floats(reference.value()));
+    ASSERT_TRUE(difference.ok()) << difference.error();
+    EXPECT_GT(difference.value().psnr, 36.0) << name << ": " << describe(difference.value());
+  }
+}
+
 TEST(ExampleErrors, AWrongOptionIsNamed) {
   const std::string program = std::string(KAAMOS_BINARY_DIR) + "/bin/00-raygen-only";
   EXPECT_NE(run(program + " --size 0x9 2> /dev/null"), 0);

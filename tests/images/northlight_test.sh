@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# northlight_test.sh NORTHLIGHT SOURCE_FOLDER: what northlight says when something is wrong, that
+# earlier results survive, and --watch.
+set -u
+northlight=$1
+source_folder=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export KAAMOS_CACHE_DIR=$work/cache
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect_error EXIT_CODE PATTERN arguments...: ends with that code and says what matches.
+expect_error() {
+  local code=$1 pattern=$2 output status
+  shift 2
+  output=$("$northlight" --out "$work/out" "$@" 2>&1)
+  status=$?
+  [ "$status" = "$code" ] || fail "$*: exit code $status, expected $code"
+  grep -Eq "$pattern" <<< "$output" || fail "$*: does not say $pattern but: $output"
+}
+
+expect_error 1 'cannot open .*nothere.gltf' --scene nothere.gltf
+printf 'no scene' > "$work/broken.glb"
+expect_error 1 'broken.glb.*neither' --scene "$work/broken.glb"
+head -c 200 "$northlight" > "$work/binary.gltf"
+expect_error 1 'binary.gltf' --scene "$work/binary.gltf"
+expect_error 2 'is not a size' --size 0x9
+expect_error 2 'is not an effect' --effects ao,fog
+expect_error 2 'not in range 1 to 65536' --ao-samples 0
+expect_error 2 'is not a radius' --ao-radius far
+expect_error 2 'not in range' --sun-angle 400
+expect_error 2 'not expected' --no-such-option
+expect_error 1 'unknown backend.*embree' --backend nothing
+touch "$work/file"
+said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
+grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
+
+# A whole run, then one that fails and one that is interrupted: the results stay.
+small=(--size 64x36 --out "$work/out")
+"$northlight" "${small[@]}" > /dev/null || fail "a plain run"
+for file in frame.png frame.exr ao.png sun.png normal.png stats.json; do
+  [ -s "$work/out/$file" ] || fail "$file is missing"
+done
+before=$(cd "$work/out" && sha256sum ./* | sha256sum)
+"$northlight" "${small[@]}" --scene nothere.gltf > /dev/null 2>&1
+timeout --preserve-status -s INT 2 "$northlight" --out "$work/out" --ao-samples 65536 > /dev/null 2> "$work/log"
+[ $? = 130 ] || fail "Ctrl-C: exit code is not 130"
+grep -q 'interrupted: nothing was written' "$work/log" || fail "Ctrl-C: $(cat "$work/log")"
+[ "$before" = "$(cd "$work/out" && sha256sum ./* | sha256sum)" ] || fail "earlier results changed"
+[ -z "$(find "$work/out" -name '.*' -type d -mindepth 1)" ] || fail "a working folder was left over"
+
+# --watch: an edit of a shader changes the picture.
+mkdir "$work/effects"
+cp -r "$source_folder"/effects/{shaders,gbuffer,ambient_occlusion,sun_shadow,composite} "$work/effects"
+KAAMOS_EFFECTS=$work/effects "$northlight" --watch --size 320x180 --out "$work/watch" > "$work/log" 2>&1 &
+watcher=$!
+wait_for() {  # wait_for SECONDS command...
+  local tenths=$(($1 * 10))
+  shift
+  until "$@"; do
+    tenths=$((tenths - 1))
+    [ "$tenths" -gt 0 ] || return 1
+    sleep 0.1
+  done
+}
+frame_differs() { [ -s "$work/watch/frame.png" ] && ! cmp -s "$work/watch/frame.png" "$work/first.png"; }
+: > "$work/first.png"
+if wait_for 100 frame_differs; then
+  sleep 0.3
+  cp "$work/watch/frame.png" "$work/first.png"
+  start=$(date +%s%N)
+  sed -i 's/float3 from_sky = /float3 from_sky = 0.1 * /' "$work/effects/composite/composite.hlsl"
+  wait_for 60 frame_differs || fail "--watch: no new picture"
+  echo "edit to picture at 320x180: $((($(date +%s%N) - start) / 1000000)) ms"
+  echo 'this is no HLSL' >> "$work/effects/composite/composite.hlsl"
+  wait_for 60 grep -q 'composite.hlsl:.*error' "$work/log" || fail "--watch: no message for a broken shader"
+else
+  fail "--watch: no first picture: $(cat "$work/log")"
+fi
+kill -INT "$watcher"
+wait "$watcher" || fail "--watch: Ctrl-C ends with $?"
+
+[ "$failures" = 0 ] && echo "northlight's command line is as expected"
+exit "$((failures > 0))"
