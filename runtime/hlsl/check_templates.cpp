@@ -118,8 +118,12 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
     report(CheckId::kIncomplete, location, {structure->name});
     return nullptr;
   }
-  if (template_depth_ >= kMaxTemplateDepth) {
-    report(CheckId::kTemplateDepth, location, {structure->name, std::to_string(kMaxTemplateDepth)});
+  // Arguments made of the ones before, twice, double with each level: the name tells long before
+  // the depth does.
+  constexpr size_t kMaxSuffixBytes = 16384;
+  if (template_depth_ >= kMaxTemplateDepth || suffix.size() > kMaxSuffixBytes) {
+    report(CheckId::kTemplateDepth, location,
+           {structure->name, std::to_string(std::min(template_depth_, kMaxTemplateDepth))});
     return nullptr;
   }
   ++template_depth_;
