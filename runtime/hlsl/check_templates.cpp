@@ -120,8 +120,10 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
   }
   // Arguments made of the ones before, twice, double with each level: the name tells long before
   // the depth does.
-  constexpr size_t kMaxSuffixBytes = 16384;
-  if (template_depth_ >= kMaxTemplateDepth || suffix.size() > kMaxSuffixBytes) {
+  constexpr size_t kMaxSuffixBytes = 4096;
+  constexpr size_t kMaxInstances = 1024;  // of one template: levels may branch as well
+  if (template_depth_ >= kMaxTemplateDepth || suffix.size() > kMaxSuffixBytes ||
+      structure->instances.size() >= kMaxInstances) {
     report(CheckId::kTemplateDepth, location,
            {structure->name, std::to_string(std::min(template_depth_, kMaxTemplateDepth))});
     return nullptr;
