@@ -36,7 +36,6 @@ case \" \$* \" in *' install '*) for p in \"\$@\"; do echo \"\$p\"; done >>$stat
   fake cmake <<<"#!/bin/sh
 echo \"cmake \$*\" >>$state/calls
 case \$1 in --version) echo 'cmake version 3.25.1';; esac
-case \"\$*\" in *'--target help') cat $state/targets 2>/dev/null;; esac
 exit 0"
   # Writes the results that the test laid out, like ctest --output-junit FILE.
   fake ctest <<<"#!/bin/sh
@@ -387,16 +386,9 @@ ci_makes_warnings_errors() {
 
 # A program in northlight's place, which says what it was given.
 northlight() {
-  echo 'northlight: phony' >"$state/targets"
   mkdir -p "$checkout/build/release/bin"
   printf '%s\n' "$1" >"$checkout/build/release/bin/northlight"
   chmod +x "$checkout/build/release/bin/northlight"
-}
-
-demo_without_northlight_says_so() {
-  run_demo
-  expect_status 1
-  expect 'this version of Kaamos has no northlight program yet'
 }
 
 demo_writes_into_out_demo() {
