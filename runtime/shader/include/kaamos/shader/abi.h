@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 1;
+inline constexpr uint32_t kAbiVersion = 2;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -286,6 +286,9 @@ struct ExportDesc {
   uint32_t flags;                // ExportFlags
   const uint32_t* bindings;      // indices into LibraryDesc::bindings that it can reach
   uint32_t binding_count;
+  // The same shader for Vulkan (spirv_interface.h); null in a library built without it.
+  const uint32_t* spirv = nullptr;
+  uint32_t spirv_words = 0;
 };
 
 // Subobjects written in HLSL. Which members count depends on type (numbers of

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// The binary interface between the SPIR-V of a shader library and a Vulkan backend: what abi.h is
+// for native code. One module per export, entry point "main", Vulkan 1.3. The module serves every
+// root signature: which root argument feeds which register comes in by specialization constants.
+//
+// Buffers, descriptor heaps, root arguments, shader records and acceleration structures are reached
+// by address (buffer_reference); only textures and samplers need Vulkan descriptors. Every struct
+// here has the same layout in GLSL's `scalar` layout. Addresses are 0 or multiples of what they
+// point to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kaamos/shader/abi.h"
+
+namespace kaamos::shader::spirv {
+
+// ---------------------------------------------------------------------------------------------
+// Descriptor set 0: unbounded arrays, partially bound, updated after bind. Shader variables of all
+// image types alias the binding; Descriptor::address is the index in it.
+
+inline constexpr uint32_t kSampledImageBinding = 0;  // Descriptors of kShaderResource access
+inline constexpr uint32_t kStorageImageBinding = 1;  // of kUnorderedAccess; no format qualifier but
+                                                     // r32ui, r32i and r32f for atomics
+inline constexpr uint32_t kSamplerBinding = 2;       // kSampler
+
+// ---------------------------------------------------------------------------------------------
+// Specialization constants, all uint32_t with default 0.
+
+// Four for each binding of the library (LibraryDesc::bindings), whether or not the export reaches
+// it: constant_id = binding * kConstantsPerBinding + one of these.
+inline constexpr uint32_t kConstantsPerBinding = 4;
+enum BindingConstant : uint32_t {
+  // SlotSource | local << 8 | DescriptorKind << 16 | DescriptorAccess << 24. 0: unbound, which
+  // reads as the null descriptor.
+  kBindingSource = 0,
+  kBindingOffset = 1,  // BindingSlot::argument_offset; kStaticSampler: the sampler's index
+  kBindingIndex = 2,   // BindingSlot::descriptor_index
+  // kDescriptorTable: descriptor_count; kRootConstants: size_bytes; kRootDescriptor: stride_bytes.
+  kBindingCount = 3,
+};
+// Bits of Workaround.
+inline constexpr uint32_t kWorkaroundsConstant = 0xFFFF0000u;
+inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // traces nested in each other
+inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls nested
+
+// Faults of drivers that generated code works around; each is off unless its bit is set. The
+// numbers are those of the list in runtime/vulkan/README.md.
+enum Workaround : uint32_t {
+  // B1: a rejected ReportHit overwrites the committed hit's attributes: write them back.
+  kRestoreAttributes = 1,
+  // B3: hit builtins are overwritten by a nested trace: copy them when the shader starts.
+  kCopyHitBuiltins = 2,
+  // B7: gl_RayTmaxEXT in an intersection shader is not updated by an accepted report: keep it.
+  kTrackReportedT = 4,
+  // B11: a dispatch is cut into contiguous halves: let neighbouring launch rows alternate between
+  // the halves of the image.
+  kInterleaveRows = 8,
+};
+
+// ---------------------------------------------------------------------------------------------
+// Memory
+
+// The push constant block of every stage: uint64_t, the address of this. Constant while it runs.
+struct DispatchBlock {
+  // [begin, end) of the shader-visible heaps that are set, arrays of Descriptor.
+  uint64_t view_heap_begin = 0;
+  uint64_t view_heap_end = 0;
+  uint64_t sampler_heap_begin = 0;
+  uint64_t sampler_heap_end = 0;
+  uint64_t instances = 0;        // InstanceEntry[], indexed by gl_InstanceCustomIndexEXT
+  uint64_t top_levels = 0;       // TopLevelEntry[top_level_mask + 1]
+  uint64_t empty_top_level = 0;  // Vulkan's address of a top level that every ray misses
+  uint64_t status = 0;           // DispatchStatus
+  uint32_t top_level_mask = 0;
+  // Records of the bound tables. A larger index goes to index `count`, a null record that the
+  // backend puts behind the last.
+  uint32_t miss_count = 0;
+  uint32_t callable_count = 0;
+  uint32_t hit_group_count = 0;
+  // DispatchRaysDimensions, or the number of thread groups, of the whole dispatch; large ones come
+  // in parts: DispatchRaysIndex = base + the launch id.
+  uint32_t dimensions[3] = {0, 0, 0};
+  uint32_t base[3] = {0, 0, 0};
+  uint32_t rows = 0;      // height of this part, for kInterleaveRows
+  uint32_t reserved = 0;  // root_arguments at a multiple of 16
+  uint8_t root_arguments[512] = {};
+};
+static_assert(offsetof(DispatchBlock, root_arguments) == 112);
+static_assert(sizeof(DispatchBlock) == 624);
+
+// Which acceleration structure an HLSL value means. The table is a hash table with open addressing:
+// look at slot hash(address) & top_level_mask and on, one slot further each time, until `address`
+// is found, or 0: then the ray meets the empty top level, and no byte at a wild address is read.
+//   hash(address) = uint32_t(address >> 8) * 0x9E3779B1u >> 7
+struct TopLevelEntry {
+  uint64_t address = 0;  // rtapi's
+  uint64_t vulkan = 0;   // what accelerationStructureEXT() takes
+};
+constexpr uint32_t top_level_hash(uint64_t address) {
+  return (static_cast<uint32_t>(address >> 8) * 0x9E3779B1u) >> 7;
+}
+
+// InstanceIndex is gl_InstanceID, InstanceID comes from here. The driver may see the primitives of
+// a bottom level in another order than the application gave them:
+//   words = uint32_t[] at primitive_remap;
+//   PrimitiveIndex = primitive_remap != 0 ? words[words[GeometryIndex] + gl_PrimitiveID]
+//                                         : gl_PrimitiveID
+struct InstanceEntry {
+  uint64_t primitive_remap = 0;
+  uint32_t instance_id = 0;
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(InstanceEntry) == 16);
+
+// What the driver sees as a shader record: behind the driver's handle this and nothing else, so
+// that a record of the application stays where it is, and driver's sizes and alignments are free.
+//   layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; };
+// local_arguments: the address of byte 32 of the application's record; 0 in a null record.
+struct RecordData {
+  uint64_t local_arguments = 0;
+};
+
+// Written by shaders, read when the dispatch is over.
+struct DispatchStatus {
+  uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
+  uint32_t reserved = 0;
+};
+
+// ---------------------------------------------------------------------------------------------
+// Payloads, callable data and attributes
+//
+// Payloads and callable data cross between stages as
+//   struct { uint trace_depth_and_callable_depth; T data; }
+// with the trace depth in the low and the callable depth in the high 16 bits: those of the shader
+// that gets it, where ray generation has 0 and 0. A trace or call that would go deeper than the
+// constants above say writes DispatchStatus and does nothing.
+//
+// Attributes: vec2 where the HLSL type holds two 32-bit floats, else uint[words].
+
+}  // namespace kaamos::shader::spirv
