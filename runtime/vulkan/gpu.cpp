@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/gpu.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+#include "runtime/vulkan/gpu_features.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+constexpr uint64_t kAddressAlignment = 64 * 1024;  // of buffers, as D3D12's
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+// Discrete devices first, processors last.
+int rank(const VkPhysicalDeviceProperties& properties) {
+  switch (properties.deviceType) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 3;
+    default:
+      return 2;
+  }
+}
+
+struct Candidates {
+  std::vector<VkPhysicalDevice> capable;
+  std::string rejected;  // "llvmpipe lacks VK_KHR_ray_tracing_pipeline; ..."
+};
+
+Candidates find_candidates(const Instance& instance) {
+  Candidates result;
+  std::vector<std::pair<int, VkPhysicalDevice>> ranked;
+  for (VkPhysicalDevice device : instance.physical_devices()) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    const FeatureChain features(device);
+    if (features.missing().empty()) {
+      ranked.emplace_back(rank(properties), device);
+      continue;
+    }
+    if (!result.rejected.empty()) result.rejected += "; ";
+    result.rejected += std::string(properties.deviceName) + " lacks " + features.missing();
+  }
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [unused, device] : ranked) result.capable.push_back(device);
+  return result;
+}
+
+rtapi::DeviceInfo info_of(const GpuProperties& properties) {
+  rtapi::DeviceInfo info;
+  info.Backend = "vulkan";
+  info.Name = std::string(properties.core.deviceName) + ", " + properties.driver.driverInfo;
+  info.Description = std::string("Ray tracing pipelines of Vulkan on ") +
+                     properties.core.deviceName + " by " + properties.driver.driverName + " " +
+                     properties.driver.driverInfo;
+  if (properties.core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU) {
+    info.HardwareThreads = std::max(std::thread::hardware_concurrency(), 1u);
+  }
+  return info;
+}
+
+rtapi::Error no_device(const std::string& why) {
+  return rtapi::Error{
+      "KA0950", rtapi::ErrorCode::kUnsupported,
+      "KA0950 no Vulkan device with ray tracing pipelines: " + why + ". " + kWhatToInstall};
+}
+
+constexpr VkBufferUsageFlags kEveryUsage =
+    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+    VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
+    VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
+
+}  // namespace
+
+std::vector<rtapi::DeviceInfo> Gpu::enumerate() {
+  auto instance = Instance::get();
+  if (!instance) return {};
+  std::vector<rtapi::DeviceInfo> result;
+  for (VkPhysicalDevice device : find_candidates(**instance).capable) {
+    result.push_back(info_of(read_properties(device)));
+  }
+  return result;
+}
+
+rtapi::Result<std::shared_ptr<Gpu>> Gpu::create(const std::string& name_part) {
+  auto instance = Instance::get();
+  if (!instance) return instance.error();
+  const Candidates candidates = find_candidates(**instance);
+  if (candidates.capable.empty()) {
+    return no_device(candidates.rejected.empty() ? "no driver is installed" : candidates.rejected);
+  }
+  const std::string wanted = name_part.empty() ? environment("KAAMOS_VULKAN_DEVICE") : name_part;
+  std::string names;
+  for (VkPhysicalDevice device : candidates.capable) {
+    const std::string name = info_of(read_properties(device)).Name;
+    if (name.find(wanted) != std::string::npos) {
+      std::shared_ptr<Gpu> gpu(new Gpu);
+      if (auto s = gpu->start(*instance, device); !s) return s.error();
+      return gpu;
+    }
+    names += (names.empty() ? "\"" : ", \"") + name + "\"";
+  }
+  return rtapi::Error{"KA0953", rtapi::ErrorCode::kNotFound,
+                      "KA0953 no Vulkan device with \"" + wanted + "\" in its name; there are " +
+                          names + " (KAAMOS_VULKAN_DEVICE chooses one by a part of its name)."};
+}
+
+rtapi::Status Gpu::start(std::shared_ptr<Instance> instance, VkPhysicalDevice physical_device) {
+  instance_ = std::move(instance);
+  physical_device_ = physical_device;
+  properties_ = read_properties(physical_device);
+  info_ = info_of(properties_);
+  workarounds_ =
+      workarounds_for(properties_.driver.driverID, properties_.driver.driverInfo,
+                      environment("KAAMOS_VULKAN_DISABLE_WORKAROUNDS"),
+                      environment("KAAMOS_VULKAN_ENABLE_WORKAROUNDS"), &unknown_workarounds_);
+  if (auto s = create_device(); !s) return s;
+  vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
+  VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  pool.queueFamilyIndex = queue_family_;
+  VkResult r = vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_);
+  if (r == VK_SUCCESS) {
+    VkCommandBufferAllocateInfo allocate = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = pool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    r = vk_.vkAllocateCommandBuffers(device_, &allocate, &commands_);
+  }
+  if (r == VK_SUCCESS) {
+    const VkFenceCreateInfo fence = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    r = vk_.vkCreateFence(device_, &fence, nullptr, &fence_);
+  }
+  if (r != VK_SUCCESS) return error(r, "starting " + info_.Name);
+  return {};
+}
+
+rtapi::Status Gpu::create_device() {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical_device_, &count, families.data());
+  const auto family = std::find_if(
+      families.begin(), families.end(),
+      [](const VkQueueFamilyProperties& f) { return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0; });
+  if (family == families.end()) return no_device(info_.Name + " has no queue for compute");
+  queue_family_ = static_cast<uint32_t>(family - families.begin());
+  const FeatureChain features(physical_device_);
+  features_ = features.optional();
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+  queue.queueFamilyIndex = queue_family_;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+  info.pNext = &features.chain();
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = static_cast<uint32_t>(features.extensions().size());
+  info.ppEnabledExtensionNames = features.extensions().data();
+  const VkResult r = vkCreateDevice(physical_device_, &info, nullptr, &device_);
+  if (r != VK_SUCCESS) return error(r, "starting " + info_.Name);
+  volkLoadDeviceTable(&vk_, device_);
+  return {};
+}
+
+Gpu::~Gpu() {
+  if (device_ == VK_NULL_HANDLE) return;
+  vk_.vkDeviceWaitIdle(device_);
+  vk_.vkDestroyFence(device_, fence_, nullptr);
+  vk_.vkDestroyCommandPool(device_, pool_, nullptr);
+  vk_.vkDestroyDevice(device_, nullptr);
+}
+
+uint32_t Gpu::memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
+                          VkMemoryPropertyFlags liked) const {
+  uint32_t best = UINT32_MAX;
+  int best_score = -1;
+  for (uint32_t i = 0; i < properties_.memory.memoryTypeCount; ++i) {
+    const VkMemoryPropertyFlags flags = properties_.memory.memoryTypes[i].propertyFlags;
+    if ((type_bits >> i & 1) == 0 || (flags & wanted) != wanted) continue;
+    const int score = std::popcount(flags & liked);
+    if (score > best_score) {
+      best = i;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
+rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes,
+                                                             const std::string& what) {
+  std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
+  buffer->size_bytes_ = size_bytes;
+  if (auto s = allocate(*buffer, what); !s) return s.error();
+  std::memset(buffer->host_, 0, size_bytes);
+  return buffer;
+}
+
+rtapi::Status Gpu::allocate(GpuBuffer& buffer, const std::string& what) {
+  const std::string name = what + " of " + std::to_string(buffer.size_bytes_) + " bytes";
+  if (buffer.size_bytes_ > UINT64_MAX - 2 * kAddressAlignment) {
+    return error(VK_ERROR_OUT_OF_DEVICE_MEMORY, name);
+  }
+  VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  // Where Vulkan puts it is only known afterwards: room to move up to the alignment.
+  info.size = std::max<uint64_t>(buffer.size_bytes_, 1) + kAddressAlignment;
+  info.usage = kEveryUsage;
+  VkResult r = vk_.vkCreateBuffer(device_, &info, nullptr, &buffer.handle_);
+  if (r != VK_SUCCESS) return error(r, name);
+  VkMemoryRequirements needs;
+  vk_.vkGetBufferMemoryRequirements(device_, buffer.handle_, &needs);
+  VkMemoryAllocateFlagsInfo flags = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+  VkMemoryAllocateInfo allocate = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+  allocate.pNext = &flags;
+  allocate.allocationSize = needs.size;
+  allocate.memoryTypeIndex =
+      memory_type(needs.memoryTypeBits,
+                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+  if (allocate.memoryTypeIndex == UINT32_MAX) return error(VK_ERROR_FEATURE_NOT_PRESENT, name);
+  r = vk_.vkAllocateMemory(device_, &allocate, nullptr, &buffer.memory_);
+  if (r == VK_SUCCESS) {
+    r = vk_.vkBindBufferMemory(device_, buffer.handle_, buffer.memory_, 0);
+  }
+  void* mapped = nullptr;
+  if (r == VK_SUCCESS) {
+    r = vk_.vkMapMemory(device_, buffer.memory_, 0, VK_WHOLE_SIZE, 0, &mapped);
+  }
+  if (r != VK_SUCCESS) return error(r, name);
+  VkBufferDeviceAddressInfo address = {VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+  address.buffer = buffer.handle_;
+  const uint64_t start = vk_.vkGetBufferDeviceAddress(device_, &address);
+  buffer.address_ = (start + kAddressAlignment - 1) / kAddressAlignment * kAddressAlignment;
+  buffer.offset_ = buffer.address_ - start;
+  buffer.host_ = static_cast<uint8_t*>(mapped) + buffer.offset_;
+  return {};
+}
+
+GpuBuffer::~GpuBuffer() {
+  const VolkDeviceTable& vk = gpu_->vk();
+  vk.vkDestroyBuffer(gpu_->device(), handle_, nullptr);
+  vk.vkFreeMemory(gpu_->device(), memory_, nullptr);
+}
+
+rtapi::Status Gpu::run(const std::function<void(VkCommandBuffer)>& record,
+                       const std::string& what) {
+  const std::lock_guard lock(mutex_);
+  VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+  VkResult r = vk_.vkResetCommandPool(device_, pool_, 0);
+  if (r == VK_SUCCESS) r = vk_.vkBeginCommandBuffer(commands_, &begin);
+  if (r != VK_SUCCESS) return error(r, what);
+  record(commands_);
+  // What shaders and copies wrote is for the host, which reads it when the fence is signalled.
+  VkMemoryBarrier to_host = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+  to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+  to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;
+  vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                           VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0, nullptr);
+  r = vk_.vkEndCommandBuffer(commands_);
+  VkSubmitInfo submit = {VK_STRUCTURE_TYPE_SUBMIT_INFO};
+  submit.commandBufferCount = 1;
+  submit.pCommandBuffers = &commands_;
+  if (r == VK_SUCCESS) r = vk_.vkQueueSubmit(queue_, 1, &submit, fence_);
+  if (r == VK_SUCCESS) r = vk_.vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
+  if (r == VK_SUCCESS) r = vk_.vkResetFences(device_, 1, &fence_);
+  if (r != VK_SUCCESS) return error(r, what);
+  return {};
+}
+
+rtapi::Error Gpu::error(VkResult result, const std::string& what) const {
+  switch (result) {
+    case VK_ERROR_DEVICE_LOST:
+      return {"KA0955", rtapi::ErrorCode::kDeviceRemoved,
+              "KA0955 the Vulkan device was lost: " + what + " on " + info_.Name + "."};
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_FRAGMENTATION:
+      return {"KA0990", rtapi::ErrorCode::kOutOfMemory,
+              "KA0990 out of memory: " + what + " could not be allocated (" + result_name(result) +
+                  ")."};
+    default:
+      return {"KA0952", rtapi::ErrorCode::kFailed,
+              "KA0952 Vulkan failed: " + what + " returned " + result_name(result) + " on " +
+                  info_.Name + "."};
+  }
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+//
+// One Vulkan device with ray tracing pipelines: what it can do, its memory and its queue. Works
+// with any conforming one: sizes, alignments, limits and memory types are read.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <rtapi/device.h>
+#include <rtapi/result.h>
+
+#include "runtime/vulkan/instance.h"
+#include "runtime/vulkan/workarounds.h"
+
+namespace kaamos::vulkan {
+
+// As read from the device; pNext pointers are null.
+struct GpuProperties {
+  VkPhysicalDeviceProperties core = {};
+  VkPhysicalDeviceDriverProperties driver = {};
+  VkPhysicalDeviceRayTracingPipelinePropertiesKHR ray_tracing = {};
+  VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration_structure = {};
+  VkPhysicalDeviceVulkan12Properties vulkan12 = {};
+  VkPhysicalDeviceMemoryProperties memory = {};
+};
+
+// Optional abilities that were found and switched on; what must be there is checked when the device
+// is made.
+struct GpuFeatures {
+  bool float64 = false;
+  bool int16 = false;
+  bool float16 = false;
+  bool int8 = false;
+  bool storage16 = false;
+  bool storage8 = false;
+  bool int64_atomics = false;
+  bool image_cube_array = false;
+  bool sampler_anisotropy = false;
+  bool image_gather_extended = false;
+  bool custom_border_color = false;  // VK_EXT_custom_border_color without format
+  bool image_2d_view_of_3d = false;  // VK_EXT_image_2d_view_of_3d, storage images
+  bool image_view_min_lod = false;   // VK_EXT_image_view_min_lod
+  bool mirror_clamp_to_edge = false;
+};
+
+class Gpu;
+
+// A buffer with memory of its own, with every usage that a D3D12 buffer may have. Its address is a
+// multiple of 64 KiB: commands take handle() and offset() + their own offset.
+class GpuBuffer {
+ public:
+  ~GpuBuffer();
+  GpuBuffer(const GpuBuffer&) = delete;
+  GpuBuffer& operator=(const GpuBuffer&) = delete;
+
+  VkBuffer handle() const { return handle_; }
+  uint64_t offset() const { return offset_; }
+  uint64_t address() const { return address_; }
+  uint64_t size_bytes() const { return size_bytes_; }
+  // Mapped as long as the buffer lives; null only where memory of the device was asked for and the
+  // host does not see it.
+  uint8_t* host() const { return host_; }
+
+ private:
+  friend class Gpu;
+  explicit GpuBuffer(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
+
+  std::shared_ptr<Gpu> gpu_;
+  VkBuffer handle_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  uint64_t offset_ = 0;
+  uint64_t address_ = 0;
+  uint64_t size_bytes_ = 0;
+  uint8_t* host_ = nullptr;
+};
+
+class Gpu : public std::enable_shared_from_this<Gpu> {
+ public:
+  // The devices that can run this backend, best first. Empty where there is none.
+  static std::vector<rtapi::DeviceInfo> enumerate();
+  // The first device whose name holds `name_part`; environment KAAMOS_VULKAN_DEVICE where that is
+  // empty. Errors: KA0950 no such device, KA0951 validation layers asked for and absent, KA0952 it
+  // could not be started.
+  static rtapi::Result<std::shared_ptr<Gpu>> create(const std::string& name_part = "");
+  ~Gpu();
+  Gpu(const Gpu&) = delete;
+  Gpu& operator=(const Gpu&) = delete;
+
+  VkDevice device() const { return device_; }
+  VkPhysicalDevice physical_device() const { return physical_device_; }
+  const VolkDeviceTable& vk() const { return vk_; }
+  Instance& instance() const { return *instance_; }
+  const rtapi::DeviceInfo& info() const { return info_; }
+  const GpuProperties& properties() const { return properties_; }
+  const GpuFeatures& features() const { return features_; }
+  const Workarounds& workarounds() const { return workarounds_; }
+  // Names in the environment's lists of workarounds that are none.
+  const std::vector<std::string>& unknown_workarounds() const { return unknown_workarounds_; }
+  bool is_lavapipe() const { return properties_.driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE; }
+
+  // Zeroed, and visible to the host. `what` names it in messages. Errors: KA0990 out of memory,
+  // KA0956 larger than the device allows.
+  rtapi::Result<std::unique_ptr<GpuBuffer>> create_buffer(uint64_t size_bytes,
+                                                          const std::string& what);
+  // For images: a type among `type_bits` that has all of `wanted`, and as much of `liked` as can
+  // be; UINT32_MAX where none has.
+  uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
+                       VkMemoryPropertyFlags liked = 0) const;
+
+  // Records, submits, and returns when all is done. One thread after another. Errors: KA0955 the
+  // device was lost, whose message says what ran; KA0990.
+  rtapi::Status run(const std::function<void(VkCommandBuffer)>& record, const std::string& what);
+
+  // A message for a failed call: KA0955 for a lost device, KA0990 for memory, else KA0952.
+  rtapi::Error error(VkResult result, const std::string& what) const;
+
+ private:
+  Gpu() = default;
+  rtapi::Status start(std::shared_ptr<Instance> instance, VkPhysicalDevice physical_device);
+  rtapi::Status create_device();
+  rtapi::Status allocate(GpuBuffer& buffer, const std::string& what);
+
+  std::shared_ptr<Instance> instance_;
+  VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VolkDeviceTable vk_ = {};
+  rtapi::DeviceInfo info_;
+  GpuProperties properties_;
+  GpuFeatures features_;
+  Workarounds workarounds_;
+  std::vector<std::string> unknown_workarounds_;
+  uint32_t queue_family_ = 0;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::mutex mutex_;  // the queue, and the members below
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+};
+
+}  // namespace kaamos::vulkan

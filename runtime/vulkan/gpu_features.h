@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+//
+// What a device must be able to do, and what it may: asked of a physical device, and in the same
+// structures switched on when the device is made.
+#pragma once
+
+#include <volk.h>
+
+#include <string>
+#include <vector>
+
+#include "runtime/vulkan/gpu.h"
+
+namespace kaamos::vulkan {
+
+GpuProperties read_properties(VkPhysicalDevice device);
+
+// The features and extensions to make a device with. Not to be moved: its structures are chained.
+class FeatureChain {
+ public:
+  explicit FeatureChain(VkPhysicalDevice device);
+  FeatureChain(const FeatureChain&) = delete;
+  FeatureChain& operator=(const FeatureChain&) = delete;
+
+  // What the device lacks, e.g. "VK_KHR_ray_tracing_pipeline"; "" where it will do.
+  const std::string& missing() const { return missing_; }
+  const VkPhysicalDeviceFeatures2& chain() const { return features_; }
+  const std::vector<const char*>& extensions() const { return extensions_; }
+  const GpuFeatures& optional() const { return optional_; }
+
+ private:
+  void query(VkPhysicalDevice device);
+  void require(bool there, const char* name);
+  bool has(const char* extension) const;
+
+  std::vector<VkExtensionProperties> available_;
+  std::vector<const char*> extensions_;
+  std::string missing_;
+  GpuFeatures optional_;
+  VkPhysicalDeviceFeatures2 features_ = {};
+  VkPhysicalDeviceVulkan11Features vulkan11_ = {};
+  VkPhysicalDeviceVulkan12Features vulkan12_ = {};
+  VkPhysicalDeviceVulkan13Features vulkan13_ = {};
+  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_ = {};
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure_ = {};
+  VkPhysicalDeviceCustomBorderColorFeaturesEXT border_color_ = {};
+  VkPhysicalDeviceImage2DViewOf3DFeaturesEXT view_of_3d_ = {};
+  VkPhysicalDeviceImageViewMinLodFeaturesEXT min_lod_ = {};
+};
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The process's connection to Vulkan: made when first used, gone with the last device.
+#pragma once
+
+#include <volk.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <rtapi/result.h>
+
+namespace kaamos::vulkan {
+
+class Instance {
+ public:
+  // The same instance for all devices that live at the same time. Errors: KA0950 without a loader
+  // or driver.
+  static rtapi::Result<std::shared_ptr<Instance>> get();
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  VkInstance handle() const { return handle_; }
+  std::vector<VkPhysicalDevice> physical_devices() const;
+
+  // With KAAMOS_VULKAN_VALIDATION=1 the validation layers run; what they said since the last call.
+  bool validates() const { return messenger_ != VK_NULL_HANDLE; }
+  std::vector<std::string> take_validation_messages();
+
+ private:
+  Instance() = default;
+  rtapi::Status start();
+  static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                                   VkDebugUtilsMessageTypeFlagsEXT types,
+                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                   void* self);
+
+  VkInstance handle_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+// "VK_ERROR_DEVICE_LOST" and the like.
+std::string result_name(VkResult result);
+
+// What every message about an absent device ends with.
+extern const char kWhatToInstall[];
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// The device of a test: without one the test is skipped with the sentence that says what to
+// install, or fails where KAAMOS_REQUIRE_VULKAN is 1.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+
+#include "runtime/vulkan/gpu.h"
+
+namespace kaamos::vulkan::testing {
+
+inline bool vulkan_is_required() {
+  const char* value = std::getenv("KAAMOS_REQUIRE_VULKAN");
+  return value != nullptr && std::strcmp(value, "1") == 0;
+}
+
+// Under KAAMOS_VULKAN_VALIDATION=1 a test fails for what the layers said until its devices are
+// gone.
+class ValidationGuard {
+ public:
+  ValidationGuard() {
+    if (auto instance = Instance::get()) instance_ = *instance;
+  }
+  ~ValidationGuard() {
+    if (instance_ == nullptr) return;
+    for (const std::string& message : instance_->take_validation_messages()) {
+      ADD_FAILURE() << message;
+    }
+  }
+
+ private:
+  std::shared_ptr<Instance> instance_;
+};
+
+}  // namespace kaamos::vulkan::testing
+
+// Defines std::shared_ptr<Gpu> `name`, or ends the test.
+#define KAAMOS_NEED_GPU(name)                                       \
+  const ::kaamos::vulkan::testing::ValidationGuard guard_of_##name; \
+  std::shared_ptr<::kaamos::vulkan::Gpu> name;                      \
+  if (auto made_##name = ::kaamos::vulkan::Gpu::create()) {         \
+    name = *made_##name;                                            \
+  } else if (::kaamos::vulkan::testing::vulkan_is_required()) {     \
+    FAIL() << made_##name.error().message;                          \
+  } else {                                                          \
+    GTEST_SKIP() << made_##name.error().message;                    \
+  }                                                                 \
+  static_assert(true)

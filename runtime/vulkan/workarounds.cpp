@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/workarounds.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "kaamos/shader/spirv_interface.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+constexpr VkDriverId kLavapipe = VK_DRIVER_ID_MESA_LLVMPIPE;
+constexpr uint32_t kFirst = 24003;   // the first Mesa whose lavapipe traces rays
+constexpr uint32_t kOpen = 9999999;  // no version is known that mends it
+
+constexpr WorkaroundInfo kTable[] = {
+    {Workaround::kRestoreAttributes, "B1", kLavapipe, kFirst, kOpen, true,
+     shader::spirv::kRestoreAttributes,
+     "a rejected ReportHit overwrites the attributes of the hit committed before"},
+    {Workaround::kOwnIntersectionStages, "B2", kLavapipe, kFirst, kOpen, true, 0,
+     "hit groups that share an intersection stage all run the any-hit shader of the first"},
+    {Workaround::kCopyHitBuiltins, "B3", kLavapipe, kFirst, kOpen, true,
+     shader::spirv::kCopyHitBuiltins,
+     "a nested trace overwrites PrimitiveIndex, InstanceID, HitKind and transforms of the caller"},
+    {Workaround::kPadBoxes, "B4", kLavapipe, 25000, 25000, false, 0,
+     "boxes without padding let rays at shared edges through; rewrites the driver's tree"},
+    {Workaround::kFirstVertexInAddress, "B5", kLavapipe, kFirst, kOpen, true, 0,
+     "firstVertex is applied twice"},
+    {Workaround::kSanitizeNan, "B6", kLavapipe, kFirst, kOpen, true, 0,
+     "NaN in one primitive or instance hides its neighbours"},
+    {Workaround::kTrackReportedT, "B7", kLavapipe, kFirst, kOpen, true,
+     shader::spirv::kTrackReportedT,
+     "gl_RayTmaxEXT in an intersection shader does not follow accepted reports"},
+    {Workaround::kInterleaveRows, "B11", kLavapipe, kFirst, kOpen, true,
+     shader::spirv::kInterleaveRows,
+     "a dispatch is cut into one contiguous piece per thread, of which some end early"},
+    {Workaround::kSortPrimitives, "SORT", kLavapipe, kFirst, kOpen, true, 0,
+     "the tree halves the list of primitives in the order of the input"},
+};
+
+bool lists(std::string_view list, std::string_view name) {
+  while (!list.empty()) {
+    const size_t comma = list.find(',');
+    const std::string_view item = list.substr(0, comma);
+    if (item == name || item == "all") return true;
+    list = comma == std::string_view::npos ? std::string_view() : list.substr(comma + 1);
+  }
+  return false;
+}
+
+void find_unknown(std::string_view list, std::vector<std::string>* unknown) {
+  while (!list.empty()) {
+    const size_t comma = list.find(',');
+    const std::string_view item = list.substr(0, comma);
+    const bool known = item.empty() || item == "all" ||
+                       std::any_of(std::begin(kTable), std::end(kTable),
+                                   [&](const WorkaroundInfo& info) { return item == info.name; });
+    if (!known) unknown->emplace_back(item);
+    list = comma == std::string_view::npos ? std::string_view() : list.substr(comma + 1);
+  }
+}
+
+uint32_t number_at(std::string_view text, size_t* position) {
+  uint32_t value = 0;
+  while (*position < text.size() && std::isdigit(static_cast<unsigned char>(text[*position]))) {
+    value = std::min(value * 10 + static_cast<uint32_t>(text[*position] - '0'), 9999u);
+    ++*position;
+  }
+  return value;
+}
+
+}  // namespace
+
+std::span<const WorkaroundInfo> workaround_table() {
+  return kTable;
+}
+
+uint32_t driver_version(std::string_view driver_info) {
+  constexpr std::string_view kMesa = "Mesa ";
+  const size_t found = driver_info.find(kMesa);
+  if (found == std::string_view::npos) return 0;
+  size_t position = found + kMesa.size();
+  const uint32_t major = number_at(driver_info, &position);
+  if (position >= driver_info.size() || driver_info[position] != '.') return 0;
+  ++position;
+  return major * 1000 + std::min(number_at(driver_info, &position), 999u);
+}
+
+Workarounds workarounds_for(VkDriverId driver, std::string_view driver_info,
+                            std::string_view disabled, std::string_view enabled,
+                            std::vector<std::string>* unknown) {
+  find_unknown(disabled, unknown);
+  find_unknown(enabled, unknown);
+  const uint32_t version = driver_version(driver_info);
+  Workarounds result;
+  for (const WorkaroundInfo& info : kTable) {
+    if (info.driver != driver || version < info.first_version || version > info.last_version) {
+      continue;
+    }
+    if ((info.by_default || lists(enabled, info.name)) && !lists(disabled, info.name)) {
+      result.insert(info);
+    }
+  }
+  return result;
+}
+
+}  // namespace kaamos::vulkan
