@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/embree/testing/harness.h"
-#include "runtime/embree/top_level.h"
+#include "runtime/instances.h"
 
 namespace kaamos::embree {
 namespace {
@@ -335,11 +335,11 @@ TEST(InvertTransform, RoundTrips) {
   const float matrix[12] = {1, 2, 0, 5, 0, 1, -3, 6, 4, 0, 1, -7};
   float inverse[12];
   float back[12];
-  ASSERT_TRUE(invert_transform(matrix, inverse));
-  ASSERT_TRUE(invert_transform(inverse, back));
+  ASSERT_TRUE(runtime::invert_transform(matrix, inverse));
+  ASSERT_TRUE(runtime::invert_transform(inverse, back));
   for (int i = 0; i < 12; ++i) EXPECT_NEAR(matrix[i], back[i], 1e-5);
   const float singular[12] = {1, 2, 3, 0, 2, 4, 6, 0, 0, 0, 1, 0};
-  EXPECT_FALSE(invert_transform(singular, inverse));
+  EXPECT_FALSE(runtime::invert_transform(singular, inverse));
 }
 
 }  // namespace

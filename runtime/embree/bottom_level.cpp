@@ -7,15 +7,15 @@
 #include <string>
 #include <utility>
 
-#include "runtime/embree/build_inputs.h"
+#include "runtime/build_inputs.h"
 #include "runtime/embree/instance_node.h"
+#include "runtime/structure_commands.h"
 
 namespace kaamos::embree {
 namespace {
 
 using rtapi::HasAny;
 using rtapi::RaytracingGeometryDesc;
-using rtapi::RaytracingGeometryFlags;
 using rtapi::RaytracingGeometryType;
 
 const char* text_of(RTCError error) {
@@ -76,7 +76,7 @@ uint32_t class_of(const GeometryInfo& info) {
 
 void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
   const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
-  const PaddedBounds box = padded_bounds(info.boxes[arguments->primID]);
+  const runtime::PaddedBounds box = runtime::padded_bounds(info.boxes[arguments->primID]);
   RTCBounds& out = *arguments->bounds_o;
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const bool active = box.active;
@@ -90,38 +90,20 @@ void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
 
 std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint32_t index) {
   auto info = std::make_unique<GeometryInfo>();
-  info->type = desc.Type;
-  info->index = index;
-  info->opaque = HasAny(desc.Flags, RaytracingGeometryFlags::kOpaque);
-  info->no_duplicate_any_hit =
-      HasAny(desc.Flags, RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation);
-  info->primitives = static_cast<uint32_t>(primitive_count(desc));
-  if (desc.Type == RaytracingGeometryType::kTriangles) {
-    info->vertex_format = desc.Triangles.VertexFormat;
-    info->index_format = desc.Triangles.IndexFormat;
-    info->transformed = desc.Triangles.Transform3x4 != 0;
-    info->vertices = desc.Triangles.VertexCount;
-  }
+  static_cast<runtime::GeometryShape&>(*info) = runtime::shape_of(desc, index);
   return info;
 }
 
 void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc,
                 std::vector<rtapi::RaytracingAabb>& boxes) {
   boxes.resize(desc.AABBCount);
-  for (uint64_t i = 0; i < desc.AABBCount; ++i) boxes[i] = aabb_at(desc, i);
+  for (uint64_t i = 0; i < desc.AABBCount; ++i) boxes[i] = runtime::aabb_at(desc, i);
 }
 
 bool in_embree_range(const float* values, uint64_t count) {
   bool inside = true;
   for (uint64_t i = 0; i < count; ++i) inside &= std::fabs(values[i]) < shim::kLargestCoordinate;
   return inside;
-}
-
-rtapi::Status update_error(uint32_t geometry, const std::string& what) {
-  return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
-                      "KA0793 update changes more than DXR allows: geometry " +
-                          std::to_string(geometry) + ", " + what +
-                          ". Only vertex data, transforms and boxes may change; build anew."};
 }
 
 }  // namespace
@@ -165,13 +147,7 @@ rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
                                           const BottomLevel* indices_of) {
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     const RaytracingGeometryDesc& desc = geometries[i];
-    if (primitive_count(desc) >
-        rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
-      return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
-                          "KA0794 too many primitives: geometry " + std::to_string(i) + " has " +
-                              std::to_string(primitive_count(desc)) +
-                              ", a bottom level holds at most 2^29."};
-    }
+    if (auto s = runtime::check_primitive_count(desc, i); !s) return s;
     auto info = describe(desc, i);
     if (desc.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
       procedural_ = true;
@@ -205,11 +181,11 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
     rtcReleaseGeometry(geometry);
     return embree_status(context.device, "buffers");
   }
-  decode_vertices(desc, vertices);
+  runtime::decode_vertices(desc, vertices);
   if (indices != nullptr) {
     std::memcpy(triangles, indices, uint64_t{user->primitives} * 12);
   } else {
-    out_of_range_triangles_ += decode_indices(desc, triangles);
+    out_of_range_triangles_ += runtime::decode_indices(desc, triangles);
   }
   rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
   rtcSetGeometryMask(geometry, class_of(*user));
@@ -254,43 +230,16 @@ rtapi::Status BottomLevel::commit(const BuildContext& context) {
   return {};
 }
 
+runtime::Bounds BottomLevel::object_bounds() const {
+  return {{bounds_.lower_x, bounds_.lower_y, bounds_.lower_z},
+          {bounds_.upper_x, bounds_.upper_y, bounds_.upper_z}};
+}
+
 rtapi::Status BottomLevel::check_update(std::span<const RaytracingGeometryDesc> geometries,
                                         BuildFlags flags) const {
-  constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
-  if (!HasAny(flags_, BuildFlags::kAllowUpdate)) {
-    return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
-                        "KA0793 update of a bottom level that was built without ALLOW_UPDATE."};
-  }
-  if ((flags & ~kMayDiffer) != (flags_ & ~kMayDiffer)) {
-    return rtapi::Error{
-        "KA0793", rtapi::ErrorCode::kInvalidArgument,
-        "KA0793 update with build flags " + std::to_string(static_cast<uint32_t>(flags)) +
-            " of a bottom level built with " + std::to_string(static_cast<uint32_t>(flags_)) +
-            ": only ALLOW_UPDATE and PERFORM_UPDATE may differ."};
-  }
-  if (geometries.size() != geometries_.size()) {
-    return update_error(static_cast<uint32_t>(geometries.size()),
-                        "the geometry count was " + std::to_string(geometries_.size()));
-  }
-  for (uint32_t i = 0; i < geometries.size(); ++i) {
-    const GeometryInfo& was = *geometries_[i];
-    const auto is = describe(geometries[i], i);
-    if (is->type != was.type) return update_error(i, "its type");
-    if (is->primitives != was.primitives || is->vertices != was.vertices) {
-      return update_error(i, "its counts: " + std::to_string(was.primitives) + " primitives and " +
-                                 std::to_string(was.vertices) + " vertices before, now " +
-                                 std::to_string(is->primitives) + " and " +
-                                 std::to_string(is->vertices));
-    }
-    if (is->vertex_format != was.vertex_format || is->index_format != was.index_format) {
-      return update_error(i, "its formats");
-    }
-    if (is->opaque != was.opaque || is->no_duplicate_any_hit != was.no_duplicate_any_hit) {
-      return update_error(i, "its flags");
-    }
-    if (is->transformed != was.transformed) return update_error(i, "Transform3x4 null or not");
-  }
-  return {};
+  std::vector<runtime::GeometryShape> built;
+  for (const auto& info : geometries_) built.push_back(*info);
+  return runtime::check_update(built, flags_, geometries, flags);
 }
 
 rtapi::Status BottomLevel::update(const BuildContext& context,
@@ -307,7 +256,7 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
       const uint64_t count = 3 * uint64_t{info.vertices};
       // A refit keeps what the build dropped, and would keep what has to be dropped now.
       const bool was_inside = in_embree_range(vertices, count);
-      decode_vertices(geometries[i].Triangles, vertices);
+      runtime::decode_vertices(geometries[i].Triangles, vertices);
       if (!was_inside || !in_embree_range(vertices, count)) quality = geometry_quality(flags_);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     } else {

@@ -12,10 +12,11 @@
 #include <rtapi/result.h>
 
 #include "runtime/embree/embree_shim.h"
+#include "runtime/structure_map.h"
 
 namespace kaamos::embree {
 
-using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
+using runtime::BuildFlags;
 
 struct BuildContext {
   RTCDevice device = nullptr;
@@ -23,32 +24,21 @@ struct BuildContext {
 };
 
 // What Embree's callbacks get as the user pointer of a geometry.
-struct GeometryInfo {
-  rtapi::RaytracingGeometryType type = rtapi::RaytracingGeometryType::kTriangles;
-  rtapi::Format vertex_format = rtapi::Format::kUnknown;
-  rtapi::Format index_format = rtapi::Format::kUnknown;
-  uint32_t index = 0;  // GeometryIndex
-  bool opaque = false;
-  bool no_duplicate_any_hit = false;
-  bool transformed = false;  // Transform3x4 is not null
-  uint32_t vertices = 0;
-  uint32_t primitives = 0;
+struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
 };
 
-class BottomLevel {
+class BottomLevel final : public runtime::BottomLevelBase {
  public:
   // The inputs passed check_inputs. Errors: KA0792 Embree ran out of memory or refused.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
       BuildFlags flags);
-  ~BottomLevel();
+  ~BottomLevel() override;
   BottomLevel(const BottomLevel&) = delete;
   BottomLevel& operator=(const BottomLevel&) = delete;
 
-  // Whether an update from this structure with these inputs keeps to DXR's rules: same geometries,
-  // counts, formats and flags, the transform as null as it was. KA0793 says which rule is broken.
-  // [DXR: Bottom-level acceleration structure updates]
+  // As runtime::check_update.
   rtapi::Status check_update(std::span<const rtapi::RaytracingGeometryDesc> geometries,
                              BuildFlags flags) const;
   // Reads new vertices and boxes into this structure and refits it.
@@ -61,9 +51,8 @@ class BottomLevel {
 
   RTCScene scene() const { return scene_; }
   bool procedural() const { return procedural_; }
-  // Without an active primitive: a degenerate instance. [DXR: Degenerate primitives and instances]
-  bool empty() const { return empty_; }
-  const RTCBounds& bounds() const { return bounds_; }
+  bool empty() const override { return empty_; }
+  runtime::Bounds object_bounds() const override;
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/embree/build_inputs.h"
+#include "runtime/build_inputs.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,9 @@ namespace kaamos::embree {
 namespace {
 
 using rtapi::Format;
+using runtime::decode_indices;
+using runtime::decode_vertices;
+using runtime::primitive_count;
 using testing::End;
 using testing::Harness;
 

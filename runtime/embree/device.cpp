@@ -6,7 +6,6 @@
 #include <thread>
 #include <utility>
 
-#include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/shader/texture/format_codec.h"
 
@@ -175,7 +174,7 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
     rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
     std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {
-  return estimate_sizes(type, flags, geometries, instance_count);
+  return runtime::estimate_sizes(type, flags, geometries, instance_count);
 }
 
 void Device::add_counters(const Counters& counters) {

@@ -16,6 +16,7 @@
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
+#include "runtime/structure_commands.h"
 
 namespace kaamos::embree {
 
@@ -52,6 +53,7 @@ class Device final : public runtime::BackendDevice {
   BuildContext build_context() const { return {embree_, robust_}; }
   // Bytes that Embree holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
+  runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
   DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get()}; }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);

@@ -24,10 +24,11 @@ class Executor {
   }
   rtapi::Status operator()(const runtime::BuildCommand& command) { return build(device_, command); }
   rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
-    return emit_postbuild_info(device_, command.desc, command.sources);
+    return runtime::emit_postbuild_info(device_.structure_environment(), command.desc,
+                                        command.sources);
   }
   rtapi::Status operator()(const runtime::CopyAccelerationStructureCommand& command) {
-    return copy(device_, command);
+    return runtime::copy_structure(device_.structure_environment(), command);
   }
   rtapi::Status operator()(const runtime::CopyBufferCommand& command);
   rtapi::Status operator()(const runtime::CopyTextureCommand& command);

@@ -8,16 +8,11 @@
 #include <cstdint>
 
 #include "runtime/embree/embree_shim.h"
+#include "runtime/instances.h"
 
 namespace kaamos::embree {
 
-// D3D12_RAYTRACING_INSTANCE_FLAGS
-enum InstanceFlags : uint32_t {
-  kInstanceTriangleCullDisable = 1,
-  kInstanceTriangleFrontCounterclockwise = 2,
-  kInstanceForceOpaque = 4,
-  kInstanceForceNonOpaque = 8,
-};
+using enum runtime::InstanceFlags;
 
 // Opacity by instance or ray, instead of the geometry's. [DXR: Ray flags]
 enum class OpacityOverride : uint8_t { kNone = 0, kOpaque = 1, kNonOpaque = 2 };

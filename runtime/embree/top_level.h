@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <rtapi/raytracing.h>
@@ -16,6 +15,7 @@
 
 #include "runtime/embree/bottom_level.h"
 #include "runtime/embree/instance_node.h"
+#include "runtime/instances.h"
 
 namespace kaamos::embree {
 
@@ -25,18 +25,12 @@ struct InstanceDetail {
   uint32_t id;                // InstanceID, 24 bits
 };
 
-// Finds the bottom level at an address; null if none is there.
-using FindBottomLevel = std::shared_ptr<const BottomLevel> (*)(const void* self, uint64_t address);
-
-class TopLevel {
+class TopLevel final : public runtime::TopLevelBase {
  public:
-  // `instances` in the order of the input: its index is InstanceIndex. Instances without a bottom
-  // level, with a singular or non-finite matrix, or of an empty bottom level are never hit, and
-  // keep their index. `notes` gets a line for each that is unusable and is not plainly inactive.
+  // `instances` in the order of the input: its index is InstanceIndex. Errors: KA0792 no memory.
   static rtapi::Result<std::shared_ptr<TopLevel>> build(
-      const BuildContext& context, std::span<const rtapi::RaytracingInstanceDesc> instances,
-      FindBottomLevel find, const void* find_self, std::vector<std::string>& notes);
-  ~TopLevel();
+      const BuildContext& context, std::span<const runtime::Instance> instances);
+  ~TopLevel() override;
   TopLevel(const TopLevel&) = delete;
   TopLevel& operator=(const TopLevel&) = delete;
 
@@ -48,20 +42,15 @@ class TopLevel {
 
  private:
   TopLevel() = default;
-  void add_instance(const rtapi::RaytracingInstanceDesc& desc, FindBottomLevel find,
-                    const void* find_self, std::vector<RTCBounds>& bounds,
-                    std::vector<std::string>& notes);
+  void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
 
   RTCScene scene_ = nullptr;
   bool has_procedurals_ = false;
   std::vector<InstanceNode> nodes_;
   std::vector<InstanceDetail> details_;
-  std::vector<std::shared_ptr<const BottomLevel>> bottom_levels_;  // kept alive, each once
+  std::vector<std::shared_ptr<const runtime::BottomLevelBase>>
+      bottom_levels_;  // kept alive, each once
 };
-
-// world_to_object of a 3x4 row-major matrix, inverted in double; false if singular, or if it or the
-// inverse is not finite in float.
-bool invert_transform(const float matrix[12], float inverse[12]);
 
 // Callbacks of the traversal. [traverse.cpp]
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments);

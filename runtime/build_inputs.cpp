@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/embree/build_inputs.h"
+#include "runtime/build_inputs.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace kaamos::embree {
+namespace kaamos::runtime {
 namespace {
 
 using rtapi::Format;
@@ -119,7 +119,7 @@ rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uin
 }
 
 rtapi::Status check_range(uint32_t geometry, const char* what, uint64_t address, uint64_t bytes,
-                          const runtime::AddressMap& addresses) {
+                          const AddressMap& addresses) {
   if (bytes == 0) return {};
   const uint64_t available = addresses.bytes_from(address);
   return bytes <= available ? rtapi::Status{} : outside(geometry, what, address, bytes, available);
@@ -133,7 +133,7 @@ uint64_t span_bytes(uint64_t count, uint64_t stride, uint64_t element) {
 }
 
 rtapi::Status check_triangles(const RaytracingGeometryTrianglesDesc& desc, uint32_t index,
-                              const runtime::AddressMap& addresses) {
+                              const AddressMap& addresses) {
   const VertexFormat format = vertex_format(desc.VertexFormat);
   const bool indexed = desc.IndexFormat != Format::kUnknown;
   if (format.decode == nullptr ||
@@ -168,7 +168,7 @@ uint64_t primitive_count(const RaytracingGeometryDesc& desc) {
 }
 
 rtapi::Status check_inputs(const RaytracingGeometryDesc& desc, uint32_t index,
-                           const runtime::AddressMap& addresses) {
+                           const AddressMap& addresses) {
   if (desc.Type == RaytracingGeometryType::kTriangles) {
     return check_triangles(desc.Triangles, index, addresses);
   }
@@ -226,7 +226,7 @@ PaddedBounds padded_bounds(const rtapi::RaytracingAabb& box) {
   float largest = 0;
   for (int i = 0; i < 3; ++i) {
     if (std::isnan(lower[i]) || std::isnan(upper[i])) result.active = false;
-    // Boxes may be unbounded; Embree's builder wants finite ones.
+    // Boxes may be unbounded.
     result.lower[i] = std::clamp(lower[i], -1e18f, 1e18f);
     result.upper[i] = std::clamp(upper[i], -1e18f, 1e18f);
   }
@@ -252,4 +252,4 @@ const rtapi::RaytracingAabb& aabb_at(const rtapi::RaytracingGeometryAabbsDesc& d
                                                          primitive * desc.AABBs.StrideInBytes);
 }
 
-}  // namespace kaamos::embree
+}  // namespace kaamos::runtime

@@ -13,7 +13,7 @@
 
 #include "runtime/address_map.h"
 
-namespace kaamos::embree {
+namespace kaamos::runtime {
 
 // Triangles or boxes of a geometry. A rest of one or two vertices is ignored.
 uint64_t primitive_count(const rtapi::RaytracingGeometryDesc& desc);
@@ -21,7 +21,7 @@ uint64_t primitive_count(const rtapi::RaytracingGeometryDesc& desc);
 // Error KA0790: a range lies outside the living allocations; KA0791: a vertex or index format that
 // DXR does not list. `index` is the geometry's position, for the message.
 rtapi::Status check_inputs(const rtapi::RaytracingGeometryDesc& desc, uint32_t index,
-                           const runtime::AddressMap& addresses);
+                           const AddressMap& addresses);
 
 // x, y, z of each of VertexCount vertices, transformed by Transform3x4; two-component formats have
 // z = 0, which is the transform's input. [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
@@ -31,10 +31,10 @@ void decode_vertices(const rtapi::RaytracingGeometryTrianglesDesc& desc, float* 
 // VertexCount or more becomes degenerate (0, 0, 0), which is never hit. Returns how many did.
 uint32_t decode_indices(const rtapi::RaytracingGeometryTrianglesDesc& desc, uint32_t* indices);
 
-// Bounds of one primitive as Embree gets them: a NaN in MinX (or elsewhere) is inactive, which
-// Embree understands by inverted bounds; an inverted box is a point at its centre; the others are
-// widened by a few ulp, because Embree's box test may miss what only touches a face.
-// [DXR: Inactive primitives and instances; Degenerate primitives and instances]
+// Bounds of one box as a traversal gets them: a NaN in MinX (or elsewhere) is inactive; an inverted
+// box is a point at its centre; the others are widened by a few ulp, because box tests may miss
+// what only touches a face, and brought into +-1e18, because builders want finite ones. [DXR:
+// Inactive primitives and instances; Degenerate primitives and instances]
 struct PaddedBounds {
   float lower[3];
   float upper[3];
@@ -45,4 +45,4 @@ PaddedBounds padded_bounds(const rtapi::RaytracingAabb& box);
 const rtapi::RaytracingAabb& aabb_at(const rtapi::RaytracingGeometryAabbsDesc& desc,
                                      uint64_t primitive);
 
-}  // namespace kaamos::embree
+}  // namespace kaamos::runtime

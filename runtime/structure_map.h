@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// Which acceleration structures stand where. A structure is the bytes of an address range of the
+// application: a small header in them says that it is still there, so that writing over them ends
+// it, as does a later build or copy to any part of the range, or the end of the buffer. What it
+// consists of belongs to the backend. [DXR: Data rules]
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <shared_mutex>
+#include <vector>
+
+#include <rtapi/raytracing.h>
+
+namespace kaamos::runtime {
+
+using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
+
+struct Bounds {
+  float lower[3] = {0, 0, 0};
+  float upper[3] = {0, 0, 0};
+};
+
+// What an update is held against.
+struct GeometryShape {
+  rtapi::RaytracingGeometryType type = rtapi::RaytracingGeometryType::kTriangles;
+  rtapi::Format vertex_format = rtapi::Format::kUnknown;
+  rtapi::Format index_format = rtapi::Format::kUnknown;
+  uint32_t index = 0;  // GeometryIndex
+  bool opaque = false;
+  bool no_duplicate_any_hit = false;
+  bool transformed = false;  // Transform3x4 is not null
+  uint32_t vertices = 0;
+  uint32_t primitives = 0;
+};
+GeometryShape shape_of(const rtapi::RaytracingGeometryDesc& desc, uint32_t index);
+
+// What every backend knows of its bottom levels.
+struct BottomLevelBase {
+  virtual ~BottomLevelBase() = default;
+  // Without an active primitive: a degenerate instance. [DXR: Degenerate primitives and instances]
+  virtual bool empty() const = 0;
+  virtual Bounds object_bounds() const = 0;  // not of empty ones
+};
+struct TopLevelBase {
+  virtual ~TopLevelBase() = default;
+};
+
+// What stands at an address. Exactly one of the two levels is set.
+struct AccelerationStructure {
+  uint64_t address = 0;
+  uint64_t size_bytes = 0;       // CURRENT_SIZE: as prebuilt, or as compacted
+  uint64_t compacted_bytes = 0;  // COMPACTED_SIZE: what the backend holds, at most size_bytes
+  BuildFlags flags = BuildFlags::kNone;
+  std::shared_ptr<BottomLevelBase> bottom_level;
+  std::shared_ptr<const TopLevelBase> top_level;
+  uint32_t instance_count = 0;  // top levels: NumDescs
+};
+
+class StructureMap {
+ public:
+  // Ends what stands in the structure's range, and writes its header there.
+  void place(AccelerationStructure structure);
+  // Ends every structure that has bytes in the range.
+  void evict(uint64_t address, uint64_t size_bytes);
+
+  // The structure at exactly this address, if its bytes are untouched.
+  std::shared_ptr<const AccelerationStructure> find(uint64_t address) const;
+  // Whether a second structure, a clone, uses the same bottom level.
+  bool is_shared(const BottomLevelBase* level) const;
+  // Every top level whose bytes are untouched.
+  std::vector<std::shared_ptr<const AccelerationStructure>> top_levels() const;
+
+ private:
+  struct Placed {
+    uint64_t id;
+    std::shared_ptr<const AccelerationStructure> structure;
+  };
+  void evict_locked(uint64_t address, uint64_t size_bytes);
+
+  mutable std::shared_mutex mutex_;
+  std::map<uint64_t, Placed> structures_;
+  std::map<const BottomLevelBase*, uint32_t> owners_;
+  uint64_t next_id_ = 1;
+};
+
+}  // namespace kaamos::runtime
