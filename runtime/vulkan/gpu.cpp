@@ -132,22 +132,25 @@ rtapi::Status Gpu::start(std::shared_ptr<Instance> instance, VkPhysicalDevice ph
                       environment("KAAMOS_VULKAN_ENABLE_WORKAROUNDS"), &unknown_workarounds_);
   if (auto s = create_device(); !s) return s;
   vk_.vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
-  VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-  pool.queueFamilyIndex = queue_family_;
-  VkResult r = vk_.vkCreateCommandPool(device_, &pool, nullptr, &pool_);
-  if (r == VK_SUCCESS) {
-    VkCommandBufferAllocateInfo allocate = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = pool_;
-    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocate.commandBufferCount = 1;
-    r = vk_.vkAllocateCommandBuffers(device_, &allocate, &commands_);
-  }
-  if (r == VK_SUCCESS) {
-    const VkFenceCreateInfo fence = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    r = vk_.vkCreateFence(device_, &fence, nullptr, &fence_);
-  }
+  const VkResult r = create_command_buffer(&pool_, &commands_, &fence_);
   if (r != VK_SUCCESS) return error(r, "starting " + info_.Name);
   return {};
+}
+
+VkResult Gpu::create_command_buffer(VkCommandPool* pool, VkCommandBuffer* commands,
+                                    VkFence* fence) const {
+  VkCommandPoolCreateInfo info = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+  info.queueFamilyIndex = queue_family_;
+  VkResult r = vk_.vkCreateCommandPool(device_, &info, nullptr, pool);
+  if (r != VK_SUCCESS) return r;
+  VkCommandBufferAllocateInfo allocate = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+  allocate.commandPool = *pool;
+  allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+  allocate.commandBufferCount = 1;
+  r = vk_.vkAllocateCommandBuffers(device_, &allocate, commands);
+  if (r != VK_SUCCESS) return r;
+  const VkFenceCreateInfo fence_info = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  return vk_.vkCreateFence(device_, &fence_info, nullptr, fence);
 }
 
 rtapi::Status Gpu::create_device() {
@@ -261,26 +264,33 @@ GpuBuffer::~GpuBuffer() {
 
 rtapi::Status Gpu::run(const std::function<void(VkCommandBuffer)>& record,
                        const std::string& what) {
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(run_mutex_);
   VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
   VkResult r = vk_.vkResetCommandPool(device_, pool_, 0);
   if (r == VK_SUCCESS) r = vk_.vkBeginCommandBuffer(commands_, &begin);
   if (r != VK_SUCCESS) return error(r, what);
   record(commands_);
+  return submit(commands_, fence_, what);
+}
+
+rtapi::Status Gpu::submit(VkCommandBuffer commands, VkFence fence, const std::string& what) {
   // What shaders and copies wrote is for the host, which reads it when the fence is signalled.
   VkMemoryBarrier to_host = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
   to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;
-  vk_.vkCmdPipelineBarrier(commands_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                           VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, nullptr, 0, nullptr);
-  r = vk_.vkEndCommandBuffer(commands_);
-  VkSubmitInfo submit = {VK_STRUCTURE_TYPE_SUBMIT_INFO};
-  submit.commandBufferCount = 1;
-  submit.pCommandBuffers = &commands_;
-  if (r == VK_SUCCESS) r = vk_.vkQueueSubmit(queue_, 1, &submit, fence_);
-  if (r == VK_SUCCESS) r = vk_.vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX);
-  if (r == VK_SUCCESS) r = vk_.vkResetFences(device_, 1, &fence_);
+  vk_.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                           0, 1, &to_host, 0, nullptr, 0, nullptr);
+  VkResult r = vk_.vkEndCommandBuffer(commands);
+  VkSubmitInfo submit_info = {VK_STRUCTURE_TYPE_SUBMIT_INFO};
+  submit_info.commandBufferCount = 1;
+  submit_info.pCommandBuffers = &commands;
+  if (r == VK_SUCCESS) {
+    const std::lock_guard lock(queue_mutex_);
+    r = vk_.vkQueueSubmit(queue_, 1, &submit_info, fence);
+  }
+  if (r == VK_SUCCESS) r = vk_.vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
+  if (r == VK_SUCCESS) r = vk_.vkResetFences(device_, 1, &fence);
   if (r != VK_SUCCESS) return error(r, what);
   return {};
 }

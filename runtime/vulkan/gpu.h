@@ -118,6 +118,13 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   // device was lost, whose message says what ran; KA0990.
   rtapi::Status run(const std::function<void(VkCommandBuffer)>& record, const std::string& what);
 
+  // For who records by himself [command_stream.h]: a pool with one command buffer, and a fence. The
+  // caller destroys pool and fence, also after a failure.
+  VkResult create_command_buffer(VkCommandPool* pool, VkCommandBuffer* commands,
+                                 VkFence* fence) const;
+  // Ends and submits what was recorded, waits, and resets the fence. Thread-safe. Errors: as run.
+  rtapi::Status submit(VkCommandBuffer commands, VkFence fence, const std::string& what);
+
   // A message for a failed call: KA0955 for a lost device, KA0990 for memory, else KA0952.
   rtapi::Error error(VkResult result, const std::string& what) const;
 
@@ -138,7 +145,8 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   std::vector<std::string> unknown_workarounds_;
   uint32_t queue_family_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
-  std::mutex mutex_;  // the queue, and the members below
+  std::mutex queue_mutex_;
+  std::mutex run_mutex_;  // the members below
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+//
+// The one descriptor set: bindless arrays of sampled images, storage images and samplers, laid out
+// by spirv_interface.h. An index is what a Descriptor of rtapi holds as its address; index 0 of
+// each array is never given out, so that it can stand for "none".
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "runtime/vulkan/gpu.h"
+
+namespace kaamos::vulkan {
+
+// The numbers of the bindings in spirv_interface.h.
+enum class BindlessArray : uint32_t { kSampledImages = 0, kStorageImages = 1, kSamplers = 2 };
+
+class DescriptorSet {
+ public:
+  // Errors: KA0952.
+  static rtapi::Result<std::shared_ptr<DescriptorSet>> create(std::shared_ptr<Gpu> gpu);
+  ~DescriptorSet();
+  DescriptorSet(const DescriptorSet&) = delete;
+  DescriptorSet& operator=(const DescriptorSet&) = delete;
+
+  VkDescriptorSetLayout layout() const { return layout_; }
+  VkDescriptorSet handle() const { return set_; }
+  uint32_t capacity(BindlessArray array) const {
+    return arrays_[static_cast<uint32_t>(array)].size;
+  }
+
+  // Writes a descriptor to a free index. Images are in layout GENERAL. Thread-safe. Errors: KA0956
+  // when all are taken.
+  rtapi::Result<uint32_t> add_sampled_image(VkImageView view);
+  rtapi::Result<uint32_t> add_storage_image(VkImageView view);
+  rtapi::Result<uint32_t> add_sampler(VkSampler sampler);
+  // The index may be given out again. No work that uses it is under way.
+  void remove(BindlessArray array, uint32_t index);
+
+ private:
+  struct Array {
+    uint32_t size = 0;
+    uint32_t next = 1;  // never given out before
+    std::vector<uint32_t> free;
+  };
+  explicit DescriptorSet(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
+  rtapi::Status start();
+  rtapi::Result<uint32_t> add(BindlessArray array, const VkDescriptorImageInfo& image,
+                              VkDescriptorType type);
+
+  std::shared_ptr<Gpu> gpu_;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
+  std::mutex mutex_;
+  Array arrays_[3];
+};
+
+}  // namespace kaamos::vulkan
