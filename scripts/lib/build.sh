@@ -3,8 +3,6 @@
 
 cmake_minimum=3.25  # as in CMakeLists.txt
 
-version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
-
 require_tools() {
   local tool version
   for tool in cmake ctest ninja; do

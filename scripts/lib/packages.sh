@@ -14,19 +14,34 @@ list_packages() {
     }' "$package_list"
 }
 
-# missing_packages PURPOSE...: the same lines, only those that are not installed.
+# missing_packages PURPOSE...: the same lines, only those that are not installed or are too old.
 missing_packages() {
-  local installed package role
+  local installed package role name version
   # Names come as "libpng-dev"; dpkg-query would fail on those it does not know, so ask for all.
-  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package}\n' 2>/dev/null |
-    awk '$1 == "installed" { print $2 }')
+  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 2>/dev/null |
+    awk '$1 == "installed" { print $2, $3 }')
   while IFS=$'\t' read -r package role; do
-    grep -qxF -- "$package" <<<"$installed" || printf '%s\t%s\n' "$package" "$role"
+    name=${package%>=*}
+    version=$(awk -v name="$name" '$1 == name { print $2 " "; exit }' <<<"$installed")
+    if [[ -z $version ]]; then
+      printf '%s\t%s\n' "$package" "$role"
+    elif [[ $package == *'>='* ]] && ! version_at_least "${version% }" "${package#*>=}"; then
+      printf '%s\t%s (installed: %s)\n' "$package" "$role" "${version% }"
+    fi
   done < <(list_packages "$@")
 }
 
+version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
+
+# system_fact KEY: a value of os-release, without its quotes.
+system_fact() {
+  cat /etc/os-release 2>/dev/null | sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p"
+}
+
 system_name() {
-  (. /etc/os-release 2>/dev/null && printf '%s' "${PRETTY_NAME:-}") || uname -s
+  local name
+  name=$(system_fact PRETTY_NAME)
+  if [[ -n $name ]]; then printf '%s' "$name"; else uname -s; fi
 }
 
 print_roles() {
@@ -36,24 +51,35 @@ print_roles() {
   done <<<"$1"
 }
 
-# as_root COMMAND...: plainly for root, through sudo for everybody else.
+# choose_root PACKAGES: how a command runs as root, in as_root: plainly for root, else through sudo.
 choose_root() {
-  local line="apt-get install --no-install-recommends $1"
+  local package plain='' lines=()
+  for package in $1; do
+    if [[ $package != *'>='* ]]; then
+      plain+=" $package"
+    elif [[ $(system_fact VERSION_CODENAME) == bookworm ]]; then
+      lines+=("(with bookworm-backports among apt's sources)"
+        "apt-get install --no-install-recommends -t bookworm-backports ${package%>=*}")
+    else
+      lines+=("apt-get install --no-install-recommends ${package%>=*}  # ${package#*>=} or newer")
+    fi
+  done
+  [[ -z $plain ]] || lines=("apt-get install --no-install-recommends$plain" "${lines[@]}")
   if (($(id -u) == 0)); then
     as_root=(env)
   elif ! command -v sudo >/dev/null; then
     die "packages are missing, and installing them takes root: $(id -un) is not root and there is no sudo." \
-      "Have somebody with root run this, then run $program again:" "  $line"
+      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
   elif sudo -n true 2>/dev/null; then
     as_root=(sudo -n env)
   elif [[ -t 0 && -t 2 ]]; then
     say "sudo installs them and may ask for your password; nothing else runs as root."
     sudo -v || die "sudo did not let $(id -un) in." \
-      "Have somebody with root run this, then run $program again:" "  $line"
+      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
     as_root=(sudo env)
   else
     die "packages are missing, and sudo wants a password but has no terminal to ask for it." \
-      "Run this first, then $program again:" "  sudo $line"
+      "Run this first, then $program again:" "${lines[@]/#/  sudo }"
   fi
 }
 
@@ -97,9 +123,51 @@ explain_foreign() {
   say "Going on with what is installed."
 }
 
+# candidate PACKAGE: the version that apt-get install would bring; empty for none.
+candidate() {
+  { apt-cache policy "$1" 2>/dev/null || true; } |
+    awk '$1 == "Candidate:" && $2 != "(none)" { print $2 }'
+}
+
+# Lines "server suite/component" of what apt knows.
+known_suites() { { apt-cache policy 2>/dev/null || true; } | awk '$3 ~ "/" { print $2, $3 }'; }
+
+# add_backports: makes apt know bookworm-backports, from the server that bookworm itself comes from.
+# Packages come from there only where they are asked for (apt gives the suite priority 100).
+add_backports() {
+  local server file=/etc/apt/sources.list.d/kaamos-backports.sources
+  server=$(known_suites | awk '$2 == "bookworm/main" && !n++ { print $1 }')
+  step "Adding Debian's backports to apt's sources, in $file"
+  {
+    printf 'Types: deb\nURIs: %s\n' "${server:-http://deb.debian.org/debian}"
+    printf 'Suites: bookworm-backports\nComponents: main\n'
+    printf 'Signed-By: /usr/share/keyrings/debian-archive-keyring.gpg\n'
+  } | "${as_root[@]}" tee "$file" >/dev/null ||
+    die "cannot write \"$file\"." "Add bookworm-backports to apt's sources by hand and run $program again."
+  apt update || true
+}
+
+# install_new_enough PACKAGE VERSION: where apt's own is too old, from backports on Debian 12. Elsewhere
+# nobody but the user can know a source: say what is needed and go on; what it is for says so again.
+install_new_enough() {
+  local package=$1 wanted=$2 known start
+  start=$(($(wc -l <"$log") + 1))
+  known=$(candidate "$package")
+  if [[ -n $known ]] && version_at_least "$known" "$wanted"; then
+    apt install --no-install-recommends "$package" || explain_apt "$start"
+  elif [[ $(system_fact VERSION_CODENAME) == bookworm ]]; then
+    if [[ $(known_suites) != *' bookworm-backports/main'* ]]; then add_backports; fi
+    step "Installing $package $wanted or newer from bookworm-backports"
+    apt install --no-install-recommends -t bookworm-backports "$package" || explain_apt "$start"
+  else
+    say "note: $package $wanted or newer is needed; apt on $(system_name) has ${known:-none}." \
+      "Going on without it: install it from elsewhere for what runs on Vulkan."
+  fi
+}
+
 # install_packages PURPOSE...: honours no_install=1 (--no-install, KAAMOS_NO_INSTALL=1).
 install_packages() {
-  local missing names start
+  local missing names name start
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     explain_foreign "$@"
     return 0
@@ -118,11 +186,18 @@ install_packages() {
   print_roles "$missing"
   mapfile -t names < <(cut -f1 <<<"$missing")
   choose_root "${names[*]}"
-  start=$(($(wc -l <"$log") + 1))
   # apt-get update ends well even when servers are out of reach; the install is what tells.
+  start=$(($(wc -l <"$log") + 1))
   apt update || true
-  apt install --no-install-recommends "${names[@]}" || explain_apt "$start"
-  missing=$(missing_packages "$@")
+  local plain=()
+  for name in "${names[@]}"; do [[ $name == *'>='* ]] || plain+=("$name"); done
+  if ((${#plain[@]})); then
+    apt install --no-install-recommends "${plain[@]}" || explain_apt "$start"
+  fi
+  for name in "${names[@]}"; do
+    [[ $name != *'>='* ]] || install_new_enough "${name%>=*}" "${name#*>=}"
+  done
+  missing=$(missing_packages "$@" | grep -v '^[^[:space:]]*>=' || true)
   [[ -z $missing ]] || die "apt-get ended well but these packages are still missing:" "$missing"
   say "    installed."
 }

@@ -20,19 +20,30 @@ fresh_machine() {
   mkdir -p "$checkout" "$bin" "$state"
   cp -r "$source_root/scripts" "$source_root/.ci" "$checkout/"
   local tool
-  for tool in awk bash cat cp cut date df dirname env flock grep head mkdir mktemp nproc paste rm sed \
+  for tool in awk bash cp cut date df dirname env flock grep head mkdir mktemp nproc paste rm sed \
     sort tail touch tr uname wc; do
     ln -s "$(command -v "$tool")" "$bin/$tool"
   done
   fake c++ <<<'#!/bin/sh'
   fake ninja <<<'#!/bin/sh'
   user root 0
-  installed_packages "$(awk '!/^#/ && NF { print $1 }' "$source_root/scripts/packages.txt")"
+  # "mesa>=24.3" is there as "mesa 24.3".
+  installed_packages "$(awk '!/^#/ && NF { sub(/>=/, " ", $1); print $1 }' "$source_root/scripts/packages.txt")"
+  system Debian bookworm
   fake dpkg-query <<<"#!/bin/sh
-sed 's/^/installed /' $state/packages"
+awk '{ print \"installed\", \$1, (NF > 1 ? \$2 : \"1.0\") }' $state/packages"
   fake apt-get <<<"#!/bin/sh
 echo \"apt-get \$*\" >>$state/calls
 case \" \$* \" in *' install '*) for p in \"\$@\"; do echo \"\$p\"; done >>$state/packages;; esac"
+  fake apt-cache <<<"#!/bin/sh
+case \" \$* \" in
+  *' mesa-vulkan-drivers '*) cat $state/candidate 2>/dev/null;;
+  *) echo ' 500 http://mirror.example/debian bookworm/main amd64 Packages'; cat $state/suites 2>/dev/null;;
+esac"
+  # Only what would be written as root is written through it.
+  fake tee <<<"#!/bin/sh
+echo \"tee \$*\" >>$state/calls
+exec cat >$state/tee"
   fake cmake <<<"#!/bin/sh
 echo \"cmake \$*\" >>$state/calls
 case \$1 in --version) echo 'cmake version 3.25.1';; esac
@@ -54,7 +65,22 @@ user() {
 case \$1 in -un) echo $1;; *) echo $2;; esac"
 }
 
-installed_packages() { printf '%s\n' $1 >"$state/packages"; }
+# system NAME CODENAME: what os-release says.
+system() {
+  printf 'PRETTY_NAME="%s"\nVERSION_CODENAME=%s\n' "$1" "$2" >"$state/os-release"
+  fake cat <<<"#!/bin/sh
+if [ \"\$*\" = /etc/os-release ]; then exec $(command -v cat) $state/os-release; fi
+exec $(command -v cat) \"\$@\""
+}
+
+# mesa INSTALLED CANDIDATE: versions; an empty one for none.
+mesa() {
+  sed -i '/^mesa-vulkan-drivers/d' "$state/packages"
+  if [[ -n $1 ]]; then echo "mesa-vulkan-drivers $1" >>"$state/packages"; fi
+  printf '  Installed: %s\n  Candidate: %s\n' "${1:-(none)}" "${2:-(none)}" >"$state/candidate"
+}
+
+installed_packages() { printf '%s\n' "$1" >"$state/packages"; }
 
 # results OUTCOME...: ran, failed, skipped; each makes one test.
 results() {
@@ -228,6 +254,88 @@ without_apt_the_needed_packages_are_listed() {
   expect 'Going on with what is installed.'
 }
 
+old_mesa_is_replaced_from_backports() {
+  mesa 22.3.6-1+deb12u2 22.3.6-1+deb12u2
+  run_test
+  expect_status 0
+  expect "mesa-vulkan-drivers>=24.3 Mesa's lavapipe: Vulkan ray tracing pipelines on a CPU (installed: 22.3.6-1+deb12u2)"
+  expect "Adding Debian's backports to apt's sources, in /etc/apt/sources.list.d/kaamos-backports.sources"
+  expect_call '^tee /etc/apt/sources.list.d/kaamos-backports.sources$'
+  expect_call 'apt-get .*install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
+  output=$(cat "$state/tee")
+  expect $'Types: deb\nURIs: http://mirror.example/debian\nSuites: bookworm-backports\n'
+}
+
+backports_are_added_once() {
+  mesa '' 22.3.6-1+deb12u2
+  echo ' 100 http://mirror.example/debian bookworm-backports/main amd64 Packages' >"$state/suites"
+  run_test
+  expect_status 0
+  expect_no_call '^tee'
+  expect_call 'apt-get .*install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
+}
+
+new_enough_mesa_comes_from_where_apt_has_it() {
+  system 'Debian GNU/Linux 13 (trixie)' trixie
+  mesa '' 25.0.7-2
+  run_test
+  expect_status 0
+  expect_no_call backports
+  expect_call 'apt-get .*install --no-install-recommends mesa-vulkan-drivers'
+}
+
+system_without_new_enough_mesa_is_told_and_goes_on() {
+  system 'Ubuntu 22.04.5 LTS' jammy
+  mesa 23.2.1-1ubuntu3 23.2.1-1ubuntu3
+  run_test
+  expect_status 0
+  expect 'mesa-vulkan-drivers 24.3 or newer is needed; apt on Ubuntu 22.04.5 LTS has 23.2.1-1ubuntu3.'
+  expect_no_call 'install .*mesa'
+}
+
+backports_are_written_through_sudo() {
+  user ada 1000
+  mesa '' 22.3.6-1+deb12u2
+  fake sudo <<<"#!/bin/sh
+echo \"sudo \$*\" >>$state/calls
+if [ \"\$1\" = -n ]; then shift; fi
+exec \"\$@\""
+  fake true <<<'#!/bin/sh'
+  run_test
+  expect_status 0
+  expect_call '^sudo -n env tee /etc/apt/sources.list.d/kaamos-backports.sources'
+}
+
+no_sudo_says_how_to_get_mesa() {
+  user ada 1000
+  mesa 22.3.6-1+deb12u2 22.3.6-1+deb12u2
+  run_test
+  expect_status 1
+  expect "  (with bookworm-backports among apt's sources)"
+  expect '  apt-get install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
+}
+
+demo_needs_mesa_only_for_vulkan() {
+  mesa 22.3.6-1+deb12u2 22.3.6-1+deb12u2
+  northlight '#!/bin/sh
+echo "given: $*"'
+  run_demo
+  expect_status 0
+  expect_no_call apt-get
+  run_demo --backend vulkan
+  expect_status 0
+  expect_call 'apt-get .*install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
+  expect "given: --backend vulkan --out $checkout/out/demo"
+}
+
+demo_understands_backend_with_equals() {
+  mesa '' 22.3.6-1+deb12u2
+  northlight '#!/bin/sh'
+  run_demo --backend=vulkan
+  expect_status 0
+  expect_call 'install --no-install-recommends -t bookworm-backports mesa-vulkan-drivers'
+}
+
 no_install_goes_on_with_what_is_there() {
   sed -i '/^libpng-dev$/d' "$state/packages"
   run_test --no-install
@@ -377,6 +485,14 @@ full_run_adds_both_sanitizers() {
   expect_no_call 'LE \^full'
 }
 
+ci_requires_vulkan() {
+  fake ctest <<<"#!/bin/sh
+echo \"required: \$KAAMOS_REQUIRE_VULKAN\" >>$state/calls
+exit 1"
+  command_ "$checkout/.ci/run"
+  expect_call 'required: 1'
+}
+
 ci_makes_warnings_errors() {
   command_ "$checkout/.ci/run"
   expect_status 0
@@ -421,7 +537,7 @@ echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
 }
 
 rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
-  grep -vxE 'fake|fresh_machine|user|installed_packages|results|command_|fail|northlight')
+  grep -vxE 'fake|fresh_machine|user|system|mesa|installed_packages|results|command_|fail|northlight')
 count=0
 for rule in $rules; do
   output='' status=

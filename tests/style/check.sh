@@ -75,7 +75,7 @@ check_listed() {
     while IFS=: read -r file line text; do
       while read -r package kind pattern; do
         if [[ $text =~ $pattern ]]; then
-          if [[ $kind == needed ]] && ! grep -qE "^${package//+/[+]} " scripts/packages.txt; then
+          if [[ $kind == needed ]] && ! grep -qE "^${package//+/[+]}(>=[0-9.]+)? " scripts/packages.txt; then
             echo "$file:$line: needs $package, which scripts/packages.txt does not list"
           fi
           continue 2
@@ -88,7 +88,7 @@ check_listed() {
 # Nobody installs what nothing uses.
 check_used() {
   local package pattern
-  awk '!/^#/ && NF { print $1 }' scripts/packages.txt | while read -r package; do
+  awk '!/^#/ && NF { sub(/>=.*/, "", $1); print $1 }' scripts/packages.txt | while read -r package; do
     pattern=$(list_uses | awk -v package="$package" '$1 == package { sub(/^[^ ]+ +[^ ]+ +/, ""); print; exit }')
     if [[ -z $pattern ]]; then
       echo "scripts/packages.txt:1: tests/style/package_uses.txt does not say what uses $package"
