@@ -50,7 +50,9 @@ if(KAAMOS_CCACHE)
 endif()
 
 # kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s])
-# One executable; every TEST in it is one ctest test with the given labels.
+# One executable; every TEST in it is one ctest test, a process of its own, with the given labels.
+# They start through kaamos-isolate, which repeats a test on Vulkan that the driver crashed: one with
+# "vulkan" in its name, which gets the label vulkan too, or in its executable's.
 function(kaamos_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
@@ -63,16 +65,26 @@ function(kaamos_add_test name)
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  # What CMake starts a test through is called an emulator there.
+  set_target_properties(${name} PROPERTIES
+    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT}")
+  add_dependencies(${name} kaamos-isolate)
+  math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it earlier
   include(GoogleTest)
   # DISCOVERY_MODE PRE_TEST keeps the build from running every test executable once; sanitizers on a
   # busy machine need more than the usual 5 s to list their tests.
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${arg_TIMEOUT})
+    PROPERTIES TIMEOUT ${timeout})
   # gtest_discover_tests takes a list of labels apart, so they are set when ctest knows the tests.
   set(labels_file "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
   file(WRITE "${labels_file}"
-    "if(${name}_TESTS)\n"
-    "  set_tests_properties(\${${name}_TESTS} PROPERTIES LABELS \"${arg_LABELS}\")\n"
-    "endif()\n")
+    "foreach(test IN LISTS ${name}_TESTS)\n"
+    "  set(labels ${arg_LABELS})\n"
+    "  if(test MATCHES \"[Vv]ulkan\")\n"
+    "    list(APPEND labels vulkan)\n"
+    "    list(REMOVE_DUPLICATES labels)\n"
+    "  endif()\n"
+    "  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"\${labels}\")\n"
+    "endforeach()\n")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${labels_file}")
 endfunction()

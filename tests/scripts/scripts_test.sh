@@ -470,6 +470,35 @@ every_outcome_of_ctest_is_counted() {
   expect '  code: needs a <thing> & more'
 }
 
+# vulkan_runs RAN REPEATED: what kaamos-isolate noted while ctest ran.
+vulkan_runs() {
+  awk -v ran="$1" -v repeated="$2" 'BEGIN {
+    for (i = 1; i <= ran; i++) print "ran\tV" i
+    for (i = 1; i <= repeated; i++) print "repeated\tV" i "\twas ended by signal 11"
+  }' >"$state/runs"
+  fake ctest <<<"#!/bin/sh
+while [ \$# -gt 0 ]; do
+  case \$1 in --output-junit) junit=\$2;; --test-dir) folder=\$2;; esac
+  shift
+done
+mkdir -p \"\$folder\" && cat $state/results.xml >\"\$junit\" && cat $state/runs >\"\$folder/vulkan-runs.txt\""
+}
+
+repeated_vulkan_tests_are_named() {
+  vulkan_runs 200 2
+  run_test
+  expect_status 0
+  expect 'because the Vulkan driver crashed or hung, 2 of 200 tests:'
+  expect '  V2 was ended by signal 11'
+}
+
+too_many_repeated_vulkan_tests_fail_the_run() {
+  vulkan_runs 199 2
+  run_test
+  expect_status 1
+  expect 'more than 1 % of the Vulkan tests had to be run twice'
+}
+
 label_is_passed_to_ctest() {
   run_test -L hlsl
   expect_call 'ctest .*-L hlsl'
@@ -537,7 +566,7 @@ echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
 }
 
 rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
-  grep -vxE 'fake|fresh_machine|user|system|mesa|installed_packages|results|command_|fail|northlight')
+  grep -vxE 'fake|fresh_machine|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs')
 count=0
 for rule in $rules; do
   output='' status=

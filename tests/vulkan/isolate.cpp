@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// kaamos-isolate [--limit SECONDS] PROGRAM [ARGUMENTS]: ctest starts tests that may use Vulkan
+// through this, one test in each process.
+//
+// A test on Vulkan (its name or its program's holds "vulkan") that a signal ends, or that is not
+// done within the limit, is run once more: the driver has faults that come and go. A test that
+// fails is not. KAAMOS_VULKAN_RUNS, a file in the build folder, gets a line "ran<TAB>name" for each
+// such test, and "repeated<TAB>name<TAB>why" for each repetition; scripts/test fails for more than
+// 1 in 100. Validation layers are on and the driver's shader cache is in the build folder, unless
+// the environment says otherwise.
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string file_name(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+// One write, so that lines of tests that run at the same time stay whole.
+void log_run(const std::string& line) {
+  const char* file = std::getenv("KAAMOS_VULKAN_RUNS");
+  const int log = open(file ? file : KAAMOS_BINARY_DIR "/vulkan-runs.txt",
+                       O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0644);
+  if (log < 0) return;
+  if (write(log, line.data(), line.size()) < 0) std::perror("kaamos-isolate");
+  close(log);
+}
+
+// waitpid's status, or -1 where the program had to be stopped.
+int run(char** command, double limit_seconds) {
+  const pid_t child = fork();
+  if (child == 0) {
+    execvp(command[0], command);
+    std::perror(command[0]);
+    _exit(127);
+  }
+  const double end = now() + limit_seconds;
+  for (int status = 0;;) {
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return status;
+    if (ended < 0) return 127 << 8;
+    if (now() > end) {
+      kill(child, SIGKILL);
+      waitpid(child, &status, 0);
+      return -1;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+std::string describe(int status, double limit_seconds) {
+  if (status == -1) return "did not end within " + std::to_string(int(limit_seconds)) + " s";
+  return "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+         strsignal(WTERMSIG(status)) + ")";
+}
+
+bool crashed(int status) {
+  return status == -1 || WIFSIGNALED(status);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int first = 1;
+  double limit_seconds = 120;
+  if (argc > 2 && std::strcmp(argv[1], "--limit") == 0) {
+    limit_seconds = std::atof(argv[2]);
+    first = 3;
+  }
+  if (first >= argc) {
+    std::fprintf(stderr, "usage: kaamos-isolate [--limit SECONDS] PROGRAM [ARGUMENTS]\n");
+    return 2;
+  }
+  std::string name = file_name(argv[first]);
+  bool on_vulkan = lower(name).find("vulkan") != std::string::npos;
+  for (int i = first + 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "--gtest_list_tests") == 0) {
+      execvp(argv[first], argv + first);
+      std::perror(argv[first]);
+      return 127;
+    }
+    if (std::strncmp(argv[i], "--gtest_filter=", 15) == 0) name = argv[i] + 15;
+  }
+  on_vulkan = on_vulkan || lower(name).find("vulkan") != std::string::npos;
+  setenv("MESA_SHADER_CACHE_DIR", KAAMOS_BINARY_DIR "/mesa-cache", 0);
+  setenv("KAAMOS_VULKAN_VALIDATION", "1", 0);
+
+  int status = run(argv + first, limit_seconds);
+  if (on_vulkan) {
+    std::string lines = "ran\t" + name + "\n";
+    if (crashed(status)) {
+      const std::string why = describe(status, limit_seconds);
+      std::printf("\nkaamos-isolate: %s %s; it is run once more\n", name.c_str(), why.c_str());
+      std::fflush(stdout);
+      lines += "repeated\t" + name + "\t" + why + "\n";
+      status = run(argv + first, limit_seconds);
+    }
+    log_run(lines);
+  }
+  if (crashed(status)) {
+    std::printf("\nkaamos-isolate: %s %s\n", name.c_str(), describe(status, limit_seconds).c_str());
+    return 1;
+  }
+  return WEXITSTATUS(status);
+}

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# isolate_test.sh KAAMOS_ISOLATE WORK: what kaamos-isolate does with programs that crash once, always,
+# hang, fail or list their tests.
+set -uo pipefail
+isolate=$1
+work=$2
+failures=0
+rm -rf "$work"
+mkdir -p "$work"
+export KAAMOS_VULKAN_RUNS="$work/runs.txt"
+
+# program NAME BODY: a script that notes each of its runs.
+program() {
+  printf '#!/bin/sh\necho run >>"%s/count"\n%s\n' "$work" "$2" >"$work/$1"
+  chmod +x "$work/$1"
+}
+
+# check NAME STATUS RUNS LINES -- COMMAND...
+check() {
+  local name=$1 status=$2 runs=$3 lines=$4 got
+  shift 5
+  rm -f "$work/count" "$work/crashed" "$KAAMOS_VULKAN_RUNS"
+  "$isolate" --limit 2 "$@" >"$work/output" 2>&1
+  got="$? $(wc -l 2>/dev/null <"$work/count" || echo 0) $(cut -f1 "$KAAMOS_VULKAN_RUNS" 2>/dev/null | paste -sd,)"
+  if [[ $got != "$status $runs $lines" ]]; then
+    printf 'FAILED %s: status, runs, lines are "%s", expected "%s"\n' "$name" "$got" "$status $runs $lines"
+    cat "$work/output"
+    failures=$((failures + 1))
+  fi
+}
+
+program good 'echo "$KAAMOS_VULKAN_VALIDATION $MESA_SHADER_CACHE_DIR"'
+program bad 'exit 1'
+program crashing 'kill -SEGV $$'
+program crashing_once "[ -e $work/crashed ] || { touch $work/crashed; kill -SEGV \$\$; }"
+program hanging_once "[ -e $work/crashed ] || { touch $work/crashed; exec sleep 60; }"
+filter=--gtest_filter=Shapes.Vulkan/0
+check passes 0 1 ran -- "$work/good" $filter
+grep -qE '^1 /.*mesa-cache$' "$work/output" || { echo "FAILED environment: $(cat "$work/output")"; failures=$((failures + 1)); }
+check failure_is_not_repeated 1 1 ran -- "$work/bad" $filter
+check crash_is_repeated_once 1 2 ran,repeated -- "$work/crashing" $filter
+grep -q 'Shapes.Vulkan/0 was ended by signal 11' "$work/output" || { echo "FAILED no name"; failures=$((failures + 1)); }
+check second_run_may_pass 0 2 ran,repeated -- "$work/crashing_once" $filter
+check hang_is_repeated 0 2 ran,repeated -- "$work/hanging_once" $filter
+check other_crash_is_not_repeated 1 1 '' -- "$work/crashing_once" --gtest_filter=Shapes.Embree/0
+check listing_is_no_run 0 1 '' -- "$work/good" --gtest_list_tests
+check missing_program 127 0 '' -- "$work/absent"
+exit $((failures > 0))
