@@ -185,7 +185,13 @@ struct TextureDimensions {
   uint32_t mip_count;
 };
 
-enum class RemovalReason : uint32_t { kRecursionDepth, kStackOverflow, kFault, kOther };
+enum class RemovalReason : uint32_t {
+  kRecursionDepth,
+  kStackOverflow,
+  kFault,
+  kOther,
+  kStepLimit,  // interpreted shaders only
+};
 
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload);

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "runtime/hlsl/interpret_compiler.h"
+#include "runtime/hlsl/interpret_kernels.h"
+
+namespace kaamos::hlsl::interpret {
+
+using namespace ir;
+
+uint32_t Compiler::declare(const Variable* variable, bool reference) {
+  const Extent extent = reference ? Extent{8, 8} : extent_of(variable->type);
+  const uint32_t offset = align(variable_bytes_, extent.alignment);
+  variable_bytes_ = offset + extent.bytes;
+  places_[variable] = {offset, reference, nullptr};
+  return offset;
+}
+
+const Action* Compiler::action(const Stmt& stmt) {
+  temporary_bytes_ = 0;
+  Action& out = program_.actions.emplace_back();
+  out.stmt = &stmt;
+  out.place = node(stmt.place);
+  out.value = node(stmt.value);
+  out.compare = node(stmt.compare);
+  for (const Expr* operand : stmt.operands) out.operands.push_back(node(operand));
+  for (const Expr* argument : stmt.arguments) out.arguments.push_back(node(argument));
+  if (stmt.result != nullptr) out.result = variable_node(stmt.result, nullptr);
+  switch (stmt.kind) {
+    case StmtKind::kDeclare:
+      // After the initialiser: `float x = x` means the outer x.
+      out.offset = declare(stmt.variable, false);
+      break;
+    case StmtKind::kStore:
+    case StmtKind::kStoreElement:
+      out.moves = moves_of(stmt.value->type, stmt.layout, stmt.row_major);
+      break;
+    case StmtKind::kAtomic:
+      out.atomic = find_atomic(stmt.atomic, stmt.value->type->scalar);
+      break;
+    case StmtKind::kCall:
+      out.callee = codes_[stmt.function];
+      callee_stack_bytes_ = std::max(callee_stack_bytes_, out.callee->stack_bytes);
+      statics_.insert(out.callee->statics.begin(), out.callee->statics.end());
+      break;
+    default:
+      break;
+  }
+  out.prelude = block(stmt.prelude);
+  out.body = block(stmt.body);
+  out.orelse = block(stmt.orelse);
+  out.step = block(stmt.step);
+  for (const SwitchCase& c : stmt.cases) {
+    out.cases.push_back({c.labels, c.is_default, block(c.body)});
+  }
+  return &out;
+}
+
+Actions Compiler::block(const Block& body) {
+  Actions out;
+  for (const Stmt* stmt : body) out.push_back(action(*stmt));
+  return out;
+}
+
+void Compiler::function(const Function& function) {
+  variable_bytes_ = temporary_bytes_ = most_temporary_bytes_ = callee_stack_bytes_ = 0;
+  statics_.clear();
+  Code& code = program_.codes.emplace_back();
+  code.function = &function;
+  for (const Variable* parameter : function.parameters) {
+    code.parameters.push_back(declare(parameter, parameter->mode != ParameterMode::kIn));
+  }
+  code.body = block(function.body);
+  code.variable_bytes = align(variable_bytes_, 16);
+  code.temporary_bytes = align(most_temporary_bytes_, 16);
+  code.result_bytes = extent_of(function.result).bytes;
+  code.stack_bytes = code.variable_bytes + code.temporary_bytes + callee_stack_bytes_ + 16;
+  for (const Variable* variable : program_.module->globals) {
+    if (statics_.count(variable) != 0) code.statics.push_back(variable);
+  }
+  codes_[&function] = &code;
+}
+
+EntryCode Compiler::entry(const EntryPoint& entry) {
+  EntryCode out;
+  out.entry = &entry;
+  out.code = codes_[entry.function];
+  most_temporary_bytes_ = 0;
+  statics_.clear();
+  statics_.insert(out.code->statics.begin(), out.code->statics.end());
+  // Backwards: an initialiser reads globals that stand before it.
+  std::vector<StaticInitialiser> backwards;
+  const auto& globals = program_.module->globals;
+  for (auto it = globals.rbegin(); it != globals.rend(); ++it) {
+    const Variable* variable = *it;
+    if (variable->storage != Storage::kStaticGlobal || statics_.count(variable) == 0) continue;
+    temporary_bytes_ = 0;
+    backwards.push_back({node(variable->initialiser), places_[variable].offset,
+                         extent_of(variable->type).bytes});
+  }
+  out.statics.assign(backwards.rbegin(), backwards.rend());
+  out.temporary_bytes = align(most_temporary_bytes_, 16);
+  return out;
+}
+
+void Compiler::place_globals() {
+  for (const Variable* variable : program_.module->globals) {
+    const Extent extent = extent_of(variable->type);
+    Place& place = places_[variable];
+    if (variable->storage == Storage::kConstant) {
+      // Its initialiser is made of constants: evaluated here, once.
+      std::vector<std::byte>& bytes =
+          program_.constants.emplace_back(std::max(extent.bytes, 1u));
+      place.data = bytes.data();
+      if (variable->initialiser == nullptr) continue;
+      temporary_bytes_ = 0;
+      const Node* value = node(variable->initialiser);
+      std::vector<std::byte> temporaries(temporary_bytes_ + 16);
+      Context context;
+      context.program = &program_;
+      Frame frame{&context, nullptr, temporaries.data(), nullptr};
+      std::copy_n(evaluate(*value, frame), extent.bytes, bytes.data());
+      continue;
+    }
+    uint32_t& end = variable->storage == Storage::kGroupShared ? program_.shared_bytes
+                                                               : program_.static_bytes;
+    place.offset = align(end, extent.alignment);
+    end = place.offset + extent.bytes;
+  }
+  program_.shared_bytes = std::max(align(program_.shared_bytes, 16), 1u);
+  program_.static_bytes = align(program_.static_bytes, 16);
+}
+
+void Compiler::run() {
+  place_globals();
+  for (const Function* each : program_.module->functions) function(*each);
+  for (const EntryPoint& each : program_.module->entry_points) {
+    program_.entries.push_back(entry(each));
+  }
+}
+
+std::unique_ptr<Program> make_program(std::shared_ptr<const Module> module,
+                                      const InterpretOptions& options) {
+  auto program = std::make_unique<Program>();
+  program->module = std::move(module);
+  program->options = options;
+  Compiler(*program).run();
+  return program;
+}
+
+}  // namespace kaamos::hlsl::interpret

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// How the interpreter stores values: byte for byte as C++ stores the types that emit_cpp prints
+// (vec, mat and array of vector.h without padding, structs with natural alignment).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/hlsl/ir.h"
+
+namespace kaamos::hlsl::interpret {
+
+struct Extent {
+  uint32_t bytes = 0;
+  uint32_t alignment = 1;
+};
+
+uint32_t scalar_bytes(ir::Scalar scalar);
+Extent extent_of(const ir::Type* type);
+uint32_t field_offset(const ir::Struct& structure, uint32_t field);
+// Components of a scalar, vector or matrix.
+uint32_t component_count(const ir::Type* type);
+uint32_t align(uint32_t offset, uint32_t alignment);
+
+// A run of scalars that lies together both in a value and in a buffer.
+struct Move {
+  uint32_t member = 0;  // byte offset in the buffer of the scalar, vector, matrix or array around it
+  uint32_t mask = 0;    // raw offsets of that member are rounded down by it
+  uint32_t at = 0;      // bytes from the member's start
+  uint32_t value = 0;   // bytes from the value's start
+  uint32_t count = 0;   // scalars
+  uint8_t bytes = 0;    // of a scalar in the buffer; bool takes 4
+  bool is_bool = false;
+};
+
+// How a value of the type travels to and from a buffer.
+std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
+
+}  // namespace kaamos::hlsl::interpret
