@@ -76,7 +76,7 @@ ShaderExportInfo MakeInfo(const shader::LibraryDesc& desc, const shader::ExportD
   return info;
 }
 
-Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<void> shared_object,
+Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<const void> owner,
                            const std::string& where) {
   if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
   if (desc->abi_version != shader::kAbiVersion ||
@@ -90,7 +90,7 @@ Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<void
   impl->target = desc->target ? desc->target : "";
   if (Status s = CheckTable(*desc, impl->name); !s.ok()) return s.error();
   impl->desc = desc;
-  impl->shared_object = std::move(shared_object);
+  impl->owner = std::move(owner);
   for (uint32_t i = 0; i < desc->export_count; ++i) {
     impl->exports.push_back(MakeInfo(*desc, desc->exports[i]));
   }
@@ -120,8 +120,9 @@ const ShaderExportInfo* ShaderLibrary::FindExport(const std::string& name) const
   return found;
 }
 
-Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc) {
-  return Load(desc, nullptr, "built-in library");
+Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc,
+                                        std::shared_ptr<const void> owner) {
+  return Load(desc, std::move(owner), "built-in library");
 }
 
 Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {

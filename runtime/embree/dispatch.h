@@ -22,7 +22,7 @@ struct DispatchEnvironment {
   const Memory* memory = nullptr;
 };
 
-// What came of it. An error removes the device: KA0890 to KA0893.
+// What came of it. An error removes the device: KA0890 to KA0893, KA0897.
 struct DispatchResult {
   rtapi::Status status;
   Counters counters;

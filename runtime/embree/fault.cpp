@@ -156,6 +156,9 @@ std::string message_of(const Worker& worker) {
              " at address " + hexadecimal(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is not "
              "there";
+    case shader::RemovalReason::kStepLimit:
+      return "KA0897 an interpreted shader used up its limit of steps: it may loop for ever. "
+             "Otherwise raise ShaderCompileOptions::InterpretStepLimit";
     default:
       return "KA0893 the shader asked for the device's removal";
   }

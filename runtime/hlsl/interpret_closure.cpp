@@ -29,9 +29,8 @@ void run_ray(ffi_cif*, void* result, void** arguments, void* target) {
   const void* attributes = nullptr;
   if constexpr (Count > 1) payload = argument<void>(arguments, 1);
   if constexpr (Count > 2) attributes = argument<const void>(arguments, 2);
-  const shader::AnyHitResult decided =
-      run_ray_entry(*to.program, *to.entry, *argument<shader::Invocation>(arguments, 0), payload,
-                    attributes);
+  const shader::AnyHitResult decided = run_ray_entry(
+      *to.program, *to.entry, *argument<shader::Invocation>(arguments, 0), payload, attributes);
   if (to.entry->entry->stage == ir::kStageAnyHit) {
     *static_cast<ffi_arg*>(result) = static_cast<ffi_arg>(decided);
   }

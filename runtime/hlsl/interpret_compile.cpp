@@ -95,8 +95,8 @@ EntryCode Compiler::entry(const EntryPoint& entry) {
     const Variable* variable = *it;
     if (variable->storage != Storage::kStaticGlobal || statics_.count(variable) == 0) continue;
     temporary_bytes_ = 0;
-    backwards.push_back({node(variable->initialiser), places_[variable].offset,
-                         extent_of(variable->type).bytes});
+    backwards.push_back(
+        {node(variable->initialiser), places_[variable].offset, extent_of(variable->type).bytes});
   }
   out.statics.assign(backwards.rbegin(), backwards.rend());
   out.temporary_bytes = align(most_temporary_bytes_, 16);
@@ -109,8 +109,7 @@ void Compiler::place_globals() {
     Place& place = places_[variable];
     if (variable->storage == Storage::kConstant) {
       // Its initialiser is made of constants: evaluated here, once.
-      std::vector<std::byte>& bytes =
-          program_.constants.emplace_back(std::max(extent.bytes, 1u));
+      std::vector<std::byte>& bytes = program_.constants.emplace_back(std::max(extent.bytes, 1u));
       place.data = bytes.data();
       if (variable->initialiser == nullptr) continue;
       temporary_bytes_ = 0;
@@ -122,8 +121,8 @@ void Compiler::place_globals() {
       std::copy_n(evaluate(*value, frame), extent.bytes, bytes.data());
       continue;
     }
-    uint32_t& end = variable->storage == Storage::kGroupShared ? program_.shared_bytes
-                                                               : program_.static_bytes;
+    uint32_t& end =
+        variable->storage == Storage::kGroupShared ? program_.shared_bytes : program_.static_bytes;
     place.offset = align(end, extent.alignment);
     end = place.offset + extent.bytes;
   }

@@ -49,10 +49,10 @@ class Compiler {
   Program& program_;
   std::unordered_map<const ir::Variable*, Place> places_;
   std::unordered_map<const ir::Function*, const Code*> codes_;
-  uint32_t variable_bytes_ = 0;         // of the function so far
-  uint32_t temporary_bytes_ = 0;        // of the statement so far
-  uint32_t most_temporary_bytes_ = 0;   // of any statement of the function
-  uint32_t callee_stack_bytes_ = 0;     // of the function so far
+  uint32_t variable_bytes_ = 0;                      // of the function so far
+  uint32_t temporary_bytes_ = 0;                     // of the statement so far
+  uint32_t most_temporary_bytes_ = 0;                // of any statement of the function
+  uint32_t callee_stack_bytes_ = 0;                  // of the function so far
   std::unordered_set<const ir::Variable*> statics_;  // that the function touches
 };
 

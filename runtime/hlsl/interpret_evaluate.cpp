@@ -173,8 +173,7 @@ const std::byte* system_value(const Node& node, Frame& frame) {
 const std::byte* binding(const Node& node, Frame& frame) {
   const uint32_t index =
       node.operands.empty() ? 0 : evaluate_as<uint32_t>(*node.operands[0], frame);
-  return keep(node, frame,
-              shader::resource(*frame.context->invocation, node.expr->index, index));
+  return keep(node, frame, shader::resource(*frame.context->invocation, node.expr->index, index));
 }
 
 const std::byte* heap_resource(const Node& node, Frame& frame) {

@@ -10,7 +10,8 @@ namespace kaamos::hlsl::interpret {
 // interpret_evaluate.cpp
 Evaluate evaluate_data();  // node.data: literals
 Evaluate evaluate_zero();
-// Variables: node.offset bytes from the start of their storage; `reference`: a pointer stands there.
+// Variables: node.offset bytes from the start of their storage; `reference`: a pointer stands
+// there.
 void make_variable(Node& node, ir::Storage storage, bool reference);
 Evaluate evaluate_member();  // field, component: node.offset bytes into the operand
 Locate locate_member();

@@ -6,8 +6,8 @@
 
 #include <type_traits>
 
-#include "runtime/hlsl/interpret_program.h"
 #include <kaamos/shader/half.h>
+#include "runtime/hlsl/interpret_program.h"
 
 namespace kaamos::hlsl::interpret {
 
@@ -57,8 +57,7 @@ struct Componentwise {
                   std::index_sequence<I...>) {
     using Result = decltype(Op::apply(Ts{}...));
     for (uint32_t i = 0; i < node.count; ++i) {
-      reinterpret_cast<Result*>(out)[i] =
-          Op::apply(reinterpret_cast<const Ts*>(operands[I])[i]...);
+      reinterpret_cast<Result*>(out)[i] = Op::apply(reinterpret_cast<const Ts*>(operands[I])[i]...);
     }
   }
   static void kernel(const Node& node, std::byte* out, const std::byte* const* operands) {

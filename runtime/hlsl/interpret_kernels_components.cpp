@@ -14,12 +14,12 @@ using ir::Scalar;
 namespace {
 
 // The prelude's function of a name, as something to instantiate a kernel with.
-#define KAAMOS_INTRINSIC(name)      \
-  struct name##_op {                \
-    template <class... T>           \
-    static auto apply(T... x) {     \
-      return shader::name(x...);    \
-    }                               \
+#define KAAMOS_INTRINSIC(name)   \
+  struct name##_op {             \
+    template <class... T>        \
+    static auto apply(T... x) {  \
+      return shader::name(x...); \
+    }                            \
   };
 KAAMOS_INTRINSIC(abs)
 KAAMOS_INTRINSIC(acos)

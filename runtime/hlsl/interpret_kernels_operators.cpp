@@ -152,15 +152,13 @@ Atomic atomic_of(AtomicOp which) {
 }  // namespace
 
 Kernel find_unary(UnaryOp which, Scalar scalar) {
-  return with_scalar(scalar, [which](auto type) {
-    return unary_kernel<typename decltype(type)::type>(which);
-  });
+  return with_scalar(
+      scalar, [which](auto type) { return unary_kernel<typename decltype(type)::type>(which); });
 }
 
 Kernel find_binary(BinaryOp which, Scalar scalar) {
-  return with_scalar(scalar, [which](auto type) {
-    return binary_kernel<typename decltype(type)::type>(which);
-  });
+  return with_scalar(
+      scalar, [which](auto type) { return binary_kernel<typename decltype(type)::type>(which); });
 }
 
 Kernel find_select(Scalar scalar) {

@@ -50,8 +50,7 @@ void product_kernel(const Node& node, std::byte* out, const std::byte* const* op
       const T* row = left + r * node.inner;
       auto sum = Multiply::apply(widen(row[0]), widen(right[c]));
       for (uint32_t k = 1; k < node.inner; ++k) {
-        sum =
-            Add::apply(sum, Multiply::apply(widen(row[k]), widen(right[k * node.columns + c])));
+        sum = Add::apply(sum, Multiply::apply(widen(row[k]), widen(right[k * node.columns + c])));
       }
       put(out + (r * node.columns + c) * sizeof(T), shader::op::Convert<T>::apply(sum));
     }

@@ -25,12 +25,13 @@ uint32_t align(uint32_t offset, uint32_t alignment);
 
 // A run of scalars that lies together both in a value and in a buffer.
 struct Move {
-  uint32_t member = 0;  // byte offset in the buffer of the scalar, vector, matrix or array around it
-  uint32_t mask = 0;    // raw offsets of that member are rounded down by it
-  uint32_t at = 0;      // bytes from the member's start
-  uint32_t value = 0;   // bytes from the value's start
-  uint32_t count = 0;   // scalars
-  uint8_t bytes = 0;    // of a scalar in the buffer; bool takes 4
+  uint32_t member =
+      0;               // byte offset in the buffer of the scalar, vector, matrix or array around it
+  uint32_t mask = 0;   // raw offsets of that member are rounded down by it
+  uint32_t at = 0;     // bytes from the member's start
+  uint32_t value = 0;  // bytes from the value's start
+  uint32_t count = 0;  // scalars
+  uint8_t bytes = 0;   // of a scalar in the buffer; bool takes 4
   bool is_bool = false;
 };
 

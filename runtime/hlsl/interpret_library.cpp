@@ -69,10 +69,13 @@ shader::BindingType binding_type_of(ir::ResourceKind kind) {
 }
 
 shader::BindingDesc describe(const ir::Binding& b) {
-  return {b.name.c_str(),   static_cast<shader::RegisterClass>(b.register_class & 3),
+  return {b.name.c_str(),
+          static_cast<shader::RegisterClass>(b.register_class & 3),
           binding_type_of(b.type->resource),
-          b.register_index, b.space,
-          b.count,          b.size_bytes,
+          b.register_index,
+          b.space,
+          b.count,
+          b.size_bytes,
           b.automatic};
 }
 
@@ -88,11 +91,10 @@ shader::SubobjectDesc describe(const ir::Subobject& s) {
 shader::ComputeDesc describe_compute(const EntryCode& code, uint32_t shared_bytes,
                                      shader::AnyFn function) {
   const ir::EntryPoint& entry = *code.entry;
-  shader::ComputeDesc out = {
-      {entry.thread_group[0], entry.thread_group[1], entry.thread_group[2]},
-      shared_bytes,
-      nullptr,
-      nullptr};
+  shader::ComputeDesc out = {{entry.thread_group[0], entry.thread_group[1], entry.thread_group[2]},
+                             shared_bytes,
+                             nullptr,
+                             nullptr};
   if (entry.function->has_barrier) {
     out.thread = reinterpret_cast<shader::ComputeThreadFn>(function);
   } else {
@@ -132,8 +134,7 @@ const shader::LibraryDesc& InterpretedLibrary::desc() const {
 }
 
 std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
-    std::shared_ptr<const ir::Module> module, const InterpretOptions& options,
-    std::string& error) {
+    std::shared_ptr<const ir::Module> module, const InterpretOptions& options, std::string& error) {
   std::shared_ptr<InterpretedLibrary> out(new InterpretedLibrary);
   Tables& tables = *out->tables_;
   const ir::Module& m = *module;
@@ -145,8 +146,9 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
   for (const EntryCode& code : tables.program->entries) {
     auto closure = Closure::create(*tables.program, code);
     if (closure == nullptr) {
-      error = "the system gives no executable memory for functions made at run time; use a C++ "
-              "compiler instead of the interpreter";
+      error =
+          "the system gives no executable memory for functions made at run time; use a C++ "
+          "compiler instead of the interpreter";
       return nullptr;
     }
     shader::ExportDesc desc = describe(code);
@@ -169,15 +171,9 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
   for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));
   for (const ir::Subobject& s : m.subobjects) tables.subobjects.push_back(describe(s));
   const auto count = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
-  tables.library = {shader::kAbiVersion,
-                    sizeof(shader::LibraryDesc),
-                    m.name.c_str(),
-                    m.target.c_str(),
-                    tables.exports.data(),
-                    count(tables.exports),
-                    tables.bindings.data(),
-                    count(tables.bindings),
-                    tables.subobjects.data(),
+  tables.library = {shader::kAbiVersion,     sizeof(shader::LibraryDesc), m.name.c_str(),
+                    m.target.c_str(),        tables.exports.data(),       count(tables.exports),
+                    tables.bindings.data(),  count(tables.bindings),      tables.subobjects.data(),
                     count(tables.subobjects)};
   return out;
 }

@@ -135,8 +135,7 @@ Evaluate evaluate_load_element() {
 }
 
 void store(const Action& action, Frame& frame) {
-  store_to(action, frame,
-           shader::memory_view(evaluate_as<Descriptor>(*action.operands[0], frame)));
+  store_to(action, frame, shader::memory_view(evaluate_as<Descriptor>(*action.operands[0], frame)));
 }
 void store_element(const Action& action, Frame& frame) {
   store_to(action, frame, element_of(*action.operands[0], *action.operands[1], frame));
@@ -145,8 +144,7 @@ void store_element(const Action& action, Frame& frame) {
 void run_atomic(const Action& action, Frame& frame) {
   void* place = atomic_place(action, frame);
   const std::byte* value = evaluate(*action.value, frame);
-  const std::byte* compare =
-      action.compare != nullptr ? evaluate(*action.compare, frame) : nullptr;
+  const std::byte* compare = action.compare != nullptr ? evaluate(*action.compare, frame) : nullptr;
   std::byte* result =
       action.result != nullptr ? action.result->locate(*action.result, frame) : nullptr;
   action.atomic(place, compare, value, result);

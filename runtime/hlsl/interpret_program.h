@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include <kaamos/shader/abi.h>
 #include "runtime/hlsl/interpret.h"
 #include "runtime/hlsl/interpret_layout.h"
 #include "runtime/hlsl/ir.h"
-#include <kaamos/shader/abi.h>
 
 namespace kaamos::hlsl::interpret {
 
@@ -41,7 +41,8 @@ struct Frame {
   Context* context = nullptr;
   std::byte* variables = nullptr;
   std::byte* temporaries = nullptr;  // results of the expressions of one statement
-  std::byte* result = nullptr;       // where `return` puts the value; null: nobody wants it, or it is there
+  std::byte* result =
+      nullptr;  // where `return` puts the value; null: nobody wants it, or it is there
 };
 
 // The value, which stays valid until the next statement; it may lie in a variable.
@@ -114,7 +115,7 @@ struct Code {
   uint32_t variable_bytes = 0;
   uint32_t temporary_bytes = 0;
   uint32_t result_bytes = 0;
-  uint32_t stack_bytes = 0;  // with all that it calls
+  uint32_t stack_bytes = 0;                  // with all that it calls
   std::vector<const ir::Variable*> statics;  // that it and its callees touch, in the module's order
 };
 

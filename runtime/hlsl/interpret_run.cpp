@@ -39,8 +39,7 @@ void put_compute_value(EntryParameter parameter, std::byte* to, const ir::Type* 
   const uint32_t* size = arguments.size;
   switch (parameter) {
     case EntryParameter::kDispatchThreadId: {
-      const shader::uint3 id =
-          shader::dispatch_thread_id<shader::uint3>(group, size, thread);
+      const shader::uint3 id = shader::dispatch_thread_id<shader::uint3>(group, size, thread);
       return put_numbers(to, type, {id.e[0], id.e[1], id.e[2]});
     }
     case EntryParameter::kGroupId:

@@ -63,8 +63,7 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
   inner.context = frame.context;
   inner.variables = static_cast<std::byte*>(alloca(callee.variable_bytes + 16));
   inner.temporaries = static_cast<std::byte*>(alloca(callee.temporary_bytes + 16));
-  inner.result =
-      action.result != nullptr ? action.result->locate(*action.result, frame) : nullptr;
+  inner.result = action.result != nullptr ? action.result->locate(*action.result, frame) : nullptr;
   const auto& parameters = callee.function->parameters;
   for (size_t i = 0; i < parameters.size(); ++i) {
     const Node& argument = *action.arguments[i];

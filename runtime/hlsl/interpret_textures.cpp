@@ -179,8 +179,8 @@ void* typed_place(const Action& action, Frame& frame) {
     return shader::typed_address<uint32_t>(invocation, descriptor,
                                            widen<uint32_t>(*action.operands[1], frame).e[0]);
   }
-  return shader::texel_address<uint32_t>(
-      invocation, descriptor, coordinates(resource, *action.operands[1], 0, {}, frame));
+  return shader::texel_address<uint32_t>(invocation, descriptor,
+                                         coordinates(resource, *action.operands[1], 0, {}, frame));
 }
 
 }  // namespace kaamos::hlsl::interpret

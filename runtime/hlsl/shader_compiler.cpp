@@ -7,6 +7,7 @@
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/interpret.h"
 
 namespace rtapi {
 namespace {
@@ -66,7 +67,9 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   std::string missing;
   const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
   if (!compiler) {
-    out.Status = error("KA2750", ErrorCode::kNotFound, missing);
+    out.Status =
+        error("KA2750", ErrorCode::kNotFound,
+              missing + "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
     return;
   }
   const hlsl::SharedObject object = hlsl::build_shared_object(
@@ -87,13 +90,31 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   out.Library = *library;
 }
 
+void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::ir::Module> module,
+               ShaderCompilation& out) {
+  hlsl::InterpretOptions settings;
+  if (options.InterpretStepLimit != 0) settings.step_limit = options.InterpretStepLimit;
+  std::string problem;
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
+  if (interpreted == nullptr) {
+    out.Status = error("KA2753", ErrorCode::kFailed, problem);
+    return;
+  }
+  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
+  if (!library) {
+    out.Status = library.error();
+    return;
+  }
+  out.Library = *library;
+}
+
 }  // namespace
 
 ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
   hlsl::DiskFileLoader loader;
   hlsl::SourceManager sources(loader);
   hlsl::DiagnosticEngine diagnostics({.strict = options.Strict});
-  const auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
+  auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
 
   ShaderCompilation out;
   out.Diagnostics = convert(diagnostics, sources);
@@ -104,7 +125,11 @@ ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
               options.File + " does not compile:\n" + hlsl::render_all(diagnostics, sources));
     return out;
   }
-  build(options, *module, out);
+  if (options.Interpret) {
+    interpret(options, std::move(module), out);
+  } else {
+    build(options, *module, out);
+  }
   return out;
 }
 

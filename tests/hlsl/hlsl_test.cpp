@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Every .hlsl file in core, compute, extended and traps is a test: it is compiled as a user's would
-// be, runs on a device, and what it wrote to `results` must be what its EXPECT comments say. A
-// batch of files becomes one shared object, because starting the C++ compiler costs more than
-// compiling a small shader.
+// Every .hlsl file in core, compute, extended and traps is a test for each executor: it is compiled
+// as a user's would be, runs on a device, and what it wrote to `results` must be what its EXPECT
+// comments say. Native code: a batch of files becomes one shared object, because starting the C++
+// compiler costs more than compiling a small shader.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
@@ -20,6 +20,7 @@
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/interpret.h"
 
 namespace kaamos::test {
 namespace {
@@ -32,10 +33,11 @@ const std::vector<HlslTest>& all_tests() {
   return tests;
 }
 
-// What became of the files of one batch.
+// What became of a file.
 struct Compiled {
   const shader::LibraryDesc* library = nullptr;
   std::string error;
+  std::shared_ptr<const void> owner;  // of the library, unless it stays loaded
 };
 
 std::string unit_name(size_t index) {
@@ -59,17 +61,20 @@ hlsl::FrontendOptions options_of(const HlslTest& test) {
   return options;
 }
 
-// The emitted C++ of a file; empty with `error` where it does not compile.
-std::string emit(size_t index, std::string& error) {
+// Null with `error` where the file does not compile.
+std::unique_ptr<hlsl::ir::Module> front_end(size_t index, std::string& error) {
   hlsl::DiskFileLoader loader;
   hlsl::SourceManager sources(loader);
   hlsl::DiagnosticEngine diagnostics;
-  const auto module = hlsl::compile_to_ir(options_of(all_tests()[index]), sources, diagnostics);
-  if (!module) {
-    error = hlsl::render_all(diagnostics, sources);
-    return {};
-  }
-  return hlsl::emit_cpp(*module, {.entry_point = unit_name(index)});
+  auto module = hlsl::compile_to_ir(options_of(all_tests()[index]), sources, diagnostics);
+  if (!module) error = hlsl::render_all(diagnostics, sources);
+  return module;
+}
+
+// The emitted C++ of a file; empty with `error` where it does not compile.
+std::string emit(size_t index, std::string& error) {
+  const auto module = front_end(index, error);
+  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index)}) : std::string();
 }
 
 std::map<size_t, Compiled> compile_batch(size_t batch) {
@@ -100,18 +105,37 @@ std::map<size_t, Compiled> compile_batch(size_t batch) {
   return out;
 }
 
-const Compiled& compiled(size_t index) {
+Compiled compile_native(size_t index) {
   static std::map<size_t, std::map<size_t, Compiled>> batches;
   const size_t batch = index / kBatch;
   if (batches.count(batch) == 0) batches[batch] = compile_batch(batch);
   return batches[batch][index];
 }
 
+Compiled compile_interpreted(size_t index) {
+  Compiled out;
+  std::shared_ptr<const hlsl::ir::Module> module = front_end(index, out.error);
+  if (!module) return out;
+  const auto library = hlsl::InterpretedLibrary::create(module, {}, out.error);
+  if (!library) return out;
+  out.library = &library->desc();
+  out.owner = library;
+  return out;
+}
+
+// A way to run HLSL. Its name stands before that of the file in the test's.
+struct Executor {
+  const char* name;
+  Compiled (*compile)(size_t index);
+};
+constexpr Executor kExecutors[] = {{"native", compile_native},
+                                   {"interpreted", compile_interpreted}};
+
 // Empty, or everything that is wrong.
-std::string run(size_t index) {
+std::string run(const Executor& executor, size_t index) {
   const HlslTest& test = all_tests()[index];
   if (!test.error.empty()) return test.path + ": " + test.error;
-  const Compiled& code = compiled(index);
+  const Compiled code = executor.compile(index);
   if (code.library == nullptr) return code.error;
   std::string error;
   const std::vector<std::byte> results = run_on_device(*code.library, test.dispatch, error);
@@ -126,10 +150,11 @@ std::string run(size_t index) {
 
 class HlslFile : public testing::Test {
  public:
-  explicit HlslFile(size_t index) : index_(index) {}
-  void TestBody() override { EXPECT_EQ(run(index_), ""); }
+  HlslFile(const Executor& executor, size_t index) : executor_(executor), index_(index) {}
+  void TestBody() override { EXPECT_EQ(run(executor_, index_), ""); }
 
  private:
+  const Executor& executor_;
   size_t index_;
 };
 
@@ -147,13 +172,15 @@ const char* const kUnsupported[] = {
     "extended RayQuery",       "extended .TraceRayInline",  "extended .Proceed",
     "extended .CandidateType", "extended .CommittedStatus", "extended .CommitNonOpaqueTriangleHit"};
 
-// How many of the features of hlsl-subset's tables work. A feature works if all its files pass.
+// How many of the features of hlsl-subset's tables work. A feature works if all its files
+// pass on all executors.
 class FeatureReport : public testing::Test {
  public:
   void TestBody() override {
     std::map<std::string, bool> features;
     for (size_t i = 0; i < all_tests().size(); ++i) {
-      const bool passed = run(i).empty();
+      bool passed = true;
+      for (const Executor& executor : kExecutors) passed = passed && run(executor, i).empty();
       const auto known = features.emplace(feature_key(all_tests()[i].feature), passed).first;
       known->second = known->second && passed;
     }
@@ -193,9 +220,13 @@ std::string test_name(const std::string& path) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   using namespace kaamos::test;
-  for (size_t i = 0; i < all_tests().size(); ++i) {
-    testing::RegisterTest("Hlsl", test_name(all_tests()[i].name).c_str(), nullptr, nullptr,
-                          __FILE__, __LINE__, [i]() -> testing::Test* { return new HlslFile(i); });
+  for (const Executor& executor : kExecutors) {
+    for (size_t i = 0; i < all_tests().size(); ++i) {
+      const std::string name = std::string(executor.name) + "/" + test_name(all_tests()[i].name);
+      testing::RegisterTest(
+          "HlslFile", name.c_str(), nullptr, nullptr, __FILE__, __LINE__,
+          [&executor, i]() -> testing::Test* { return new HlslFile(executor, i); });
+    }
   }
   testing::RegisterTest("HlslReport", "Features", nullptr, nullptr, __FILE__, __LINE__,
                         []() -> testing::Test* { return new FeatureReport; });

@@ -64,9 +64,11 @@ class ShaderLibrary {
   std::shared_ptr<const detail::ShaderLibraryImpl> impl_;
 };
 
-// A library built into the program (kaamos_add_shader_library). `desc` outlives the result.
+// A library built into the program (kaamos_add_shader_library). `desc` outlives the result, or the
+// result keeps its `owner` alive.
 // Errors: KA0910 for a null table, another ABI version or broken counts.
-Result<ShaderLibrary> LoadShaderLibrary(const kaamos::shader::LibraryDesc* desc);
+Result<ShaderLibrary> LoadShaderLibrary(const kaamos::shader::LibraryDesc* desc,
+                                        std::shared_ptr<const void> owner = nullptr);
 
 // A shared object made by kaamos-hlsl; it is unloaded with the last user.
 Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path);
