@@ -22,6 +22,7 @@ struct Allocation {
   rtapi::ResourceFlags flags = rtapi::ResourceFlags::kNone;
   bool acceleration_structure = false;  // created in that state
   std::string name;                     // "" without a name
+  uint8_t* host = nullptr;              // where the host sees it; null: at `address`
 };
 
 class AddressMap {
@@ -56,6 +57,12 @@ class AddressMap {
     std::shared_lock lock(mutex_);
     const Allocation* a = locate(address);
     return a ? a->address + a->size_bytes - address : 0;
+  }
+  // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.
+  uint8_t* host(uint64_t address) const {
+    std::shared_lock lock(mutex_);
+    const Allocation* a = locate(address);
+    return a && a->host ? a->host + (address - a->address) : reinterpret_cast<uint8_t*>(address);
   }
 
  private:

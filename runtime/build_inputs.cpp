@@ -177,6 +177,22 @@ rtapi::Status check_inputs(const RaytracingGeometryDesc& desc, uint32_t index,
   return check_range(index, "AABBs", desc.AABBs.AABBs.StartAddress, bytes, addresses);
 }
 
+RaytracingGeometryDesc as_host_sees(const RaytracingGeometryDesc& desc,
+                                    const AddressMap& addresses) {
+  const auto host = [&](uint64_t address) {
+    return address == 0 ? 0 : reinterpret_cast<uint64_t>(addresses.host(address));
+  };
+  RaytracingGeometryDesc result = desc;
+  if (desc.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+    result.AABBs.AABBs.StartAddress = host(desc.AABBs.AABBs.StartAddress);
+    return result;
+  }
+  result.Triangles.VertexBuffer.StartAddress = host(desc.Triangles.VertexBuffer.StartAddress);
+  result.Triangles.IndexBuffer = host(desc.Triangles.IndexBuffer);
+  result.Triangles.Transform3x4 = host(desc.Triangles.Transform3x4);
+  return result;
+}
+
 void decode_vertices(const RaytracingGeometryTrianglesDesc& desc, float* xyz) {
   const VertexFormat format = vertex_format(desc.VertexFormat);
   const auto* in = reinterpret_cast<const uint8_t*>(desc.VertexBuffer.StartAddress);

@@ -23,6 +23,10 @@ uint64_t primitive_count(const rtapi::RaytracingGeometryDesc& desc);
 rtapi::Status check_inputs(const rtapi::RaytracingGeometryDesc& desc, uint32_t index,
                            const AddressMap& addresses);
 
+// The same geometry with its addresses as the host sees them: what the functions below take.
+rtapi::RaytracingGeometryDesc as_host_sees(const rtapi::RaytracingGeometryDesc& desc,
+                                           const AddressMap& addresses);
+
 // x, y, z of each of VertexCount vertices, transformed by Transform3x4; two-component formats have
 // z = 0, which is the transform's input. [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
 void decode_vertices(const rtapi::RaytracingGeometryTrianglesDesc& desc, float* xyz);

@@ -33,16 +33,16 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
         " bytes, there are " + std::to_string(addresses.bytes_from(command.instance_descs)) + ".");
   }
   if (!pointers) {
-    std::memcpy(descs.data(), reinterpret_cast<const void*>(command.instance_descs), wanted);
+    std::memcpy(descs.data(), addresses.host(command.instance_descs), wanted);
     return descs;
   }
-  const auto* each = reinterpret_cast<const uint64_t*>(command.instance_descs);
+  const auto* each = reinterpret_cast<const uint64_t*>(addresses.host(command.instance_descs));
   for (uint32_t i = 0; i < command.instance_count; ++i) {
     if (!addresses.contains(each[i], kInstanceBytes)) {
       return instance_error("instance desc " + std::to_string(i) + " " + at(each[i]) +
                             " is in no living buffer.");
     }
-    std::memcpy(&descs[i], reinterpret_cast<const void*>(each[i]), kInstanceBytes);
+    std::memcpy(&descs[i], addresses.host(each[i]), kInstanceBytes);
   }
   return descs;
 }

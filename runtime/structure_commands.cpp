@@ -100,7 +100,7 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
     return build_error("KA0795", "postbuild info does not fit: " + std::to_string(bytes) +
                                      " bytes " + at(address) + " are in no living buffer.");
   }
-  std::memcpy(reinterpret_cast<void*>(address), values, bytes);
+  std::memcpy(environment.context.addresses->host(address), values, bytes);
   return {};
 }
 
@@ -148,6 +148,7 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   }
   AccelerationStructure structure;
   structure.address = command.dest;
+  structure.host = addresses.host(command.dest);
   structure.flags = command.flags & ~BuildFlags::kPerformUpdate;
   structure.instance_count = command.instance_count;
   // An update takes the memory of its source, compacted or not. [DXR: BUILD_FLAGS PERFORM_UPDATE]
@@ -188,6 +189,7 @@ rtapi::Status copy_structure(const StructureEnvironment& environment,
   }
   AccelerationStructure result = *source;
   result.address = command.dest;
+  result.host = environment.context.addresses->host(command.dest);
   if (command.mode == CopyMode::kCompact) {
     if (!HasAny(source->flags, BuildFlags::kAllowCompaction)) {
       return build_error("KA0796",

@@ -16,9 +16,9 @@ struct Header {
 };
 constexpr uint64_t kMagic = 0x53414B414D4F5341;
 
-bool has_header(uint64_t address, uint64_t id) {
+bool has_header(const AccelerationStructure& structure, uint64_t id) {
   Header header;
-  std::memcpy(&header, reinterpret_cast<const void*>(address), sizeof(header));
+  std::memcpy(&header, structure.host, sizeof(header));
   return header.magic == kMagic && header.id == id;
 }
 
@@ -47,7 +47,7 @@ void StructureMap::place(AccelerationStructure structure) {
   const std::unique_lock lock(mutex_);
   evict_locked(address, structure.size_bytes);
   const Header header = {kMagic, next_id_++};
-  std::memcpy(reinterpret_cast<void*>(address), &header, sizeof(header));
+  std::memcpy(structure.host, &header, sizeof(header));
   if (structure.bottom_level) ++owners_[structure.bottom_level.get()];
   structures_[address] = {header.id,
                           std::make_shared<const AccelerationStructure>(std::move(structure))};
@@ -82,7 +82,7 @@ std::shared_ptr<const AccelerationStructure> StructureMap::find(uint64_t address
     placed = it->second;
   }
   // Outside the lock: memory that the application freed meanwhile faults here.
-  return has_header(address, placed.id) ? placed.structure : nullptr;
+  return has_header(*placed.structure, placed.id) ? placed.structure : nullptr;
 }
 
 bool StructureMap::is_shared(const BottomLevelBase* level) const {
@@ -95,7 +95,8 @@ std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::top_leve
   const std::shared_lock lock(mutex_);
   std::vector<std::shared_ptr<const AccelerationStructure>> found;
   for (const auto& [address, placed] : structures_) {
-    if (placed.structure->top_level == nullptr || !has_header(address, placed.id)) continue;
+    if (placed.structure->top_level == nullptr || !has_header(*placed.structure, placed.id))
+      continue;
     found.push_back(placed.structure);
   }
   return found;

@@ -51,6 +51,7 @@ struct TopLevelBase {
 // What stands at an address. Exactly one of the two levels is set.
 struct AccelerationStructure {
   uint64_t address = 0;
+  uint8_t* host = nullptr;       // the same for the host
   uint64_t size_bytes = 0;       // CURRENT_SIZE: as prebuilt, or as compacted
   uint64_t compacted_bytes = 0;  // COMPACTED_SIZE: what the backend holds, at most size_bytes
   BuildFlags flags = BuildFlags::kNone;

@@ -212,7 +212,7 @@ Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   buffer->memory = std::move(*memory);
   impl_->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
                            desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
-                           desc.Name});
+                           desc.Name, buffer->memory->host()});
   return Buffer(std::move(buffer));
 }
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// A bottom level: one of Vulkan's over own copies of its inputs, which go when it is built.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <rtapi/raytracing.h>
+#include <rtapi/result.h>
+
+#include "runtime/structure_map.h"
+#include "runtime/vulkan/vulkan_structure.h"
+
+namespace kaamos::vulkan {
+
+class BottomLevel final : public runtime::BottomLevelBase {
+ public:
+  // `geometries` passed check_inputs, and have the addresses of the host. With `update_of` the
+  // indices are those of its build. [DXR: Acceleration structure update constraints] Errors: KA0794
+  // too many primitives or geometries, KA0990 no memory.
+  static rtapi::Result<std::shared_ptr<BottomLevel>> build(
+      const std::shared_ptr<Gpu>& gpu, std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      runtime::BuildFlags flags, const BottomLevel* update_of = nullptr);
+
+  bool empty() const override { return empty_; }
+  runtime::Bounds object_bounds() const override { return bounds_; }
+
+  uint64_t address() const { return structure_->address(); }
+  uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
+  uint64_t held_bytes() const { return held_bytes_; }
+  uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }
+  std::span<const runtime::GeometryShape> shapes() const { return shapes_; }
+  runtime::BuildFlags flags() const { return flags_; }
+  const VulkanStructure& structure() const { return *structure_; }
+
+ private:
+  friend class BottomLevelBuilder;
+  BottomLevel() = default;
+
+  std::unique_ptr<VulkanStructure> structure_;
+  uint64_t remap_ = 0;
+  uint64_t held_bytes_ = 0;
+  uint64_t out_of_range_triangles_ = 0;
+  bool empty_ = true;
+  runtime::Bounds bounds_;
+  runtime::BuildFlags flags_ = runtime::BuildFlags::kNone;
+  std::vector<runtime::GeometryShape> shapes_;
+  std::vector<std::vector<uint32_t>> indices_;  // with kAllowUpdate, of triangle geometries
+};
+
+}  // namespace kaamos::vulkan
