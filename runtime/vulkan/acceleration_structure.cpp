@@ -8,39 +8,79 @@
 
 #include "runtime/build_inputs.h"
 #include "runtime/instances.h"
+#include "runtime/structure_commands.h"
+#include "runtime/vulkan/instance_table.h"
+#include "runtime/vulkan/top_level.h"
 
 namespace kaamos::vulkan {
 namespace {
 
 using runtime::AccelerationStructure;
+using runtime::BuildFlags;
 using shader::spirv::TopLevelEntry;
 
 const TopLevel& top_level_of(const AccelerationStructure& structure) {
   return static_cast<const TopLevel&>(*structure.top_level);
 }
 
-}  // namespace
-
-rtapi::Result<std::unique_ptr<AccelerationStructures>> AccelerationStructures::create(
-    std::shared_ptr<Gpu> gpu, const runtime::Context& context) {
-  std::unique_ptr<AccelerationStructures> result(
-      new AccelerationStructures(std::move(gpu), context));
-  auto table = InstanceTable::create(result->gpu_);
-  if (!table) return table.error();
-  result->instances_ = std::move(*table);
-  auto empty = TopLevel::build(result->gpu_, *result->instances_, {}, runtime::BuildFlags::kNone);
-  if (!empty) return empty.error();
-  result->empty_ = std::move(*empty);
-  if (auto s = result->write_table(); !s) return s.error();
-  return result;
-}
-
-AccelerationStructures::~AccelerationStructures() {
+// One thread at a time, but for evict(), which is for every thread.
+class Structures final : public AccelerationStructures {
+ public:
+  Structures(std::shared_ptr<Gpu> gpu, const runtime::Context& context)
+      : gpu_(std::move(gpu)), context_(context) {}
   // Buffers may outlive the device, but not what stands in them.
-  map_->evict(0, UINT64_MAX);
+  ~Structures() override { map_->evict(0, UINT64_MAX); }
+  rtapi::Status start(Memory& memory);
+
+  rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
+      rtapi::RaytracingAccelerationStructureType type, BuildFlags flags,
+      std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      uint32_t instance_count) const override {
+    return runtime::estimate_sizes(type, flags, geometries, instance_count);
+  }
+  rtapi::Status build(CommandStream& stream, const runtime::BuildCommand& command) override;
+  rtapi::Status copy(CommandStream& stream,
+                     const runtime::CopyAccelerationStructureCommand& command) override;
+  rtapi::Status emit(CommandStream& stream,
+                     const runtime::EmitPostbuildInfoCommand& command) override;
+  void evict(uint64_t address, uint64_t size_bytes) override { map_->evict(address, size_bytes); }
+  rtapi::Result<SceneTables> tables() override;
+
+ private:
+  runtime::StructureEnvironment environment() { return {context_, *map_, "Vulkan"}; }
+  rtapi::Status build_top_level(const runtime::BuildCommand& command,
+                                AccelerationStructure& result);
+  rtapi::Status build_bottom_level(const runtime::BuildCommand& command,
+                                   const AccelerationStructure* source,
+                                   AccelerationStructure& result);
+  rtapi::Status write_table();
+
+  std::shared_ptr<Gpu> gpu_;
+  runtime::Context context_;
+  std::shared_ptr<runtime::StructureMap> map_ = std::make_shared<runtime::StructureMap>();
+  std::shared_ptr<InstanceTable> instances_;
+  std::shared_ptr<TopLevel> empty_;
+  // In the table; alive at least until tables() is called again, as shaders may still trace them.
+  std::vector<std::shared_ptr<const AccelerationStructure>> listed_;
+  std::unique_ptr<GpuBuffer> table_;
+  uint32_t table_mask_ = 0;
+  uint64_t max_hit_record_ = 15;
+};
+
+rtapi::Status Structures::start(Memory& memory) {
+  auto table = InstanceTable::create(gpu_);
+  if (!table) return table.error();
+  instances_ = std::move(*table);
+  auto empty = TopLevel::build(gpu_, *instances_, {}, BuildFlags::kNone);
+  if (!empty) return empty.error();
+  empty_ = std::move(*empty);
+  memory.on_buffer_end(
+      [map = map_](uint64_t address, uint64_t size_bytes) { map->evict(address, size_bytes); });
+  return write_table();
 }
 
-rtapi::Status AccelerationStructures::build(const runtime::BuildCommand& command) {
+rtapi::Status Structures::build(CommandStream& stream, const runtime::BuildCommand& command) {
+  if (auto s = stream.flush(); !s) return s;
   const auto build_level = [&](const AccelerationStructure* source, AccelerationStructure& result) {
     return command.type == rtapi::RaytracingAccelerationStructureType::kTopLevel
                ? build_top_level(command, result)
@@ -49,8 +89,8 @@ rtapi::Status AccelerationStructures::build(const runtime::BuildCommand& command
   return runtime::build_structure(environment(), command, build_level);
 }
 
-rtapi::Status AccelerationStructures::build_top_level(const runtime::BuildCommand& command,
-                                                      AccelerationStructure& result) {
+rtapi::Status Structures::build_top_level(const runtime::BuildCommand& command,
+                                          AccelerationStructure& result) {
   auto instances = runtime::read_instances(environment(), command);
   if (!instances) return instances.error();
   auto level = TopLevel::build(gpu_, *instances_, *instances, command.flags);
@@ -62,9 +102,9 @@ rtapi::Status AccelerationStructures::build_top_level(const runtime::BuildComman
 
 // An update is a build with the indices of the source: lavapipe builds anew in any case, and the
 // order of the primitives follows what moved.
-rtapi::Status AccelerationStructures::build_bottom_level(const runtime::BuildCommand& command,
-                                                         const AccelerationStructure* source,
-                                                         AccelerationStructure& result) {
+rtapi::Status Structures::build_bottom_level(const runtime::BuildCommand& command,
+                                             const AccelerationStructure* source,
+                                             AccelerationStructure& result) {
   const BottomLevel* update_of = nullptr;
   if (source != nullptr) {
     update_of = &static_cast<const BottomLevel&>(*source->bottom_level);
@@ -87,34 +127,35 @@ rtapi::Status AccelerationStructures::build_bottom_level(const runtime::BuildCom
   return {};
 }
 
-rtapi::Status AccelerationStructures::copy(
-    const runtime::CopyAccelerationStructureCommand& command) {
+rtapi::Status Structures::copy(CommandStream& stream,
+                               const runtime::CopyAccelerationStructureCommand& command) {
+  if (auto s = stream.flush(); !s) return s;
   return runtime::copy_structure(environment(), command);
 }
 
-rtapi::Status AccelerationStructures::emit_postbuild_info(
-    const runtime::EmitPostbuildInfoCommand& command) {
+rtapi::Status Structures::emit(CommandStream& stream,
+                               const runtime::EmitPostbuildInfoCommand& command) {
+  if (auto s = stream.flush(); !s) return s;
   return runtime::emit_postbuild_info(environment(), command.desc, command.sources);
 }
 
-rtapi::Result<DispatchStructures> AccelerationStructures::for_dispatch() {
+rtapi::Result<SceneTables> Structures::tables() {
   auto top_levels = map_->top_levels();
   if (top_levels != listed_) {
     listed_ = std::move(top_levels);
     if (auto s = write_table(); !s) return s.error();
   }
-  DispatchStructures result;
+  SceneTables result;
   result.instances = instances_->address();
   result.top_levels = table_->address();
   result.top_level_mask = table_mask_;
   result.empty_top_level = empty_->address();
-  result.largest_hit_record = largest_hit_record_;
-  result.kept = listed_;
+  result.max_hit_record = max_hit_record_;
   return result;
 }
 
 // Half of the slots at least stay empty, so that a search ends soon.
-rtapi::Status AccelerationStructures::write_table() {
+rtapi::Status Structures::write_table() {
   const auto slots = std::bit_ceil(static_cast<uint32_t>(2 * listed_.size() + 2));
   if (table_ == nullptr || slots > table_mask_ + 1) {
     auto table = gpu_->create_buffer(slots * sizeof(TopLevelEntry), "table of top levels");
@@ -127,16 +168,25 @@ rtapi::Status AccelerationStructures::write_table() {
   } else {
     std::memset(table_->host(), 0, table_->size_bytes());
   }
-  largest_hit_record_ = 0;
+  max_hit_record_ = 15;
   auto* entries = reinterpret_cast<TopLevelEntry*>(table_->host());
   for (const auto& structure : listed_) {
     const TopLevel& level = top_level_of(*structure);
     uint32_t slot = shader::spirv::top_level_hash(structure->address) & table_mask_;
     while (entries[slot].address != 0) slot = (slot + 1) & table_mask_;
     entries[slot] = {structure->address, level.address()};
-    largest_hit_record_ = std::max(largest_hit_record_, level.largest_hit_record());
+    max_hit_record_ = std::max(max_hit_record_, level.largest_hit_record());
   }
   return {};
+}
+
+}  // namespace
+
+rtapi::Result<std::unique_ptr<AccelerationStructures>> AccelerationStructures::create(
+    std::shared_ptr<Gpu> gpu, std::shared_ptr<Memory> memory, const runtime::Context& context) {
+  auto result = std::make_unique<Structures>(std::move(gpu), context);
+  if (auto s = result->start(*memory); !s) return s.error();
+  return std::unique_ptr<AccelerationStructures>(std::move(result));
 }
 
 }  // namespace kaamos::vulkan
