@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/device.h"
+
+#include <utility>
+
+namespace kaamos::vulkan {
+
+rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
+    const rtapi::DeviceDesc& desc, const runtime::Context& context) {
+  if (desc.Precision == rtapi::TraversalPrecision::kExact) {
+    return rtapi::Error{"KA0991", rtapi::ErrorCode::kUnsupported,
+                        "KA0991 traversal precision kExact is not available on the Vulkan backend: "
+                        "the driver decides how exact it is; use kRobust."};
+  }
+  std::unique_ptr<Device> device(new Device(context));
+  if (auto s = device->start(desc); !s) return s.error();
+  return std::unique_ptr<runtime::BackendDevice>(std::move(device));
+}
+
+rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
+  auto gpu = Gpu::create();
+  if (!gpu) return gpu.error();
+  gpu_ = *gpu;
+  auto descriptors = DescriptorSet::create(gpu_);
+  if (!descriptors) return descriptors.error();
+  descriptors_ = *descriptors;
+  auto layout = PipelineLayout::create(gpu_, descriptors_);
+  if (!layout) return layout.error();
+  layout_ = *layout;
+  stream_ = std::make_unique<CommandStream>(gpu_);
+  auto textures = TextureStore::create(gpu_, descriptors_);
+  if (!textures) return textures.error();
+  textures_ = *std::move(textures);
+  auto structures = AccelerationStructures::create(gpu_, memory_, context_);
+  if (!structures) return structures.error();
+  structures_ = *std::move(structures);
+  memory_->on_buffer_end(
+      [this](uint64_t address, uint64_t size_bytes) { structures_->evict(address, size_bytes); });
+  for (const std::string& name : gpu_->unknown_workarounds()) {
+    warn("KA0957",
+         "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
+             "\", which is none; they are listed in runtime/vulkan/README.md.");
+  }
+  if (desc.CollectStatistics) {
+    warn("KA0958", "CollectStatistics: the Vulkan backend counts nothing; GetStatistics gives 0.");
+  }
+  return {};
+}
+
+Device::~Device() {
+  memory_->on_buffer_end(nullptr);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Device::create_buffer(
+    const rtapi::BufferDesc& desc) {
+  return memory_->create_buffer(*gpu_, desc, memory_);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_texture(
+    const rtapi::TextureDesc& desc) {
+  return textures_->create_texture(desc);
+}
+
+rtapi::Result<uint64_t> Device::create_texture_view(runtime::BackendTexture& texture,
+                                                    const runtime::TextureViewDesc& desc) {
+  return textures_->create_view(texture, desc);
+}
+
+rtapi::Result<uint64_t> Device::create_sampler(const rtapi::SamplerDesc& desc) {
+  return textures_->create_sampler(desc);
+}
+
+bool Device::supports_format(rtapi::Format format, bool unordered_access) const {
+  return textures_->supports_format(format, unordered_access);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_raytracing_pipeline(
+    std::shared_ptr<const runtime::LinkedPipeline> pipeline) {
+  return RaytracingPipeline::create(layout_, std::move(pipeline));
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_pipeline(
+    std::shared_ptr<const runtime::LinkedCompute> pipeline) {
+  return ComputePipeline::create(layout_, std::move(pipeline));
+}
+
+rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
+    rtapi::RaytracingAccelerationStructureType type,
+    rtapi::RaytracingAccelerationStructureBuildFlags flags,
+    std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {
+  return structures_->prebuild_info(type, flags, geometries, instance_count);
+}
+
+void Device::warn(const char* id, const std::string& text) const {
+  context_.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
+}
+
+const runtime::BackendFactory& backend_factory() {
+  static const runtime::BackendFactory factory = {"vulkan", Gpu::enumerate, Device::create};
+  return factory;
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// The Vulkan backend as rtapi sees it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "runtime/backend.h"
+#include "runtime/vulkan/acceleration_structure.h"
+#include "runtime/vulkan/dispatch.h"
+#include "runtime/vulkan/memory.h"
+#include "runtime/vulkan/state_object.h"
+#include "runtime/vulkan/texture.h"
+
+namespace kaamos::vulkan {
+
+class Device final : public runtime::BackendDevice {
+ public:
+  // Errors: those of Gpu::create, KA0991.
+  static rtapi::Result<std::unique_ptr<runtime::BackendDevice>> create(
+      const rtapi::DeviceDesc& desc, const runtime::Context& context);
+  ~Device() override;
+
+  const rtapi::DeviceInfo& info() const override { return gpu_->info(); }
+  rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(
+      const rtapi::BufferDesc& desc) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
+      const rtapi::TextureDesc& desc) override;
+  rtapi::Result<uint64_t> create_texture_view(runtime::BackendTexture& texture,
+                                              const runtime::TextureViewDesc& desc) override;
+  rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override;
+  bool supports_format(rtapi::Format format, bool unordered_access) const override;
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
+      std::shared_ptr<const runtime::LinkedPipeline> pipeline) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_compute_pipeline(
+      std::shared_ptr<const runtime::LinkedCompute> pipeline) override;
+  rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
+      rtapi::RaytracingAccelerationStructureType type,
+      rtapi::RaytracingAccelerationStructureBuildFlags flags,
+      std::span<const rtapi::RaytracingGeometryDesc> geometries,
+      uint32_t instance_count) const override;
+  rtapi::Status execute(std::span<const runtime::Command> commands) override;
+
+  // What the commands' code needs; see execute.cpp.
+  Gpu& gpu() { return *gpu_; }
+  CommandStream& stream() { return *stream_; }
+  AccelerationStructures& structures() { return *structures_; }
+  TextureStore& textures() { return *textures_; }
+  DispatchEnvironment dispatch_environment() {
+    return {stream_.get(), memory_.get(), structures_.get(), &scratch_};
+  }
+  void warn(const char* id, const std::string& text) const;
+
+ private:
+  explicit Device(const runtime::Context& context) : context_(context) {}
+  rtapi::Status start(const rtapi::DeviceDesc& desc);
+
+  runtime::Context context_;
+  // In the order in which they need each other.
+  std::shared_ptr<Gpu> gpu_;
+  std::shared_ptr<DescriptorSet> descriptors_;
+  std::shared_ptr<PipelineLayout> layout_;
+  std::shared_ptr<Memory> memory_ = std::make_shared<Memory>();
+  std::unique_ptr<CommandStream> stream_;
+  std::unique_ptr<TextureStore> textures_;
+  std::unique_ptr<AccelerationStructures> structures_;
+  DispatchMemory scratch_;
+};
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// DispatchRays and Dispatch: tables and blocks are written when the command executes, and the work
+// is done when the call returns.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kaamos/shader/spirv_interface.h"
+#include "runtime/vulkan/acceleration_structure.h"
+#include "runtime/vulkan/command_stream.h"
+#include "runtime/vulkan/dispatch_split.h"
+#include "runtime/vulkan/memory.h"
+
+namespace kaamos::vulkan {
+
+// Memory that one dispatch after another uses for its tables and blocks.
+class DispatchMemory {
+ public:
+  // At least so many bytes, their contents undefined; the address is a multiple of 64 KiB.
+  rtapi::Result<const GpuBuffer*> get(Gpu& gpu, uint64_t size_bytes);
+
+ private:
+  std::unique_ptr<GpuBuffer> buffer_;
+};
+
+// What a dispatch needs of its device.
+struct DispatchEnvironment {
+  CommandStream* stream = nullptr;
+  const Memory* memory = nullptr;
+  AccelerationStructures* structures = nullptr;
+  DispatchMemory* scratch = nullptr;
+  // Grids over these or over the device's limits run in parts.
+  GridLimits limits = {};
+};
+
+// What came of it. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader,
+// KA0892 a table in no buffer, KA0955 lost, KA0956 over a limit, KA0990 memory.
+struct DispatchResult {
+  rtapi::Status status;
+  // What ran, or did not, unlike what the application may have meant: id and text.
+  struct Warning {
+    const char* id;
+    std::string text;
+  };
+  std::vector<Warning> warnings;
+};
+
+// `label` names the dispatch in messages.
+DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+                             const runtime::DispatchRaysCommand& command, const std::string& label);
+
+// [compute.cpp]
+DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+                                const runtime::DispatchCommand& command, const std::string& label);
+
+// Common to both: what shaders see of the list's state and of the scene.
+shader::spirv::DispatchBlock dispatch_block(const runtime::DispatchState& state,
+                                            const SceneTables& scene);
+// Writes the status and a block for each part to the start of `buffer`.
+void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<GridPart>& parts,
+                  const GpuBuffer& buffer);
+uint64_t bytes_of_blocks(size_t part_count);
+uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
+// After the work: Ok, or why a shader removed the device.
+rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
+                        const std::string& label);
+
+}  // namespace kaamos::vulkan

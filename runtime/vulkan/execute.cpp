@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// The command stream, in order. Copies, clears and barriers are recorded; what the host takes part
+// in (tables, builds) submits all before it.
+#include <cstring>
+#include <string>
+
+#include "runtime/vulkan/device.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+class Executor {
+ public:
+  explicit Executor(Device& device) : device_(device) {}
+
+  rtapi::Status operator()(const runtime::DispatchRaysCommand& command) {
+    return finish(dispatch_rays(device_.dispatch_environment(), command, label("DispatchRays")));
+  }
+  rtapi::Status operator()(const runtime::DispatchCommand& command) {
+    return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
+  }
+  rtapi::Status operator()(const runtime::BuildCommand& command) {
+    return device_.structures().build(device_.stream(), command);
+  }
+  rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
+    return device_.structures().emit(device_.stream(), command);
+  }
+  rtapi::Status operator()(const runtime::CopyAccelerationStructureCommand& command) {
+    return device_.structures().copy(device_.stream(), command);
+  }
+  rtapi::Status operator()(const runtime::CopyBufferCommand& command);
+  rtapi::Status operator()(const runtime::CopyTextureCommand& command) {
+    if (command.dest.buffer != nullptr) {
+      const runtime::TextureCopyPlace& place = command.dest;
+      device_.structures().evict(place.buffer->address() + place.offset,
+                                 place.buffer->size_bytes() - place.offset);
+    }
+    return device_.textures().copy(device_.stream(), command);
+  }
+  rtapi::Status operator()(const runtime::ClearUavCommand& command) {
+    if (command.view.kind != shader::DescriptorKind::kTexture) {
+      device_.structures().evict(command.view.address, command.view.size_bytes);
+    }
+    return device_.textures().clear(device_.stream(), command);
+  }
+  rtapi::Status operator()(const runtime::BarrierCommand&) {
+    device_.stream().everything();
+    return {};
+  }
+  rtapi::Status operator()(const runtime::EventCommand& command) {
+    if (command.begin) {
+      events_.push_back(command.name);
+    } else if (!events_.empty()) {
+      events_.pop_back();
+    }
+    return {};
+  }
+
+  void next() { ++index_; }
+
+ private:
+  std::string label(const char* what) const {
+    std::string text = std::string(what) + ", command " + std::to_string(index_);
+    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
+    return text;
+  }
+  rtapi::Status finish(DispatchResult result) {
+    for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
+    return std::move(result.status);
+  }
+
+  Device& device_;
+  size_t index_ = 0;
+  std::vector<std::string> events_;
+};
+
+rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
+  if (command.size_bytes == 0) return {};
+  device_.structures().evict(command.dest->address() + command.dest_offset, command.size_bytes);
+  const uint64_t from = command.source_offset;
+  const uint64_t to = command.dest_offset;
+  const bool overlap = command.source == command.dest && from < to + command.size_bytes &&
+                       to < from + command.size_bytes;
+  CommandStream& stream = device_.stream();
+  if (overlap) {
+    // Not allowed on Vulkan's queue.
+    if (auto s = stream.flush(); !s) return s;
+    uint8_t* host = command.dest->host();
+    std::memmove(host + to, host + from, command.size_bytes);
+    return {};
+  }
+  // Copies of one list happen one after another, as if each waited.
+  stream.everything();
+  auto commands = stream.record(label("CopyBufferRegion"));
+  if (!commands) return commands.error();
+  const GpuBuffer& source = gpu_buffer_of(*command.source);
+  const GpuBuffer& dest = gpu_buffer_of(*command.dest);
+  const VkBufferCopy region = {source.offset() + from, dest.offset() + to, command.size_bytes};
+  device_.gpu().vk().vkCmdCopyBuffer(*commands, source.handle(), dest.handle(), 1, &region);
+  return {};
+}
+
+}  // namespace
+
+rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
+  Executor executor(*this);
+  for (const runtime::Command& command : commands) {
+    if (auto s = std::visit(executor, command); !s) {
+      // What was recorded before holds objects that may go now.
+      if (auto rest = stream_->flush(); !rest) return rest;
+      return s;
+    }
+    executor.next();
+  }
+  return stream_->flush();
+}
+
+}  // namespace kaamos::vulkan

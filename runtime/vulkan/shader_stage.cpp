@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/shader_stage.h"
+
+#include "kaamos/shader/spirv_interface.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+VkShaderStageFlagBits stage_of(shader::Stage stage) {
+  switch (stage) {
+    case shader::Stage::kRayGeneration:
+      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+    case shader::Stage::kIntersection:
+      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
+    case shader::Stage::kAnyHit:
+      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
+    case shader::Stage::kClosestHit:
+      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case shader::Stage::kMiss:
+      return VK_SHADER_STAGE_MISS_BIT_KHR;
+    case shader::Stage::kCallable:
+      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+    case shader::Stage::kCompute:
+    case shader::Stage::kLibrary:
+      break;
+  }
+  return VK_SHADER_STAGE_COMPUTE_BIT;
+}
+
+class Constants {
+ public:
+  void add(uint32_t id, uint32_t value) {
+    result.entries.push_back(
+        {id, static_cast<uint32_t>(result.values.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+    result.values.push_back(value);
+  }
+  StageConstants result;
+};
+
+uint32_t count_of(const shader::BindingSlot& slot) {
+  switch (slot.source) {
+    case shader::SlotSource::kDescriptorTable:
+      return slot.descriptor_count;
+    case shader::SlotSource::kRootConstants:
+      return slot.size_bytes;
+    case shader::SlotSource::kRootDescriptor:
+      return slot.stride_bytes;
+    default:
+      return 0;
+  }
+}
+
+void add_slot(uint32_t binding, const shader::BindingSlot& slot, Constants& constants) {
+  using namespace shader::spirv;
+  if (slot.source == shader::SlotSource::kUnbound) return;
+  const uint32_t first = binding * kConstantsPerBinding;
+  const bool sampler = slot.source == shader::SlotSource::kStaticSampler;
+  constants.add(first + kBindingSource, static_cast<uint32_t>(slot.source) |
+                                            static_cast<uint32_t>(slot.local) << 8 |
+                                            static_cast<uint32_t>(slot.kind) << 16 |
+                                            static_cast<uint32_t>(slot.access) << 24);
+  constants.add(first + kBindingOffset, sampler
+                                            ? static_cast<uint32_t>(slot.static_sampler->address)
+                                            : slot.argument_offset);
+  constants.add(first + kBindingIndex, slot.descriptor_index);
+  constants.add(first + kBindingCount, count_of(slot));
+}
+
+}  // namespace
+
+StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
+                               const StageOptions& options) {
+  Constants constants;
+  for (size_t i = 0; i < shader.slots.size(); ++i) {
+    add_slot(static_cast<uint32_t>(i), shader.slots[i], constants);
+  }
+  constants.add(shader::spirv::kWorkaroundsConstant, workaround_bits);
+  constants.add(shader::spirv::kMaxTraceDepthConstant, options.max_trace_depth);
+  constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
+  return std::move(constants.result);
+}
+
+StageList::~StageList() {
+  for (const auto& [unused, module] : modules_) {
+    gpu_.vk().vkDestroyShaderModule(gpu_.device(), module, nullptr);
+  }
+}
+
+rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
+  if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
+  if (shader.code->spirv == nullptr) {
+    return rtapi::Error{
+        "KA0954", rtapi::ErrorCode::kUnsupported,
+        "KA0954 shader \"" + shader.name + "\" of " + shader.library->name +
+            " has no code for Vulkan: its library was compiled without SPIR-V; compile it again "
+            "with kaamos-hlsl of a build that has glslang, and without -no-spirv."};
+  }
+  VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+  info.codeSize = size_t{shader.code->spirv_words} * sizeof(uint32_t);
+  info.pCode = shader.code->spirv;
+  VkShaderModule made = VK_NULL_HANDLE;
+  const VkResult r = gpu_.vk().vkCreateShaderModule(gpu_.device(), &info, nullptr, &made);
+  if (r != VK_SUCCESS) return gpu_.error(r, "the module of shader \"" + shader.name + "\"");
+  modules_[shader.code] = made;
+  return made;
+}
+
+rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool own) {
+  if (!own) {
+    if (const auto it = indices_.find(&shader); it != indices_.end()) return it->second;
+  }
+  auto made = module(shader);
+  if (!made) return made.error();
+  const StageConstants& constants =
+      constants_.emplace_back(stage_constants(shader, gpu_.workarounds().shader_bits(), options_));
+  infos_.push_back({static_cast<uint32_t>(constants.entries.size()), constants.entries.data(),
+                    constants.values.size() * sizeof(uint32_t), constants.values.data()});
+  VkPipelineShaderStageCreateInfo stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+  stage.stage = stage_of(shader.code->stage);
+  stage.module = *made;
+  stage.pName = "main";
+  stage.pSpecializationInfo = &infos_.back();
+  stages_.push_back(stage);
+  const auto index = static_cast<uint32_t>(stages_.size() - 1);
+  if (!own) indices_[&shader] = index;
+  return index;
+}
+
+}  // namespace kaamos::vulkan

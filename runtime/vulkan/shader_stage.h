@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// Linked shaders as stages of a Vulkan pipeline: the module of the export, and the specialization
+// constants that say where its bindings come from (spirv_interface.h).
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/linked_pipeline.h"
+#include "runtime/vulkan/gpu.h"
+
+namespace kaamos::vulkan {
+
+struct StageOptions {
+  uint32_t max_trace_depth = 0;
+  uint32_t max_callable_depth = 0;
+};
+
+// The values of a stage's constants, as pSpecializationInfo has them.
+struct StageConstants {
+  std::vector<VkSpecializationMapEntry> entries;
+  std::vector<uint32_t> values;
+};
+StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
+                               const StageOptions& options);
+
+// Stages of one pipeline while it is made. Modules go with it; pipelines do not need them.
+class StageList {
+ public:
+  StageList(Gpu& gpu, const StageOptions& options) : gpu_(gpu), options_(options) {}
+  ~StageList();
+  StageList(const StageList&) = delete;
+  StageList& operator=(const StageList&) = delete;
+
+  // The index of the shader's stage, the same for each call unless `own`. Errors: KA0954 no SPIR-V
+  // for it, KA0952.
+  rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
+  const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
+
+ private:
+  rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
+
+  Gpu& gpu_;
+  StageOptions options_;
+  std::vector<VkPipelineShaderStageCreateInfo> stages_;
+  std::deque<StageConstants> constants_;  // do not move: the infos point to them
+  std::deque<VkSpecializationInfo> infos_;
+  std::map<const shader::ExportDesc*, VkShaderModule> modules_;
+  std::map<const runtime::LinkedShader*, uint32_t> indices_;
+};
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/state_object.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/vulkan/shader_stage.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+constexpr VkShaderStageFlags kAllStages =
+    VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_ANY_HIT_BIT_KHR |
+    VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR | VK_SHADER_STAGE_MISS_BIT_KHR |
+    VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR |
+    VK_SHADER_STAGE_COMPUTE_BIT;
+
+// Groups of the pipeline, and the records whose identifiers stand for them.
+struct Groups {
+  std::vector<VkRayTracingShaderGroupCreateInfoKHR> infos;
+  std::vector<const runtime::LinkedRecord*> records;
+};
+
+// Adds the stage of a shader that may be absent.
+rtapi::Status add_stage(StageList& stages, const runtime::LinkedShader* shader, bool own,
+                        uint32_t* index) {
+  *index = VK_SHADER_UNUSED_KHR;
+  if (shader == nullptr) return {};
+  auto added = stages.add(*shader, own);
+  if (!added) return added.error();
+  *index = *added;
+  return {};
+}
+
+rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersection,
+                        StageList& stages, Groups& groups) {
+  const bool procedural = record.kind == runtime::RecordKind::kHitGroup &&
+                          record.hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
+  // Vulkan has no procedural group without an intersection shader. Nothing is ever hit through it,
+  // which a null record does as well.
+  if (procedural && record.intersection == nullptr) return {};
+  VkRayTracingShaderGroupCreateInfoKHR info = {
+      VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+  info.generalShader = info.closestHitShader = info.anyHitShader = info.intersectionShader =
+      VK_SHADER_UNUSED_KHR;
+  if (record.kind != runtime::RecordKind::kHitGroup) {
+    info.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+    if (auto s = add_stage(stages, record.shader, false, &info.generalShader); !s) return s;
+    if (info.generalShader == VK_SHADER_UNUSED_KHR) return {};
+  } else {
+    info.type = procedural ? VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR
+                           : VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+    if (auto s = add_stage(stages, record.closest_hit, false, &info.closestHitShader); !s) return s;
+    if (auto s = add_stage(stages, record.any_hit, false, &info.anyHitShader); !s) return s;
+    if (procedural) {
+      auto s = add_stage(stages, record.intersection, own_intersection, &info.intersectionShader);
+      if (!s) return s;
+    }
+  }
+  groups.infos.push_back(info);
+  groups.records.push_back(&record);
+  return {};
+}
+
+VkPipelineCreateFlags create_flags(rtapi::RaytracingPipelineFlags flags) {
+  const auto bits = static_cast<uint32_t>(flags);
+  VkPipelineCreateFlags result = 0;
+  if (bits & static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipTriangles)) {
+    result |= VK_PIPELINE_CREATE_RAY_TRACING_SKIP_TRIANGLES_BIT_KHR;
+  }
+  if (bits & static_cast<uint32_t>(rtapi::RaytracingPipelineFlags::kSkipProceduralPrimitives)) {
+    result |= VK_PIPELINE_CREATE_RAY_TRACING_SKIP_AABBS_BIT_KHR;
+  }
+  return result;
+}
+
+}  // namespace
+
+rtapi::Result<std::shared_ptr<PipelineLayout>> PipelineLayout::create(
+    std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors) {
+  std::shared_ptr<PipelineLayout> layout(
+      new PipelineLayout(std::move(gpu), std::move(descriptors)));
+  const VkPushConstantRange range = {kAllStages, 0, sizeof(uint64_t)};
+  const VkDescriptorSetLayout set = layout->descriptors_->layout();
+  VkPipelineLayoutCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+  info.setLayoutCount = 1;
+  info.pSetLayouts = &set;
+  info.pushConstantRangeCount = 1;
+  info.pPushConstantRanges = &range;
+  const Gpu& g = *layout->gpu_;
+  const VkResult r = g.vk().vkCreatePipelineLayout(g.device(), &info, nullptr, &layout->handle_);
+  if (r != VK_SUCCESS) return g.error(r, "the pipeline layout");
+  return layout;
+}
+
+PipelineLayout::~PipelineLayout() {
+  gpu_->vk().vkDestroyPipelineLayout(gpu_->device(), handle_, nullptr);
+}
+
+void PipelineLayout::bind(VkCommandBuffer commands, VkPipelineBindPoint point,
+                          VkPipeline pipeline) const {
+  const VkDescriptorSet set = descriptors_->handle();
+  gpu_->vk().vkCmdBindPipeline(commands, point, pipeline);
+  gpu_->vk().vkCmdBindDescriptorSets(commands, point, handle_, 0, 1, &set, 0, nullptr);
+}
+
+void PipelineLayout::push(VkCommandBuffer commands, uint64_t block_address) const {
+  gpu_->vk().vkCmdPushConstants(commands, handle_, kAllStages, 0, sizeof(block_address),
+                                &block_address);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> RaytracingPipeline::create(
+    std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedPipeline> linked) {
+  std::shared_ptr<RaytracingPipeline> pipeline(
+      new RaytracingPipeline(std::move(layout), std::move(linked)));
+  if (auto s = pipeline->start(); !s) return s.error();
+  return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
+}
+
+rtapi::Status RaytracingPipeline::start() {
+  Gpu& gpu = layout_->gpu();
+  max_trace_depth_ =
+      std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
+  groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
+  StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth});
+  const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
+  Groups groups;
+  bool runs = false;
+  for (const auto& record : linked_->records) {
+    if (auto s = add_group(*record, own_intersection, stages, groups); !s) return s;
+    runs |= record->kind == runtime::RecordKind::kRayGeneration;
+  }
+  if (!runs) return {};
+  VkRayTracingPipelineCreateInfoKHR info = {VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+  info.flags = create_flags(linked_->flags);
+  info.stageCount = static_cast<uint32_t>(stages.stages().size());
+  info.pStages = stages.stages().data();
+  info.groupCount = static_cast<uint32_t>(groups.infos.size());
+  info.pGroups = groups.infos.data();
+  info.maxPipelineRayRecursionDepth = max_trace_depth_;
+  info.layout = layout_->handle();
+  const VkResult r = gpu.vk().vkCreateRayTracingPipelinesKHR(
+      gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &handle_);
+  if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
+  return read_handles(groups.records);
+}
+
+rtapi::Status RaytracingPipeline::read_handles(
+    const std::vector<const runtime::LinkedRecord*>& records) {
+  const Gpu& gpu = layout_->gpu();
+  const size_t size = gpu.properties().ray_tracing.shaderGroupHandleSize;
+  std::vector<uint8_t> bytes(size * records.size());
+  const VkResult r = gpu.vk().vkGetRayTracingShaderGroupHandlesKHR(
+      gpu.device(), handle_, 0, static_cast<uint32_t>(records.size()), bytes.size(), bytes.data());
+  if (r != VK_SUCCESS) return gpu.error(r, "reading shader group handles");
+  for (size_t i = 0; i < records.size(); ++i) groups_.add(records[i], bytes.data() + i * size);
+  return {};
+}
+
+RaytracingPipeline::~RaytracingPipeline() {
+  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> ComputePipeline::create(
+    std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedCompute> linked) {
+  std::shared_ptr<ComputePipeline> pipeline(
+      new ComputePipeline(std::move(layout), std::move(linked)));
+  Gpu& gpu = pipeline->layout_->gpu();
+  const runtime::LinkedShader& shader = pipeline->linked_->shader;
+  StageList stages(gpu, {});
+  if (auto added = stages.add(shader); !added) return added.error();
+  VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+  info.stage = stages.stages()[0];
+  info.layout = pipeline->layout_->handle();
+  const VkResult r = gpu.vk().vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info,
+                                                       nullptr, &pipeline->handle_);
+  if (r != VK_SUCCESS) return gpu.error(r, "compute pipeline \"" + shader.name + "\"");
+  return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
+}
+
+ComputePipeline::~ComputePipeline() {
+  layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
+}
+
+}  // namespace kaamos::vulkan

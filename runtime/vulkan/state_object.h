@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// Linked pipelines as Vulkan's.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/backend.h"
+#include "runtime/vulkan/descriptor_set.h"
+#include "runtime/vulkan/gpu.h"
+#include "runtime/vulkan/shader_table.h"
+
+namespace kaamos::vulkan {
+
+// The bindless set and a push constant, the address of the DispatchBlock: of every pipeline.
+class PipelineLayout {
+ public:
+  static rtapi::Result<std::shared_ptr<PipelineLayout>> create(
+      std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors);
+  ~PipelineLayout();
+  PipelineLayout(const PipelineLayout&) = delete;
+  PipelineLayout& operator=(const PipelineLayout&) = delete;
+
+  VkPipelineLayout handle() const { return handle_; }
+  Gpu& gpu() const { return *gpu_; }
+  // Binds a pipeline, the set and the address of a block.
+  void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
+  void push(VkCommandBuffer commands, uint64_t block_address) const;
+
+ private:
+  PipelineLayout(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors)
+      : gpu_(std::move(gpu)), descriptors_(std::move(descriptors)) {}
+
+  std::shared_ptr<Gpu> gpu_;
+  std::shared_ptr<DescriptorSet> descriptors_;
+  VkPipelineLayout handle_ = VK_NULL_HANDLE;
+};
+
+class RaytracingPipeline final : public runtime::BackendPipeline {
+ public:
+  static rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
+      std::shared_ptr<PipelineLayout> layout,
+      std::shared_ptr<const runtime::LinkedPipeline> linked);
+  ~RaytracingPipeline() override;
+
+  const runtime::LinkedPipeline& linked() const { return *linked_; }
+  const PipelineLayout& layout() const { return *layout_; }
+  // Null where the pipeline has no ray generation shader: then nothing can run.
+  VkPipeline handle() const { return handle_; }
+  const GroupHandles& groups() const { return groups_; }
+  // Traces nested in each other that it was made for: what it declares, or the device's limit.
+  uint32_t max_trace_depth() const { return max_trace_depth_; }
+
+ private:
+  RaytracingPipeline(std::shared_ptr<PipelineLayout> layout,
+                     std::shared_ptr<const runtime::LinkedPipeline> linked)
+      : layout_(std::move(layout)), linked_(std::move(linked)) {}
+  rtapi::Status start();
+  rtapi::Status read_handles(const std::vector<const runtime::LinkedRecord*>& records);
+
+  std::shared_ptr<PipelineLayout> layout_;
+  std::shared_ptr<const runtime::LinkedPipeline> linked_;
+  VkPipeline handle_ = VK_NULL_HANDLE;
+  uint32_t max_trace_depth_ = 0;
+  GroupHandles groups_;
+};
+
+class ComputePipeline final : public runtime::BackendPipeline {
+ public:
+  static rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
+      std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedCompute> linked);
+  ~ComputePipeline() override;
+
+  const PipelineLayout& layout() const { return *layout_; }
+  VkPipeline handle() const { return handle_; }
+
+ private:
+  ComputePipeline(std::shared_ptr<PipelineLayout> layout,
+                  std::shared_ptr<const runtime::LinkedCompute> linked)
+      : layout_(std::move(layout)), linked_(std::move(linked)) {}
+
+  std::shared_ptr<PipelineLayout> layout_;
+  std::shared_ptr<const runtime::LinkedCompute> linked_;
+  VkPipeline handle_ = VK_NULL_HANDLE;
+};
+
+// Levels of callable shaders that call each other: what lavapipe was found to bear.
+inline constexpr uint32_t kMaxCallableDepth = 31;
+
+}  // namespace kaamos::vulkan

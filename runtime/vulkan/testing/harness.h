@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+//
+// A Vulkan device with pipelines linked by hand from GLSL: what the tests of this folder run on,
+// without the HLSL compiler and without rtapi's front.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/vulkan/dispatch.h"
+#include "runtime/vulkan/state_object.h"
+#include "runtime/vulkan/testing/vulkan_device.h"
+
+namespace kaamos::vulkan::testing {
+
+// No acceleration structures.
+class EmptyScene final : public AccelerationStructures {
+ public:
+  rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
+      rtapi::RaytracingAccelerationStructureType, rtapi::RaytracingAccelerationStructureBuildFlags,
+      std::span<const rtapi::RaytracingGeometryDesc>, uint32_t) const override {
+    return {};
+  }
+  rtapi::Status build(CommandStream&, const runtime::BuildCommand&) override { return {}; }
+  rtapi::Status copy(CommandStream&, const runtime::CopyAccelerationStructureCommand&) override {
+    return {};
+  }
+  rtapi::Status emit(CommandStream&, const runtime::EmitPostbuildInfoCommand&) override {
+    return {};
+  }
+  void evict(uint64_t, uint64_t) override {}
+  rtapi::Result<SceneTables> tables() override { return scene; }
+
+  SceneTables scene;
+};
+
+// Builds what rtapi's linker would.
+class PipelineBuilder {
+ public:
+  explicit PipelineBuilder(uint32_t max_recursion_depth = 1);
+
+  // GLSL after the preamble of glsl.h. `slots`: of the library's bindings.
+  const runtime::LinkedShader* shader(shader::Stage stage, const std::string& glsl,
+                                      std::vector<shader::BindingSlot> slots = {});
+  // A shader without SPIR-V.
+  const runtime::LinkedShader* native_shader(shader::Stage stage);
+  rtapi::ShaderIdentifier record(runtime::RecordKind kind, const runtime::LinkedShader* shader);
+  rtapi::ShaderIdentifier hit_group(const runtime::LinkedShader* closest_hit,
+                                    const runtime::LinkedShader* any_hit = nullptr,
+                                    const runtime::LinkedShader* intersection = nullptr);
+  rtapi::ShaderIdentifier ray_generation(const std::string& glsl);
+  rtapi::ShaderIdentifier miss(const std::string& glsl);
+  rtapi::ShaderIdentifier callable(const std::string& glsl);
+
+  std::shared_ptr<runtime::LinkedPipeline> pipeline() { return pipeline_; }
+  std::shared_ptr<const runtime::LinkedCompute> compute(const std::string& glsl);
+
+ private:
+  // The code, which the linked objects point to, lives with them.
+  struct Code {
+    std::vector<uint32_t> words;
+    shader::ExportDesc desc = {};
+    shader::LibraryDesc library = {};
+    shader::ComputeDesc compute = {};
+  };
+  std::shared_ptr<Code> code(shader::Stage stage, const std::string& glsl, bool spirv = true);
+  rtapi::ShaderIdentifier add(std::unique_ptr<runtime::LinkedRecord> record);
+
+  std::shared_ptr<runtime::LinkedPipeline> pipeline_ = std::make_shared<runtime::LinkedPipeline>();
+};
+
+// Runs dispatches on a device without a scene.
+class Bench {
+ public:
+  explicit Bench(std::shared_ptr<Gpu> gpu);
+
+  std::shared_ptr<runtime::BackendBuffer> buffer(uint64_t size_bytes);
+  // A table of 64-byte records: identifiers, each with its index as the first local argument.
+  std::shared_ptr<runtime::BackendBuffer> table(const std::vector<rtapi::ShaderIdentifier>& ids);
+  static rtapi::GpuVirtualAddressRangeAndStride range(
+      const std::shared_ptr<runtime::BackendBuffer>& table, uint64_t stride_bytes = 64);
+
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create(
+      std::shared_ptr<const runtime::LinkedPipeline> linked) {
+    return RaytracingPipeline::create(layout, std::move(linked));
+  }
+  // Root arguments are the addresses given.
+  DispatchResult rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
+                      const rtapi::DispatchRaysDesc& desc, std::vector<uint64_t> arguments);
+  DispatchResult groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
+                        uint32_t y, uint32_t z, std::vector<uint64_t> arguments);
+
+  std::shared_ptr<Gpu> gpu;
+  std::shared_ptr<DescriptorSet> descriptors;
+  std::shared_ptr<PipelineLayout> layout;
+  std::shared_ptr<Memory> memory = std::make_shared<Memory>();
+  CommandStream stream;
+  EmptyScene scene;
+  DispatchMemory scratch;
+  GridLimits limits;  // of the next dispatches
+};
+
+inline uint32_t* words_of(const std::shared_ptr<runtime::BackendBuffer>& buffer) {
+  return reinterpret_cast<uint32_t*>(buffer->host());
+}
+
+}  // namespace kaamos::vulkan::testing
