@@ -171,3 +171,14 @@ int64_t k_atomic_compare_exchange_i64(uint64_t address, int64_t compare, int64_t
   if (address == 0UL) return int64_t(0);
   return atomicCompSwap(k_Atomic_i64(address).v, compare, value);
 }
+
+// Floats by their bits.
+//@ k_atomic_exchange_f32
+float k_atomic_exchange_f32(uint64_t address, float value) {
+  return uintBitsToFloat(k_atomic_exchange_u32(address, floatBitsToUint(value)));
+}
+//@ k_atomic_compare_exchange_f32
+float k_atomic_compare_exchange_f32(uint64_t address, float compare, float value) {
+  return uintBitsToFloat(k_atomic_compare_exchange_u32(address, floatBitsToUint(compare),
+                                                       floatBitsToUint(value)));
+}
