@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/spirv.h"
 
-#include <SPIRV/GlslangToSpv.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 
 namespace kaamos::hlsl {
 namespace {

@@ -3,6 +3,7 @@
 // A pass over the words of a module. SPIR-V's layout is strict: capabilities, ..., entry point,
 // execution modes, debug information, decorations, types and the rest; so that one walk finds the
 // places where something is to be added.
+#include <algorithm>
 #include <set>
 
 #include "runtime/hlsl/spirv.h"
@@ -19,6 +20,9 @@ enum : uint32_t {
   kOpMemberName = 6,
   kOpString = 7,
   kOpLine = 8,
+  kOpExtension = 10,
+  kOpExtInstImport = 11,
+  kOpMemoryModel = 14,
   kOpEntryPoint = 15,
   kOpExecutionMode = 16,
   kOpCapability = 17,
@@ -36,6 +40,8 @@ enum : uint32_t {
   kOpDot = 148,
   kOpNoLine = 317,
   kOpModuleProcessed = 330,
+  kOpExecutionModeId = 331,
+  kOpDecorateId = 332,
 };
 constexpr uint32_t kDecorationSpecId = 1;
 constexpr uint32_t kDecorationNoContraction = 42;
@@ -58,6 +64,27 @@ bool is_arithmetic(uint32_t op) {
       return true;
     default:
       return op >= kOpVectorTimesScalar && op <= kOpDot;
+  }
+}
+
+enum class Section { kPreamble, kAnnotations, kRest };
+
+Section section_of(uint32_t op) {
+  switch (op) {
+    case kOpExtension:
+    case kOpExtInstImport:
+    case kOpMemoryModel:
+    case kOpEntryPoint:
+    case kOpExecutionMode:
+    case kOpCapability:
+    case kOpExecutionModeId:
+      return Section::kPreamble;
+    case kOpDecorate:
+    case kOpMemberDecorate:
+    case kOpDecorateId:
+      return Section::kAnnotations;
+    default:
+      return Section::kRest;
   }
 }
 
@@ -110,25 +137,7 @@ std::vector<uint32_t> finish_spirv(const std::vector<uint32_t>& words,
   const Facts facts = facts_of(words);
   std::vector<uint32_t> out(words.begin(), words.begin() + 5);
   bool capability_added = false;
-  bool modes_added = false;
-  bool decorations_added = false;
-  const auto add_modes = [&] {
-    if (modes_added) return;
-    modes_added = true;
-    for (const uint32_t width : facts.widths) {
-      out.insert(out.end(), {4u << 16 | kOpExecutionMode, facts.entry_point,
-                             kModeSignedZeroInfNanPreserve, width});
-    }
-  };
-  const auto add_decorations = [&] {
-    if (decorations_added) return;
-    decorations_added = true;
-    for (const uint32_t id : facts.arithmetic) {
-      if (facts.not_contracted.count(id) == 0) {
-        out.insert(out.end(), {3u << 16 | kOpDecorate, id, kDecorationNoContraction});
-      }
-    }
-  };
+  Section section = Section::kPreamble;
   each_instruction(words, [&](const Instruction& in) {
     if (is_debug(in.op)) {
       return;
@@ -137,11 +146,21 @@ std::vector<uint32_t> finish_spirv(const std::vector<uint32_t>& words,
       out.insert(out.end(), {2u << 16 | kOpCapability, kCapabilitySignedZeroInfNanPreserve});
       capability_added = true;
     }
-    if (in.op == kOpDecorate || in.op == kOpMemberDecorate) {
-      add_modes();
-    } else if (in.op > kOpExecutionMode + 2 && modes_added) {
-      add_decorations();
+    const Section next = std::max(section, section_of(in.op));
+    if (section == Section::kPreamble && next != section) {
+      for (const uint32_t width : facts.widths) {
+        out.insert(out.end(), {4u << 16 | kOpExecutionMode, facts.entry_point,
+                               kModeSignedZeroInfNanPreserve, width});
+      }
     }
+    if (section != Section::kRest && next == Section::kRest) {
+      for (const uint32_t id : facts.arithmetic) {
+        if (facts.not_contracted.count(id) == 0) {
+          out.insert(out.end(), {3u << 16 | kOpDecorate, id, kDecorationNoContraction});
+        }
+      }
+    }
+    section = next;
     const size_t at = out.size();
     out.insert(out.end(), in.words, in.words + in.count);
     if (in.op == kOpDecorate && in.words[2] == kDecorationSpecId &&

@@ -28,6 +28,10 @@ bool parse_emit(Arguments& a, const std::string& value) {
     a.emit = Emit::kReflection;
   } else if (value == "object") {
     a.emit = Emit::kObject;
+  } else if (value == "glsl") {
+    a.emit = Emit::kGlsl;
+  } else if (value == "spirv") {
+    a.emit = Emit::kSpirv;
   } else {
     return false;
   }
@@ -97,7 +101,7 @@ const std::vector<Option>& options() {
       {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
       {"-Zi", false, flag(&Arguments::debug), ""},
       {"-check", false, flag(&Arguments::check_only), ""},
-      {"-emit", true, parse_emit, "cpp, ir, reflection or object"},
+      {"-emit", true, parse_emit, "cpp, ir, reflection, object, glsl or spirv"},
       {"-Fo", true, text(&Arguments::output), ""},
       {"-o", true, text(&Arguments::output), ""},
       {"-MF", true, text(&Arguments::dependency_file), ""},
@@ -197,9 +201,10 @@ As in DXC:
   -Fo FILE, -o FILE         where to write (default: standard output)
 Of its own:
   -check                    checks only, writes nothing
-  -emit cpp|ir|reflection|object
+  -emit cpp|ir|reflection|object|glsl|spirv
                             what to write: C++ (default), the typed intermediate form, the exports
-                            and bindings as JSON, or a shared object for LoadShaderLibraryFromFile
+                            and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
+                            the GLSL of every export, or the SPIR-V of the only one
   --strict                  refuses what DXC refuses, also where Kaamos could go on
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes the files that were read as a make rule

@@ -10,7 +10,7 @@
 
 namespace kaamos::hlsl {
 
-enum class Emit : uint8_t { kCpp, kIr, kReflection, kObject };
+enum class Emit : uint8_t { kCpp, kIr, kReflection, kObject, kGlsl, kSpirv };
 
 struct Arguments {
   std::string source;

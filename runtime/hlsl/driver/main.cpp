@@ -10,11 +10,13 @@
 
 #include "runtime/hlsl/driver/arguments.h"
 #include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/emit_glsl.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
 #include "runtime/hlsl/ir_dump.h"
 #include "runtime/hlsl/reflect.h"
+#include "runtime/hlsl/spirv.h"
 
 namespace {
 
@@ -101,6 +103,23 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
     case Emit::kIr:
       text = dump(module);
       break;
+    case Emit::kGlsl:
+      for (const ir::EntryPoint& entry : module.entry_points) {
+        if (module.entry_points.size() > 1) text += "// ---- " + entry.name + "\n";
+        text += emit_glsl(module, entry).text;
+      }
+      break;
+    case Emit::kSpirv: {
+      if (module.entry_points.size() != 1) {
+        return fail("-emit spirv writes one entry point, and " + arguments.source + " has " +
+                    std::to_string(module.entry_points.size()) + ": name one with -exports");
+      }
+      const SpirvLibrary library = compile_spirv(module);
+      if (!library.error.empty()) return fail(library.error);
+      const auto& words = library.modules[0];
+      text.assign(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t));
+      break;
+    }
     default:
       text = reflect_json(module);
       break;

@@ -22,8 +22,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer k_
   uint rows;
   uint reserved;
 };
-//@ k_dispatch
+//@ k_dispatch_address
 layout(push_constant, scalar) uniform k_PushConstants { uint64_t k_dispatch_address; };
+//@ k_dispatch
 #define k_dispatch k_DispatchBlock(k_dispatch_address)
 
 // A shader that has a record defines KAAMOS_SHADER_RECORD before the prelude.
