@@ -44,7 +44,8 @@ void GlslEmitter::collect(const Function& function) {
     return;
   }
   visit(
-      function.body, [&](const Expr& expr) { 
+      function.body,
+      [&](const Expr& expr) {
         if (expr.kind == ExprKind::kVariable) {
           collect(expr);
         }
@@ -212,8 +213,8 @@ GlslShader GlslEmitter::run() {
   std::string layout;
   if (entry_.stage == kStageCompute) {
     layout = "layout(local_size_x = " + std::to_string(entry_.thread_group[0]) +
-            ", local_size_y = " + std::to_string(entry_.thread_group[1]) +
-            ", local_size_z = " + std::to_string(entry_.thread_group[2]) + ") in;\n";
+             ", local_size_y = " + std::to_string(entry_.thread_group[1]) +
+             ", local_size_z = " + std::to_string(entry_.thread_group[2]) + ") in;\n";
   } else {
     head += "#extension GL_EXT_ray_tracing : require\n#define KAAMOS_SHADER_RECORD\n";
   }

@@ -109,8 +109,8 @@ std::string GlslEmitter::element_index(const Expr* index, uint32_t count, Path& 
   const std::string text = value(index);
   const std::string unsigned_text =
       index->type->scalar == Scalar::kUint32 ? text : "uint(" + text + ")";
-  const std::string name = index->kind == ExprKind::kVariable ? unsigned_text
-                                                              : hoist("uint", unsigned_text);
+  const std::string name =
+      index->kind == ExprKind::kVariable ? unsigned_text : hoist("uint", unsigned_text);
   out.guards.push_back("(" + name + " < " + glsl::number(count) + ")");
   return "min(" + name + ", " + glsl::number(count - 1) + ")";
 }
@@ -192,8 +192,8 @@ std::string GlslEmitter::swizzle(const Expr& expr) {
   const Expr* from = expr.operands[0];
   if (is_vector(from->type)) {
     const Path p = path(&expr);
-    return p.guards.empty() ? p.text : "(" + p.guard() + " ? " + p.text + " : " +
-                                           zero(expr.type) + ")";
+    return p.guards.empty() ? p.text
+                            : "(" + p.guard() + " ? " + p.text + " : " + zero(expr.type) + ")";
   }
   return expr.components.size() == 1 ? value(from) : type(expr.type) + "(" + value(from) + ")";
 }
@@ -230,8 +230,7 @@ std::string GlslEmitter::binary(const Expr& expr) {
   const bool native = names.native != nullptr && (!boolean || (equality && !is_vector(operand))) &&
                       (!is_vector(operand) || is_arithmetic(expr.binary));
   if (native) {
-    return "(" + value(expr.operands[0]) + " " + names.native + " " + value(expr.operands[1]) +
-           ")";
+    return "(" + value(expr.operands[0]) + " " + names.native + " " + value(expr.operands[1]) + ")";
   }
   return call(names.function, expr.operands);
 }
@@ -268,9 +267,8 @@ std::string GlslEmitter::value(const Expr* e) {
     case ExprKind::kField:
     case ExprKind::kElement: {
       const Path p = path(e);
-      return p.guards.empty()
-                 ? p.text
-                 : "(" + p.guard() + " ? " + p.text + " : " + zero(expr.type) + ")";
+      return p.guards.empty() ? p.text
+                              : "(" + p.guard() + " ? " + p.text + " : " + zero(expr.type) + ")";
     }
     case ExprKind::kSwizzle:
       return swizzle(expr);
@@ -285,9 +283,9 @@ std::string GlslEmitter::value(const Expr* e) {
       if (from->kind == TypeKind::kMatrix) {
         return matrix_truncate(expr);
       }
-      return is_vector(from) ? value(expr.operands[0]) + "." +
-                                   std::string("xyzw").substr(0, expr.type->columns)
-                             : value(expr.operands[0]);
+      return is_vector(from)
+                 ? value(expr.operands[0]) + "." + std::string("xyzw").substr(0, expr.type->columns)
+                 : value(expr.operands[0]);
     }
     case ExprKind::kConstruct:
       return construct(expr);

@@ -39,8 +39,8 @@ std::string GlslEmitter::matrix_call(const std::string& function, const Type* re
     key += "," + type(t);
   }
   if (made_.insert(key).second) {
-    std::string text = type(result) + " " + function + "(" + parameters + ") {\n  " +
-                       type(result) + " result;\n";
+    std::string text =
+        type(result) + " " + function + "(" + parameters + ") {\n  " + type(result) + " result;\n";
     for (int r = 0; r < shape->rows; ++r) {
       std::string arguments;
       for (size_t i = 0; i < operands.size(); ++i) {
@@ -56,15 +56,15 @@ std::string GlslEmitter::matrix_call(const std::string& function, const Type* re
 
 std::string GlslEmitter::mul(const Type* result, const Type* a, const Type* b) {
   const std::string name = "g_mul_" + std::to_string(helpers_.size());
-  const std::string key = "mul," + type(a) + "," + std::to_string(static_cast<int>(a->kind)) +
-                          "," + type(b) + "," + std::to_string(static_cast<int>(b->kind));
+  const std::string key = "mul," + type(a) + "," + std::to_string(static_cast<int>(a->kind)) + "," +
+                          type(b) + "," + std::to_string(static_cast<int>(b->kind));
   auto& function = generated_[key];
   if (!function.empty()) {
     return function;
   }
   function = name;
-  std::string text = type(result) + " " + name + "(" + type(a) + " a, " + type(b) +
-                     " b) {\n  " + type(result) + " result;\n";
+  std::string text = type(result) + " " + name + "(" + type(a) + " a, " + type(b) + " b) {\n  " +
+                     type(result) + " result;\n";
   // A row vector times a matrix: float16 sums are kept in float and rounded once.
   const auto row_times = [&](const std::string& to, const std::string& v, bool scalar_v,
                              const Type* m) {
@@ -178,8 +178,7 @@ std::string GlslEmitter::matrix_intrinsic(const Expr& expr) {
           out += r == 0 ? "" : expr.intrinsic == Intrinsic::all ? " && " : " || ";
           out += function + "(" + row("m", r) + ")";
         }
-        helpers_ +=
-            "bool " + function + "(" + type(first) + " m) {\n  return " + out + ";\n}\n";
+        helpers_ += "bool " + function + "(" + type(first) + " m) {\n  return " + out + ";\n}\n";
       }
       return call(function, expr.operands);
     }

@@ -116,8 +116,7 @@ std::string GlslEmitter::read_function(const Type* t, Layout layout, bool row_ma
     const uint64_t stride = array_stride(t->element, layout, row_major);
     text += "  " + type(t) + " value;\n  for (uint i = 0u; i < " + glsl::number(t->count) +
             "; ++i) value[i] = " +
-            memory_read(t->element, layout, row_major, "w",
-                        "at + i * " + glsl::number(stride)) +
+            memory_read(t->element, layout, row_major, "w", "at + i * " + glsl::number(stride)) +
             ";\n";
   } else if (t->kind == TypeKind::kStruct) {
     const std::vector<uint32_t> offsets = field_offsets(*t->structure, layout);
@@ -132,11 +131,10 @@ std::string GlslEmitter::read_function(const Type* t, Layout layout, bool row_ma
     }
   } else {
     text += "  " + type(t) + " value;\n";
-    each_part(t, layout, row_major,
-              [&](const std::string& part, uint32_t offset, int columns) {
-                text += "  " + part + " = k_read_" + access_name(t->scalar, columns) + "(w, " +
-                        plus("at", offset) + ");\n";
-              });
+    each_part(t, layout, row_major, [&](const std::string& part, uint32_t offset, int columns) {
+      text += "  " + part + " = k_read_" + access_name(t->scalar, columns) + "(w, " +
+              plus("at", offset) + ");\n";
+    });
   }
   helpers_ += text + "  return value;\n}\n";
   return function;
@@ -155,8 +153,8 @@ std::string GlslEmitter::write_function(const Type* t, Layout layout, bool row_m
   if (t->kind == TypeKind::kArray) {
     const uint64_t stride = array_stride(t->element, layout, row_major);
     text += "  for (uint i = 0u; i < " + glsl::number(t->count) + "; ++i) " +
-            memory_write(t->element, layout, row_major, "w",
-                         "at + i * " + glsl::number(stride), "value[i]") +
+            memory_write(t->element, layout, row_major, "w", "at + i * " + glsl::number(stride),
+                         "value[i]") +
             ";\n";
   } else if (t->kind == TypeKind::kStruct) {
     const std::vector<uint32_t> offsets = field_offsets(*t->structure, layout);
@@ -168,11 +166,10 @@ std::string GlslEmitter::write_function(const Type* t, Layout layout, bool row_m
               ";\n";
     }
   } else {
-    each_part(t, layout, row_major,
-              [&](const std::string& part, uint32_t offset, int columns) {
-                text += "  k_write_" + access_name(t->scalar, columns) + "(w, " +
-                        plus("at", offset) + ", " + part + ");\n";
-              });
+    each_part(t, layout, row_major, [&](const std::string& part, uint32_t offset, int columns) {
+      text += "  k_write_" + access_name(t->scalar, columns) + "(w, " + plus("at", offset) + ", " +
+              part + ");\n";
+    });
   }
   helpers_ += text + "}\n";
   return function;
@@ -197,8 +194,7 @@ std::string GlslEmitter::window(const std::vector<const Expr*>& operands, bool e
     }
   }
   if (element) {
-    return "k_element_window(" + value(operands[0]) + ", " + value(operands[1]) + ", " + text +
-           ")";
+    return "k_element_window(" + value(operands[0]) + ", " + value(operands[1]) + ", " + text + ")";
   }
   return "k_window(" + value(operands[0]) + ", " + text + ")";
 }

@@ -31,8 +31,8 @@ bool two_floats(const Type* type) {
     case TypeKind::kMatrix:
       return type->scalar == Scalar::kFloat32;
     case TypeKind::kArray:
-      return two_floats(type->element) ||
-             (type->element->kind == TypeKind::kScalar && type->element->scalar == Scalar::kFloat32);
+      return two_floats(type->element) || (type->element->kind == TypeKind::kScalar &&
+                                           type->element->scalar == Scalar::kFloat32);
     case TypeKind::kStruct:
       for (const Field& field : type->structure->fields) {
         const Type* leaf = field.type;
@@ -119,8 +119,8 @@ std::string GlslEmitter::convert_wire(const Type* t, bool to_wire) {
   std::string text = result + " " + function + "(" + (to_wire ? type(t) : wire_type(t)) +
                      " from) {\n  " + result + " to;\n";
   if (t->kind == TypeKind::kArray) {
-    text += "  for (uint i = 0u; i < " + glsl::number(t->count) + "; ++i) to[i] = " +
-            convert_wire(t->element, to_wire) + "(from[i]);\n";
+    text += "  for (uint i = 0u; i < " + glsl::number(t->count) +
+            "; ++i) to[i] = " + convert_wire(t->element, to_wire) + "(from[i]);\n";
   } else if (t->kind == TypeKind::kMatrix) {
     text += "  for (uint i = 0u; i < " + glsl::number(t->rows) + "; ++i) to.r[i] = " +
             glsl::vector_name(to_wire ? Scalar::kUint32 : Scalar::kBool, t->columns) +
@@ -128,8 +128,8 @@ std::string GlslEmitter::convert_wire(const Type* t, bool to_wire) {
   } else {
     for (size_t i = 0; i < t->structure->fields.size(); ++i) {
       const std::string& f = field(t->structure, static_cast<uint32_t>(i));
-      text += "  to." + f + " = " + convert_wire(t->structure->fields[i].type, to_wire) +
-              "(from." + f + ");\n";
+      text += "  to." + f + " = " + convert_wire(t->structure->fields[i].type, to_wire) + "(from." +
+              f + ");\n";
     }
   }
   helpers_ += text + "  return to;\n}\n";
@@ -154,8 +154,9 @@ void GlslEmitter::declare_remove_device() {
 std::string GlslEmitter::payload_block(const char* qualifier, int location, const Type* t,
                                        const std::string& name) {
   const std::string block = name + "_type";
-  declarations_ += "struct " + block + " { uint depths; " + wire_type(t) + " data; };\n" + "layout(location = " +
-                   std::to_string(location) + ") " + qualifier + " " + block + " " + name + ";\n";
+  declarations_ += "struct " + block + " { uint depths; " + wire_type(t) + " data; };\n" +
+                   "layout(location = " + std::to_string(location) + ") " + qualifier + " " +
+                   block + " " + name + ";\n";
   return name;
 }
 
@@ -204,13 +205,19 @@ std::string GlslEmitter::trace_function(const Type* payload) {
               "    g_remove_device(0u);\n"
               "    return;\n"
               "  }\n"
-              "  " + out + ".depths = g_depths + 1u;\n"
-              "  " + out + ".data = " + to + "(payload);\n"
+              "  " +
+              out +
+              ".depths = g_depths + 1u;\n"
+              "  " +
+              out + ".data = " + to +
+              "(payload);\n"
               "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags, mask & 0xFFu, "
               "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
               member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number +
               ");\n"
-              "  payload = " + from + "(" + out + ".data);\n"
+              "  payload = " +
+              from + "(" + out +
+              ".data);\n"
               "}\n";
   return function;
 }
@@ -242,11 +249,18 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
               "    g_remove_device(0u);\n"
               "    return;\n"
               "  }\n"
-              "  " + out + ".depths = g_depths + 0x10000u;\n"
-              "  " + out + ".data = " + to + "(data);\n"
-              "  executeCallableEXT(min(shader, k_dispatch.callable_count), " + number +
+              "  " +
+              out +
+              ".depths = g_depths + 0x10000u;\n"
+              "  " +
+              out + ".data = " + to +
+              "(data);\n"
+              "  executeCallableEXT(min(shader, k_dispatch.callable_count), " +
+              number +
               ");\n"
-              "  data = " + from + "(" + out + ".data);\n"
+              "  data = " +
+              from + "(" + out +
+              ".data);\n"
               "}\n";
   return function;
 }
@@ -264,10 +278,9 @@ void GlslEmitter::declare_attributes(const Type* attributes) {
     return;
   }
   const uint32_t count = glsl::words(attributes);
-  declarations_ += two_floats(attributes)
-                       ? std::string("hitAttributeEXT vec2 g_attributes;\n")
-                       : "hitAttributeEXT uint g_attributes[" +
-                             std::to_string(count == 0 ? 1 : count) + "];\n";
+  declarations_ += two_floats(attributes) ? std::string("hitAttributeEXT vec2 g_attributes;\n")
+                                          : "hitAttributeEXT uint g_attributes[" +
+                                                std::to_string(count == 0 ? 1 : count) + "];\n";
 }
 
 namespace {
@@ -310,9 +323,8 @@ std::string from_words(Scalar scalar, const std::string& low, const std::string&
 
 }  // namespace
 
-void GlslEmitter::each_scalar(
-    const Type* t, const std::string& at,
-    const std::function<void(Scalar, const std::string&)>& visit) {
+void GlslEmitter::each_scalar(const Type* t, const std::string& at,
+                              const std::function<void(Scalar, const std::string&)>& visit) {
   switch (t->kind) {
     case TypeKind::kScalar:
       visit(t->scalar, at);
@@ -353,8 +365,7 @@ std::string GlslEmitter::attributes_function(const Type* t, bool store) {
     return name;
   }
   declare_attributes(t);
-  name = (store ? "g_store_attributes_" : "g_load_attributes_") +
-         std::to_string(generated_.size());
+  name = (store ? "g_store_attributes_" : "g_load_attributes_") + std::to_string(generated_.size());
   const bool floats = two_floats(t);
   std::string text = store ? "void " + name + "(" + type(t) + " value) {\n"
                            : type(t) + " " + name + "() {\n  " + type(t) + " value;\n";
@@ -388,10 +399,10 @@ std::string GlslEmitter::report_function(const Type* attributes) {
   const std::string store = attributes_function(attributes, true);
   name = "g_report_" + std::to_string(generated_.size());
   declare_workarounds();
-  const std::string saved = two_floats(attributes)
-                                ? std::string("vec2 saved")
-                                : "uint saved[" +
-                                      std::to_string(std::max(1u, glsl::words(attributes))) + "]";
+  const std::string saved =
+      two_floats(attributes)
+          ? std::string("vec2 saved")
+          : "uint saved[" + std::to_string(std::max(1u, glsl::words(attributes))) + "]";
   helpers_ += "bool " + name + "(float t, uint kind, " + type(attributes) + " value) {\n  " +
               saved + " = g_attributes;\n  " + store +
               "(value);\n"

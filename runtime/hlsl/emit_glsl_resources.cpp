@@ -110,14 +110,14 @@ std::string zero_offset(const Type* resource) {
 }
 
 const char* atomic_name(AtomicOp op) {
-  constexpr const char* kNames[] = {"add", "and",      "or",               "xor",             "min",
-                                    "max", "exchange", "compare_exchange", "compare_exchange"};
+  constexpr const char* kNames[] = {
+      "add", "and", "or", "xor", "min", "max", "exchange", "compare_exchange", "compare_exchange"};
   return kNames[static_cast<int>(op)];
 }
 
 const char* glsl_atomic(AtomicOp op) {
-  constexpr const char* kNames[] = {"atomicAdd",      "atomicAnd",     "atomicOr",
-                                    "atomicXor",      "atomicMin",     "atomicMax",
+  constexpr const char* kNames[] = {"atomicAdd",      "atomicAnd",      "atomicOr",
+                                    "atomicXor",      "atomicMin",      "atomicMax",
                                     "atomicExchange", "atomicCompSwap", "atomicCompSwap"};
   return kNames[static_cast<int>(op)];
 }
@@ -185,7 +185,7 @@ std::string GlslEmitter::typed_load(const Expr& expr) {
   if (is_typed_buffer(resource)) {
     const std::string bits = "k_load_typed(" + descriptor + ", uint(" + coordinates + "))";
     const Scalar wide = texel_scalar(scalar);
-    return from_texel(expr.type, wide == Scalar::kFloat32  ? "uintBitsToFloat(" + bits + ")"
+    return from_texel(expr.type, wide == Scalar::kFloat32 ? "uintBitsToFloat(" + bits + ")"
                                  : wide == Scalar::kInt32 ? "ivec4(" + bits + ")"
                                                           : bits);
   }
@@ -197,9 +197,9 @@ std::string GlslEmitter::typed_load(const Expr& expr) {
       expr.operands.size() > 2 ? "int(" + value(expr.operands[2]) + ")" : std::string("0");
   const std::string offset =
       expr.operands.size() > 3 ? value(expr.operands[3]) : zero_offset(resource);
-  return from_texel(expr.type, texture_function("load_texel", resource, scalar) + "(" +
-                                   descriptor + ", " + texel_at(expr.operands[1]) + ", " + mip +
-                                   ", " + offset + ")");
+  return from_texel(expr.type, texture_function("load_texel", resource, scalar) + "(" + descriptor +
+                                   ", " + texel_at(expr.operands[1]) + ", " + mip + ", " + offset +
+                                   ")");
 }
 
 // Coordinates of a texel as int.
@@ -218,7 +218,7 @@ void GlslEmitter::typed_store(const Stmt& stmt) {
   if (is_typed_buffer(resource)) {
     const Scalar wide = texel_scalar(t->scalar);
     line("k_store_typed(" + descriptor + ", uint(" + value(stmt.operands[1]) + "), " +
-         (wide == Scalar::kFloat32  ? "floatBitsToUint(" + texel + ")"
+         (wide == Scalar::kFloat32 ? "floatBitsToUint(" + texel + ")"
           : wide == Scalar::kInt32 ? "uvec4(" + texel + ")"
                                    : texel) +
          ");");
@@ -249,8 +249,8 @@ std::string GlslEmitter::sample(const Expr& expr) {
   if (expr.sample == SampleKind::kGather) {
     out += ", " + glsl::number(expr.index);
   }
-  out += ", " + (operands.size() > kFixed[kind] ? value(operands[kFixed[kind]])
-                                                : zero_offset(resource)) +
+  out += ", " +
+         (operands.size() > kFixed[kind] ? value(operands[kFixed[kind]]) : zero_offset(resource)) +
          ")";
   if (expr.sample == SampleKind::kCompareLevel) {
     return type(expr.type) + "(" + out + ")";  // a float
@@ -305,8 +305,8 @@ void GlslEmitter::atomic(const Stmt& stmt) {
   std::string address;
   const char* bits = glsl::memory_bytes(scalar) == 8 ? "64" : "32";
   if (stmt.target == AtomicTarget::kTyped) {
-    address = "k_typed_address(" + value(stmt.operands[0]) + ", uint(" + value(stmt.operands[1]) +
-              "))";
+    address =
+        "k_typed_address(" + value(stmt.operands[0]) + ", uint(" + value(stmt.operands[1]) + "))";
   } else {
     const bool element = stmt.target == AtomicTarget::kElement;
     std::string window = element ? "k_element_window(" : "k_window(";

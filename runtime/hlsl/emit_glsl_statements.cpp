@@ -72,9 +72,8 @@ void GlslEmitter::assign(const Stmt& stmt) {
     const std::string guard = m.guard();
     for (size_t i = 0; i < target->components.size(); ++i) {
       const int component = target->components[i];
-      const std::string column = target->operands[0]->type->columns == 1
-                                     ? ""
-                                     : "." + glsl::component(component % 4);
+      const std::string column =
+          target->operands[0]->type->columns == 1 ? "" : "." + glsl::component(component % 4);
       line((guard.empty() ? "" : "if (" + guard + ") ") + m.text + ".r[" +
            std::to_string(component / 4) + "]" + column + " = " + text + "." +
            glsl::component(static_cast<int>(i)) + ";");
@@ -148,8 +147,8 @@ void GlslEmitter::switch_(const Stmt& stmt) {
   if (stmt.cases.empty()) {
     return;
   }
-  const Scalar scalar = stmt.value->type->scalar == Scalar::kUint32 ? Scalar::kUint32
-                                                                    : Scalar::kInt32;
+  const Scalar scalar =
+      stmt.value->type->scalar == Scalar::kUint32 ? Scalar::kUint32 : Scalar::kInt32;
   const std::string selector = value(stmt.value);
   open("switch (" +
        (stmt.value->type->scalar == scalar ? selector

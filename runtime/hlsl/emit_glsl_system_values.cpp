@@ -35,8 +35,8 @@ std::string GlslEmitter::hit_builtin(const std::string& name, const std::string&
 std::string GlslEmitter::transform(bool to_world, bool transposed, const Type* t) {
   const std::string m = hit_builtin(to_world ? "object_to_world" : "world_to_object", "mat4x3",
                                     to_world ? "gl_ObjectToWorldEXT" : "gl_WorldToObjectEXT");
-  const std::string name = std::string(to_world ? "g_to_world_" : "g_to_object_") +
-                           (transposed ? "4x3" : "3x4");
+  const std::string name =
+      std::string(to_world ? "g_to_world_" : "g_to_object_") + (transposed ? "4x3" : "3x4");
   const std::string result = type(t);
   std::string text = result + " " + name + "() {\n  mat4x3 m = " + m + ";\n  return " + result;
   if (transposed) {
@@ -89,17 +89,16 @@ std::string GlslEmitter::system_value(const Expr& expr) {
     case SystemValue::kDispatchRaysIndex:
       return if_has(launched, [&] {
         declare_workarounds();
-        return generated(
-                   "g_dispatch_rays_index",
-                   "uvec3 g_dispatch_rays_index() {\n"
-                   "  uvec3 id = gl_LaunchIDEXT;\n"
-                   "  if ((g_workarounds & 8u) != 0u) {\n"
-                   "    uint upper = (k_dispatch.rows + 1u) / 2u;\n"
-                   "    id.y = id.y < upper ? 2u * id.y : 2u * (id.y - upper) + 1u;\n"
-                   "  }\n"
-                   "  return id + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
-                   "k_dispatch.base[2]);\n"
-                   "}\n") +
+        return generated("g_dispatch_rays_index",
+                         "uvec3 g_dispatch_rays_index() {\n"
+                         "  uvec3 id = gl_LaunchIDEXT;\n"
+                         "  if ((g_workarounds & 8u) != 0u) {\n"
+                         "    uint upper = (k_dispatch.rows + 1u) / 2u;\n"
+                         "    id.y = id.y < upper ? 2u * id.y : 2u * (id.y - upper) + 1u;\n"
+                         "  }\n"
+                         "  return id + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
+                         "k_dispatch.base[2]);\n"
+                         "}\n") +
                "()";
       });
     case SystemValue::kDispatchRaysDimensions:
@@ -165,12 +164,16 @@ std::string GlslEmitter::instance_value(bool primitive) {
                    "layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer "
                    "g_Word { uint v; };\n"
                    "uint g_primitive_index() {\n"
-                   "  uint id = " + id + ";\n"
-                   "  uint64_t words = g_instance_entry().primitive_remap;\n"
-                   "  if (words == 0UL) return id;\n"
-                   "  uint first = g_Word(words + uint64_t(" + geometry + ") * 4UL).v;\n"
-                   "  return g_Word(words + uint64_t(first + id) * 4UL).v;\n"
-                   "}\n") +
+                   "  uint id = " +
+                       id +
+                       ";\n"
+                       "  uint64_t words = g_instance_entry().primitive_remap;\n"
+                       "  if (words == 0UL) return id;\n"
+                       "  uint first = g_Word(words + uint64_t(" +
+                       geometry +
+                       ") * 4UL).v;\n"
+                       "  return g_Word(words + uint64_t(first + id) * 4UL).v;\n"
+                       "}\n") +
          "()";
 }
 

@@ -121,8 +121,8 @@ std::string GlslNames::add(std::string_view hlsl_name) {
 }
 
 std::string GlslEmitter::matrix_name(Scalar scalar, int rows, int columns) {
-  const std::string name = "g_mat_" + std::to_string(rows) + "x" + std::to_string(columns) + "_" +
-                           glsl::suffix(scalar);
+  const std::string name =
+      "g_mat_" + std::to_string(rows) + "x" + std::to_string(columns) + "_" + glsl::suffix(scalar);
   if (made_.insert(name).second) {
     matrices_ += "struct " + name + " { " + glsl::vector_name(scalar, columns) + " r[" +
                  std::to_string(rows) + "]; };\n";
@@ -202,9 +202,9 @@ namespace {
 
 // Numbers whose decimal text is short mean the same to every parser; others are given by bits.
 bool is_plain(double number) {
-  return std::isfinite(number) && (number == 0 ? !std::signbit(number)
-                                               : std::fabs(number) >= 1e-30 &&
-                                                     std::fabs(number) <= 1e30);
+  return std::isfinite(number) &&
+         (number == 0 ? !std::signbit(number)
+                      : std::fabs(number) >= 1e-30 && std::fabs(number) <= 1e30);
 }
 
 std::string decimal(double number, const char* format) {
@@ -307,8 +307,8 @@ bool GlslEmitter::is_constant(const Expr& expr) const {
     case ExprKind::kConstruct:
       for (const Expr* operand : expr.operands) {
         // Parts of a matrix that are no scalars are taken apart, which takes a temporary.
-        const bool part = expr.type->kind == TypeKind::kMatrix &&
-                          operand->type->kind != TypeKind::kScalar;
+        const bool part =
+            expr.type->kind == TypeKind::kMatrix && operand->type->kind != TypeKind::kScalar;
         if (part || !is_constant(*operand)) {
           return false;
         }

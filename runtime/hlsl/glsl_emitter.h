@@ -216,7 +216,7 @@ class GlslEmitter {
 
   std::unordered_set<const ir::Function*> functions_;  // that the entry point reaches
   std::unordered_set<const ir::Variable*> globals_;
-  std::unordered_set<std::string> made_;               // generated functions and variables
+  std::unordered_set<std::string> made_;                    // generated functions and variables
   std::unordered_map<std::string, std::string> generated_;  // what is generated, by what for
   const ir::Function* current_ = nullptr;
   std::vector<Loop> loops_;
@@ -226,13 +226,13 @@ class GlslEmitter {
 
 namespace glsl {
 
-std::string scalar_name(ir::Scalar scalar);   // "uint64_t"
+std::string scalar_name(ir::Scalar scalar);               // "uint64_t"
 std::string vector_name(ir::Scalar scalar, int columns);  // one column is a scalar
-const char* suffix(ir::Scalar scalar);        // "u64"
+const char* suffix(ir::Scalar scalar);                    // "u64"
 bool is_float(ir::Scalar scalar);
-uint32_t memory_bytes(ir::Scalar scalar);     // bool takes 4
-std::string component(int index);             // "x"
-std::string number(uint64_t n);               // "3u"
+uint32_t memory_bytes(ir::Scalar scalar);  // bool takes 4
+std::string component(int index);          // "x"
+std::string number(uint64_t n);            // "3u"
 bool contains_bool(const ir::Type* type);
 // 32-bit words that all scalars take, each of 64 bits two and any other one.
 uint32_t words(const ir::Type* type);

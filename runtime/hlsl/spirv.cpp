@@ -27,7 +27,8 @@ EShLanguage language(uint32_t stage) {
   }
 }
 
-// D3D12 allows larger groups and more of them than glslang's defaults; the device has the last word.
+// D3D12 allows larger groups and more of them than glslang's defaults; the device has the last
+// word.
 TBuiltInResource limits() {
   TBuiltInResource out = *GetDefaultResources();
   out.maxComputeWorkGroupSizeX = 1024;
