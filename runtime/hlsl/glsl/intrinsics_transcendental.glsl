@@ -142,14 +142,14 @@ float k_quadrant(float x, out int quadrant) {
   uint64_t rounded = product + 0x2000000000000000UL;
   quadrant = int(uint(rounded >> 62));
   int64_t fraction = int64_t(product - (uint64_t(quadrant) << 62));
-  float r = float(int(fraction >> 32)) * 9.3132257461547852e-10;  // 2^-30
-  // A fraction near 0 has its digits further down.
-  if (abs(fraction) < 0x10000000000L) {
-    r = float(int(fraction >> 10)) * 2.2204460492503131e-16;  // 2^-52
-  } else if (abs(fraction) < 0x100000000000000L) {
-    r = float(int(fraction >> 26)) * 1.4551915228366852e-11;  // 2^-36
-  }
+  // Near 0 the digits of the fraction begin further down.
+  uint64_t magnitude = uint64_t(abs(fraction));
+  uvec2 halves = unpackUint2x32(magnitude);
+  int top = halves.y != 0u ? 32 + findMSB(halves.y) : findMSB(halves.x);
+  int drop = max(top - 30, 0);
+  float r = float(uint(magnitude >> drop)) * uintBitsToFloat(uint(drop + 65) << 23);  // 2^(drop-62)
   r *= 1.57079633;
+  if (fraction < 0L) r = -r;
   if (floatBitsToUint(x) > 0x7FFFFFFFu) {
     r = -r;
     quadrant = -quadrant;
@@ -265,6 +265,13 @@ float k_atan2(float y, float x) {
   return floatBitsToUint(y) > 0x7FFFFFFFu ? -r : r;
 }
 
+// Half of e^a, which overflows later than e^a.
+//@ k_half_exp f32
+float k_half_exp(float a) {
+  if (a < 85.0) return 0.5 * k_exp(a);
+  float root = k_exp(0.5 * a);
+  return (0.5 * root) * root;
+}
 //@ k_sinh f32 each
 float k_sinh(float x) {
   if (isnan(x) || x == 0.0) return x;
@@ -275,8 +282,7 @@ float k_sinh(float x) {
                       z * 2.81756439e-06)));
     return s;
   }
-  // e^a overflows before its half does.
-  float half_exp = a > 85.0 ? k_exp(a - 0.693147181) : 0.5 * k_exp(a);
+  float half_exp = k_half_exp(a);
   float s = half_exp - 0.25 / half_exp;
   return x < 0.0 ? -s : s;
 }
@@ -284,7 +290,7 @@ float k_sinh(float x) {
 float k_cosh(float x) {
   float a = abs(x);
   if (isnan(x)) return x;
-  float half_exp = a > 85.0 ? k_exp(a - 0.693147181) : 0.5 * k_exp(a);
+  float half_exp = k_half_exp(a);
   return half_exp + 0.25 / half_exp;
 }
 //@ k_tanh f32 each
