@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "runtime/hlsl/intrinsics.h"
+#include "runtime/hlsl/spirv.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -59,6 +60,31 @@ TEST(GlslPrelude, EveryBlockFindsWhatItUses) {
   const std::string text = glsl_prelude(all).text;
   EXPECT_THAT(text, Not(HasSubstr("$"))) << "a placeholder is left";
   for (const std::string& name : names) EXPECT_THAT(text, HasSubstr(name));
+}
+
+// The text of `body` and of what it uses is GLSL.
+std::string messages_of(std::string_view head, const std::string& body) {
+  GlslShader shader;
+  shader.text = std::string("#version 460\n") + std::string(head) + glsl_prelude(body).text +
+                "void main() {}\n";
+  shader.stage = head.empty() ? ir::kStageCompute : ir::kStageRayGeneration;
+  return compile_spirv(shader, "test").error;
+}
+
+TEST(GlslPrelude, EveryOverloadCompiles) {
+  std::string all = "float16_t int16_t uint16_t int64_t uint64_t double";
+  for (const std::string& name : glsl_prelude_names()) all += " " + name;
+  EXPECT_EQ(messages_of("", all), "");
+  EXPECT_EQ(
+      messages_of("#extension GL_EXT_ray_tracing : require\n#define KAAMOS_SHADER_RECORD 1\n", all),
+      "");
+}
+
+TEST(GlslPrelude, EveryBlockCompilesWithNothingButWhatItUses) {
+  for (const std::string& name : glsl_prelude_names()) {
+    EXPECT_EQ(messages_of("", name), "") << name;
+    EXPECT_EQ(messages_of("", name + " float16_t double int64_t"), "") << name;
+  }
 }
 
 }  // namespace
