@@ -4,6 +4,7 @@
 #include <volk.h>
 
 #include <cstring>
+#include <mutex>
 
 #include "tests/vulkan/stress_shaders.h"
 
@@ -26,23 +27,38 @@ uint32_t word(const Variant& variant, uint32_t record_word) {
   return variant.from_record ? record_word : variant.constant;
 }
 
+bool is_null(const Variant& variant, uint32_t record) {
+  return variant.null_every != 0 && record % variant.null_every == 1;
+}
+
 uint32_t call(const Block& block, const Variant& variant, uint32_t depth, uint32_t value) {
-  const uint32_t record = kCallableWord + (value & 1) % variant.callables;
-  value = mixed(value * 5, word(variant, record));
+  const uint32_t record = (value & 1) % variant.callables;
+  if (is_null(variant, record)) return value;
+  value = mixed(value * 5, word(variant, kCallableWord + record));
   if (depth < block.callables) value = mixed(call(block, variant, depth + 1, value), depth);
   return value;
 }
 
 uint32_t trace(const Block& block, const Variant& variant, const uint32_t* salts, uint32_t cell,
                uint32_t depth, uint32_t value) {
+  const auto group_of = [&](uint32_t layer) {
+    return layer * block.hit_groups + cell % block.hit_groups;
+  };
   uint32_t layer = 0;
-  while (layer < kLayers && (mixed(cell, salts[layer]) & 1) != 0) ++layer;
+  while (layer < kLayers && !is_null(variant, group_of(layer)) &&
+         (mixed(cell, salts[layer]) & 1) != 0) {
+    ++layer;
+  }
+  const uint32_t group = group_of(layer);
   uint32_t kind = 0;
-  if (layer == kLayers) {
-    if ((mixed(cell, salts[layer]) & 2) == 0) return mixed(value * 17, word(variant, kMissWord));
+  if (layer < kLayers) {
+    if (is_null(variant, group)) return value;
+  } else {
+    if (is_null(variant, group) || (mixed(cell, salts[layer]) & 2) == 0) {
+      return mixed(value * 17, word(variant, kMissWord));
+    }
     kind = 5;
   }
-  const uint32_t group = layer * block.hit_groups + cell % block.hit_groups;
   value = mixed(value * 31 + layer * 7 + cell, word(variant, kHitWord + group)) + kind;
   if (block.callables > 0) value = call(block, variant, 1, value);
   if (depth < block.depth) {
@@ -60,11 +76,15 @@ raw::Buffer upload(raw::Gpu& gpu, const std::vector<T>& values) {
 
 }  // namespace
 
-const std::map<Kind, std::vector<uint32_t>>& modules() {
-  static const std::map<Kind, std::vector<uint32_t>> result = [] {
-    const std::string common = kCommon;
+const std::map<Kind, std::vector<uint32_t>>& modules(uint32_t payload_rest) {
+  static std::mutex mutex;
+  static std::map<uint32_t, std::map<Kind, std::vector<uint32_t>>> for_payloads;
+  const std::lock_guard lock(mutex);
+  std::map<Kind, std::vector<uint32_t>>& all = for_payloads[payload_rest];
+  if (all.empty()) {
+    const std::string common =
+        "#version 460\n#define REST " + std::to_string(payload_rest) + kCommon;
     const std::string record = common + kRecord;
-    std::map<Kind, std::vector<uint32_t>> all;
     all[kRaygen] = raw::compile(VK_SHADER_STAGE_RAYGEN_BIT_KHR, record + kRaygenText);
     all[kMiss] = raw::compile(VK_SHADER_STAGE_MISS_BIT_KHR, record + kMissText);
     all[kClosestHit] = raw::compile(VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, record + kClosestHitText);
@@ -74,13 +94,12 @@ const std::map<Kind, std::vector<uint32_t>>& modules() {
     all[kCallable] = raw::compile(VK_SHADER_STAGE_CALLABLE_BIT_KHR, record + kCallableText);
     all[kGarbageRaygen] = raw::compile(VK_SHADER_STAGE_RAYGEN_BIT_KHR, record + kGarbageRaygenText);
     all[kCompute] = raw::compile(VK_SHADER_STAGE_COMPUTE_BIT, common + kComputeText);
-    return all;
-  }();
-  return result;
+  }
+  return all;
 }
 
 Program create_program(raw::Gpu& gpu, const Variant& variant, uint32_t stride) {
-  const auto& spirv = modules();
+  const auto& spirv = modules(variant.payload_rest);
   const std::vector<std::pair<uint32_t, uint32_t>> constants = {{0, variant.from_record ? 1u : 0u},
                                                                 {1, variant.constant}};
   std::vector<raw::Stage> stages = {
@@ -127,8 +146,9 @@ Program create_program(raw::Gpu& gpu, const Variant& variant, uint32_t stride) {
                                                  static_cast<VkDeviceSize>(count) * stride};
     for (uint32_t i = 0; i < count; ++i, ++group, place += stride) {
       uint8_t* record = program.table.data + place;
-      std::memcpy(record, program.pipeline.handles.data() + group * gpu.handle_size(),
-                  gpu.handle_size());
+      if (!is_null(variant, i) || group < 2)
+        std::memcpy(record, program.pipeline.handles.data() + group * gpu.handle_size(),
+                    gpu.handle_size());
       const uint64_t argument = program.table.address + words + group * 4;
       std::memcpy(record + gpu.handle_size(), &argument, 8);
       const uint32_t value = word + i;

@@ -46,8 +46,9 @@ enum Kind {
   kCompute
 };
 
-// The modules, compiled once in a process.
-const std::map<Kind, std::vector<uint32_t>>& modules();
+// The modules, compiled once in a process for each size of payload.
+constexpr uint32_t kPayloadRest = 12;
+const std::map<Kind, std::vector<uint32_t>>& modules(uint32_t payload_rest = kPayloadRest);
 
 // Constant of ray generation, closest-hit, miss and callable shaders: where the word comes from
 // that they mix in: 0: their specialization constant 1, 1: the shader record.
@@ -57,6 +58,10 @@ struct Variant {
   bool from_record = true;
   uint32_t constant = 11;
   uint32_t recursion = 31;
+  uint32_t payload_rest = kPayloadRest;  // words
+  // Every such record of each table, the second first, has an identifier of zeros: what is hit is
+  // accepted and nothing runs. 0: none.
+  uint32_t null_every = 0;
   bool garbage_rays = false;  // rays of random bits; no result to expect
 };
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The GLSL of the driver's stress test; stress_scene.h says what it computes.
+// The GLSL of the driver's stress test; stress_scene.h says what it computes. REST is a number of
+// words that a payload carries for nothing but its size.
 #pragma once
 
 namespace stress {
 
-inline constexpr const char* kCommon = R"(#version 460
+inline constexpr const char* kCommon = R"(
 #extension GL_EXT_ray_tracing : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
@@ -28,7 +29,7 @@ layout(set = 0, binding = 1) uniform image2D images[];
 layout(set = 0, binding = 1) uniform uimage2D integer_images[];
 layout(set = 0, binding = 2) uniform sampler samplers[];
 struct Data { uint header; uint value; };
-struct Payload { uint header; uint value; uint cell; float t; uint rest[12]; };
+struct Payload { uint header; uint value; uint cell; float t; uint rest[REST]; };
 uint mixed(uint a, uint b) {
   uint h = (a ^ (b * 0x9E3779B9u)) * 0x85EBCA6Bu;
   h ^= h >> 13;
@@ -53,12 +54,12 @@ void main() {
   payload.header = 0;
   payload.cell = cell;
   payload.value = block.seed;
-  for (int i = 0; i < 12; ++i) payload.rest[i] = index + i;
+  for (int i = 0; i < REST; ++i) payload.rest[i] = index + i;
   vec3 origin = vec3(float(cell % block.cells) + 0.5, float(cell / block.cells) + 0.5, -1);
   traceRayEXT(accelerationStructureEXT(block.top_level), block.ray_flags, 0xFF,
               cell % block.hit_groups, 0, 0, origin, 0.0, vec3(0, 0, 1), 1000.0, 0);
   uint kept = 1;
-  for (int i = 0; i < 12; ++i) kept &= uint(payload.rest[i] == index + i);
+  for (int i = 0; i < REST; ++i) kept &= uint(payload.rest[i] == index + i);
   Results(block.results).v[index] = uvec4(payload.value, mixed(index, word()), kept, index);
 }
 )";
@@ -112,7 +113,7 @@ void main() {
     deeper.header = depth + 1;
     deeper.cell = payload.cell;
     deeper.value = value;
-    for (int i = 0; i < 12; ++i) deeper.rest[i] = i;
+    for (int i = 0; i < REST; ++i) deeper.rest[i] = i;
     traceRayEXT(accelerationStructureEXT(block.top_level), block.ray_flags, 0xFF,
                 payload.cell % block.hit_groups, 0, 0, origin, 0.0, direction, 1000.0, 1);
     value = mixed(deeper.value, depth);

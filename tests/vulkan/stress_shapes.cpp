@@ -114,6 +114,33 @@ std::string many_hit_groups(uint32_t seed, double seconds) {
   });
 }
 
+std::string null_records(uint32_t seed, double seconds) {
+  Variant variant;
+  variant.hit_groups = 2 + seed % 7;
+  variant.callables = 2;
+  variant.null_every = 2 + seed % 3;
+  return launches(seed, seconds, variant, 64, [](Random& random) {
+    Launch launch;
+    launch.depth = below(random, 4);
+    launch.callables = below(random, 4);
+    launch.seed = static_cast<uint32_t>(random());
+    return launch;
+  });
+}
+
+// 4 KiB in each of 31 nested traces.
+std::string large_payloads(uint32_t seed, double seconds) {
+  Variant variant;
+  variant.payload_rest = 1000;
+  return launches(seed, seconds, variant, 64, [](Random& random) {
+    Launch launch;
+    launch.height = 2;
+    launch.depth = below(random, 31);
+    launch.seed = static_cast<uint32_t>(random());
+    return launch;
+  });
+}
+
 std::string garbage_rays(uint32_t seed, double seconds) {
   raw::Gpu gpu;
   Random random(seed);
@@ -436,6 +463,8 @@ const std::vector<Shape>& shapes() {
                                          {"callables_to_31", callables_to_31},
                                          {"odd_sizes", odd_sizes},
                                          {"many_hit_groups", many_hit_groups},
+                                         {"null_records", null_records},
+                                         {"large_payloads", large_payloads},
                                          {"garbage_rays", garbage_rays},
                                          {"specialization", specialization},
                                          {"rebuilds", rebuilds},
