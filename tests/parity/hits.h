@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// What one ray found, on one backend and on another, and how far the two may be apart.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace kaamos::parity {
+
+// As probe.hlsl writes it. All zero where the ray missed, but for `flags`.
+struct HitRecord {
+  uint32_t hit = 0;
+  uint32_t instance_index = 0;
+  uint32_t instance_id = 0;
+  uint32_t primitive = 0;
+  uint32_t geometry = 0;
+  uint32_t kind = 0;
+  uint32_t record = 0;  // of the hit group table, from its root constant
+  uint32_t flags = 0;   // RayFlags(), as the last shader saw them
+  float t = 0;
+  float barycentrics[2] = {0, 0};
+  float cosine = 0;  // between the ray and the triangle's normal, without sign
+  float object_point[3] = {0, 0, 0};
+  uint32_t reserved = 0;
+};
+static_assert(sizeof(HitRecord) == 64);
+
+// Tolerances of the project's description. The two traversals round differently, so what may differ
+// is what rounding decides: which of two triangles at the same place is hit, and whether the edge
+// of one is.
+struct HitLimits {
+  double visibility =
+      1e-4;  // of rays: one hits and the other misses, or something else lies behind
+  double silhouettes = 5e-3;   // of rays: another triangle at the same t, or the neighbour's
+  double t_relative = 1e-4;    // away from grazing
+  double barycentrics = 1e-3;  // away from grazing
+  double grazing_cosine = 0.05;
+};
+
+enum class HitChange : uint8_t {
+  kNone,        // the same, within the tolerances
+  kSilhouette,  // another triangle, tied with it or its neighbour in the picture
+  kVisibility,  // hit against miss, or a far hit
+  kInteger,     // the same triangle, but an integer of it differs
+  kNumber,      // the same triangle, but t, barycentrics or the object's point are too far apart
+};
+
+struct HitDifference {
+  uint64_t rays = 0;
+  uint64_t hits = 0;  // of `a`
+  uint64_t counts[5] = {0, 0, 0, 0, 0};
+  double worst_t = 0;  // relative, of what is away from grazing
+  // The worst ray of the worst kind: index, and what differs in words. Empty: nothing does.
+  HitChange worst_change = HitChange::kNone;
+  uint64_t worst_ray = 0;
+  std::string worst_text;
+
+  uint64_t count(HitChange change) const { return counts[static_cast<int>(change)]; }
+};
+
+// `width`: of the picture that the rays are pixels of, row by row; 0 where they are none.
+HitDifference compare_hits(const std::vector<HitRecord>& a, const std::vector<HitRecord>& b,
+                           uint32_t width, const HitLimits& limits = {});
+
+// Empty where the difference is within the limits, else what is not.
+std::string judge(const HitDifference& difference, const HitLimits& limits = {});
+// One line of the counts.
+std::string describe(const HitDifference& difference);
+std::string describe(const HitRecord& hit);
+
+}  // namespace kaamos::parity
