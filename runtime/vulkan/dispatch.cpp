@@ -205,7 +205,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   auto commands = environment_.stream->record(label_);
   if (!commands) return commands.error();
   const PipelineLayout& layout = pipeline_.layout();
-  layout.bind(*commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_.handle());
+  pipeline_.bind(*commands);
   const auto ray_generation = region(kRayGeneration);
   const auto miss = region(kMiss);
   const auto hit_group = region(kHitGroup);
@@ -303,6 +303,7 @@ rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32
       text = "shader code failed";
       break;
     case shader::RemovalReason::kOther:
+    case shader::RemovalReason::kStepLimit:
       break;
   }
   return rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, id + " " + text + " (" + label + ")."};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/vulkan/pipeline_stack.h"
 #include "runtime/vulkan/shader_stage.h"
 
 namespace kaamos::vulkan {
@@ -139,10 +140,27 @@ rtapi::Status RaytracingPipeline::start() {
   info.pGroups = groups.infos.data();
   info.maxPipelineRayRecursionDepth = max_trace_depth_;
   info.layout = layout_->handle();
+  const VkDynamicState stack_state = VK_DYNAMIC_STATE_RAY_TRACING_PIPELINE_STACK_SIZE_KHR;
+  VkPipelineDynamicStateCreateInfo dynamic = {VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = 1;
+  dynamic.pDynamicStates = &stack_state;
+  const bool own_stack = needs_own_stack(*linked_);
+  if (own_stack) info.pDynamicState = &dynamic;
   const VkResult r = gpu.vk().vkCreateRayTracingPipelinesKHR(
       gpu.device(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &info, nullptr, &handle_);
   if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
+  if (own_stack) {
+    stack_bytes_ = pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records,
+                                        max_trace_depth_, kMaxCallableDepth);
+  }
   return read_handles(groups.records);
+}
+
+void RaytracingPipeline::bind(VkCommandBuffer commands) const {
+  layout_->bind(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, handle_);
+  if (stack_bytes_ != 0) {
+    layout_->gpu().vk().vkCmdSetRayTracingPipelineStackSizeKHR(commands, stack_bytes_);
+  }
 }
 
 rtapi::Status RaytracingPipeline::read_handles(

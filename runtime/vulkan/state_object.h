@@ -50,6 +50,8 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   // Null where the pipeline has no ray generation shader: then nothing can run.
   VkPipeline handle() const { return handle_; }
   const GroupHandles& groups() const { return groups_; }
+  // Binds it; a block is still to be pushed.
+  void bind(VkCommandBuffer commands) const;
   // Traces nested in each other that it was made for: what it declares, or the device's limit.
   uint32_t max_trace_depth() const { return max_trace_depth_; }
 
@@ -64,6 +66,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
   VkPipeline handle_ = VK_NULL_HANDLE;
   uint32_t max_trace_depth_ = 0;
+  uint32_t stack_bytes_ = 0;  // 0: what Vulkan takes by default
   GroupHandles groups_;
 };
 

@@ -37,6 +37,9 @@ std::shared_ptr<PipelineBuilder::Code> PipelineBuilder::code(shader::Stage stage
   made->desc.name = made->desc.mangled_name = "test";
   made->desc.stage = stage;
   made->desc.compute = stage == shader::Stage::kCompute ? &made->compute : nullptr;
+  if (glsl.find("executeCallableEXT") != std::string::npos) {
+    made->desc.flags |= shader::kExportCalls;
+  }
   made->desc.spirv = spirv ? made->words.data() : nullptr;
   made->desc.spirv_words = static_cast<uint32_t>(made->words.size());
   made->library.name = "test.hlsl";

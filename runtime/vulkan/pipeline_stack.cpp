@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/pipeline_stack.h"
+
+#include <algorithm>
+
+namespace kaamos::vulkan {
+
+bool needs_own_stack(const runtime::LinkedPipeline& pipeline) {
+  return std::any_of(pipeline.records.begin(), pipeline.records.end(), [](const auto& record) {
+    return record->kind == runtime::RecordKind::kCallable && record->shader != nullptr &&
+           (record->shader->code->flags & shader::kExportCalls) != 0;
+  });
+}
+
+uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
+                              const std::vector<VkRayTracingShaderGroupCreateInfoKHR>& groups,
+                              const std::vector<const runtime::LinkedRecord*>& records,
+                              uint32_t trace_depth, uint32_t callable_depth) {
+  uint64_t ray_generation = 0;
+  uint64_t shading = 0;    // closest-hit and miss shaders, which may trace
+  uint64_t traversal = 0;  // intersection shaders with the any-hit shaders that they call
+  uint64_t callable = 0;
+  for (uint32_t i = 0; i < groups.size(); ++i) {
+    const auto bytes = [&](uint32_t used, VkShaderGroupShaderKHR shader) -> uint64_t {
+      if (used == VK_SHADER_UNUSED_KHR) return 0;
+      return gpu.vk().vkGetRayTracingShaderGroupStackSizeKHR(gpu.device(), pipeline, i, shader);
+    };
+    const uint64_t general = bytes(groups[i].generalShader, VK_SHADER_GROUP_SHADER_GENERAL_KHR);
+    switch (records[i]->kind) {
+      case runtime::RecordKind::kRayGeneration:
+        ray_generation = std::max(ray_generation, general);
+        break;
+      case runtime::RecordKind::kMiss:
+        shading = std::max(shading, general);
+        break;
+      case runtime::RecordKind::kCallable:
+        callable = std::max(callable, general);
+        break;
+      case runtime::RecordKind::kHitGroup:
+        shading = std::max(
+            shading, bytes(groups[i].closestHitShader, VK_SHADER_GROUP_SHADER_CLOSEST_HIT_KHR));
+        traversal = std::max(
+            traversal,
+            bytes(groups[i].anyHitShader, VK_SHADER_GROUP_SHADER_ANY_HIT_KHR) +
+                bytes(groups[i].intersectionShader, VK_SHADER_GROUP_SHADER_INTERSECTION_KHR));
+        break;
+    }
+  }
+  // As the specification of Vulkan computes the default, with more levels of callables.
+  uint64_t total = ray_generation + callable_depth * callable;
+  if (trace_depth > 0) total += std::max(shading, traversal) + (trace_depth - 1) * shading;
+  return static_cast<uint32_t>(std::min<uint64_t>(total, UINT32_MAX));
+}
+
+}  // namespace kaamos::vulkan

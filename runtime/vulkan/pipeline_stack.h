@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+//
+// The stack of a ray tracing pipeline. What Vulkan reserves by default holds two levels of callable
+// shaders; ours may nest to kMaxCallableDepth.
+#pragma once
+
+#include <vector>
+
+#include "runtime/linked_pipeline.h"
+#include "runtime/vulkan/gpu.h"
+
+namespace kaamos::vulkan {
+
+// Whether callable shaders of the pipeline call others: then its stack is a dynamic state, to be
+// set to pipeline_stack_bytes.
+bool needs_own_stack(const runtime::LinkedPipeline& pipeline);
+
+// `groups` as created, in order.
+uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
+                              const std::vector<VkRayTracingShaderGroupCreateInfoKHR>& groups,
+                              const std::vector<const runtime::LinkedRecord*>& records,
+                              uint32_t trace_depth, uint32_t callable_depth);
+
+}  // namespace kaamos::vulkan
