@@ -162,7 +162,7 @@ TEST(DispatchRays, TablesOutsideBuffersRemoveTheDevice) {
   rtapi::DispatchRaysDesc desc = desc_of(table, 1);
   desc.CallableShaderTable = Bench::range(freed);
   const auto out = bench.buffer(64);
-  freed.reset();
+  bench.scene.free(freed);
   const auto result = bench.rays(*pipeline, desc, {out->address()});
   ASSERT_FALSE(result.status);
   EXPECT_EQ(result.status.error().id, "KA0892");

@@ -13,6 +13,8 @@ EShLanguage language_of(VkShaderStageFlagBits stage) {
   switch (stage) {
     case VK_SHADER_STAGE_RAYGEN_BIT_KHR:
       return EShLangRayGen;
+    case VK_SHADER_STAGE_CALLABLE_BIT_KHR:
+      return EShLangCallable;
     case VK_SHADER_STAGE_MISS_BIT_KHR:
       return EShLangMiss;
     case VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR:

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/testing/glsl.h"
 
-#include <glslang/Public/ShaderLang.h>
-#include <glslang/SPIRV/GlslangToSpv.h>
-#include <gtest/gtest.h>
-
-#include <mutex>
-
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/vulkan/testing/compile_glsl.h"
 
 namespace kaamos::vulkan::testing {
 namespace {
@@ -38,28 +33,39 @@ layout(constant_id = 2002) const uint MAX_CALLABLE_DEPTH = 0;
 
 constexpr char kRays[] = R"(#extension GL_EXT_ray_tracing : require
 void remove_device(uint reason) { Words(block.status).w[0] = 1 + reason; }
+struct TopLevelEntry { uint64_t address; uint64_t vulkan; };
+layout(buffer_reference, scalar) buffer TopLevels { TopLevelEntry e[]; };
+uint64_t find_top_level(uint64_t address) {
+  uint slot = (uint(address >> 8) * 0x9E3779B1u) >> 7;
+  for (;; ++slot) {
+    slot &= block.top_level_mask;
+    TopLevelEntry entry = TopLevels(block.top_levels).e[slot];
+    if (entry.address == address) return entry.vulkan;
+    if (entry.address == 0) return block.empty_top_level;
+  }
+}
 )";
 
 constexpr char kRecord[] = R"(
 layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; } record;
 )";
 
-EShLanguage language_of(shader::Stage stage) {
+VkShaderStageFlagBits stage_of(shader::Stage stage) {
   switch (stage) {
     case shader::Stage::kRayGeneration:
-      return EShLangRayGen;
+      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
     case shader::Stage::kIntersection:
-      return EShLangIntersect;
+      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
     case shader::Stage::kAnyHit:
-      return EShLangAnyHit;
+      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
     case shader::Stage::kClosestHit:
-      return EShLangClosestHit;
+      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
     case shader::Stage::kMiss:
-      return EShLangMiss;
+      return VK_SHADER_STAGE_MISS_BIT_KHR;
     case shader::Stage::kCallable:
-      return EShLangCallable;
+      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
     default:
-      return EShLangCompute;
+      return VK_SHADER_STAGE_COMPUTE_BIT;
   }
 }
 
@@ -77,40 +83,10 @@ void restore_constant_ids(std::vector<uint32_t>& words) {
 
 }  // namespace
 
-std::vector<uint32_t> compile_glsl(shader::Stage stage, const std::string& body) {
-  static const bool started = glslang::InitializeProcess();
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  if (!started) return {};
+std::vector<uint32_t> compile_shader(shader::Stage stage, const std::string& body) {
   std::string text = kPreamble;
   if (stage != shader::Stage::kCompute) text += std::string(kRays) + kRecord;
-  text += body;
-  const EShLanguage language = language_of(stage);
-  const char* const strings[] = {text.c_str()};
-  glslang::TShader shader(language);
-  shader.setStrings(strings, 1);
-  shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientVulkan, 100);
-  shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
-  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
-  const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-  const TBuiltInResource limits = [] {
-    TBuiltInResource r = {};
-    r.maxComputeWorkGroupCountX = r.maxComputeWorkGroupCountY = r.maxComputeWorkGroupCountZ = 65535;
-    r.maxComputeWorkGroupSizeX = r.maxComputeWorkGroupSizeY = 1024;
-    r.maxComputeWorkGroupSizeZ = 64;
-    r.limits.generalUniformIndexing = r.limits.generalVariableIndexing = true;
-    return r;
-  }();
-  glslang::TProgram program;
-  bool ok = shader.parse(&limits, 460, false, messages);
-  program.addShader(&shader);
-  ok = ok && program.link(messages);
-  if (!ok) {
-    ADD_FAILURE() << shader.getInfoLog() << program.getInfoLog() << body;
-    return {};
-  }
-  std::vector<uint32_t> words;
-  glslang::GlslangToSpv(*program.getIntermediate(language), words);
+  std::vector<uint32_t> words = compile_glsl(stage_of(stage), text + body);
   restore_constant_ids(words);
   return words;
 }

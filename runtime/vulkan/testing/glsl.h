@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// GLSL to SPIR-V for tests whose shaders are written by hand.
+// Shaders of tests by hand, on the interface that compiled HLSL uses.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,9 @@
 
 namespace kaamos::vulkan::testing {
 
-// Words of a module for Vulkan 1.3, entry point main. What spirv_interface.h defines stands before
-// `body`: DispatchBlock `block`, Descriptor, Record `record` (not in compute and ray generation's
-// callers need none), MAX_TRACE_DEPTH, WORKAROUNDS, binding_source(n) for n < 4. Empty after a test
-// failure with glslang's messages.
-std::vector<uint32_t> compile_glsl(shader::Stage stage, const std::string& body);
+// As compile_glsl, with what spirv_interface.h defines before `body`: DispatchBlock `block`,
+// `record` except in compute, find_top_level, remove_device, MAX_TRACE_DEPTH, MAX_CALLABLE_DEPTH,
+// WORKAROUNDS, binding_source_0 and binding_offset_0.
+std::vector<uint32_t> compile_shader(shader::Stage stage, const std::string& body);
 
 }  // namespace kaamos::vulkan::testing

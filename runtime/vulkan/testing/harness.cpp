@@ -33,7 +33,7 @@ PipelineBuilder::PipelineBuilder(uint32_t max_recursion_depth) {
 std::shared_ptr<PipelineBuilder::Code> PipelineBuilder::code(shader::Stage stage,
                                                              const std::string& glsl, bool spirv) {
   auto made = std::make_shared<Code>();
-  if (spirv) made->words = compile_glsl(stage, glsl);
+  if (spirv) made->words = compile_shader(stage, glsl);
   made->desc.name = made->desc.mangled_name = "test";
   made->desc.stage = stage;
   made->desc.compute = stage == shader::Stage::kCompute ? &made->compute : nullptr;
@@ -125,21 +125,14 @@ std::shared_ptr<const runtime::LinkedCompute> PipelineBuilder::compute(const std
   return {owner, &owner->linked};
 }
 
-Bench::Bench(std::shared_ptr<Gpu> device)
-    : gpu(device),
-      descriptors(DescriptorSet::create(device).value()),
-      layout(PipelineLayout::create(device, descriptors).value()),
-      stream(device) {}
-
-std::shared_ptr<runtime::BackendBuffer> Bench::buffer(uint64_t size_bytes) {
-  rtapi::BufferDesc desc;
-  desc.SizeInBytes = size_bytes;
-  return memory->create_buffer(*gpu, desc, memory).value();
-}
+Bench::Bench(std::shared_ptr<Gpu> gpu)
+    : scene(gpu),
+      descriptors(DescriptorSet::create(gpu).value()),
+      layout(PipelineLayout::create(gpu, descriptors).value()) {}
 
 std::shared_ptr<runtime::BackendBuffer> Bench::table(
     const std::vector<rtapi::ShaderIdentifier>& ids) {
-  auto made = buffer(64 * ids.size());
+  auto made = scene.buffer(64 * ids.size());
   for (size_t i = 0; i < ids.size(); ++i) {
     std::memcpy(made->host() + i * 64, ids[i].data(), 32);
     const auto index = static_cast<uint32_t>(i);
@@ -159,8 +152,8 @@ DispatchResult Bench::rays(const std::shared_ptr<runtime::BackendPipeline>& pipe
   command.pipeline = pipeline;
   command.state = state_of(arguments);
   command.desc = desc;
-  return dispatch_rays({&stream, memory.get(), &scene, &scratch, limits}, command,
-                       "DispatchRays 0");
+  return dispatch_rays({&scene.stream(), &scene.memory(), &scene.structures(), &scratch, limits},
+                       command, "DispatchRays 0");
 }
 
 DispatchResult Bench::groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
@@ -171,7 +164,8 @@ DispatchResult Bench::groups(const std::shared_ptr<runtime::BackendPipeline>& pi
   command.groups[0] = x;
   command.groups[1] = y;
   command.groups[2] = z;
-  return dispatch_compute({&stream, memory.get(), &scene, &scratch, limits}, command, "Dispatch 0");
+  return dispatch_compute({&scene.stream(), &scene.memory(), &scene.structures(), &scratch, limits},
+                          command, "Dispatch 0");
 }
 
 }  // namespace kaamos::vulkan::testing

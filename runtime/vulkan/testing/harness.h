@@ -11,30 +11,9 @@
 
 #include "runtime/vulkan/dispatch.h"
 #include "runtime/vulkan/state_object.h"
-#include "runtime/vulkan/testing/vulkan_device.h"
+#include "runtime/vulkan/testing/scene_harness.h"
 
 namespace kaamos::vulkan::testing {
-
-// No acceleration structures.
-class EmptyScene final : public AccelerationStructures {
- public:
-  rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
-      rtapi::RaytracingAccelerationStructureType, rtapi::RaytracingAccelerationStructureBuildFlags,
-      std::span<const rtapi::RaytracingGeometryDesc>, uint32_t) const override {
-    return {};
-  }
-  rtapi::Status build(CommandStream&, const runtime::BuildCommand&) override { return {}; }
-  rtapi::Status copy(CommandStream&, const runtime::CopyAccelerationStructureCommand&) override {
-    return {};
-  }
-  rtapi::Status emit(CommandStream&, const runtime::EmitPostbuildInfoCommand&) override {
-    return {};
-  }
-  void evict(uint64_t, uint64_t) override {}
-  rtapi::Result<SceneTables> tables() override { return scene; }
-
-  SceneTables scene;
-};
 
 // Builds what rtapi's linker would.
 class PipelineBuilder {
@@ -71,12 +50,14 @@ class PipelineBuilder {
   std::shared_ptr<runtime::LinkedPipeline> pipeline_ = std::make_shared<runtime::LinkedPipeline>();
 };
 
-// Runs dispatches on a device without a scene.
+// Runs dispatches in a scene.
 class Bench {
  public:
   explicit Bench(std::shared_ptr<Gpu> gpu);
 
-  std::shared_ptr<runtime::BackendBuffer> buffer(uint64_t size_bytes);
+  std::shared_ptr<runtime::BackendBuffer> buffer(uint64_t size_bytes) {
+    return scene.buffer(size_bytes);
+  }
   // A table of 64-byte records: identifiers, each with its index as the first local argument.
   std::shared_ptr<runtime::BackendBuffer> table(const std::vector<rtapi::ShaderIdentifier>& ids);
   static rtapi::GpuVirtualAddressRangeAndStride range(
@@ -92,12 +73,9 @@ class Bench {
   DispatchResult groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
                         uint32_t y, uint32_t z, std::vector<uint64_t> arguments);
 
-  std::shared_ptr<Gpu> gpu;
+  SceneHarness scene;
   std::shared_ptr<DescriptorSet> descriptors;
   std::shared_ptr<PipelineLayout> layout;
-  std::shared_ptr<Memory> memory = std::make_shared<Memory>();
-  CommandStream stream;
-  EmptyScene scene;
   DispatchMemory scratch;
   GridLimits limits;  // of the next dispatches
 };

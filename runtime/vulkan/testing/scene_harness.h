@@ -39,6 +39,7 @@ class SceneHarness {
   Gpu& gpu() { return *gpu_; }
   const std::shared_ptr<Gpu>& gpu_pointer() { return gpu_; }
   CommandStream& stream() { return stream_; }
+  const Memory& memory() const { return *memory_; }
   AccelerationStructures& structures() { return *structures_; }
   runtime::AddressMap& addresses() { return addresses_; }
 
