@@ -39,8 +39,9 @@ void RayGeneration(Invocation& in) {
   ray.acceleration_structure = Argument<uint64_t>(in, kScene);
   ray.instance_inclusion_mask = 0xFF;
   ray.payload_bytes = sizeof payload;
-  ray.ray = {{static_cast<float>(in.index[0]) + 0.25f, 0.25f, -1.0f}, 0.0f, {0, 0, 1}, 100.0f};
-  in.dispatch->services->trace_ray(in, ray, &payload);
+  const float x = static_cast<float>(in.index[0]) + 0.25f;
+  in.dispatch->services->trace_ray(in, ray, &payload, shader::RayLanes{x, 0.25f, -1, 0},
+                                   shader::RayLanes{0, 0, 1, 100});
   auto* out = reinterpret_cast<uint32_t*>(Argument<uint64_t>(in, kOutput));
   out[in.index[0]] = payload.value;
 }

@@ -187,7 +187,7 @@ rtapi::RaytracingStatistics Device::statistics() const {
   rtapi::RaytracingStatistics result;
   result.TraceRayCalls = counters_.rays;
   result.VisibilityRays = counters_.visibility_rays;
-  result.Hits = counters_.hits;
+  result.Hits = counters_.rays - counters_.misses;
   result.Misses = counters_.misses;
   result.AnyHitInvocations = counters_.any_hit_calls;
   result.IntersectionInvocations = counters_.intersection_calls;

@@ -50,18 +50,16 @@ void run_tile(void* argument) {
   const RunningShader running(worker, shader);
   const auto entry = shader.as<shader::RayGenerationFn>();
   shader::Invocation invocation;
+  invocation.dispatch = &worker.dispatch->abi;
+  invocation.slots = shader.slots;
+  invocation.local_arguments = tile.record->local_arguments();
+  invocation.backend = &worker;
   for (uint32_t z = tile.first[2]; z < tile.last[2]; ++z) {
     for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
       for (uint32_t x = tile.first[0]; x < tile.last[0]; ++x) {
-        invocation.dispatch = &worker.dispatch->abi;
-        invocation.slots = shader.slots;
-        invocation.local_arguments = tile.record->local_arguments();
-        invocation.ray = nullptr;
         invocation.index[0] = worker.index[0] = x;
         invocation.index[1] = worker.index[1] = y;
         invocation.index[2] = worker.index[2] = z;
-        invocation.depth = 0;
-        invocation.backend = &worker;
         entry(invocation);
       }
     }

@@ -108,7 +108,7 @@ std::vector<Payload> render(uint32_t threads) {
                                                         : shader::AnyHitResult::kAccept;
       },
       report_by_index);
-  std::vector<shader::TraceRayArguments> rays;
+  std::vector<testing::Ray> rays;
   for (uint32_t i = 0; i < 20000; ++i) {
     auto ray = testing::ray_along_z(scene);
     ray.ray = {{4 * random.symmetric(), 4 * random.symmetric(), -6},
@@ -148,7 +148,7 @@ TEST(Dispatch, StatisticsCountWhatRan) {
   h.use_standard_pipeline(testing::any_hit_ignore);
   const uint64_t scene =
       h.scene({testing::triangle_at(3, testing::kNonOpaque), testing::triangle_at(5)});
-  std::vector<shader::TraceRayArguments> rays(100, testing::ray_along_z(scene));
+  std::vector<testing::Ray> rays(100, testing::ray_along_z(scene));
   for (int i = 0; i < 30; ++i) rays[i].ray.origin[0] = 50;
   for (int i = 90; i < 100; ++i) {
     rays[i].ray_flags = kRayAcceptFirstHitAndEndSearch | kRaySkipClosestHitShader;
@@ -173,7 +173,7 @@ TEST(Guards, NoRayStopsTheProcess) {
   Random random(7);
   const uint64_t scene = random_scene(h, random);
   h.use_standard_pipeline(testing::any_hit_accept, report_by_index);
-  std::vector<shader::TraceRayArguments> rays;
+  std::vector<testing::Ray> rays;
   for (int i = 0; i < 50000; ++i) {
     auto ray = testing::ray_along_z(scene);
     float* values[] = {&ray.ray.origin[0],    &ray.ray.origin[1],    &ray.ray.origin[2],
@@ -215,7 +215,7 @@ TEST(Guards, NoMatrixStopsTheProcess) {
     }
     const uint64_t scene = h.top_level(instances);
     ASSERT_NE(scene, 0u);
-    std::vector<shader::TraceRayArguments> rays;
+    std::vector<testing::Ray> rays;
     for (int i = 0; i < 300; ++i) {
       auto ray = testing::ray_along_z(scene, 3 * random.symmetric(), 3 * random.symmetric());
       ray.ray.origin[2] = -5;

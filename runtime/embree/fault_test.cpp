@@ -114,7 +114,7 @@ TEST(Fault, AFaultInAnAnyHitShaderLeavesTheTraversal) {
     uint64_t top_level;
     std::memcpy(&top_level, invocation.dispatch->root_arguments, sizeof(top_level));
     Payload payload;
-    invocation.dispatch->services->trace_ray(invocation, testing::ray_along_z(top_level), &payload);
+    testing::trace_ray(invocation, testing::ray_along_z(top_level), &payload);
   });
   const auto hit = builder.hit_group(
       nullptr, [](shader::Invocation&, void*, const void*) -> shader::AnyHitResult {

@@ -43,6 +43,7 @@ struct RayState {
   const shader::TraceRayArguments* arguments;
   const shader::Invocation* caller;
   void* payload;
+  alignas(16) shader::RayDesc ray;  // the argument of TraceRay
 
   uint32_t ray_flags;       // with the pipeline's flags
   uint32_t inclusion_mask;  // 8 bits
@@ -90,8 +91,7 @@ inline uint32_t reported_ray_flags(const RayState& state) {
 
 // What miss shaders see.
 inline shader::RaySystemValues ray_values(const RayState& state, float t_current) {
-  return {
-      state.arguments->ray, t_current, reported_ray_flags(state), 0, 0, 0, 0, 0, nullptr, nullptr};
+  return {state.ray, t_current, reported_ray_flags(state), 0, 0, 0, 0, 0, nullptr, nullptr};
 }
 
 // What shaders of a hit, or of a candidate for one, see.
@@ -100,7 +100,7 @@ inline shader::RaySystemValues hit_values(const RayState& state, const InstanceN
                                           float t_current) {
   const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
   const InstanceDetail& detail = state.top_level->detail(index);
-  return {state.arguments->ray,
+  return {state.ray,
           t_current,
           reported_ray_flags(state),
           hit_kind,

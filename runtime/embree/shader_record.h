@@ -23,6 +23,7 @@ struct Shader {
   shader::AnyFn entry = nullptr;
   const shader::BindingSlot* slots = nullptr;
   uint32_t stack_bytes = 0;  // what it takes of the pipeline's stack
+  bool reads_hit_kind = false;
 
   template <typename Function>
   Function as() const {

@@ -4,7 +4,6 @@
 #include "runtime/embree/trace.h"
 
 #include <cfloat>
-#include <cstddef>
 #include <limits>
 
 #include "runtime/embree/fault.h"
@@ -43,20 +42,13 @@ struct ClassTable {
 };
 constexpr ClassTable kClassTable;
 
-// The spatial part of a ray; fourth lanes 0.
-ObjectRay world_ray(const shader::RayDesc& ray) {
-  static_assert(offsetof(shader::RayDesc, t_min) == 12 && offsetof(shader::RayDesc, t_max) == 28);
-  return {without_fourth_lane(_mm_loadu_ps(ray.origin)),
-          without_fourth_lane(_mm_loadu_ps(ray.direction))};
-}
-
 // What Embree may be given: all else, NaN included, is a miss.
-bool is_valid(const ObjectRay& spatial, const shader::RayDesc& ray) {
-  return is_traceable(spatial) && ray.t_min <= ray.t_max && ray.t_min <= FLT_MAX;
+bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
+  return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
 }
 
-const TopLevel* find_top_level(Worker& worker, uint64_t address) {
-  if (address == worker.cached_address) return worker.cached_top_level.get();
+// Out of line: only a ray against another structure than the last one comes here.
+[[gnu::noinline]] const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
   worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
   worker.cached_address = address;
   if (worker.cached_top_level == nullptr && address != 0) {
@@ -65,11 +57,16 @@ const TopLevel* find_top_level(Worker& worker, uint64_t address) {
   return worker.cached_top_level.get();
 }
 
-void begin_query(RayState& state, const TraceRayArguments& arguments, const TopLevel* top_level) {
+const TopLevel* find_top_level(Worker& worker, uint64_t address) {
+  if (address == worker.cached_address) return worker.cached_top_level.get();
+  return look_up_top_level(worker, address);
+}
+
+void begin_query(RayState& state, const TraceRayArguments& arguments, const TopLevel* top_level,
+                 float t_min, float t_max) {
   const uint32_t flags = arguments.ray_flags | state.worker->dispatch->pipeline_flags;
   shim::init(state.query);
   state.top_level = top_level;
-  state.instance = nullptr;
   state.ray_flags = flags;
   state.inclusion_mask = arguments.instance_inclusion_mask & 0xFFu;
   state.classes = kClassTable.classes[(flags >> 6) & 15];
@@ -78,8 +75,8 @@ void begin_query(RayState& state, const TraceRayArguments& arguments, const TopL
                                                       : OpacityOverride::kNone;
   state.ended = false;
   // A negative TMin is undefined in DXR; here it is 0.
-  state.t_min = arguments.ray.t_min > 0 ? arguments.ray.t_min : 0.0f;
-  state.t_max = arguments.ray.t_max;
+  state.t_min = t_min > 0 ? t_min : 0.0f;
+  state.t_max = t_max;
   state.t_near = next_above(state.t_min);
   state.t_far = next_below(state.t_max);
   state.committed_t = std::numeric_limits<float>::infinity();
@@ -103,6 +100,12 @@ bool asks_visibility(const RayState& state) {
          ((state.ray_flags & kRayForceOpaque) != 0 && !state.top_level->has_procedurals());
 }
 
+uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_hit) {
+  alignas(16) float direction[4];
+  _mm_store_ps(direction, to_object_vector(instance, _mm_load_ps(&ray_hit.ray.dir_x)));
+  return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
+}
+
 void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   const InstanceNode& instance = state.top_level->nodes()[ray_hit.hit.instID[0]];
   const ShaderRecord record = hit_record(state, instance, ray_hit.hit.geomID);
@@ -116,11 +119,7 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
   if (!instance.procedural) {
-    const ObjectRay object =
-        to_object_space(instance, _mm_load_ps(&ray_hit.ray.org_x), _mm_load_ps(&ray_hit.ray.dir_x));
-    alignas(16) float direction[4];
-    _mm_store_ps(direction, object.direction);
-    hit_kind = triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
+    if (shader.reads_hit_kind) hit_kind = committed_hit_kind(instance, ray_hit);
     barycentrics[0] = ray_hit.hit.u;
     barycentrics[1] = ray_hit.hit.v;
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
@@ -140,14 +139,15 @@ void run_miss(RayState& state) {
   if (record.target->shader == nullptr) return;
   const Shader& shader = *record.target->shader;
   ++state.worker->counters.miss_calls;
-  RayInvocation invocation(state, shader, record, ray_values(state, state.arguments->ray.t_max));
+  RayInvocation invocation(state, shader, record, ray_values(state, state.ray.t_max));
   const RunningShader running(*state.worker, shader);
   shader.as<shader::MissFn>()(invocation, state.payload);
 }
 
 }  // namespace
 
-void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload) {
+void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload,
+               shader::RayLanes origin_t_min, shader::RayLanes direction_t_max) {
   Worker& worker = worker_of(caller);
   check_stack(worker);
   // Ray generation is depth 0; at the declared depth TraceRay removes the device.
@@ -162,11 +162,15 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   state.caller = &caller;
   state.payload = payload;
   const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
-  const ObjectRay world = world_ray(arguments.ray);
-  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, arguments.ray)) {
+  _mm_store_ps(state.ray.origin, origin_t_min);
+  _mm_store_ps(state.ray.direction, direction_t_max);
+  const ObjectRay world = {without_fourth_lane(origin_t_min), without_fourth_lane(direction_t_max)};
+  const float t_min = origin_t_min[3];
+  const float t_max = direction_t_max[3];
+  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max)) {
     return run_miss(state);
   }
-  begin_query(state, arguments, top_level);
+  begin_query(state, arguments, top_level, t_min, t_max);
 
   RTCRayHit ray_hit;
   begin_embree_ray(state, world, ray_hit.ray);
@@ -174,14 +178,12 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
     ++worker.counters.visibility_rays;
     shim::occluded(top_level->scene(), state.query, &ray_hit.ray);
     if (ray_hit.ray.tfar >= 0) return run_miss(state);
-    ++worker.counters.hits;
     return;
   }
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   shim::intersect(top_level->scene(), state.query, &ray_hit);
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return run_miss(state);
-  ++worker.counters.hits;
   if ((state.ray_flags & kRaySkipClosestHitShader) == 0) run_closest_hit(state, ray_hit);
 }
 

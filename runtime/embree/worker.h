@@ -24,8 +24,7 @@ class Memory;
 struct Counters {
   uint64_t rays = 0;             // TraceRay calls
   uint64_t visibility_rays = 0;  // of these, the ones that only asked whether there is a hit
-  uint64_t hits = 0;
-  uint64_t misses = 0;
+  uint64_t misses = 0;           // all other rays hit something
   uint64_t any_hit_calls = 0;
   uint64_t closest_hit_calls = 0;
   uint64_t intersection_calls = 0;
@@ -35,7 +34,6 @@ struct Counters {
   void add(const Counters& other) {
     rays += other.rays;
     visibility_rays += other.visibility_rays;
-    hits += other.hits;
     misses += other.misses;
     any_hit_calls += other.any_hit_calls;
     closest_hit_calls += other.closest_hit_calls;

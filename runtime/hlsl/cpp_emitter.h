@@ -119,6 +119,7 @@ class CppEmitter {
   // Static globals that a function and everything it calls can touch, in the module's order.
   std::unordered_map<const ir::Function*, std::unordered_set<const ir::Variable*>> statics_;
   std::unordered_map<const ir::Function*, uint32_t> stack_;
+  std::unordered_set<const ir::Function*> hit_kind_readers_;  // and what calls them
   const ir::Function* current_ = nullptr;
   // The innermost loops: number of the label that `continue` jumps to.
   std::vector<int> loops_;

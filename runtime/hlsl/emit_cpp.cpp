@@ -101,6 +101,9 @@ void CppEmitter::collect_static_use() {
       if (expr.kind == ExprKind::kVariable && expr.variable->storage == Storage::kStaticGlobal) {
         statics.insert(expr.variable);
       }
+      if (expr.kind == ExprKind::kSystemValue && expr.system_value == SystemValue::kHitKind) {
+        hit_kind_readers_.insert(function);
+      }
     };
     const auto on_stmt = [&](const Stmt& stmt) {
       if (stmt.kind == StmtKind::kDeclare) {
@@ -109,6 +112,7 @@ void CppEmitter::collect_static_use() {
       if (stmt.kind == StmtKind::kCall) {
         statics.insert(statics_[stmt.function].begin(), statics_[stmt.function].end());
         deepest = std::max(deepest, stack_[stmt.function]);
+        if (hit_kind_readers_.count(stmt.function) != 0) hit_kind_readers_.insert(function);
       }
     };
     visit(function->body, on_expr, on_stmt);
@@ -354,7 +358,8 @@ void CppEmitter::emit_tables() {
     const bool callable = e.stage == kStageCallable;
     const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
     uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->may_call ? 2u : 0u) |
-                     (e.uses_view_heap ? 4u : 0u) | (e.uses_sampler_heap ? 8u : 0u);
+                     (e.uses_view_heap ? 4u : 0u) | (e.uses_sampler_heap ? 8u : 0u) |
+                     (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +
          (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +

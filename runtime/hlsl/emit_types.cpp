@@ -200,15 +200,19 @@ void CppEmitter::emit_memory_functions() {
     for (const Layout layout : {Layout::kConstantBuffer, Layout::kStructured}) {
       const std::vector<uint32_t> offsets = field_offsets(*s, layout);
       const auto at_offset = [&](size_t i) { return "at + " + std::to_string(offsets[i]) + "u"; };
+      const std::string bytes = std::to_string(extent_of(&t, layout, false).size) + "u";
       open("template <typename View> " + name + " read_" + name + "_" + layout_suffix(layout) +
            "(const View& view, uint32_t at) {");
+      open("return ks::read_struct<" + name + ">(view, at, " + bytes +
+           ", [](const auto& members, uint32_t at) KAAMOS_INLINE_LAMBDA {");
       line(name + " out;");
       for (size_t i = 0; i < fields.size(); ++i) {
         const Field& f = s->fields[i];
         line("out." + fields[i] + " = " +
-             memory_read(f.type, layout, f.row_major, "view", at_offset(i)) + ";");
+             memory_read(f.type, layout, f.row_major, "members", at_offset(i)) + ";");
       }
       line("return out;");
+      close("});");
       close("}");
       if (layout == Layout::kConstantBuffer) {
         continue;  // constant buffers are read-only
@@ -217,11 +221,14 @@ void CppEmitter::emit_memory_functions() {
            "_structured(const View& view, "
            "uint32_t at, const " +
            name + "& in) {");
+      open("ks::write_struct(view, at, " + bytes +
+           ", in, [](const auto& members, uint32_t at, const auto& in) KAAMOS_INLINE_LAMBDA {");
       for (size_t i = 0; i < fields.size(); ++i) {
         const Field& f = s->fields[i];
-        line(memory_write(f.type, layout, f.row_major, "view", at_offset(i), "in." + fields[i]) +
+        line(memory_write(f.type, layout, f.row_major, "members", at_offset(i), "in." + fields[i]) +
              ";");
       }
+      close("});");
       close("}");
     }
   }

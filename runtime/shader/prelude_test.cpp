@@ -11,6 +11,8 @@ namespace {
 
 struct Asked {
   ks::TraceRayArguments trace = {};
+  ks::RayLanes origin_t_min = {};
+  ks::RayLanes direction_t_max = {};
   ks::SampleArguments sample = {};
   int32_t coordinates[4] = {};
   ks::Texel stored = {};
@@ -24,8 +26,11 @@ ks::Texel texel(float r, float g, float b, float a) {
 
 const ks::Services kServices = [] {
   ks::Services s = {};
-  s.trace_ray = [](ks::Invocation&, const ks::TraceRayArguments& a, void* payload) {
+  s.trace_ray = [](ks::Invocation&, const ks::TraceRayArguments& a, void* payload,
+                   ks::RayLanes origin_t_min, ks::RayLanes direction_t_max) {
     asked.trace = a;
+    asked.origin_t_min = origin_t_min;
+    asked.direction_t_max = direction_t_max;
     *static_cast<float*>(payload) = 42;
   };
   s.report_hit = [](ks::Invocation&, float, uint32_t, const void*, uint32_t) {
@@ -95,8 +100,10 @@ TEST_F(ShaderPrelude, TraceRayMasksItsArguments) {
   EXPECT_EQ(asked.trace.multiplier_for_geometry_contribution, 5u);
   EXPECT_EQ(asked.trace.miss_shader_index, 7u);
   EXPECT_EQ(asked.trace.payload_bytes, sizeof(Payload));
-  EXPECT_EQ(asked.trace.ray.direction[2], 7.0f);
-  EXPECT_EQ(asked.trace.ray.t_max, 8.0f);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(asked.origin_t_min[i], static_cast<float>(1 + i));
+    EXPECT_EQ(asked.direction_t_max[i], static_cast<float>(5 + i));
+  }
   EXPECT_EQ(payload.value, 42.0f);
   ks::trace_ray(invocation, texture, 0u, 0u, 0u, 0u, 0u, ray, payload);
   EXPECT_EQ(asked.trace.acceleration_structure, 0u);

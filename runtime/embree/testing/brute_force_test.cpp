@@ -140,7 +140,7 @@ void compare(rtapi::RaytracingGeometryFlags flags, shader::AnyHitFn any_hit, uin
   for (auto& instance : scene.instances) instance.AccelerationStructure = level;
   const uint64_t top_level = h.top_level(scene.instances);
   h.use_standard_pipeline(any_hit);
-  std::vector<shader::TraceRayArguments> rays;
+  std::vector<Ray> rays;
   for (int i = 0; i < 1500; ++i) {
     auto ray = ray_along_z(top_level);
     ray.ray = {{3 * random.symmetric(), 3 * random.symmetric(), 3 * random.symmetric()},

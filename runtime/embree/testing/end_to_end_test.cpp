@@ -35,15 +35,17 @@ T argument(const Invocation& invocation, Binding binding) {
 
 void ray_generation(Invocation& invocation) {
   shader::TraceRayArguments ray = {};
+  shader::RayDesc along_z = {};
   ray.acceleration_structure = argument<uint64_t>(invocation, kScene);
   ray.instance_inclusion_mask = 0xFF;
   ray.multiplier_for_geometry_contribution = 1;
-  ray.ray.origin[0] = (static_cast<float>(invocation.index[0]) + 0.5f) / kWidth;
-  ray.ray.origin[1] = (static_cast<float>(invocation.index[1]) + 0.5f) / kHeight;
-  ray.ray.direction[2] = 1;
-  ray.ray.t_max = 10;
+  along_z.origin[0] = (static_cast<float>(invocation.index[0]) + 0.5f) / kWidth;
+  along_z.origin[1] = (static_cast<float>(invocation.index[1]) + 0.5f) / kHeight;
+  along_z.direction[2] = 1;
+  along_z.t_max = 10;
   uint32_t color = 0;
-  invocation.dispatch->services->trace_ray(invocation, ray, &color);
+  invocation.dispatch->services->trace_ray(invocation, ray, &color, origin_t_min(along_z),
+                                           direction_t_max(along_z));
   auto* output = reinterpret_cast<uint32_t*>(argument<uint64_t>(invocation, kOutput));
   output[invocation.index[1] * invocation.dispatch->dimensions[0] + invocation.index[0]] = color;
 }

@@ -45,7 +45,7 @@ void note_any_hit(shader::Invocation& invocation, void* data) {
 }
 
 struct Job {
-  const shader::TraceRayArguments* rays;
+  const Ray* rays;
   Payload* payloads;
   uint64_t count;
 };
@@ -107,7 +107,7 @@ void trace_job(shader::Invocation& invocation) {
   const uint64_t i =
       invocation.index[0] + uint64_t{invocation.dispatch->dimensions[0]} * invocation.index[1];
   if (i >= job.count) return;
-  invocation.dispatch->services->trace_ray(invocation, job.rays[i], &job.payloads[i]);
+  trace_ray(invocation, job.rays[i], &job.payloads[i]);
 }
 
 PipelineBuilder::PipelineBuilder(uint32_t max_recursion_depth)
@@ -125,6 +125,7 @@ const runtime::LinkedShader* PipelineBuilder::add_shader(shader::Stage stage, sh
   code->name = code->mangled_name = "hand-written";
   code->stage = stage;
   code->entry = entry;
+  code->flags = shader::kExportReadsHitKind;
   auto linked = std::make_unique<runtime::LinkedShader>();
   linked->name = "shader" + std::to_string(pipeline_->shaders.size());
   linked->stage = stage;
@@ -202,13 +203,18 @@ rtapi::RaytracingInstanceDesc instance_of(uint64_t bottom_level) {
   return desc;
 }
 
-shader::TraceRayArguments ray_along_z(uint64_t top_level, float x, float y) {
-  shader::TraceRayArguments ray = {};
+Ray ray_along_z(uint64_t top_level, float x, float y) {
+  Ray ray = {};
   ray.acceleration_structure = top_level;
   ray.instance_inclusion_mask = 0xFF;
   ray.payload_bytes = sizeof(Payload);
   ray.ray = {{x, y, 0}, 0, {0, 0, 1}, 100};
   return ray;
+}
+
+void trace_ray(shader::Invocation& invocation, const Ray& ray, void* payload) {
+  invocation.dispatch->services->trace_ray(invocation, ray, payload, origin_t_min(ray.ray),
+                                           direction_t_max(ray.ray));
 }
 
 Harness::Harness(uint32_t threads) {
@@ -372,7 +378,7 @@ void Harness::use_standard_pipeline(shader::AnyHitFn any, shader::IntersectionFn
   set_miss_table(miss_records);
 }
 
-std::vector<Payload> Harness::trace(const std::vector<shader::TraceRayArguments>& rays) {
+std::vector<Payload> Harness::trace(const std::vector<Ray>& rays) {
   std::vector<Payload> payloads(rays.size());
   const Job job = {rays.data(), payloads.data(), rays.size()};
   const uint32_t width = static_cast<uint32_t>(std::min<size_t>(rays.size(), 256));

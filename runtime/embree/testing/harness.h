@@ -101,6 +101,11 @@ struct Vertex {
   float x, y, z;
 };
 
+// The arguments of TraceRay with its ray.
+struct Ray : shader::TraceRayArguments {
+  shader::RayDesc ray;
+};
+
 struct GeometryInput {
   std::vector<Vertex> vertices;              // triangles
   std::vector<uint32_t> indices;             // empty: not indexed
@@ -117,7 +122,10 @@ GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaqu
 GeometryInput box_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
 rtapi::RaytracingInstanceDesc instance_of(uint64_t bottom_level);
 // Along +z from (x, y, 0) with t in (0, 100).
-shader::TraceRayArguments ray_along_z(uint64_t top_level, float x = 0, float y = 0);
+Ray ray_along_z(uint64_t top_level, float x = 0, float y = 0);
+
+// TraceRay as a shader calls it.
+void trace_ray(shader::Invocation& invocation, const Ray& ray, void* payload);
 
 class Harness {
  public:
@@ -170,8 +178,8 @@ class Harness {
                              shader::IntersectionFn intersection = nullptr,
                              uint32_t max_recursion_depth = 1);
   // Traces the rays, one cell each, and returns their payloads.
-  std::vector<Payload> trace(const std::vector<shader::TraceRayArguments>& rays);
-  Payload trace(const shader::TraceRayArguments& ray) { return trace(std::vector{ray}).front(); }
+  std::vector<Payload> trace(const std::vector<Ray>& rays);
+  Payload trace(const Ray& ray) { return trace(std::vector{ray}).front(); }
 
   rtapi::Status execute(runtime::Command command);
 

@@ -22,7 +22,7 @@ void set_reports(std::vector<Report> reports) {
   report_log().reports = std::move(reports);
 }
 
-shader::TraceRayArguments with_interval(uint64_t scene, float t_min, float t_max) {
+Ray with_interval(uint64_t scene, float t_min, float t_max) {
   auto ray = ray_along_z(scene);
   ray.ray.t_min = t_min;
   ray.ray.t_max = t_max;

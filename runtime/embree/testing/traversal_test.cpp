@@ -15,7 +15,7 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-shader::TraceRayArguments ray_with_interval(uint64_t scene, float t_min, float t_max) {
+Ray ray_with_interval(uint64_t scene, float t_min, float t_max) {
   auto ray = ray_along_z(scene);
   ray.ray.t_min = t_min;
   ray.ray.t_max = t_max;
@@ -222,7 +222,7 @@ TEST(Trv24To26, AnyHitCallsComeOneAtATimeBeforeTheClosestHit) {
       stack.vertices.push_back(v);
     }
   }
-  const std::vector<shader::TraceRayArguments> rays(500, ray_along_z(h.scene({stack})));
+  const std::vector<Ray> rays(500, ray_along_z(h.scene({stack})));
   for (const Payload& payload : h.trace(rays)) {
     EXPECT_EQ(payload.any_hits, 10u);
     EXPECT_EQ(payload.end, End::kClosestHit);
@@ -328,7 +328,7 @@ TEST(Trv72, NoRayEscapesFromAClosedBox) {
     box.indices = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
                    2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
     const uint64_t scene = h.scene({box});
-    std::vector<shader::TraceRayArguments> rays;
+    std::vector<Ray> rays;
     uint32_t state = 12345;
     const auto random = [&] {
       state = state * 1664525u + 1013904223u;

@@ -82,7 +82,7 @@ void trace_again(shader::Invocation& invocation, void* data, const void* attribu
     uint64_t scene;
     std::memcpy(&scene, payload.world_to_object, sizeof(scene));  // put there by ray generation
     const auto ray = ray_along_z(scene);
-    invocation.dispatch->services->trace_ray(invocation, ray, data);
+    trace_ray(invocation, ray, data);
   }
   EXPECT_EQ(invocation.ray->primitive_index, primitive);
   closest_hit(invocation, data, attributes);
@@ -99,7 +99,7 @@ rtapi::Status recurse(Harness& h, uint32_t declared, Payload& payload) {
     RecursionJob job;
     std::memcpy(&job, invocation.dispatch->root_arguments, sizeof(job));
     std::memcpy(job.payload->world_to_object, &job.scene, 8);
-    invocation.dispatch->services->trace_ray(invocation, ray_along_z(job.scene), job.payload);
+    trace_ray(invocation, ray_along_z(job.scene), job.payload);
   });
   const auto hit = builder.hit_group(trace_again, nullptr);
   h.set_pipeline(builder, rg);
@@ -209,7 +209,7 @@ TEST(Pay07AndFlg36AndRoot19, ANestedTraceHasItsOwnPayloadFlagsAndRecord) {
         auto ray = ray_along_z(0);
         ray.ray_flags = 1;
         ray.miss_shader_index = 1;
-        invocation.dispatch->services->trace_ray(invocation, ray, &inner);
+        trace_ray(invocation, ray, &inner);
         EXPECT_EQ(inner.end, End::kMiss);
         EXPECT_EQ(inner.record, 501u);
         EXPECT_EQ(inner.values.ray_flags, 1u);

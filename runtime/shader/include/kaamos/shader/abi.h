@@ -157,8 +157,17 @@ struct TraceRayArguments {
   uint32_t multiplier_for_geometry_contribution;  // low 4 bits count
   uint32_t miss_shader_index;                     // low 16 bits count
   uint32_t payload_bytes;                         // storage size, sizeof in the emitted code
-  RayDesc ray;
 };
+
+// Half a RayDesc: origin and t_min, or direction and t_max. TraceRay takes them in registers: what
+// one side had written to memory the other would wait for, ray after ray.
+using RayLanes [[gnu::vector_size(16)]] = float;
+inline RayLanes origin_t_min(const RayDesc& ray) {
+  return RayLanes{ray.origin[0], ray.origin[1], ray.origin[2], ray.t_min};
+}
+inline RayLanes direction_t_max(const RayDesc& ray) {
+  return RayLanes{ray.direction[0], ray.direction[1], ray.direction[2], ray.t_max};
+}
 
 // Texel data is four 32-bit values: float, int32_t or uint32_t after the view's format class.
 struct Texel {
@@ -194,7 +203,8 @@ enum class RemovalReason : uint32_t {
 };
 
 struct Services {
-  void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload);
+  void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
+                    RayLanes direction_t_max);
   ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
                                 uint32_t attribute_bytes);
   void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);
@@ -268,6 +278,7 @@ enum ExportFlags : uint32_t {
   kExportCalls = 2,            // can reach CallShader
   kExportUsesViewHeap = 4,     // ResourceDescriptorHeap[]
   kExportUsesSamplerHeap = 8,  // SamplerDescriptorHeap[]
+  kExportReadsHitKind = 16,    // HitKind; without it a closest-hit shader may find any value there
 };
 
 struct ComputeDesc {

@@ -9,10 +9,7 @@
 
 namespace kaamos::shader {
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order. It is read
-// number by number (volatile keeps the compiler from joining the loads) and written by two stores
-// of 16 bytes, as the backend loads it: a load waits, for some 5 ns, where several narrower stores
-// wrote what it reads.
+// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
                       uint32_t ray_flags, uint32_t instance_inclusion_mask,
@@ -29,15 +26,11 @@ inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_str
   arguments.multiplier_for_geometry_contribution = multiplier_for_geometry_contribution & 0xFu;
   arguments.miss_shader_index = miss_shader_index & 0xFFFFu;
   arguments.payload_bytes = sizeof(Payload);
-  using Lanes [[gnu::vector_size(16)]] = float;
   const auto& [origin, t_min, direction, t_max] = ray;
-  const auto number = [](const volatile float& at) KAAMOS_INLINE_LAMBDA { return at; };
-  const Lanes start = {number(origin[0]), number(origin[1]), number(origin[2]), number(t_min)};
-  const Lanes way = {number(direction[0]), number(direction[1]), number(direction[2]),
-                     number(t_max)};
-  __builtin_memcpy(&arguments.ray.origin, &start, sizeof(start));
-  __builtin_memcpy(&arguments.ray.direction, &way, sizeof(way));
-  invocation.dispatch->services->trace_ray(invocation, arguments, &payload);
+  const RayLanes origin_t_min = {origin[0], origin[1], origin[2], t_min};
+  const RayLanes direction_t_max = {direction[0], direction[1], direction[2], t_max};
+  invocation.dispatch->services->trace_ray(invocation, arguments, &payload, origin_t_min,
+                                           direction_t_max);
 }
 
 // Sets `ended` where the hit ends the shader: the caller returns at once. [DXR: ReportHit]

@@ -21,19 +21,65 @@ KAAMOS_INLINE MemoryView element_view(const Descriptor& buffer, uint32_t index) 
   return {reinterpret_cast<uintptr_t>(element.base), element.bytes};
 }
 
+// A view of which every byte that is read or written is known to be inside.
+struct WholeView {
+  uint64_t address;
+};
+
 namespace memory {
+KAAMOS_INLINE Window window(const WholeView& view, uint32_t offset) {
+  return {pointer(view.address + offset), ~uint64_t{0}};
+}
 KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
   return {pointer(view.address + offset), view.bytes > offset ? view.bytes - offset : 0};
 }
 }  // namespace memory
 
-template <class V, Layout L, bool RowMajor>
-KAAMOS_INLINE V read(const MemoryView& view, uint32_t offset) {
+template <class V, Layout L, bool RowMajor, class View>
+KAAMOS_INLINE V read(const View& view, uint32_t offset) {
   return memory::read<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)));
 }
-template <Layout L, bool RowMajor, class V>
-KAAMOS_INLINE void write(const MemoryView& view, uint32_t offset, const V& value) {
+template <Layout L, bool RowMajor, class View, class V>
+KAAMOS_INLINE void write(const View& view, uint32_t offset, const V& value) {
   memory::write<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)), value);
+}
+
+namespace memory {
+// Out of line: a struct that straddles the end is rare, its code is not on the fast path.
+template <class S, class ReadMembers>
+[[gnu::noinline, gnu::cold]] inline S read_struct_partly(const MemoryView& view, uint32_t at,
+                                                         const ReadMembers& read_members) {
+  return read_members(view, at);
+}
+template <class S, class WriteMembers>
+[[gnu::noinline, gnu::cold]] inline void write_struct_partly(const MemoryView& view, uint32_t at,
+                                                             const S& value,
+                                                             const WriteMembers& write_members) {
+  write_members(view, at, value);
+}
+}  // namespace memory
+
+// A struct of `bytes` at byte `at`. One test of the bounds for all of it where it lies inside, as
+// nearly every one does; else each scalar has its own.
+template <class S, class View, class ReadMembers>
+KAAMOS_INLINE S read_struct(const View& view, uint32_t at, uint64_t bytes,
+                            const ReadMembers& read_members) {
+  if constexpr (std::is_same_v<View, MemoryView>) {
+    if (__builtin_expect(view.bytes < at + bytes, 0)) {
+      return memory::read_struct_partly<S>(view, at, read_members);
+    }
+  }
+  return read_members(WholeView{view.address}, at);
+}
+template <class S, class View, class WriteMembers>
+KAAMOS_INLINE void write_struct(const View& view, uint32_t at, uint64_t bytes, const S& value,
+                                const WriteMembers& write_members) {
+  if constexpr (std::is_same_v<View, MemoryView>) {
+    if (__builtin_expect(view.bytes < at + bytes, 0)) {
+      return memory::write_struct_partly(view, at, value, write_members);
+    }
+  }
+  write_members(WholeView{view.address}, at, value);
 }
 
 // Arrays of structs; stride in bytes.
