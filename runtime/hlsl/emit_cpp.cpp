@@ -350,6 +350,14 @@ void CppEmitter::emit_tables() {
     }
     line(list + "0u};");
   }
+  for (size_t i = 0; i < options_.spirv.size(); ++i) {
+    out_ += "static const uint32_t spirv_" + std::to_string(i) + "[] = {";
+    for (const uint32_t word : options_.spirv[i]) {
+      out_ += std::to_string(word);
+      out_ += ',';
+    }
+    out_ += "};\n";
+  }
   open("static const ks::ExportDesc exports[] = {");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
     const EntryPoint& e = module_.entry_points[i];
@@ -366,7 +374,10 @@ void CppEmitter::emit_tables() {
          (compute ? "&compute_" + n : "nullptr") + ", " + number(callable ? 0 : e.payload_bytes) +
          ", " + storage + ", " + number(e.attribute_bytes) + ", " +
          number(callable ? e.payload_bytes : 0) + ", " + number(stack_[e.function]) + ", " +
-         number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) + "},");
+         number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) +
+         (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
+                                    : "") +
+         "},");
   }
   for (const LibraryFunction& f : module_.library_functions) {
     line("{" + quote(f.name) + ", " + quote(f.mangled) +

@@ -5,7 +5,10 @@
 // library's table (shader::LibraryDesc).
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "runtime/hlsl/ir.h"
 
@@ -16,6 +19,8 @@ struct EmitCppOptions {
   // loaded at run time has shader::kLibraryEntryPoint.
   std::string entry_point = "kaamos_shader_library";
   bool line_directives = true;  // `#line`: a debugger and a profiler show the HLSL source
+  // The SPIR-V of each entry point (spirv.h), for the table; empty: a library without it.
+  std::span<const std::vector<uint32_t>> spirv = {};
 };
 
 // The module must come from the checker without errors; emission cannot fail.

@@ -69,7 +69,7 @@ void GlslEmitter::emit_globals() {
     const std::string name = global_names_.add(variable->name);
     const std::string declaration = type(variable->type) + " " + name;
     variable_names_[variable] = name;
-    if (variable->storage == Storage::kGroupShared) {
+    if (variable->storage == Storage::kGroupShared && entry_.stage == kStageCompute) {
       declarations_ += "shared " + declaration + " = {};\n";
     } else if (variable->storage == Storage::kConstant &&
                (variable->initialiser == nullptr || is_constant(*variable->initialiser))) {
@@ -86,7 +86,8 @@ void GlslEmitter::emit_globals() {
 void GlslEmitter::initialise_globals() {
   for (const Variable* variable : module_.globals) {
     const bool constant = variable->storage == Storage::kConstant;
-    if (globals_.count(variable) == 0 || variable->storage == Storage::kGroupShared ||
+    const bool shared = variable->storage == Storage::kGroupShared && entry_.stage == kStageCompute;
+    if (globals_.count(variable) == 0 || shared ||
         (constant && (variable->initialiser == nullptr || is_constant(*variable->initialiser)))) {
       continue;
     }

@@ -276,6 +276,19 @@ std::string GlslEmitter::dimensions(const Expr& expr) {
 // ---------------------------------------------------------------------------------------------
 // Atomics
 
+// An atomic operation on groupshared memory of a ray tracing shader, which nobody shares.
+std::string GlslEmitter::alone_atomic(AtomicOp op, const Type* t) {
+  constexpr const char* kResults[] = {"old + v",     "old & v", "old | v", "old ^ v", "min(old, v)",
+                                      "max(old, v)", "v",       "",        ""};
+  const bool compares = op == AtomicOp::kCompareExchange || op == AtomicOp::kCompareStore;
+  const std::string name = std::string("g_") + atomic_name(op) + "_" + glsl::suffix(t->scalar);
+  const std::string result = compares ? "old == compare ? v : old" : kResults[static_cast<int>(op)];
+  return generated(name, type(t) + " " + name + "(inout " + type(t) + " place, " +
+                             (compares ? type(t) + " compare, " : "") + type(t) + " v) {\n  " +
+                             type(t) + " old = place;\n  place = " + result +
+                             ";\n  return old;\n}\n");
+}
+
 void GlslEmitter::atomic(const Stmt& stmt) {
   const Scalar scalar = stmt.value->type->scalar;
   const std::string result = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
@@ -290,8 +303,11 @@ void GlslEmitter::atomic(const Stmt& stmt) {
     if (!guard.empty() && stmt.result != nullptr) {
       line(result + zero(stmt.result->type) + ";");
     }
-    line((guard.empty() ? "" : "if (" + guard + ") ") + result + glsl_atomic(stmt.atomic) + "(" +
-         p.text + arguments + ";");
+    const std::string function = entry_.stage == kStageCompute
+                                     ? glsl_atomic(stmt.atomic)
+                                     : alone_atomic(stmt.atomic, stmt.value->type);
+    line((guard.empty() ? "" : "if (" + guard + ") ") + result + function + "(" + p.text +
+         arguments + ";");
     return;
   }
   const Type* resource = stmt.operands[0]->type;

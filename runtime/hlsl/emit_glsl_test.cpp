@@ -209,6 +209,16 @@ TEST(EmitGlsl, AttributesAreWordsUnlessTwoFloats) {
   EXPECT_THAT(glsl_of(kScene, "Hit"), HasSubstr("hitAttributeEXT vec2 g_attributes;"));
 }
 
+// DXC refuses it; the native code takes it.
+TEST(EmitGlsl, GroupsharedMemoryOfRayTracingIsPrivate) {
+  const std::string text = glsl_of(
+      "RWByteAddressBuffer results : register(u0);\ngroupshared uint n[2];\n"
+      "[shader(\"raygeneration\")] void Shoot() {\n  uint old, i = results.Load(0);\n"
+      "  InterlockedAdd(n[i], 3, old);\n  results.Store(4, old);\n}\n",
+      "Shoot");
+  EXPECT_THAT(text, Not(HasSubstr("shared ")));
+}
+
 TEST(EmitGlsl, AShaderAsksForNoCapabilityThatItDoesNotUse) {
   Compilation compilation(kernel("results.Store(0, 1);"));
   const SpirvModule spirv =

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "runtime/hlsl/build_library.h"
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/emit_names.h"
 #include "runtime/hlsl/host_compiler.h"
@@ -145,6 +146,27 @@ TEST_F(EmitTest, AKernelRuns) {
   }
   EXPECT_EQ(results[8], 0u);
   dlclose(handle);
+}
+
+TEST_F(EmitTest, ALibraryHasTheSpirvOfItsExports) {
+  const TripleKernel kernel;
+  const auto export_of = [&](bool spirv, bool from_cache) {
+    const SharedObject built =
+        build_library(compiler_, kernel.module,
+                      {.optimisation = Optimisation::kNone, .spirv = spirv, .cache = cache_});
+    EXPECT_EQ(built.error, "");
+    EXPECT_EQ(built.from_cache, from_cache);
+    void* handle = dlopen(built.path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    const auto entry =
+        reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
+    return entry()->exports[0];
+  };
+  EXPECT_EQ(export_of(false, false).spirv, nullptr);
+  const shader::ExportDesc with = export_of(true, false);
+  ASSERT_GT(with.spirv_words, 5u);
+  EXPECT_EQ(with.spirv[0], 0x07230203u);
+  EXPECT_EQ(export_of(true, true).spirv_words, with.spirv_words);
+  EXPECT_EQ(export_of(false, true).spirv_words, 0u);
 }
 
 TEST_F(EmitTest, TheCacheKnowsWhatItBuilt) {

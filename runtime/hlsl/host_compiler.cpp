@@ -231,14 +231,25 @@ fs::path cache_folder() {
 
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
                                  Optimisation optimisation, const fs::path& cache) {
+  return build_shared_object(
+      compiler, source, [&](std::string&) { return source; }, optimisation, cache);
+}
+
+SharedObject build_shared_object(const HostCompiler& compiler, const std::string& content,
+                                 const std::function<std::string(std::string& error)>& make_source,
+                                 Optimisation optimisation, const fs::path& cache) {
   SharedObject out;
   std::error_code failed;
   fs::create_directories(cache, failed);
-  const std::string key = cache_key(compiler, source, optimisation);
+  const std::string key = cache_key(compiler, content, optimisation);
   const fs::path object = cache / (key + ".so");
   if (fs::exists(object, failed)) {
     out.path = object;
     out.from_cache = true;
+    return out;
+  }
+  const std::string source = make_source(out.error);
+  if (!out.error.empty()) {
     return out;
   }
   // A folder of this build's own; the object moves out of it in one step.

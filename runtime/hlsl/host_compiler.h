@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -38,5 +39,11 @@ std::filesystem::path cache_folder();
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
                                  Optimisation optimisation,
                                  const std::filesystem::path& cache = cache_folder());
+
+// The same where the source is costly to make: `content` has everything that it depends on, and
+// `make_source` runs only if the cache has no object. It sets `error` where it cannot.
+SharedObject build_shared_object(const HostCompiler& compiler, const std::string& content,
+                                 const std::function<std::string(std::string& error)>& make_source,
+                                 Optimisation optimisation, const std::filesystem::path& cache);
 
 }  // namespace kaamos::hlsl

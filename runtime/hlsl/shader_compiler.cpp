@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/build_library.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
@@ -72,13 +72,16 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
               missing + "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
     return;
   }
-  const hlsl::SharedObject object = hlsl::build_shared_object(
-      *compiler, hlsl::emit_cpp(module, {}),
-      options.Debug ? hlsl::Optimisation::kDebug : hlsl::Optimisation::kFull,
-      options.CacheDirectory.empty() ? hlsl::cache_folder()
-                                     : std::filesystem::path(options.CacheDirectory));
+  hlsl::BuildOptions settings;
+  if (options.Debug) settings.optimisation = hlsl::Optimisation::kDebug;
+  if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
+  settings.spirv = options.Spirv;
+  const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
   if (!object.error.empty()) {
-    out.Status = error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);
+    // What the SPIR-V failed by has an id of its own.
+    const bool has_id = object.error.starts_with("KA");
+    out.Status = has_id ? Error{object.error.substr(0, 6), ErrorCode::kFailed, object.error}
+                        : error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);
     return;
   }
   out.FromCache = object.from_cache;

@@ -4,6 +4,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <glslang/build_info.h>
 
 namespace kaamos::hlsl {
 namespace {
@@ -51,7 +52,9 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
   SpirvModule out;
   const auto fail = [&](const char* log) {
     out.error = "KA2760 internal error: the SPIR-V of '" + name +
-                "' cannot be made, please report it with its HLSL: " + log;
+                "' cannot be made (-no-spirv, ShaderCompileOptions::Spirv = false go without it), "
+                "please report it with its HLSL: " +
+                log;
     return out;
   };
   const EShLanguage stage = language(shader.stage);
@@ -80,6 +83,12 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
   }
   out.words = finish_spirv(words, shader.constants);
   return out;
+}
+
+std::string spirv_version() {
+  constexpr int kRevision = 1;  // of finish_spirv
+  return std::to_string(GLSLANG_VERSION_MAJOR) + "." + std::to_string(GLSLANG_VERSION_MINOR) + "." +
+         std::to_string(GLSLANG_VERSION_PATCH) + " " + std::to_string(kRevision);
 }
 
 SpirvLibrary compile_spirv(const ir::Module& module) {

@@ -27,6 +27,9 @@ struct SpirvLibrary {
 };
 SpirvLibrary compile_spirv(const ir::Module& module);
 
+// Names how GLSL becomes SPIR-V, glslang's version included, for keys of caches.
+std::string spirv_version();
+
 // What glslang gives, changed to mean what HLSL means: floating-point operations are not contracted
 // or rearranged and keep NaNs, infinities and the sign of zero; specialization constants get their
 // numbers; names and other debug information go.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Compiling HLSL at run time, with the machine's C++ compiler and a cache by content, or for the
-// interpreter. In a library of its own (kaamos::hlsl), so that programs with built-in shaders need no compiler.
+// interpreter. In a library of its own (kaamos::hlsl), so that programs with built-in shaders need
+// no compiler.
 #pragma once
 
 #include <cstdint>
@@ -36,6 +37,7 @@ struct ShaderCompileOptions {
   bool Debug = false;                                // -Od -Zi: for gdb
   std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
+  bool Spirv = true;                // false: without what Vulkan devices need
   // Needs no C++ compiler; shaders run some hundred times slower. No cache.
   bool Interpret = false;
   // Statements that one shader invocation may run when interpreted, before the device is removed

@@ -100,6 +100,7 @@ const std::vector<Option>& options() {
       {"-WX", false, flag(&Arguments::warnings_as_errors), ""},
       {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
       {"-Zi", false, flag(&Arguments::debug), ""},
+      {"-no-spirv", false, flag(&Arguments::no_spirv), ""},
       {"-check", false, flag(&Arguments::check_only), ""},
       {"-emit", true, parse_emit, "cpp, ir, reflection, object, glsl or spirv"},
       {"-Fo", true, text(&Arguments::output), ""},
@@ -205,6 +206,7 @@ Of its own:
                             what to write: C++ (default), the typed intermediate form, the exports
                             and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
                             the GLSL of every export, or the SPIR-V of the only one
+  -no-spirv                 C++ and objects without SPIR-V: they run on the CPU only
   --strict                  refuses what DXC refuses, also where Kaamos could go on
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes the files that were read as a make rule

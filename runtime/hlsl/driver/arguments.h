@@ -29,6 +29,7 @@ struct Arguments {
   bool no_warnings = false;
   bool debug = false;
   bool check_only = false;
+  bool no_spirv = false;
   Emit emit = Emit::kCpp;
   std::string output;           // empty: standard output; kObject: required
   std::string dependency_file;  // -MF: a makefile rule for ninja and make

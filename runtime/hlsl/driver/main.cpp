@@ -8,6 +8,7 @@
 #include <memory>
 #include <system_error>
 
+#include "runtime/hlsl/build_library.h"
 #include "runtime/hlsl/driver/arguments.h"
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/emit_glsl.h"
@@ -86,20 +87,37 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
   const auto compiler = find_host_compiler(error);
   if (!compiler) return fail(error);
   const SharedObject object =
-      build_shared_object(*compiler, emit_cpp(module, {}),
-                          arguments.debug ? Optimisation::kDebug : Optimisation::kFull);
+      build_library(*compiler, module,
+                    {.optimisation = arguments.debug ? Optimisation::kDebug : Optimisation::kFull,
+                     .spirv = !arguments.no_spirv});
   if (!object.error.empty()) return fail(object.error);
   std::error_code failed;
   fs::copy_file(object.path, arguments.output, fs::copy_options::overwrite_existing, failed);
   return failed ? fail("cannot write " + arguments.output + ": " + failed.message()) : 0;
 }
 
+// To the file asked for, or to standard output.
+int write_output(const Arguments& arguments, const std::string& text) {
+  if (arguments.output.empty()) {
+    std::cout << text << std::flush;
+    return std::cout ? 0 : fail("cannot write to standard output");
+  }
+  return write_file(arguments.output, text);
+}
+
+int write_cpp(const Arguments& arguments, const ir::Module& module) {
+  SpirvLibrary library;
+  if (!arguments.no_spirv) library = compile_spirv(module);
+  if (!library.error.empty()) return fail(library.error);
+  return write_output(arguments, emit_cpp(module, {.entry_point = arguments.entry_function,
+                                                   .spirv = library.modules}));
+}
+
 int write_text(const Arguments& arguments, const ir::Module& module) {
   std::string text;
   switch (arguments.emit) {
     case Emit::kCpp:
-      text = emit_cpp(module, {.entry_point = arguments.entry_function});
-      break;
+      return write_cpp(arguments, module);
     case Emit::kIr:
       text = dump(module);
       break;
@@ -124,11 +142,7 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
       text = reflect_json(module);
       break;
   }
-  if (arguments.output.empty()) {
-    std::cout << text << std::flush;
-    return std::cout ? 0 : fail("cannot write to standard output");
-  }
-  return write_file(arguments.output, text);
+  return write_output(arguments, text);
 }
 
 // DXC has no warning about bodies that nothing reaches: what passes its -WX passes here.

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/build_library.h"
+
+#include "runtime/hlsl/emit_cpp.h"
+#include "runtime/hlsl/emit_glsl.h"
+#include "runtime/hlsl/spirv.h"
+
+namespace kaamos::hlsl {
+
+SharedObject build_library(const HostCompiler& compiler, const ir::Module& module,
+                           const BuildOptions& options) {
+  std::string content = emit_cpp(module, {});
+  if (!options.spirv) {
+    return build_shared_object(compiler, content, options.optimisation, options.cache);
+  }
+  // The GLSL stands for the SPIR-V, which takes many times longer to make.
+  std::vector<GlslShader> shaders;
+  for (const ir::EntryPoint& entry : module.entry_points) {
+    shaders.push_back(emit_glsl(module, entry));
+    content += shaders.back().text;
+  }
+  content += spirv_version();
+  const auto make_source = [&](std::string& error) -> std::string {
+    std::vector<std::vector<uint32_t>> modules;
+    for (size_t i = 0; i < shaders.size(); ++i) {
+      SpirvModule spirv = compile_spirv(shaders[i], module.entry_points[i].name);
+      if (!spirv.error.empty()) {
+        error = std::move(spirv.error);
+        return {};
+      }
+      modules.push_back(std::move(spirv.words));
+    }
+    return emit_cpp(module, {.spirv = modules});
+  };
+  return build_shared_object(compiler, content, make_source, options.optimisation, options.cache);
+}
+
+}  // namespace kaamos::hlsl
