@@ -150,7 +150,7 @@ std::string GlslEmitter::instance_value(bool primitive) {
   const std::string custom =
       hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)");
   generated("g_instance_entry",
-            "layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer "
+            "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
             "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; };\n"
             "g_InstanceEntry g_instance_entry() {\n"
             "  return g_InstanceEntry(k_dispatch.instances + uint64_t(" +
