@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "tests/parity/frames.h"
+
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/composite/composite.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/sun_shadow/sun_shadow.h"
+
+namespace kaamos::parity {
+
+using namespace effects;
+
+std::map<FrameTexture, FloatImage> render_frame(const Scene& scene, const FrameRun& run) {
+  rtapi::DeviceDesc device_desc;
+  device_desc.Backend = run.backend;
+  const rtapi::Device device = rtapi::CreateDevice(device_desc).value();
+  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
+  const Camera& camera = scene.cameras.front();
+  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
+  FrameDesc frame_desc;
+  frame_desc.width = run.width;
+  frame_desc.height = run.height;
+  frame_desc.seed = run.seed;
+  const Frame frame = Frame::create(device, queue, scene, gpu, camera, frame_desc).value();
+  const auto pass = [&](const RayPassDesc& desc) {
+    return RayPass::create(device, frame, gpu, desc).value();
+  };
+  const RayPass gbuffer = pass(gbuffer_pass(gbuffer_library().value()));
+  const RayPass ao = pass(ambient_occlusion_pass(ambient_occlusion_library().value()));
+  const RayPass sun = pass(sun_shadow_pass(sun_shadow_library().value()));
+  const CompositePass composite =
+      CompositePass::create(device, frame, composite_library().value()).value();
+
+  rtapi::CommandList list = device.CreateCommandList().value();
+  frame.clear(list, kAmbientOcclusionSum);
+  frame.clear(list, kSunVisibilitySum);
+  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  PassConstants constants;
+  constants.sample_count = run.samples;
+  constants.radius = 4.0f;
+  gbuffer.dispatch(list, frame, {}, run.height);
+  ao.dispatch(list, frame, constants, run.height);
+  if (scene.sun) sun.dispatch(list, frame, constants, run.height);
+  composite.dispatch(list, frame, {run.samples, scene.sun ? run.samples : 0});
+  queue.ExecuteAndWait(list).value();
+
+  std::map<FrameTexture, FloatImage> out;
+  for (uint32_t i = 0; i < kFrameTextureCount; ++i) {
+    const auto texture = static_cast<FrameTexture>(i);
+    out[texture] = frame.read(device, queue, texture).value();
+  }
+  return out;
+}
+
+}  // namespace kaamos::parity

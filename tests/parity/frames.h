@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// Every effect of one small frame on a backend.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "effects/frame/frame.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::parity {
+
+struct FrameRun {
+  std::string backend = "embree";
+  uint32_t width = 320;
+  uint32_t height = 180;
+  uint32_t samples = 4;
+  uint32_t seed = 3;
+};
+
+// All pictures of the frame by FrameTexture; sums are sums of visible samples. Throws
+// rtapi::ResultError.
+std::map<effects::FrameTexture, effects::FloatImage> render_frame(const effects::Scene& scene,
+                                                                  const FrameRun& run);
+
+}  // namespace kaamos::parity

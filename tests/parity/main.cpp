@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// kaamos-parity: traces the rays of a set on two backends and says what differs; with --ray, all
+// that is known of that one.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "tests/parity/rays.h"
+
+using namespace kaamos::parity;
+
+int main(int argc, char** argv) {
+  RaySet set{"lounge", "primary"};
+  std::string backends[2] = {"embree", "vulkan"};
+  std::string size = "480x270";
+  int64_t ray = -1;
+  CLI::App app("kaamos-parity: the same rays on two backends");
+  app.add_option("--scene", set.scene, "lounge, mixed, or a glTF file")->capture_default_str();
+  app.add_option("--rays", set.kind, "primary, flags, sun, ao, diffuse")->capture_default_str();
+  app.add_option("--size", size, "of the picture that the rays begin with")->capture_default_str();
+  app.add_option("--seed", set.seed, "of random rays")->capture_default_str();
+  app.add_option("--first", backends[0], "the backend to compare with")->capture_default_str();
+  app.add_option("--second", backends[1], "the backend that is compared")->capture_default_str();
+  app.add_option("--ray", ray, "the number of one ray: show what both found");
+  CLI11_PARSE(app, argc, argv);
+  if (std::sscanf(size.c_str(), "%ux%u", &set.width, &set.height) != 2 || set.width == 0) {
+    std::fprintf(stderr, "kaamos-parity: --size %s is not a size, like 480x270\n", size.c_str());
+    return 2;
+  }
+  try {
+    const RayRun run = trace_on_both(set, backends);
+    if (ray >= 0) {
+      const auto i = static_cast<size_t>(ray);
+      if (i >= run.rays.size()) {
+        std::fprintf(stderr, "kaamos-parity: there are %zu rays\n", run.rays.size());
+        return 2;
+      }
+      const ProbeRay& r = run.rays[i];
+      std::printf(
+          "ray %zu: from %.9g %.9g %.9g along %.9g %.9g %.9g, t %.9g to %.9g, flags 0x%x, "
+          "mask 0x%x\n",
+          i, double{r.origin[0]}, double{r.origin[1]}, double{r.origin[2]}, double{r.direction[0]},
+          double{r.direction[1]}, double{r.direction[2]}, double{r.t_min}, double{r.t_max}, r.flags,
+          r.mask);
+      for (int b = 0; b < 2; ++b) {
+        std::printf("%s: %s\n", backends[b].c_str(), describe(run.hits[b][i]).c_str());
+      }
+      return 0;
+    }
+    const HitDifference difference = compare_hits(run.hits[0], run.hits[1], run.picture_width);
+    std::printf("%s\n", describe(difference).c_str());
+    if (difference.worst_change != HitChange::kNone) {
+      std::printf(
+          "worst, ray %llu:\n  %s\n  %s\n", static_cast<unsigned long long>(difference.worst_ray),
+          difference.worst_text.c_str(), retrace_command(set, difference.worst_ray).c_str());
+    }
+    const std::string verdict = judge(difference);
+    if (!verdict.empty()) std::printf("too much: %s\n", verdict.c_str());
+    return verdict.empty() ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kaamos-parity: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+//
+// Rays, effects and examples on Vulkan against the same on Embree.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "effects/image/png.h"
+#include "effects/image/tonemap.h"
+#include "effects/scene/lounge.h"
+#include "effects/scene/oracle_scenes.h"
+#include "tests/parity/frames.h"
+#include "tests/parity/pictures.h"
+#include "tests/parity/rays.h"
+#include "tests/vulkan/support.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace kaamos::effects;
+using namespace kaamos::parity;
+
+const std::string kBackends[2] = {"embree", "vulkan"};
+
+std::string name_of(std::string text) {
+  for (char& c : text) {
+    if (c == '-' || c == ' ') c = '_';
+  }
+  return text;
+}
+
+class VulkanRays : public testing::TestWithParam<RaySet> {};
+
+TEST_P(VulkanRays, FindWhatEmbreeFinds) {
+  KAAMOS_NEED_VULKAN();
+  const RayRun run = trace_on_both(GetParam(), kBackends);
+  ASSERT_GT(run.rays.size(), 1000u);
+  const HitDifference difference = compare_hits(run.hits[0], run.hits[1], run.picture_width);
+  EXPECT_GT(difference.hits, difference.rays / 50);
+  EXPECT_EQ(judge(difference), "")
+      << describe(difference) << "\nworst:\n  " << difference.worst_text << "\n  "
+      << retrace_command(GetParam(), difference.worst_ray);
+  RecordProperty("difference", describe(difference));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, VulkanRays,
+                         testing::Values(RaySet{"lounge", "primary"}, RaySet{"lounge", "flags"},
+                                         RaySet{"lounge", "sun"}, RaySet{"lounge", "ao"},
+                                         RaySet{"lounge", "diffuse"}, RaySet{"mixed", "primary"},
+                                         RaySet{"mixed", "flags"}, RaySet{"mixed", "diffuse"}),
+                         [](const auto& tested) {
+                           return tested.param.scene + "_" + tested.param.kind;
+                         });
+
+struct NamedScene {
+  const char* name;
+  Scene (*make)();
+};
+
+// gtest prints parameters.
+void PrintTo(const NamedScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
+
+class VulkanEffects : public testing::TestWithParam<NamedScene> {
+ protected:
+  static std::string where(uint32_t x, uint32_t y) {
+    return std::string("worst pixel (") + std::to_string(x) + ", " + std::to_string(y) +
+           "): northlight --backend vulkan --size 320x180 --seed 3 --ao-samples 4 --sun-samples 4 "
+           "--pixel " +
+           std::to_string(x) + "," + std::to_string(y);
+  }
+};
+
+// The triangle that each pixel sees. Distances are compared by VulkanRays.
+std::vector<HitRecord> hits_of(const std::map<FrameTexture, FloatImage>& frame) {
+  const FloatImage& ids = frame.at(kIds);
+  const FloatImage& depth = frame.at(kViewZ);
+  std::vector<HitRecord> hits(size_t{ids.width} * ids.height);
+  for (uint32_t y = 0; y < ids.height; ++y) {
+    for (uint32_t x = 0; x < ids.width; ++x) {
+      HitRecord& hit = hits[size_t{y} * ids.width + x];
+      hit.hit = ids.at(x, y, 0) > 0;
+      if (hit.hit == 0) continue;
+      hit.instance_index = static_cast<uint32_t>(ids.at(x, y, 0));
+      hit.primitive = static_cast<uint32_t>(ids.at(x, y, 1));
+      hit.t = depth.at(x, y, 0);
+    }
+  }
+  return hits;
+}
+
+TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
+  KAAMOS_NEED_VULKAN();
+  const Scene scene = GetParam().make();
+  std::map<FrameTexture, FloatImage> frames[2];
+  FrameRun run;
+  for (int i = 0; i < 2; ++i) {
+    run.backend = kBackends[i];
+    frames[i] = render_frame(scene, run);
+  }
+  const HitDifference seen = compare_hits(hits_of(frames[0]), hits_of(frames[1]), run.width);
+  EXPECT_EQ(judge(seen), "") << "ids: " << describe(seen) << "\n"
+                             << where(static_cast<uint32_t>(seen.worst_ray % run.width),
+                                      static_cast<uint32_t>(seen.worst_ray / run.width));
+
+  const FloatImage& ids_a = frames[0].at(kIds);
+  const FloatImage& ids_b = frames[1].at(kIds);
+  const auto pixels = static_cast<double>(run.width) * run.height;
+  const std::pair<FrameTexture, const char*> layers[] = {{kDepth, "depth"},
+                                                         {kViewZ, "view z"},
+                                                         {kNormal, "normal"},
+                                                         {kPosition, "position"},
+                                                         {kShadingNormal, "shading normal"},
+                                                         {kBaseColor, "base color"},
+                                                         {kEmissive, "emissive"},
+                                                         {kMaterial, "material"}};
+  for (const auto& [texture, name] : layers) {
+    const LayerDifference difference =
+        compare_layers(frames[0].at(texture), frames[1].at(texture), ids_a, ids_b, 2e-3);
+    // What grazes differs by more; it is rare.
+    EXPECT_LE(static_cast<double>(difference.above), 1e-3 * pixels)
+        << name << ": by up to " << difference.worst << ", "
+        << where(difference.worst_x, difference.worst_y);
+  }
+  for (const auto& [texture, name] : {std::pair(kAmbientOcclusionSum, "ambient occlusion"),
+                                      std::pair(kSunVisibilitySum, "sun shadow")}) {
+    if (texture == kSunVisibilitySum && !scene.sun) continue;
+    const SumDifference difference =
+        compare_sums(frames[0].at(texture), frames[1].at(texture), ids_a, ids_b, run.samples);
+    EXPECT_EQ(judge(difference), "") << name << ": " << describe(difference) << "\n"
+                                     << where(difference.worst_x, difference.worst_y);
+  }
+  const PictureDifference picture =
+      compare_pictures(floats(tonemap(frames[0].at(kRadiance), scene.exposure)),
+                       floats(tonemap(frames[1].at(kRadiance), scene.exposure)));
+  EXPECT_EQ(judge(picture), "") << "frame: " << describe(picture) << "\n"
+                                << where(picture.worst_x, picture.worst_y);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, VulkanEffects,
+    testing::Values(NamedScene{"lounge", make_lounge},
+                    NamedScene{"sphere", [] { return make_sphere_oracle(1.0, 1.5); }},
+                    NamedScene{"wall", [] { return make_wall_oracle(2.0); }},
+                    NamedScene{"penumbra", [] { return make_penumbra_oracle(2.0, 0.05); }}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+class VulkanExamples : public testing::TestWithParam<const char*> {};
+
+TEST_P(VulkanExamples, DrawWhatEmbreeDraws) {
+  KAAMOS_NEED_VULKAN();
+  const std::string name = GetParam();
+  const fs::path folder = fs::path(KAAMOS_BINARY_DIR) / "parity";
+  fs::create_directories(folder);
+  const std::string program = std::string(KAAMOS_BINARY_DIR) + "/bin/" + name;
+  FloatImage pictures[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string file = (folder / (name + "-" + kBackends[i] + ".png")).string();
+    const std::string command =
+        program + " --backend " + kBackends[i] + " --size 320x180 --out " + file + " > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const auto picture = read_png(file);
+    ASSERT_TRUE(picture.ok()) << picture.error();
+    pictures[i] = floats(picture.value());
+  }
+  const PictureDifference difference = compare_pictures(pictures[0], pictures[1]);
+  EXPECT_EQ(judge(difference), "") << describe(difference) << "\n"
+                                   << name << " --backend vulkan --size 320x180 --pixel "
+                                   << difference.worst_x << "," << difference.worst_y;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, VulkanExamples,
+                         testing::Values("00-raygen-only", "01-triangle", "02-instances-and-masks",
+                                         "03-any-hit-alpha", "04-procedural-spheres",
+                                         "05-callable-and-recursion", "06-local-root-signature",
+                                         "07-update-and-compaction", "08-compute"),
+                         [](const auto& tested) { return name_of(tested.param); });
+
+// The whole program, files and all.
+TEST(VulkanNorthlight, DrawsWhatEmbreeDraws) {
+  KAAMOS_NEED_VULKAN();
+  ByteImage pictures[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string folder =
+        std::string(KAAMOS_BINARY_DIR) + "/parity/northlight-" + kBackends[i];
+    const std::string command = std::string(KAAMOS_BINARY_DIR) + "/bin/northlight --backend " +
+                                kBackends[i] + " --size 320x180 --out " + folder + " > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    const auto picture = read_png(folder + "/frame.png");
+    ASSERT_TRUE(picture.ok()) << picture.error();
+    pictures[i] = picture.value();
+  }
+  const PictureDifference difference = compare_pictures(floats(pictures[0]), floats(pictures[1]));
+  EXPECT_EQ(judge(difference), "")
+      << describe(difference) << "\nnorthlight --backend vulkan --size 320x180 --pixel "
+      << difference.worst_x << "," << difference.worst_y;
+}
+
+}  // namespace

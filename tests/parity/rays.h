@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// The rays that both backends get: bit for bit the same.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/scene/scene.h"
+#include "tests/parity/probe.h"
+
+namespace kaamos::parity {
+
+struct RaySet {
+  std::string scene;  // "lounge", "mixed", or a glTF file
+  // primary: through the pixels; flags: the same with random ray flags and masks; sun, ao: from
+  // what those hit, whether something is in the way; diffuse: from there, what is hit next.
+  std::string kind;
+  uint32_t width = 480;
+  uint32_t height = 270;
+  uint32_t seed = 1;
+};
+
+// Empty where the set names no scene or kind.
+std::optional<effects::Scene> load_scene(const std::string& name);
+
+struct RayRun {
+  std::vector<ProbeRay> rays;
+  uint32_t picture_width = 0;  // 0: the rays are no picture's
+  std::vector<HitRecord> hits[2];
+};
+
+// Traces the set on both backends. Secondary rays start at the hits of the first. Throws
+// rtapi::ResultError, std::invalid_argument for a set that is none.
+RayRun trace_on_both(const RaySet& set, const std::string (&backends)[2]);
+
+// The command that traces one ray of the set again.
+std::string retrace_command(const RaySet& set, uint64_t ray);
+
+}  // namespace kaamos::parity
