@@ -21,7 +21,7 @@ constexpr uint32_t kSamplerSlots = 2;  // of SamplerDescriptorHeap
 
 // The root signature that a library's bindings ask for, and what stands behind each parameter.
 struct Fixture {
-  explicit Fixture(const shader::LibraryDesc& library);
+  Fixture(const std::string& backend, const shader::LibraryDesc& library);
 
   Device device;
   CommandQueue queue;
@@ -36,14 +36,15 @@ struct Fixture {
   DescriptorHeap sampler_heap;
 };
 
-Device single_threaded_device() {
+Device single_threaded_device(const std::string& backend) {
   DeviceDesc desc;
+  desc.Backend = backend;
   desc.Threads = 1;
   return CreateDevice(desc).value();
 }
 
-Fixture::Fixture(const shader::LibraryDesc& library_desc)
-    : device(single_threaded_device()),
+Fixture::Fixture(const std::string& backend, const shader::LibraryDesc& library_desc)
+    : device(single_threaded_device(backend)),
       queue(device.CreateCommandQueue().value()),
       library(LoadShaderLibrary(&library_desc).value()),
       resources(device, queue) {
@@ -146,8 +147,9 @@ void bind(Fixture& f, CommandList& list) {
   }
 }
 
-std::vector<std::byte> run(const shader::LibraryDesc& library_desc, const uint32_t (&size)[3]) {
-  Fixture f(library_desc);
+std::vector<std::byte> run(const std::string& backend, const shader::LibraryDesc& library_desc,
+                           const uint32_t (&size)[3]) {
+  Fixture f(backend, library_desc);
   for (uint32_t i = 0; i < library_desc.binding_count; ++i) {
     add_binding(f, library_desc.bindings[i]);
   }
@@ -180,10 +182,10 @@ std::vector<std::byte> run(const shader::LibraryDesc& library_desc, const uint32
 
 }  // namespace
 
-std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, const uint32_t (&size)[3],
-                                     std::string& error) {
+std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
+                                     const uint32_t (&size)[3], std::string& error) {
   try {
-    return run(library, size);
+    return run(backend, library, size);
   } catch (const ResultError& failure) {
     error = failure.what();
     return {};

@@ -28,7 +28,7 @@ namespace kaamos::test {
 
 // Runs the compute export as `size` groups, or the ray generation export as `size` threads, and
 // returns what is in `results`.
-std::vector<std::byte> run_on_device(const shader::LibraryDesc& library, const uint32_t (&size)[3],
-                                     std::string& error);
+std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
+                                     const uint32_t (&size)[3], std::string& error);
 
 }  // namespace kaamos::test

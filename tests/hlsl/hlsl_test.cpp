@@ -14,13 +14,11 @@
 #include <map>
 #include <memory>
 
+#include "executors.h"
 #include "expectations.h"
 #include "fixtures.h"
 #include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/interpret.h"
 
 namespace kaamos::test {
 namespace {
@@ -32,13 +30,6 @@ const std::vector<HlslTest>& all_tests() {
       std::string(KAAMOS_SOURCE_DIR) + "/tests/hlsl", {"core", "compute", "extended", "traps"});
   return tests;
 }
-
-// What became of a file.
-struct Compiled {
-  const shader::LibraryDesc* library = nullptr;
-  std::string error;
-  std::shared_ptr<const void> owner;  // of the library, unless it stays loaded
-};
 
 std::string unit_name(size_t index) {
   return "kaamos_test_unit_" + std::to_string(index);
@@ -61,19 +52,9 @@ hlsl::FrontendOptions options_of(const HlslTest& test) {
   return options;
 }
 
-// Null with `error` where the file does not compile.
-std::unique_ptr<hlsl::ir::Module> front_end(size_t index, std::string& error) {
-  hlsl::DiskFileLoader loader;
-  hlsl::SourceManager sources(loader);
-  hlsl::DiagnosticEngine diagnostics;
-  auto module = hlsl::compile_to_ir(options_of(all_tests()[index]), sources, diagnostics);
-  if (!module) error = hlsl::render_all(diagnostics, sources);
-  return module;
-}
-
 // The emitted C++ of a file; empty with `error` where it does not compile.
 std::string emit(size_t index, std::string& error) {
-  const auto module = front_end(index, error);
+  const auto module = compile_module(options_of(all_tests()[index]), error);
   return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index)}) : std::string();
 }
 
@@ -112,24 +93,19 @@ Compiled compile_native(size_t index) {
   return batches[batch][index];
 }
 
-Compiled compile_interpreted(size_t index) {
-  Compiled out;
-  std::shared_ptr<const hlsl::ir::Module> module = front_end(index, out.error);
-  if (!module) return out;
-  const auto library = hlsl::InterpretedLibrary::create(module, {}, out.error);
-  if (!library) return out;
-  out.library = &library->desc();
-  out.owner = library;
-  return out;
-}
-
 // A way to run HLSL. Its name stands before that of the file in the test's.
 struct Executor {
   const char* name;
+  const char* backend;
   Compiled (*compile)(size_t index);
 };
-constexpr Executor kExecutors[] = {{"native", compile_native},
-                                   {"interpreted", compile_interpreted}};
+const Executor kExecutors[] = {
+    {"native", "embree", compile_native},
+    {"interpreted", "embree",
+     [](size_t index) { return compile_interpreted(options_of(all_tests()[index])); }},
+    {"vulkan", "vulkan",
+     [](size_t index) { return compile_vulkan(options_of(all_tests()[index])); }},
+};
 
 // Empty, or everything that is wrong.
 std::string run(const Executor& executor, size_t index) {
@@ -138,7 +114,8 @@ std::string run(const Executor& executor, size_t index) {
   const Compiled code = executor.compile(index);
   if (code.library == nullptr) return code.error;
   std::string error;
-  const std::vector<std::byte> results = run_on_device(*code.library, test.dispatch, error);
+  const std::vector<std::byte> results =
+      run_on_device(executor.backend, *code.library, test.dispatch, error);
   if (!error.empty()) return test.path + ": " + error;
   std::string wrong;
   for (const Expectation& expectation : test.expectations) {
@@ -151,7 +128,10 @@ std::string run(const Executor& executor, size_t index) {
 class HlslFile : public testing::Test {
  public:
   HlslFile(const Executor& executor, size_t index) : executor_(executor), index_(index) {}
-  void TestBody() override { EXPECT_EQ(run(executor_, index_), ""); }
+  void TestBody() override {
+    if (!need_backend(executor_.backend)) return;
+    EXPECT_EQ(run(executor_, index_), "");
+  }
 
  private:
   const Executor& executor_;
@@ -172,15 +152,20 @@ const char* const kUnsupported[] = {
     "extended RayQuery",       "extended .TraceRayInline",  "extended .Proceed",
     "extended .CandidateType", "extended .CommittedStatus", "extended .CommitNonOpaqueTriangleHit"};
 
-// How many of the features of hlsl-subset's tables work. A feature works if all its files
-// pass on all executors.
+// How many of the features of hlsl-subset's tables work on a backend. A feature works if all its
+// files pass on all executors.
 class FeatureReport : public testing::Test {
  public:
+  explicit FeatureReport(const char* backend) : backend_(backend) {}
+
   void TestBody() override {
+    if (!need_backend(backend_)) return;
     std::map<std::string, bool> features;
     for (size_t i = 0; i < all_tests().size(); ++i) {
       bool passed = true;
-      for (const Executor& executor : kExecutors) passed = passed && run(executor, i).empty();
+      for (const Executor& executor : kExecutors) {
+        if (executor.backend == backend_) passed = passed && run(executor, i).empty();
+      }
       const auto known = features.emplace(feature_key(all_tests()[i].feature), passed).first;
       known->second = known->second && passed;
     }
@@ -198,12 +183,19 @@ class FeatureReport : public testing::Test {
       if (!works) std::printf("missing: %s\n", feature.c_str());
     }
     for (const auto& [tier, counts] : tiers) {
-      std::printf("HLSL %s: %zu passed / %zu total\n", tier.c_str(), counts.first, counts.second);
+      std::printf("HLSL %s%s: %zu passed / %zu total\n", where().c_str(), tier.c_str(),
+                  counts.first, counts.second);
     }
-    std::printf("HLSL features: %zu passed / %zu total\n", passed, features.size());
+    std::printf("HLSL %sfeatures: %zu passed / %zu total\n", where().c_str(), passed,
+                features.size());
     EXPECT_EQ(passed, tested);
     EXPECT_GT(tested, 0u);
   }
+
+ private:
+  std::string where() const { return backend_ == "embree" ? "" : "on " + backend_ + " "; }
+
+  std::string backend_;
 };
 
 std::string test_name(const std::string& path) {
@@ -228,7 +220,10 @@ int main(int argc, char** argv) {
           [&executor, i]() -> testing::Test* { return new HlslFile(executor, i); });
     }
   }
-  testing::RegisterTest("HlslReport", "Features", nullptr, nullptr, __FILE__, __LINE__,
-                        []() -> testing::Test* { return new FeatureReport; });
+  for (const auto& [name, backend] :
+       {std::pair{"Features", "embree"}, {"vulkan_Features", "vulkan"}}) {
+    testing::RegisterTest("HlslReport", name, nullptr, nullptr, __FILE__, __LINE__,
+                          [backend]() -> testing::Test* { return new FeatureReport(backend); });
+  }
   return RUN_ALL_TESTS();
 }

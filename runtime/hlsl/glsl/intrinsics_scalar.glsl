@@ -111,7 +111,31 @@ float k_fmod(float x, float y) {
 //@ k_fmod f16 any
 $T k_fmod($T x, $T y) { return $T(k_fmod($F(x), $F(y))); }
 //@ k_fmod f64 each
-double k_fmod(double x, double y) { return x - y * trunc(x / y); }
+double k_fmod(double x, double y) {
+  uint64_t sign = 0x8000000000000000UL & packUint2x32(unpackDouble2x32(x));
+  uint64_t a = packUint2x32(unpackDouble2x32(abs(x)));
+  uint64_t b = packUint2x32(unpackDouble2x32(abs(y)));
+  if (a >= 0x7FF0000000000000UL || b > 0x7FF0000000000000UL || b == 0UL) {
+    return packDouble2x32(uvec2(0u, 0x7FF80000u));
+  }
+  if (a < b) return x;
+  const uint64_t kLeading = 0x10000000000000UL, kFraction = 0xFFFFFFFFFFFFFUL;
+  uint exponent = max(uint(b >> 52), 1u);
+  uint shift = max(uint(a >> 52), 1u) - exponent;
+  uint64_t divisor = (b & kFraction) | (b > kFraction ? kLeading : 0UL);
+  uint64_t rest = ((a & kFraction) | (a > kFraction ? kLeading : 0UL)) % divisor;
+  while (shift > 0u) {
+    uint step = min(shift, 11u);
+    rest = (rest << step) % divisor;
+    shift -= step;
+  }
+  while (rest != 0UL && rest < kLeading && exponent > 1u) {
+    rest <<= 1;
+    --exponent;
+  }
+  if (rest >= kLeading) rest = (rest & kFraction) | uint64_t(exponent) << 52;
+  return packDouble2x32(unpackUint2x32(rest | sign));
+}
 
 // Zero, infinities and NaN are their own mantissa with exponent 0.
 //@ k_frexp_mantissa f32 each
@@ -153,6 +177,53 @@ $T k_modf_integer($T x) { return x; }
 //@ k_modf_fraction ints any
 $T k_modf_fraction($T x) { return $0; }
 
-// Rounded once.
-//@ k_fma floats any
-$T k_fma($T x, $T y, $T z) { return fma(x, y, z); }
+// x * y + z rounded once, also by drivers whose fma() is a product and a sum. The product is exact
+// as a sum of two doubles; the last addition but one rounds to odd. [Boldo and Melquiond 2008]
+//@ k_two_sum f64
+dvec2 k_two_sum(double a, double b) {
+  precise double sum = a + b;
+  precise double part = sum - a;
+  precise double error = (a - (sum - part)) + (b - part);
+  return dvec2(sum, error);
+}
+//@ k_with_exponent
+double k_with_exponent(double x, int exponent) {
+  uvec2 bits = unpackDouble2x32(x);
+  bits.y = (bits.y & 0x800FFFFFu) | uint(exponent + 1023) << 20;
+  return packDouble2x32(bits);
+}
+//@ k_exponent
+int k_exponent(double x) { return int(unpackDouble2x32(x).y >> 20 & 0x7FFu) - 1023; }
+//@ k_product_rest
+double k_product_rest(double a, double b, double product) {
+  precise double a_high = 134217729.0LF * a - (134217729.0LF * a - a);
+  precise double b_high = 134217729.0LF * b - (134217729.0LF * b - b);
+  precise double a_low = a - a_high, b_low = b - b_high;
+  precise double rest = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) +
+                        a_low * b_low;
+  return rest;
+}
+//@ k_fma f64 each
+double k_fma(double x, double y, double z) {
+  int ex = k_exponent(x), ey = k_exponent(y), ez = k_exponent(z);
+  if (max(ex, ey) > 1023 || min(ex, ey) < -1022) return x * y + z;
+  if (ez > 1023) return z;
+  if (z == 0.0LF) return x * y;
+  // Exponents come near 0, so that nothing on the way is out of range.
+  int scale = ex + ey;
+  if (ez - scale > 110) return z;
+  precise double a = k_with_exponent(x, 0), b = k_with_exponent(y, 0);
+  precise double c = k_with_exponent(z, max(ez - scale, -110));
+  precise double product = a * b;
+  dvec2 low = k_two_sum(c, k_product_rest(a, b, product));
+  dvec2 high = k_two_sum(product, low.x);
+  dvec2 tail = k_two_sum(low.y, high.y);
+  uint64_t bits = packUint2x32(unpackDouble2x32(tail.x));
+  if (tail.y != 0.0LF && (bits & 1UL) == 0UL) {
+    bits += (tail.y > 0.0LF) == (tail.x > 0.0LF) ? 1UL : ~0UL;
+  }
+  precise double sum = high.x + packDouble2x32(unpackUint2x32(bits));
+  int half_scale = clamp(scale, -2000, 2000) / 2;
+  return sum * k_with_exponent(1.0LF, half_scale) *
+         k_with_exponent(1.0LF, clamp(scale - half_scale, -1022, 1023));
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+//
+// The ways to run HLSL: from options of the compiler to a library that a device of a backend runs.
+#pragma once
+
+#include <kaamos/shader/abi.h>
+
+#include <memory>
+#include <string>
+
+#include "runtime/hlsl/frontend.h"
+
+namespace kaamos::test {
+
+struct Compiled {
+  const shader::LibraryDesc* library = nullptr;  // null with `error` where it does not compile
+  std::string error;
+  std::shared_ptr<const void> owner;  // of the library, unless it stays loaded
+};
+
+std::unique_ptr<hlsl::ir::Module> compile_module(const hlsl::FrontendOptions& options,
+                                                 std::string& error);
+// By the interpreter of the intermediate representation, on the Embree backend.
+Compiled compile_interpreted(const hlsl::FrontendOptions& options);
+// To SPIR-V; there is no native code in it.
+Compiled compile_vulkan(const hlsl::FrontendOptions& options);
+
+// Whether a device of the backend can be made. If not: skips the running test with the sentence
+// that says what is missing, or fails it where KAAMOS_REQUIRE_VULKAN is 1.
+bool need_backend(const std::string& backend);
+
+}  // namespace kaamos::test
