@@ -2,7 +2,7 @@
 //
 // The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
 // structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
-// tables).
+// tables), emit_groups.cpp (compute shaders with barriers).
 //
 // The emitted unit: prelude as namespace `ks`, everything of the library in namespace `u`:
 // structs, constants, `u::Context` (one for each shader invocation: the ABI's Invocation, static
@@ -20,6 +20,7 @@
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/emit_names.h"
 #include "runtime/hlsl/ir.h"
+#include "runtime/hlsl/split_groups.h"
 
 namespace kaamos::hlsl {
 
@@ -85,8 +86,22 @@ class CppEmitter {
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);
   void emit_tables();
+  std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   std::string entry_arguments(const ir::EntryPoint& entry);
   void collect_static_use();
+
+  // emit_groups.cpp: compute shaders that are cut at their barriers
+  bool emit_split_group(size_t index);  // false: it must run on fibers
+  void emit_group_body(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_group_variables(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_piece_start(const ir::EntryPoint& entry);
+  void emit_piece_end();
+  void emit_first_piece(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_threads(const ir::EntryPoint& entry, const GroupPlan& plan, const Region& region);
+  void emit_regions(const ir::EntryPoint& entry, const GroupPlan& plan,
+                    const std::vector<Region>& regions);
+  void emit_region_loop(const ir::EntryPoint& entry, const GroupPlan& plan, const Region& region);
+  uint64_t kept_bytes(const ir::EntryPoint& entry, const GroupPlan& plan) const;
 
   // The output.
   void line(std::string_view text) {
@@ -125,6 +140,10 @@ class CppEmitter {
   std::vector<int> loops_;
   std::unordered_set<int> used_labels_;
   int next_label_ = 0;
+  // While a split group is emitted: variables that are declared outside of its pieces, and what
+  // `return` becomes.
+  std::unordered_set<const ir::Variable*> placed_;
+  std::string return_text_ = "return;";
 };
 
 // As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".

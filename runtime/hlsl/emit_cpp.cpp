@@ -241,32 +241,29 @@ void CppEmitter::emit_static_initialisers(const Function& function) {
   }
 }
 
+std::string CppEmitter::entry_argument(const EntryPoint& entry, size_t parameter) {
+  const std::string t = type(entry.function->parameters[parameter]->type);
+  switch (entry.parameters[parameter]) {
+    case EntryParameter::kPayload:
+    case EntryParameter::kCallableData:
+      return "*static_cast<" + t + "*>(payload)";
+    case EntryParameter::kAttributes:
+      return "ks::load_attributes<" + t + ">(attributes)";
+    case EntryParameter::kDispatchThreadId:
+      return "ks::dispatch_thread_id<" + t + ">(group, size, thread)";
+    case EntryParameter::kGroupId:
+      return "ks::group_value<" + t + ">(group.group_id)";
+    case EntryParameter::kGroupThreadId:
+      return "ks::group_value<" + t + ">(thread)";
+    case EntryParameter::kGroupIndex:
+      return t + "(thread[0] + size[0] * (thread[1] + size[1] * thread[2]))";
+  }
+  return "";
+}
+
 std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
   std::string out = "ctx";
-  for (size_t i = 0; i < entry.parameters.size(); ++i) {
-    const std::string t = type(entry.function->parameters[i]->type);
-    switch (entry.parameters[i]) {
-      case EntryParameter::kPayload:
-      case EntryParameter::kCallableData:
-        out += ", *static_cast<" + t + "*>(payload)";
-        break;
-      case EntryParameter::kAttributes:
-        out += ", ks::load_attributes<" + t + ">(attributes)";
-        break;
-      case EntryParameter::kDispatchThreadId:
-        out += ", ks::dispatch_thread_id<" + t + ">(group, size, thread)";
-        break;
-      case EntryParameter::kGroupId:
-        out += ", ks::group_value<" + t + ">(group.group_id)";
-        break;
-      case EntryParameter::kGroupThreadId:
-        out += ", ks::group_value<" + t + ">(thread)";
-        break;
-      case EntryParameter::kGroupIndex:
-        out += ", " + t + "(thread[0] + size[0] * (thread[1] + size[1] * thread[2]))";
-        break;
-    }
-  }
+  for (size_t i = 0; i < entry.parameters.size(); ++i) out += ", " + entry_argument(entry, i);
   return out;
 }
 
@@ -276,6 +273,11 @@ void CppEmitter::emit_compute_entry(size_t index) {
   const std::string size = std::to_string(entry.thread_group[0]) + ", " +
                            std::to_string(entry.thread_group[1]) + ", " +
                            std::to_string(entry.thread_group[2]);
+  if (emit_split_group(index)) {
+    line("static const ks::ComputeDesc compute_" + number + " = {{" + size +
+         "}, sizeof(u::Shared), group_" + number + ", nullptr};");
+    return;
+  }
   open("static void thread_" + number +
        "(ks::Invocation& invocation, ks::ComputeGroup& group, const uint32_t thread[3]) {");
   line("[[maybe_unused]] constexpr uint32_t size[3] = {" + size + "};");

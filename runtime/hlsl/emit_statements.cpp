@@ -73,6 +73,11 @@ void CppEmitter::end_shader() {
 void CppEmitter::declare(const Stmt& stmt) {
   // The initialiser is printed before the name is declared: `float x = x` means the outer x.
   const std::string initial = stmt.value != nullptr ? " = " + value(stmt.value) : "{}";
+  if (placed_.count(stmt.variable) != 0) {
+    line(variable(stmt.variable) +
+         (stmt.value != nullptr ? initial : " = " + type(stmt.variable->type) + "{}") + ";");
+    return;
+  }
   const std::string name = local_names_.declare(stmt.variable->name);
   variable_names_[stmt.variable] = name;
   line(type(stmt.variable->type) + " " + name + initial + ";");
@@ -284,7 +289,7 @@ void CppEmitter::statement(const Stmt& stmt) {
       line("goto continue_" + std::to_string(loops_.back()) + ";");
       break;
     case StmtKind::kReturn:
-      line(stmt.value != nullptr ? "return " + value(stmt.value) + ";" : "return;");
+      line(stmt.value != nullptr ? "return " + value(stmt.value) + ";" : return_text_);
       break;
     case StmtKind::kBarrier:
       line("ks::barrier(ctx.invocation, ctx.group, " + std::to_string(stmt.barrier) + "u);");
