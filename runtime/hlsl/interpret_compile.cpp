@@ -41,6 +41,7 @@ const Action* Compiler::action(const Stmt& stmt) {
     case StmtKind::kCall:
       out.callee = codes_[stmt.function];
       callee_stack_bytes_ = std::max(callee_stack_bytes_, out.callee->stack_bytes);
+      reads_hit_kind_ = reads_hit_kind_ || out.callee->reads_hit_kind;
       statics_.insert(out.callee->statics.begin(), out.callee->statics.end());
       break;
     default:
@@ -64,6 +65,7 @@ Actions Compiler::block(const Block& body) {
 
 void Compiler::function(const Function& function) {
   variable_bytes_ = temporary_bytes_ = most_temporary_bytes_ = callee_stack_bytes_ = 0;
+  reads_hit_kind_ = false;
   statics_.clear();
   Code& code = program_.codes.emplace_back();
   code.function = &function;
@@ -78,6 +80,7 @@ void Compiler::function(const Function& function) {
   for (const Variable* variable : program_.module->globals) {
     if (statics_.count(variable) != 0) code.statics.push_back(variable);
   }
+  code.reads_hit_kind = reads_hit_kind_;
   codes_[&function] = &code;
 }
 

@@ -239,6 +239,7 @@ void Compiler::compile(Node& node) {
     case ExprKind::kIntrinsic:
       return intrinsic(node);
     case ExprKind::kSystemValue:
+      reads_hit_kind_ = reads_hit_kind_ || expr.system_value == SystemValue::kHitKind;
       need_zeros(node.bytes);
       return in_slot(node, evaluate_system_value());
     case ExprKind::kBinding:

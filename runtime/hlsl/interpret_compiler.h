@@ -53,6 +53,7 @@ class Compiler {
   uint32_t temporary_bytes_ = 0;                     // of the statement so far
   uint32_t most_temporary_bytes_ = 0;                // of any statement of the function
   uint32_t callee_stack_bytes_ = 0;                  // of the function so far
+  bool reads_hit_kind_ = false;                      // the function so far
   std::unordered_set<const ir::Variable*> statics_;  // that the function touches
 };
 

@@ -118,7 +118,8 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |
               (entry.function->may_call ? shader::kExportCalls : 0u) |
               (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
-              (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u);
+              (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
+              (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u);
   out.bindings = entry.bindings.data();
   out.binding_count = static_cast<uint32_t>(entry.bindings.size());
   return out;

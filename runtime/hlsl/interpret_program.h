@@ -117,6 +117,7 @@ struct Code {
   uint32_t result_bytes = 0;
   uint32_t stack_bytes = 0;                  // with all that it calls
   std::vector<const ir::Variable*> statics;  // that it and its callees touch, in the module's order
+  bool reads_hit_kind = false;               // it or a callee
 };
 
 struct StaticInitialiser {

@@ -96,9 +96,9 @@ void trace_ray(const Action& action, Frame& frame) {
   arguments.miss_shader_index = number(5) & 0xFFFFu;
   arguments.payload_bytes = action.place->bytes;
   const auto ray = evaluate_as<shader::RayDesc>(*operands[6], frame);
-  invocation.dispatch->services->trace_ray(
-      invocation, arguments, action.place->locate(*action.place, frame),
-      shader::origin_t_min(ray), shader::direction_t_max(ray));
+  invocation.dispatch->services->trace_ray(invocation, arguments,
+                                           action.place->locate(*action.place, frame),
+                                           shader::origin_t_min(ray), shader::direction_t_max(ray));
 }
 
 void report_hit(const Action& action, Frame& frame) {
