@@ -8,12 +8,10 @@
 
 #include <algorithm>
 
+#include "executors.h"
 #include "fixtures.h"
 #include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/interpret.h"
 #include "runtime/hlsl/split_groups.h"
 
 namespace kaamos::test {
@@ -269,15 +267,17 @@ void main(uint i : SV_GroupIndex, uint3 id : SV_DispatchThreadID) {
 };
 constexpr size_t kCaseCount = std::size(kCases);
 
-std::unique_ptr<hlsl::ir::Module> module_of(const Case& test) {
-  hlsl::DiskFileLoader loader;
-  hlsl::SourceManager sources(loader);
-  hlsl::DiagnosticEngine diagnostics;
+hlsl::FrontendOptions options_of(const Case& test) {
   hlsl::FrontendOptions options;
   options.path = std::string(test.name) + ".hlsl";
   options.text = std::string(kHead) + test.body;
-  auto module = hlsl::compile_to_ir(options, sources, diagnostics);
-  EXPECT_TRUE(module != nullptr) << hlsl::render_all(diagnostics, sources);
+  return options;
+}
+
+std::unique_ptr<hlsl::ir::Module> module_of(const Case& test) {
+  std::string error;
+  auto module = compile_module(options_of(test), error);
+  EXPECT_EQ(error, "");
   return module;
 }
 
@@ -312,7 +312,7 @@ const shader::LibraryDesc* native_library(const std::string& name) {
 
 std::vector<std::byte> run(const shader::LibraryDesc& library) {
   std::string error;
-  const std::vector<std::byte> out = run_on_device(library, {4, 1, 1}, error);
+  const std::vector<std::byte> out = run_on_device("embree", library, {4, 1, 1}, error);
   EXPECT_EQ(error, "");
   return out;
 }
@@ -332,10 +332,9 @@ TEST_P(Groups, GiveTheSameOnEveryExecutor) {
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](std::byte b) { return b != std::byte{0}; }));
   EXPECT_TRUE(run(*cut) == expected);
-  std::string error;
-  const auto interpreted = hlsl::InterpretedLibrary::create(module_of(test), {}, error);
-  ASSERT_NE(interpreted, nullptr) << error;
-  EXPECT_TRUE(run(interpreted->desc()) == expected);
+  const Compiled interpreted = compile_interpreted(options_of(test));
+  ASSERT_NE(interpreted.library, nullptr) << interpreted.error;
+  EXPECT_TRUE(run(*interpreted.library) == expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Split, Groups, testing::Range(size_t{0}, kCaseCount),
