@@ -26,6 +26,22 @@ bool ParseSize(const std::string& text, uint32_t& width, uint32_t& height) {
   return true;
 }
 
+// What a pixel holds, for one who compares backends.
+int PrintPixel(const char* name, const Setup& setup, const std::string& text,
+               const kaamos::effects::ByteImage& image) {
+  unsigned x = 0;
+  unsigned y = 0;
+  if (std::sscanf(text.c_str(), "%u,%u", &x, &y) != 2 || x >= image.width || y >= image.height) {
+    std::fprintf(stderr, "%s: --pixel %s is none of the picture's: give x,y within %ux%u\n", name,
+                 text.c_str(), image.width, image.height);
+    return 2;
+  }
+  const uint8_t* value = image.values.data() + (size_t{y} * image.width + x) * 4;
+  std::printf("%s: pixel (%u, %u) on %s: %u %u %u %u\n", name, x, y,
+              setup.device.GetInfo().Name.c_str(), value[0], value[1], value[2], value[3]);
+  return 0;
+}
+
 Buffer Build(const Setup& setup, const BuildRaytracingAccelerationStructureInputs& inputs,
              const char* name) {
   const auto sizes = setup.device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
@@ -57,10 +73,13 @@ int Main(int argc, char** argv, const char* name, Body body) {
   std::string backend = "embree";
   std::string size = "640x360";
   std::string out = std::string(name) + ".png";
+  std::string pixel;
   CLI::App app(std::string(name) + ", an example of Kaamos");
-  app.add_option("--backend", backend, "which backend runs it")->capture_default_str();
+  app.add_option("--backend", backend, "which backend runs it: embree or vulkan")
+      ->capture_default_str();
   app.add_option("--size", size, "width and height of the picture")->capture_default_str();
   app.add_option("--out", out, "the picture file, a PNG")->capture_default_str();
+  app.add_option("--pixel", pixel, "x,y: print that pixel instead of writing the picture");
   CLI11_PARSE(app, argc, argv);
 
   Setup setup;
@@ -84,6 +103,7 @@ int Main(int argc, char** argv, const char* name, Body body) {
     kaamos::effects::ByteImage image{setup.width, setup.height, 4, {}};
     image.values.resize(texels.size());
     std::memcpy(image.values.data(), texels.data(), texels.size());
+    if (!pixel.empty()) return PrintPixel(name, setup, pixel, image);
     if (const auto written = kaamos::effects::write_png(out, image); !written.ok()) {
       std::fprintf(stderr, "%s: %s\n", name, written.error().c_str());
       return 1;

@@ -23,7 +23,8 @@ struct Setup {
 using Body = rtapi::Texture (*)(const Setup&);
 
 // Parses `--backend NAME --size WxH --out FILE`, runs `body` and writes its picture to
-// "<name>.png". Returns the exit code; an error is printed.
+// "<name>.png"; with `--pixel X,Y` it prints that pixel instead. Returns the exit code; an error is
+// printed.
 int Main(int argc, char** argv, const char* name, Body body);
 
 // A texture that a shader can write, and a heap whose descriptor 0 is its unordered access view.

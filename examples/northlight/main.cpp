@@ -78,6 +78,10 @@ int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Opti
                 const Scene& scene) {
   const auto frame = renderer.render(libraries, show_progress, stop_requested);
   if (!frame) return report(frame.error(), options);
+  if (options.pixel) {
+    std::fputs(describe_pixel(*frame, options.pixel->first, options.pixel->second).c_str(), stdout);
+    return 0;
+  }
   if (const std::string error = write_results(options, scene, renderer, *frame); !error.empty()) {
     say_error(error);
     return 1;
@@ -115,7 +119,12 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   const auto options = parse_options(argc, argv, exit_code);
   if (!options) return exit_code;
-  if (const std::string error = prepare_folder(options->out); !error.empty()) {
+  if (options->list_devices) {
+    std::fputs(list_devices().c_str(), stdout);
+    return 0;
+  }
+  if (const std::string error = options->pixel ? "" : prepare_folder(options->out);
+      !error.empty()) {
     say_error(error);
     return 1;
   }

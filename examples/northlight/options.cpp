@@ -27,6 +27,18 @@ std::string parse_size(const std::string& text, Options& options) {
   return {};
 }
 
+std::string parse_pixel(const std::string& text, Options& options) {
+  unsigned x = 0;
+  unsigned y = 0;
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%5u,%5u%n", &x, &y, &end) != 2 ||
+      static_cast<std::size_t>(end) != text.size()) {
+    return "\"" + text + "\" is not a pixel: give x and y, as in 12,40";
+  }
+  options.pixel = {x, y};
+  return {};
+}
+
 std::string parse_effects(const std::string& text, Options& options) {
   options.ao = false;
   options.sun = false;
@@ -69,6 +81,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   std::string size = "1280x720";
   std::string effects = "ao,sun";
   std::string radius = "4";
+  std::string pixel;
   float sun_angle = 0;
   CLI::App app(
       "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow.\n"
@@ -76,7 +89,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "northlight");
   app.add_option("--scene", options.scene, "lounge (built in), or a .gltf or .glb file")
       ->capture_default_str();
-  app.add_option("--backend", options.backend, "the backend that runs the shaders")
+  app.add_option("--backend", options.backend, "the backend that runs the shaders: embree, vulkan")
       ->capture_default_str();
   app.add_option("--size", size, "width and height in pixels")
       ->capture_default_str()
@@ -105,10 +118,21 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
+  app.add_option("--pixel", pixel,
+                 "x,y: print what each layer holds there instead of writing files")
+      ->check(parsed_by(parse_pixel, options));
+  app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+  if (options.pixel &&
+      (options.pixel->first >= options.width || options.pixel->second >= options.height)) {
+    std::fprintf(stderr, "northlight: --pixel %s is outside of the picture (%ux%u)\n",
+                 pixel.c_str(), options.width, options.height);
+    exit_code = 2;
     return std::nullopt;
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace northlight {
 
@@ -24,6 +25,9 @@ struct Options {
   std::string out = "out/northlight";
   std::string write_glb;  // empty: none
   bool watch = false;
+  bool list_devices = false;
+  std::optional<std::pair<std::uint32_t, std::uint32_t>>
+      pixel;  // print it instead of writing files
 };
 
 // Parses the command line. Where the program is to end at once (--help, a wrong option), nothing is

@@ -217,6 +217,36 @@ std::string write_results(const Options& options, const Scene& scene, const Rend
   return error;
 }
 
+std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint32_t y) {
+  std::string out;
+  const auto add = [&](const std::string& name, const FloatImage& image) {
+    out += fmt::format("{:<16}", name);
+    for (std::uint32_t c = 0; c < image.channels; ++c)
+      out += fmt::format(" {:.9g}", image.at(x, y, c));
+    out += "\n";
+  };
+  for (const auto& [name, image] : result.layers) add(name, image);
+  add("radiance", result.radiance);
+  return out;
+}
+
+std::string list_devices() {
+  std::string out;
+  bool has_vulkan = false;
+  for (const rtapi::DeviceInfo& info : rtapi::EnumerateDevices()) {
+    out += fmt::format("{:<8} {}\n", info.Backend,
+                       info.Description.empty() ? info.Name : info.Description);
+    has_vulkan = has_vulkan || info.Backend == "vulkan";
+  }
+  if (has_vulkan) return out;
+  rtapi::DeviceDesc desc;
+  desc.Backend = "vulkan";
+  if (const auto device = rtapi::CreateDevice(desc); !device) {
+    out += fmt::format("{:<8} none: {}\n", desc.Backend, device.error().message);
+  }
+  return out;
+}
+
 std::string describe(const Renderer& renderer, const FrameResult& result) {
   const GpuSceneStatistics& s = renderer.scene_statistics();
   std::string out = fmt::format(

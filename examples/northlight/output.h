@@ -2,6 +2,7 @@
 // The files of a finished frame.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "effects/scene/scene.h"
@@ -18,6 +19,12 @@ std::string prepare_folder(const std::string& folder);
 // them are written or none is touched; the error text is empty on success.
 std::string write_results(const Options& options, const kaamos::effects::Scene& scene,
                           const Renderer& renderer, const FrameResult& result);
+
+// What each layer holds at a pixel, a line for each.
+std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint32_t y);
+
+// One line for each device of each backend; --backend takes the first word.
+std::string list_devices();
 
 // The table that a person sees at the end.
 std::string describe(const Renderer& renderer, const FrameResult& result);

@@ -36,10 +36,19 @@ expect_error 2 'not in range 1 to 65536' --ao-samples 0
 expect_error 2 'is not a radius' --ao-radius far
 expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'not expected' --no-such-option
+expect_error 2 'is not a pixel' --pixel 12
+expect_error 2 'outside of the picture' --size 64x36 --pixel 64,3
 expect_error 1 'unknown backend.*embree' --backend nothing
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
 grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
+
+devices=$("$northlight" --list-devices) || fail "--list-devices"
+grep -q '^embree   .*Embree' <<< "$devices" || fail "--list-devices does not name Embree: $devices"
+grep -q '^vulkan   ' <<< "$devices" || fail "--list-devices says nothing of Vulkan: $devices"
+pixel=$("$northlight" --size 64x36 --out "$work/none" --pixel 32,18) || fail "--pixel"
+grep -Eq '^ao +[0-9.]+$' <<< "$pixel" || fail "--pixel does not show ao: $pixel"
+[ ! -e "$work/none" ] || fail "--pixel wrote files"
 
 # A whole run, then one that fails and one that is interrupted: the results stay.
 small=(--size 64x36 --out "$work/out")
