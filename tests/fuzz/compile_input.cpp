@@ -7,6 +7,7 @@
 #include "runtime/hlsl/ir_dump.h"
 #include "runtime/hlsl/ir_verify.h"
 #include "runtime/hlsl/reflect.h"
+#include "runtime/hlsl/spirv.h"
 
 namespace kaamos::test {
 
@@ -45,7 +46,7 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (hlsl::dump(*module).empty()) return "an empty dump";
   if (hlsl::reflect_json(*module).empty()) return "no reflection";
   if (hlsl::emit_cpp(*module, {}).empty()) return "no C++";
-  return {};
+  return hlsl::compile_spirv(*module).error;
 }
 
 }  // namespace kaamos::test
