@@ -4,27 +4,14 @@
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/clear_view.h"
 #include "runtime/embree/memory.h"
-#include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/texel_access.h"
 
 namespace kaamos::embree {
 namespace {
 
 constexpr size_t kKeptAfterEnd = 4096;  // views, of some 650 bytes
-
-// Bits of a UINT clear in a normalized format: each channel takes the low bits of its value.
-shader::Texel raw_channels(const shader::FormatCodec& codec, rtapi::FormatInfo info,
-                           const uint32_t values[4]) {
-  shader::Texel texel = {};
-  for (int i = 0; i < 4; ++i) {
-    uint8_t element[16] = {};
-    const uint32_t bytes = info.channel_bits / 8;
-    if (i * bytes < sizeof(element)) std::memcpy(element + i * bytes, &values[i], bytes);
-    if (codec.decode != nullptr) texel.bits[i] = codec.decode(element).bits[i];
-  }
-  return texel;
-}
 
 void clear_texture(const shader::Descriptor& descriptor, const shader::TextureView& view,
                    const shader::Texel& value) {
@@ -157,26 +144,10 @@ shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc) {
 }
 
 void clear_view(const shader::Descriptor& descriptor, bool is_float, const uint32_t values[4]) {
-  if (descriptor.kind == shader::DescriptorKind::kRawBuffer ||
-      descriptor.kind == shader::DescriptorKind::kStructuredBuffer) {
-    std::fill_n(reinterpret_cast<uint32_t*>(descriptor.address), descriptor.size_bytes / 4,
-                values[0]);
-    return;
-  }
   const shader::TextureView* view = shader::texture_view(descriptor);
-  const uint32_t format = view != nullptr ? view->format : descriptor.format;
-  const shader::FormatCodec& codec = shader::format_codec(format);
-  const auto info = rtapi::GetFormatInfo(static_cast<rtapi::Format>(format));
-  shader::Texel value = {{values[0], values[1], values[2], values[3]}};
-  if (!is_float && codec.normalized && info.channel_bits != 0) {
-    value = raw_channels(codec, info, values);
-  }
-  if (view != nullptr) return clear_texture(descriptor, *view, value);
-  if (descriptor.kind != shader::DescriptorKind::kTypedBuffer || codec.bytes == 0) return;
-  const uint64_t elements = descriptor.size_bytes / codec.bytes;
-  for (uint64_t i = 0; i < elements; ++i) {
-    shader::store_typed(descriptor, static_cast<uint32_t>(i), value);
-  }
+  if (view == nullptr) return runtime::clear_buffer_view(descriptor, is_float, values);
+  const auto format = static_cast<rtapi::Format>(view->format);
+  clear_texture(descriptor, *view, runtime::clear_texel(format, is_float, values));
 }
 
 }  // namespace kaamos::embree

@@ -89,49 +89,53 @@ DescriptorSet::~DescriptorSet() {
 }
 
 rtapi::Result<uint32_t> DescriptorSet::add_sampled_image(VkImageView view) {
-  return add(BindlessArray::kSampledImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL},
-             VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
+  return add(BindlessArray::kSampledImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
 }
 
 rtapi::Result<uint32_t> DescriptorSet::add_storage_image(VkImageView view) {
-  return add(BindlessArray::kStorageImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL},
-             VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+  return add(BindlessArray::kStorageImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
 }
 
 rtapi::Result<uint32_t> DescriptorSet::add_sampler(VkSampler sampler) {
-  return add(BindlessArray::kSamplers, {sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED},
-             VK_DESCRIPTOR_TYPE_SAMPLER);
+  return add(BindlessArray::kSamplers, {sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
 }
 
-rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which, const VkDescriptorImageInfo& image,
-                                           VkDescriptorType type) {
+rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
+                                           const VkDescriptorImageInfo& image) {
   const std::lock_guard lock(mutex_);
   Array& array = arrays_[static_cast<uint32_t>(which)];
   uint32_t index = array.next;
-  if (!array.free.empty()) {
-    index = array.free.back();
-    array.free.pop_back();
-  } else if (array.next < array.size) {
+  if (array.next < array.size) {
     ++array.next;
+  } else if (!array.free.empty()) {
+    index = array.free.front();
+    array.free.pop_front();
   } else {
     return rtapi::Error{"KA0956", rtapi::ErrorCode::kOutOfMemory,
                         "KA0956 too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
                             " alive: the Vulkan backend has room for " +
                             std::to_string(array.size - 1) + "; free textures that are not used."};
   }
-  VkWriteDescriptorSet write = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-  write.dstSet = set_;
-  write.dstBinding = static_cast<uint32_t>(which);
-  write.dstArrayElement = index;
-  write.descriptorCount = 1;
-  write.descriptorType = type;
-  write.pImageInfo = &image;
-  gpu_->vk().vkUpdateDescriptorSets(gpu_->device(), 1, &write, 0, nullptr);
+  write(which, index, image);
   return index;
+}
+
+void DescriptorSet::write(BindlessArray which, uint32_t index, const VkDescriptorImageInfo& image) {
+  VkWriteDescriptorSet update = {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+  update.dstSet = set_;
+  update.dstBinding = static_cast<uint32_t>(which);
+  update.dstArrayElement = index;
+  update.descriptorCount = 1;
+  update.descriptorType = kTypes[static_cast<uint32_t>(which)];
+  update.pImageInfo = &image;
+  gpu_->vk().vkUpdateDescriptorSets(gpu_->device(), 1, &update, 0, nullptr);
 }
 
 void DescriptorSet::remove(BindlessArray array, uint32_t index) {
   const std::lock_guard lock(mutex_);
+  if (array != BindlessArray::kSamplers && gpu_->features().null_descriptor) {
+    write(array, index, {VK_NULL_HANDLE, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL});
+  }
   arrays_[static_cast<uint32_t>(array)].free.push_back(index);
 }
 

@@ -6,9 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <mutex>
-#include <vector>
 
 #include "runtime/vulkan/gpu.h"
 
@@ -36,19 +36,20 @@ class DescriptorSet {
   rtapi::Result<uint32_t> add_sampled_image(VkImageView view);
   rtapi::Result<uint32_t> add_storage_image(VkImageView view);
   rtapi::Result<uint32_t> add_sampler(VkSampler sampler);
-  // The index may be given out again. No work that uses it is under way.
+  // Makes it a null descriptor where the device has those, so that what still names the index reads
+  // zeros; it is given out again as late as possible. No work that uses it is under way.
   void remove(BindlessArray array, uint32_t index);
 
  private:
   struct Array {
     uint32_t size = 0;
-    uint32_t next = 1;  // never given out before
-    std::vector<uint32_t> free;
+    uint32_t next = 1;          // never given out before
+    std::deque<uint32_t> free;  // oldest first
   };
   explicit DescriptorSet(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
   rtapi::Status start();
-  rtapi::Result<uint32_t> add(BindlessArray array, const VkDescriptorImageInfo& image,
-                              VkDescriptorType type);
+  rtapi::Result<uint32_t> add(BindlessArray array, const VkDescriptorImageInfo& image);
+  void write(BindlessArray array, uint32_t index, const VkDescriptorImageInfo& image);
 
   std::shared_ptr<Gpu> gpu_;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;

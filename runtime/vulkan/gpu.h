@@ -47,6 +47,8 @@ struct GpuFeatures {
   bool custom_border_color = false;  // VK_EXT_custom_border_color without format
   bool image_2d_view_of_3d = false;  // VK_EXT_image_2d_view_of_3d, storage images
   bool image_view_min_lod = false;   // VK_EXT_image_view_min_lod
+  bool null_descriptor = false;      // VK_EXT_robustness2
+  bool sampler_filter_minmax = false;
   bool mirror_clamp_to_edge = false;
 };
 

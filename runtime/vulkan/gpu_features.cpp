@@ -80,6 +80,8 @@ void FeatureChain::query(VkPhysicalDevice device) {
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_2D_VIEW_OF_3D_FEATURES_EXT);
   optional(VK_EXT_IMAGE_VIEW_MIN_LOD_EXTENSION_NAME, min_lod_,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_VIEW_MIN_LOD_FEATURES_EXT);
+  optional(VK_EXT_ROBUSTNESS_2_EXTENSION_NAME, robustness2_,
+           VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT);
   features_.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features_.pNext = head;
   vkGetPhysicalDeviceFeatures2(device, &features_);
@@ -118,6 +120,8 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   vulkan12_.bufferDeviceAddressCaptureReplay = VK_FALSE;
   vulkan12_.bufferDeviceAddressMultiDevice = VK_FALSE;
   vulkan13_.robustImageAccess = VK_FALSE;
+  robustness2_.robustBufferAccess2 = VK_FALSE;
+  robustness2_.robustImageAccess2 = VK_FALSE;
   acceleration_structure_.accelerationStructureCaptureReplay = VK_FALSE;
   acceleration_structure_.accelerationStructureHostCommands = VK_FALSE;
   ray_tracing_.rayTracingPipelineShaderGroupHandleCaptureReplay = VK_FALSE;
@@ -137,6 +141,8 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
       border_color_.customBorderColors && border_color_.customBorderColorWithoutFormat;
   optional_.image_2d_view_of_3d = view_of_3d_.image2DViewOf3D;
   optional_.image_view_min_lod = min_lod_.minLod;
+  optional_.null_descriptor = robustness2_.nullDescriptor;
+  optional_.sampler_filter_minmax = vulkan12_.samplerFilterMinmax;
   optional_.mirror_clamp_to_edge = vulkan12_.samplerMirrorClampToEdge;
 }
 

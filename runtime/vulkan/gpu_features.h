@@ -46,6 +46,7 @@ class FeatureChain {
   VkPhysicalDeviceCustomBorderColorFeaturesEXT border_color_ = {};
   VkPhysicalDeviceImage2DViewOf3DFeaturesEXT view_of_3d_ = {};
   VkPhysicalDeviceImageViewMinLodFeaturesEXT min_lod_ = {};
+  VkPhysicalDeviceRobustness2FeaturesEXT robustness2_ = {};
 };
 
 }  // namespace kaamos::vulkan

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// A texture: Vulkan's image with its memory, always in layout GENERAL, and its views in the
+// bindless set.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "runtime/backend.h"
+#include "runtime/vulkan/descriptor_set.h"
+
+namespace kaamos::vulkan {
+
+class Image final : public runtime::BackendTexture {
+ public:
+  // Filled with zeros. Errors: KA0960 the device has no such textures, KA0990 no memory.
+  static rtapi::Result<std::shared_ptr<Image>> create(std::shared_ptr<Gpu> gpu,
+                                                      std::shared_ptr<DescriptorSet> descriptors,
+                                                      const rtapi::TextureDesc& desc);
+  ~Image() override;
+
+  VkImage handle() const { return handle_; }
+  VkImageType type() const { return type_; }
+  const rtapi::TextureDesc& desc() const { return desc_; }
+  uint32_t texel_bytes() const { return rtapi::GetFormatInfo(desc_.Format).bytes; }
+  VkExtent3D extent(uint32_t mip) const;
+  uint32_t array_size() const {
+    return type_ == VK_IMAGE_TYPE_3D ? 1 : uint32_t{desc_.DepthOrArraySize};
+  }
+
+  // Its index in the bindless set; equal descs share one. Thread-safe. Errors: KA0961 the device
+  // has no such views, KA0956 too many views.
+  rtapi::Result<uint64_t> view(const runtime::TextureViewDesc& desc);
+  // The unordered access view with that index; none: it is no view of this texture.
+  std::optional<runtime::TextureViewDesc> storage_view(uint64_t index) const;
+
+ private:
+  struct View {
+    runtime::TextureViewDesc desc;
+    VkImageView view;
+    uint32_t index;
+  };
+  Image(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors,
+        const rtapi::TextureDesc& desc);
+  VkImageCreateInfo create_info() const;
+  rtapi::Status check_support(const VkImageCreateInfo& info) const;
+  rtapi::Status allocate(const VkImageCreateInfo& info);
+  rtapi::Status fill_with_zeros();
+  rtapi::Status check_view(const runtime::TextureViewDesc& desc) const;
+  rtapi::Result<VkImageView> create_view(const runtime::TextureViewDesc& desc) const;
+  bool typeless() const;
+
+  std::shared_ptr<Gpu> gpu_;
+  std::shared_ptr<DescriptorSet> descriptors_;
+  rtapi::TextureDesc desc_;
+  VkImageType type_;
+  VkImage handle_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  mutable std::mutex mutex_;
+  std::vector<View> views_;
+};
+
+}  // namespace kaamos::vulkan

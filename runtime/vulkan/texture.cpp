@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/texture.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "runtime/clear_view.h"
+#include "runtime/shader/texture/format_codec.h"
+#include "runtime/vulkan/image.h"
+#include "runtime/vulkan/memory.h"
+#include "runtime/vulkan/sampler.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+using runtime::CopyTextureCommand;
+using runtime::TextureCopyPlace;
+
+constexpr uint64_t kClearPatternBytes = 1 << 20;
+
+const Image& image_of(const TextureCopyPlace& place) {
+  return static_cast<const Image&>(*place.texture);
+}
+
+VkImageSubresourceLayers layers(uint32_t mip, uint32_t first, uint32_t count = 1) {
+  return {VK_IMAGE_ASPECT_COLOR_BIT, mip, first, count};
+}
+
+VkOffset3D offset_of(const TextureCopyPlace& place) {
+  return {static_cast<int32_t>(place.origin[0]), static_cast<int32_t>(place.origin[1]),
+          static_cast<int32_t>(place.origin[2])};
+}
+
+VkExtent3D extent_of(const CopyTextureCommand& command) {
+  return {command.extent[0], command.extent[1], command.extent[2]};
+}
+
+// Where a copy begins in its buffer.
+uint64_t first_byte(const TextureCopyPlace& place, uint32_t texel_bytes) {
+  return place.offset + place.origin[2] * place.slice_pitch +
+         uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * texel_bytes;
+}
+
+// Whether Vulkan's way to describe rows and slices can say it: all in whole texels and rows.
+bool expressible(const TextureCopyPlace& place, uint32_t texel_bytes) {
+  return place.row_pitch % texel_bytes == 0 && first_byte(place, texel_bytes) % texel_bytes == 0 &&
+         place.slice_pitch % place.row_pitch == 0;
+}
+
+// The region between a texture and a buffer whose first byte is at `buffer_offset`.
+VkBufferImageCopy region_of(const TextureCopyPlace& texture, uint64_t buffer_offset,
+                            const VkExtent3D& extent) {
+  VkBufferImageCopy region = {};
+  region.bufferOffset = buffer_offset;
+  region.imageSubresource = layers(texture.mip, texture.array_element);
+  region.imageOffset = offset_of(texture);
+  region.imageExtent = extent;
+  return region;
+}
+
+class Textures final : public TextureStore {
+ public:
+  Textures(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors)
+      : gpu_(gpu), descriptors_(descriptors), samplers_(gpu, descriptors) {}
+
+  rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
+      const rtapi::TextureDesc& desc) override {
+    auto image = Image::create(gpu_, descriptors_, desc);
+    if (!image) return image.error();
+    return std::shared_ptr<runtime::BackendTexture>(std::move(*image));
+  }
+  rtapi::Result<uint64_t> create_view(runtime::BackendTexture& texture,
+                                      const runtime::TextureViewDesc& desc) override {
+    return static_cast<Image&>(texture).view(desc);
+  }
+  rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override {
+    return samplers_.sampler(desc);
+  }
+  // Of typed buffers, which shaders convert themselves. What textures of this device cannot have is
+  // said by KA0960 and KA0961.
+  bool supports_format(rtapi::Format format, bool unordered_access) const override {
+    const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
+    return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
+  }
+  rtapi::Status copy(CommandStream& stream, const CopyTextureCommand& command) override;
+  rtapi::Status clear(CommandStream& stream, const runtime::ClearUavCommand& command) override;
+
+ private:
+  rtapi::Status copy_between(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status copy_through(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status upload(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status download(CommandStream& stream, const CopyTextureCommand& command);
+  rtapi::Status clear_buffer(CommandStream& stream, const runtime::ClearUavCommand& command);
+  rtapi::Status clear_texture(CommandStream& stream, const Image& image,
+                              const runtime::TextureViewDesc& view,
+                              const runtime::ClearUavCommand& command);
+  // Memory for texels in rows and slices without gaps.
+  rtapi::Result<std::shared_ptr<GpuBuffer>> staging(const CopyTextureCommand& command,
+                                                    uint32_t texel_bytes) {
+    auto made = gpu_->create_buffer(
+        uint64_t{command.extent[0]} * command.extent[1] * command.extent[2] * texel_bytes,
+        "staging memory of a texture copy");
+    if (!made) return made.error();
+    return std::shared_ptr<GpuBuffer>(std::move(*made));
+  }
+
+  std::shared_ptr<Gpu> gpu_;
+  std::shared_ptr<DescriptorSet> descriptors_;
+  SamplerPool samplers_;
+};
+
+rtapi::Status Textures::copy(CommandStream& stream, const CopyTextureCommand& command) {
+  if (command.extent[0] == 0 || command.extent[1] == 0 || command.extent[2] == 0) return {};
+  if (command.dest.texture != nullptr && command.source.texture != nullptr) {
+    return copy_between(stream, command);
+  }
+  return command.dest.texture != nullptr ? upload(stream, command) : download(stream, command);
+}
+
+rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& dest = image_of(command.dest);
+  const Image& source = image_of(command.source);
+  if (dest.type() != source.type()) return copy_through(stream, command);
+  stream.everything();
+  auto commands = stream.record("CopyTextureRegion");
+  if (!commands) return commands.error();
+  VkImageCopy region = {};
+  region.srcSubresource = layers(command.source.mip, command.source.array_element);
+  region.srcOffset = offset_of(command.source);
+  region.dstSubresource = layers(command.dest.mip, command.dest.array_element);
+  region.dstOffset = offset_of(command.dest);
+  region.extent = extent_of(command);
+  gpu_->vk().vkCmdCopyImage(*commands, source.handle(), VK_IMAGE_LAYOUT_GENERAL, dest.handle(),
+                            VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+  stream.keep(command.source.texture);
+  stream.keep(command.dest.texture);
+  return {};
+}
+
+// Vulkan copies between images of different dimension in some cases only.
+rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& dest = image_of(command.dest);
+  auto between = staging(command, dest.texel_bytes());
+  if (!between) return between.error();
+  stream.everything();
+  auto commands = stream.record("CopyTextureRegion");
+  if (!commands) return commands.error();
+  const VkBufferImageCopy from =
+      region_of(command.source, (*between)->offset(), extent_of(command));
+  gpu_->vk().vkCmdCopyImageToBuffer(*commands, image_of(command.source).handle(),
+                                    VK_IMAGE_LAYOUT_GENERAL, (*between)->handle(), 1, &from);
+  stream.everything();
+  const VkBufferImageCopy to = region_of(command.dest, (*between)->offset(), extent_of(command));
+  gpu_->vk().vkCmdCopyBufferToImage(*commands, (*between)->handle(), dest.handle(),
+                                    VK_IMAGE_LAYOUT_GENERAL, 1, &to);
+  stream.keep(command.source.texture);
+  stream.keep(command.dest.texture);
+  stream.keep(*between);
+  return {};
+}
+
+rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& image = image_of(command.dest);
+  const TextureCopyPlace& source = command.source;
+  const uint32_t texel = image.texel_bytes();
+  VkBufferImageCopy region = region_of(command.dest, 0, extent_of(command));
+  VkBuffer buffer = VK_NULL_HANDLE;
+  if (expressible(source, texel)) {
+    const GpuBuffer& gpu = gpu_buffer_of(*source.buffer);
+    buffer = gpu.handle();
+    region.bufferOffset = gpu.offset() + first_byte(source, texel);
+    region.bufferRowLength = source.row_pitch / texel;
+    region.bufferImageHeight = static_cast<uint32_t>(source.slice_pitch / source.row_pitch);
+    stream.keep(source.buffer);
+  } else {
+    if (auto s = stream.flush(); !s) return s;
+    auto rows = staging(command, texel);
+    if (!rows) return rows.error();
+    const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
+    uint8_t* out = (*rows)->host();
+    const uint8_t* in = source.buffer->host() + first_byte(source, texel);
+    for (uint32_t z = 0; z < command.extent[2]; ++z) {
+      for (uint32_t y = 0; y < command.extent[1]; ++y, out += row_bytes) {
+        std::memcpy(out, in + z * source.slice_pitch + uint64_t{y} * source.row_pitch, row_bytes);
+      }
+    }
+    buffer = (*rows)->handle();
+    region.bufferOffset = (*rows)->offset();
+    stream.keep(*rows);
+  }
+  stream.everything();
+  auto commands = stream.record("CopyTextureRegion to a texture");
+  if (!commands) return commands.error();
+  gpu_->vk().vkCmdCopyBufferToImage(*commands, buffer, image.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
+                                    &region);
+  stream.keep(command.dest.texture);
+  return {};
+}
+
+rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand& command) {
+  const Image& image = image_of(command.source);
+  const TextureCopyPlace& dest = command.dest;
+  const uint32_t texel = image.texel_bytes();
+  VkBufferImageCopy region = region_of(command.source, 0, extent_of(command));
+  const bool direct = expressible(dest, texel);
+  std::shared_ptr<GpuBuffer> rows;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  if (direct) {
+    const GpuBuffer& gpu = gpu_buffer_of(*dest.buffer);
+    buffer = gpu.handle();
+    region.bufferOffset = gpu.offset() + first_byte(dest, texel);
+    region.bufferRowLength = dest.row_pitch / texel;
+    region.bufferImageHeight = static_cast<uint32_t>(dest.slice_pitch / dest.row_pitch);
+    stream.keep(dest.buffer);
+  } else {
+    auto made = staging(command, texel);
+    if (!made) return made.error();
+    rows = std::move(*made);
+    buffer = rows->handle();
+    region.bufferOffset = rows->offset();
+  }
+  stream.everything();
+  auto commands = stream.record("CopyTextureRegion to a buffer");
+  if (!commands) return commands.error();
+  gpu_->vk().vkCmdCopyImageToBuffer(*commands, image.handle(), VK_IMAGE_LAYOUT_GENERAL, buffer, 1,
+                                    &region);
+  stream.keep(command.source.texture);
+  if (direct) return {};
+  if (auto s = stream.flush(); !s) return s;
+  const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
+  const uint8_t* in = rows->host();
+  uint8_t* out = dest.buffer->host() + first_byte(dest, texel);
+  for (uint32_t z = 0; z < command.extent[2]; ++z) {
+    for (uint32_t y = 0; y < command.extent[1]; ++y, in += row_bytes) {
+      std::memcpy(out + z * dest.slice_pitch + uint64_t{y} * dest.row_pitch, in, row_bytes);
+    }
+  }
+  return {};
+}
+
+rtapi::Status Textures::clear(CommandStream& stream, const runtime::ClearUavCommand& command) {
+  if (command.view.kind == shader::DescriptorKind::kNull || command.resource == nullptr) return {};
+  if (command.view.kind != shader::DescriptorKind::kTexture) return clear_buffer(stream, command);
+  const auto* texture = static_cast<const runtime::BackendTexture*>(command.resource.get());
+  const auto& image = static_cast<const Image&>(*texture);
+  // A descriptor that is left over from another texture is like a null one.
+  const auto view = image.storage_view(command.view.address);
+  return view ? clear_texture(stream, image, *view, command) : rtapi::Status{};
+}
+
+// By the host, as its conversions are those of typed stores.
+rtapi::Status Textures::clear_buffer(CommandStream& stream,
+                                     const runtime::ClearUavCommand& command) {
+  if (auto s = stream.flush(); !s) return s;
+  const auto& buffer = *static_cast<const runtime::BackendBuffer*>(command.resource.get());
+  shader::Descriptor view = command.view;
+  view.address = reinterpret_cast<uint64_t>(buffer.host() + (view.address - buffer.address()));
+  runtime::clear_buffer_view(view, command.is_float, command.values);
+  return {};
+}
+
+// A few rows of the texel, copied to wherever they go: exact for every format, and for views of
+// some slices of a volume.
+rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
+                                      const runtime::TextureViewDesc& view,
+                                      const runtime::ClearUavCommand& command) {
+  const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(view.format));
+  const VkExtent3D extent = image.extent(view.first_mip);
+  const uint64_t row_bytes = uint64_t{extent.width} * codec.bytes;
+  const auto rows =
+      static_cast<uint32_t>(std::clamp<uint64_t>(kClearPatternBytes / row_bytes, 1, extent.height));
+  auto pattern = gpu_->create_buffer(rows * row_bytes, "texels of a clear");
+  if (!pattern) return pattern.error();
+  uint8_t element[16] = {};
+  codec.encode(element, runtime::clear_texel(view.format, command.is_float, command.values));
+  for (uint64_t at = 0; at < rows * row_bytes; at += codec.bytes) {
+    std::memcpy((*pattern)->host() + at, element, codec.bytes);
+  }
+  const bool volume = image.type() == VK_IMAGE_TYPE_3D;
+  const uint32_t end =
+      std::min(view.first_slice + view.slice_count, volume ? extent.depth : image.array_size());
+  std::vector<VkBufferImageCopy> regions;
+  for (uint32_t slice = view.first_slice; slice < end; ++slice) {
+    for (uint32_t y = 0; y < extent.height; y += rows) {
+      VkBufferImageCopy& region = regions.emplace_back();
+      region = {};
+      region.bufferOffset = (*pattern)->offset();
+      region.imageSubresource = layers(view.first_mip, volume ? 0 : slice);
+      region.imageOffset = {0, static_cast<int32_t>(y), volume ? static_cast<int32_t>(slice) : 0};
+      region.imageExtent = {extent.width, std::min(rows, extent.height - y), 1};
+    }
+  }
+  if (regions.empty()) return {};
+  stream.everything();
+  auto commands = stream.record("ClearUnorderedAccessView");
+  if (!commands) return commands.error();
+  gpu_->vk().vkCmdCopyBufferToImage(*commands, (*pattern)->handle(), image.handle(),
+                                    VK_IMAGE_LAYOUT_GENERAL, static_cast<uint32_t>(regions.size()),
+                                    regions.data());
+  stream.keep(command.resource);
+  stream.keep(std::shared_ptr<GpuBuffer>(std::move(*pattern)));
+  return {};
+}
+
+}  // namespace
+
+rtapi::Result<std::unique_ptr<TextureStore>> TextureStore::create(
+    std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors) {
+  return std::unique_ptr<TextureStore>(
+      std::make_unique<Textures>(std::move(gpu), std::move(descriptors)));
+}
+
+}  // namespace kaamos::vulkan

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/texture_format.h"
+
+namespace kaamos::vulkan {
+namespace {
+
+using F = rtapi::Format;
+
+VkFormat vulkan_format(F format) {
+  switch (format) {
+    case F::kR32G32B32A32Float:
+      return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case F::kR32G32B32A32Typeless:
+    case F::kR32G32B32A32Uint:
+      return VK_FORMAT_R32G32B32A32_UINT;
+    case F::kR32G32B32A32Sint:
+      return VK_FORMAT_R32G32B32A32_SINT;
+    case F::kR32G32B32Float:
+      return VK_FORMAT_R32G32B32_SFLOAT;
+    case F::kR32G32B32Typeless:
+    case F::kR32G32B32Uint:
+      return VK_FORMAT_R32G32B32_UINT;
+    case F::kR32G32B32Sint:
+      return VK_FORMAT_R32G32B32_SINT;
+    case F::kR16G16B16A16Float:
+      return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case F::kR16G16B16A16Unorm:
+      return VK_FORMAT_R16G16B16A16_UNORM;
+    case F::kR16G16B16A16Typeless:
+    case F::kR16G16B16A16Uint:
+      return VK_FORMAT_R16G16B16A16_UINT;
+    case F::kR16G16B16A16Snorm:
+      return VK_FORMAT_R16G16B16A16_SNORM;
+    case F::kR16G16B16A16Sint:
+      return VK_FORMAT_R16G16B16A16_SINT;
+    case F::kR32G32Float:
+      return VK_FORMAT_R32G32_SFLOAT;
+    case F::kR32G32Typeless:
+    case F::kR32G32Uint:
+      return VK_FORMAT_R32G32_UINT;
+    case F::kR32G32Sint:
+      return VK_FORMAT_R32G32_SINT;
+    case F::kR10G10B10A2Unorm:
+      return VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+    case F::kR10G10B10A2Typeless:
+    case F::kR10G10B10A2Uint:
+      return VK_FORMAT_A2B10G10R10_UINT_PACK32;
+    case F::kR11G11B10Float:
+      return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    case F::kR8G8B8A8Unorm:
+      return VK_FORMAT_R8G8B8A8_UNORM;
+    case F::kR8G8B8A8UnormSrgb:
+      return VK_FORMAT_R8G8B8A8_SRGB;
+    case F::kR8G8B8A8Typeless:
+    case F::kR8G8B8A8Uint:
+      return VK_FORMAT_R8G8B8A8_UINT;
+    case F::kR8G8B8A8Snorm:
+      return VK_FORMAT_R8G8B8A8_SNORM;
+    case F::kR8G8B8A8Sint:
+      return VK_FORMAT_R8G8B8A8_SINT;
+    case F::kR16G16Float:
+      return VK_FORMAT_R16G16_SFLOAT;
+    case F::kR16G16Unorm:
+      return VK_FORMAT_R16G16_UNORM;
+    case F::kR16G16Typeless:
+    case F::kR16G16Uint:
+      return VK_FORMAT_R16G16_UINT;
+    case F::kR16G16Snorm:
+      return VK_FORMAT_R16G16_SNORM;
+    case F::kR16G16Sint:
+      return VK_FORMAT_R16G16_SINT;
+    case F::kR32Float:
+      return VK_FORMAT_R32_SFLOAT;
+    case F::kR32Typeless:
+    case F::kR32Uint:
+      return VK_FORMAT_R32_UINT;
+    case F::kR32Sint:
+      return VK_FORMAT_R32_SINT;
+    case F::kR8G8Unorm:
+      return VK_FORMAT_R8G8_UNORM;
+    case F::kR8G8Typeless:
+    case F::kR8G8Uint:
+      return VK_FORMAT_R8G8_UINT;
+    case F::kR8G8Snorm:
+      return VK_FORMAT_R8G8_SNORM;
+    case F::kR8G8Sint:
+      return VK_FORMAT_R8G8_SINT;
+    case F::kR16Float:
+      return VK_FORMAT_R16_SFLOAT;
+    case F::kR16Unorm:
+      return VK_FORMAT_R16_UNORM;
+    case F::kR16Typeless:
+    case F::kR16Uint:
+      return VK_FORMAT_R16_UINT;
+    case F::kR16Snorm:
+      return VK_FORMAT_R16_SNORM;
+    case F::kR16Sint:
+      return VK_FORMAT_R16_SINT;
+    case F::kR8Unorm:
+    case F::kA8Unorm:
+      return VK_FORMAT_R8_UNORM;
+    case F::kR8Typeless:
+    case F::kR8Uint:
+      return VK_FORMAT_R8_UINT;
+    case F::kR8Snorm:
+      return VK_FORMAT_R8_SNORM;
+    case F::kR8Sint:
+      return VK_FORMAT_R8_SINT;
+    case F::kR9G9B9E5Sharedexp:
+      return VK_FORMAT_E5B9G9R9_UFLOAT_PACK32;
+    case F::kB5G6R5Unorm:
+      return VK_FORMAT_R5G6B5_UNORM_PACK16;
+    case F::kB5G5R5A1Unorm:
+      return VK_FORMAT_A1R5G5B5_UNORM_PACK16;
+    case F::kB8G8R8A8Typeless:
+    case F::kB8G8R8A8Unorm:
+    case F::kB8G8R8X8Typeless:
+    case F::kB8G8R8X8Unorm:
+      return VK_FORMAT_B8G8R8A8_UNORM;
+    case F::kB8G8R8A8UnormSrgb:
+    case F::kB8G8R8X8UnormSrgb:
+      return VK_FORMAT_B8G8R8A8_SRGB;
+    default:
+      return VK_FORMAT_UNDEFINED;
+  }
+}
+
+}  // namespace
+
+TextureFormat texture_format(F format) {
+  TextureFormat result;
+  result.format = vulkan_format(format);
+  if (format == F::kA8Unorm) {
+    result.channels = {VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_ZERO,
+                       VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_R};
+    result.plain = false;
+  } else if (format == F::kB8G8R8X8Unorm || format == F::kB8G8R8X8UnormSrgb) {
+    result.channels.a = VK_COMPONENT_SWIZZLE_ONE;  // what is stored there is never read by a store
+  }
+  return result;
+}
+
+}  // namespace kaamos::vulkan
