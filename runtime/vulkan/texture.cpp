@@ -43,10 +43,38 @@ uint64_t first_byte(const TextureCopyPlace& place, uint32_t texel_bytes) {
          uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * texel_bytes;
 }
 
+// The same in its VkBuffer.
+uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t texel_bytes) {
+  return gpu_buffer_of(*place.buffer).offset() + first_byte(place, texel_bytes);
+}
+
 // Whether Vulkan's way to describe rows and slices can say it: all in whole texels and rows.
 bool expressible(const TextureCopyPlace& place, uint32_t texel_bytes) {
-  return place.row_pitch % texel_bytes == 0 && first_byte(place, texel_bytes) % texel_bytes == 0 &&
+  return place.row_pitch % texel_bytes == 0 &&
+         buffer_offset(place, texel_bytes) % texel_bytes == 0 &&
          place.slice_pitch % place.row_pitch == 0;
+}
+
+// Texels in rows and slices without gaps.
+struct Staging {
+  std::shared_ptr<GpuBuffer> buffer;
+  uint64_t offset = 0;  // in the VkBuffer, a multiple of the texel
+  uint8_t* host = nullptr;
+};
+
+rtapi::Result<Staging> stage(Gpu& gpu, uint64_t texels, uint32_t texel_bytes) {
+  auto made = gpu.create_buffer((texels + 1) * texel_bytes, "staging memory of a texture");
+  if (!made) return made.error();
+  Staging result;
+  result.buffer = std::move(*made);
+  const uint64_t start = result.buffer->offset();
+  result.offset = (start + texel_bytes - 1) / texel_bytes * texel_bytes;
+  result.host = result.buffer->host() + (result.offset - start);
+  return result;
+}
+
+uint64_t texel_count(const CopyTextureCommand& command) {
+  return uint64_t{command.extent[0]} * command.extent[1] * command.extent[2];
 }
 
 // The region between a texture and a buffer whose first byte is at `buffer_offset`.
@@ -96,16 +124,6 @@ class Textures final : public TextureStore {
   rtapi::Status clear_texture(CommandStream& stream, const Image& image,
                               const runtime::TextureViewDesc& view,
                               const runtime::ClearUavCommand& command);
-  // Memory for texels in rows and slices without gaps.
-  rtapi::Result<std::shared_ptr<GpuBuffer>> staging(const CopyTextureCommand& command,
-                                                    uint32_t texel_bytes) {
-    auto made = gpu_->create_buffer(
-        uint64_t{command.extent[0]} * command.extent[1] * command.extent[2] * texel_bytes,
-        "staging memory of a texture copy");
-    if (!made) return made.error();
-    return std::shared_ptr<GpuBuffer>(std::move(*made));
-  }
-
   std::shared_ptr<Gpu> gpu_;
   std::shared_ptr<DescriptorSet> descriptors_;
   SamplerPool samplers_;
@@ -142,22 +160,21 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
 // Vulkan copies between images of different dimension in some cases only.
 rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& dest = image_of(command.dest);
-  auto between = staging(command, dest.texel_bytes());
+  auto between = stage(*gpu_, texel_count(command), dest.texel_bytes());
   if (!between) return between.error();
   stream.everything();
   auto commands = stream.record("CopyTextureRegion");
   if (!commands) return commands.error();
-  const VkBufferImageCopy from =
-      region_of(command.source, (*between)->offset(), extent_of(command));
+  const VkBufferImageCopy from = region_of(command.source, between->offset, extent_of(command));
   gpu_->vk().vkCmdCopyImageToBuffer(*commands, image_of(command.source).handle(),
-                                    VK_IMAGE_LAYOUT_GENERAL, (*between)->handle(), 1, &from);
+                                    VK_IMAGE_LAYOUT_GENERAL, between->buffer->handle(), 1, &from);
   stream.everything();
-  const VkBufferImageCopy to = region_of(command.dest, (*between)->offset(), extent_of(command));
-  gpu_->vk().vkCmdCopyBufferToImage(*commands, (*between)->handle(), dest.handle(),
+  const VkBufferImageCopy to = region_of(command.dest, between->offset, extent_of(command));
+  gpu_->vk().vkCmdCopyBufferToImage(*commands, between->buffer->handle(), dest.handle(),
                                     VK_IMAGE_LAYOUT_GENERAL, 1, &to);
   stream.keep(command.source.texture);
   stream.keep(command.dest.texture);
-  stream.keep(*between);
+  stream.keep(between->buffer);
   return {};
 }
 
@@ -168,27 +185,26 @@ rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& 
   VkBufferImageCopy region = region_of(command.dest, 0, extent_of(command));
   VkBuffer buffer = VK_NULL_HANDLE;
   if (expressible(source, texel)) {
-    const GpuBuffer& gpu = gpu_buffer_of(*source.buffer);
-    buffer = gpu.handle();
-    region.bufferOffset = gpu.offset() + first_byte(source, texel);
+    buffer = gpu_buffer_of(*source.buffer).handle();
+    region.bufferOffset = buffer_offset(source, texel);
     region.bufferRowLength = source.row_pitch / texel;
     region.bufferImageHeight = static_cast<uint32_t>(source.slice_pitch / source.row_pitch);
     stream.keep(source.buffer);
   } else {
     if (auto s = stream.flush(); !s) return s;
-    auto rows = staging(command, texel);
+    auto rows = stage(*gpu_, texel_count(command), texel);
     if (!rows) return rows.error();
     const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
-    uint8_t* out = (*rows)->host();
+    uint8_t* out = rows->host;
     const uint8_t* in = source.buffer->host() + first_byte(source, texel);
     for (uint32_t z = 0; z < command.extent[2]; ++z) {
       for (uint32_t y = 0; y < command.extent[1]; ++y, out += row_bytes) {
         std::memcpy(out, in + z * source.slice_pitch + uint64_t{y} * source.row_pitch, row_bytes);
       }
     }
-    buffer = (*rows)->handle();
-    region.bufferOffset = (*rows)->offset();
-    stream.keep(*rows);
+    buffer = rows->buffer->handle();
+    region.bufferOffset = rows->offset;
+    stream.keep(rows->buffer);
   }
   stream.everything();
   auto commands = stream.record("CopyTextureRegion to a texture");
@@ -205,21 +221,20 @@ rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand
   const uint32_t texel = image.texel_bytes();
   VkBufferImageCopy region = region_of(command.source, 0, extent_of(command));
   const bool direct = expressible(dest, texel);
-  std::shared_ptr<GpuBuffer> rows;
+  Staging rows;
   VkBuffer buffer = VK_NULL_HANDLE;
   if (direct) {
-    const GpuBuffer& gpu = gpu_buffer_of(*dest.buffer);
-    buffer = gpu.handle();
-    region.bufferOffset = gpu.offset() + first_byte(dest, texel);
+    buffer = gpu_buffer_of(*dest.buffer).handle();
+    region.bufferOffset = buffer_offset(dest, texel);
     region.bufferRowLength = dest.row_pitch / texel;
     region.bufferImageHeight = static_cast<uint32_t>(dest.slice_pitch / dest.row_pitch);
     stream.keep(dest.buffer);
   } else {
-    auto made = staging(command, texel);
+    auto made = stage(*gpu_, texel_count(command), texel);
     if (!made) return made.error();
     rows = std::move(*made);
-    buffer = rows->handle();
-    region.bufferOffset = rows->offset();
+    buffer = rows.buffer->handle();
+    region.bufferOffset = rows.offset;
   }
   stream.everything();
   auto commands = stream.record("CopyTextureRegion to a buffer");
@@ -230,7 +245,7 @@ rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand
   if (direct) return {};
   if (auto s = stream.flush(); !s) return s;
   const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
-  const uint8_t* in = rows->host();
+  const uint8_t* in = rows.host;
   uint8_t* out = dest.buffer->host() + first_byte(dest, texel);
   for (uint32_t z = 0; z < command.extent[2]; ++z) {
     for (uint32_t y = 0; y < command.extent[1]; ++y, in += row_bytes) {
@@ -271,12 +286,12 @@ rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
   const uint64_t row_bytes = uint64_t{extent.width} * codec.bytes;
   const auto rows =
       static_cast<uint32_t>(std::clamp<uint64_t>(kClearPatternBytes / row_bytes, 1, extent.height));
-  auto pattern = gpu_->create_buffer(rows * row_bytes, "texels of a clear");
+  auto pattern = stage(*gpu_, uint64_t{rows} * extent.width, codec.bytes);
   if (!pattern) return pattern.error();
   uint8_t element[16] = {};
   codec.encode(element, runtime::clear_texel(view.format, command.is_float, command.values));
   for (uint64_t at = 0; at < rows * row_bytes; at += codec.bytes) {
-    std::memcpy((*pattern)->host() + at, element, codec.bytes);
+    std::memcpy(pattern->host + at, element, codec.bytes);
   }
   const bool volume = image.type() == VK_IMAGE_TYPE_3D;
   const uint32_t end =
@@ -286,7 +301,7 @@ rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
     for (uint32_t y = 0; y < extent.height; y += rows) {
       VkBufferImageCopy& region = regions.emplace_back();
       region = {};
-      region.bufferOffset = (*pattern)->offset();
+      region.bufferOffset = pattern->offset;
       region.imageSubresource = layers(view.first_mip, volume ? 0 : slice);
       region.imageOffset = {0, static_cast<int32_t>(y), volume ? static_cast<int32_t>(slice) : 0};
       region.imageExtent = {extent.width, std::min(rows, extent.height - y), 1};
@@ -296,11 +311,11 @@ rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
   stream.everything();
   auto commands = stream.record("ClearUnorderedAccessView");
   if (!commands) return commands.error();
-  gpu_->vk().vkCmdCopyBufferToImage(*commands, (*pattern)->handle(), image.handle(),
+  gpu_->vk().vkCmdCopyBufferToImage(*commands, pattern->buffer->handle(), image.handle(),
                                     VK_IMAGE_LAYOUT_GENERAL, static_cast<uint32_t>(regions.size()),
                                     regions.data());
   stream.keep(command.resource);
-  stream.keep(std::shared_ptr<GpuBuffer>(std::move(*pattern)));
+  stream.keep(pattern->buffer);
   return {};
 }
 
