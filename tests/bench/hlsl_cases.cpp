@@ -4,7 +4,6 @@
 // that is in the cache.
 #include <dlfcn.h>
 #include <rtapi/shader_compiler.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/preprocess.h"
+#include "temporary_folder.h"
 
 namespace kaamos::bench {
 namespace {
@@ -91,26 +91,6 @@ Line front_end(Fixtures& fixtures, const Measure& measure) {
   return {"hlsl/frontend",        lines / times.ours, lines / times.ours,
           lines / times.baseline, "lines/s",          true};
 }
-
-// A folder that ends with the object.
-struct TemporaryFolder {
-  fs::path path;
-
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "kaamos-bench-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error("no folder could be made in \"" +
-                               fs::temp_directory_path().string() + "\"; is $TMPDIR writable?");
-    }
-    path = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
 
 fs::path only_object(const fs::path& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

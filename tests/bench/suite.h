@@ -52,6 +52,7 @@ struct Case {
 std::vector<Case> dispatch_cases();  // dispatch_cases.cpp
 std::vector<Case> build_cases();     // build_cases.cpp
 std::vector<Case> hlsl_cases();      // hlsl_cases.cpp
+std::vector<Case> compute_cases();   // compute_cases.cpp
 
 // Empty: `error` says which argument is wrong and what it may be. `arguments` without the program.
 bool parse_arguments(const std::vector<std::string>& arguments, Options& options,
