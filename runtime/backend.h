@@ -131,3 +131,6 @@ void register_backend(const BackendFactory* factory);
 namespace kaamos::embree {
 const runtime::BackendFactory& backend_factory();  // with KAAMOS_HAVE_EMBREE
 }
+namespace kaamos::vulkan {
+const runtime::BackendFactory& backend_factory();  // with KAAMOS_HAVE_VULKAN
+}

@@ -17,6 +17,9 @@ struct Registry {
 #ifdef KAAMOS_HAVE_EMBREE
     factories.push_back(&embree::backend_factory());
 #endif
+#ifdef KAAMOS_HAVE_VULKAN
+    factories.push_back(&vulkan::backend_factory());
+#endif
   }
   std::mutex mutex;
   std::vector<const BackendFactory*> factories;
