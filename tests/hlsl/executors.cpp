@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "executors.h"
 
-#include <gtest/gtest.h>
-#include <rtapi/rtapi.h>
-
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 #include "runtime/hlsl/file_loader.h"
@@ -74,19 +70,6 @@ Compiled compile_vulkan(const hlsl::FrontendOptions& options) {
   out.library = &tables->library;
   out.owner = tables;
   return out;
-}
-
-bool need_backend(const std::string& backend) {
-  const rtapi::Result<rtapi::Device> device = rtapi::CreateDevice({.Backend = backend});
-  if (device) return true;
-  const char* required = std::getenv("KAAMOS_REQUIRE_VULKAN");
-  const auto skip = [&] { GTEST_SKIP() << device.error().message; };
-  if (required != nullptr && std::strcmp(required, "1") == 0) {
-    ADD_FAILURE() << device.error().message;
-  } else {
-    skip();
-  }
-  return false;
 }
 
 }  // namespace kaamos::test

@@ -25,8 +25,4 @@ Compiled compile_interpreted(const hlsl::FrontendOptions& options);
 // To SPIR-V; there is no native code in it.
 Compiled compile_vulkan(const hlsl::FrontendOptions& options);
 
-// Whether a device of the backend can be made. If not: skips the running test with the sentence
-// that says what is missing, or fails it where KAAMOS_REQUIRE_VULKAN is 1.
-bool need_backend(const std::string& backend);
-
 }  // namespace kaamos::test

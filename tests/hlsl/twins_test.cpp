@@ -13,6 +13,7 @@
 #include <random>
 
 #include "executors.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::test {
 namespace {
@@ -402,7 +403,8 @@ void compare_type(const ScalarType& type) {
 class VulkanTwins : public testing::TestWithParam<ScalarType> {};
 
 TEST_P(VulkanTwins, GiveWhatTheCpuGives) {
-  if (need_backend("vulkan")) compare_type(GetParam());
+  KAAMOS_NEED_VULKAN();
+  compare_type(GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(Scalars, VulkanTwins, testing::ValuesIn(kTypes),
                          [](const auto& scalar) { return std::string(scalar.param.name); });
