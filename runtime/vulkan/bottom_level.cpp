@@ -103,7 +103,7 @@ rtapi::Status BottomLevelBuilder::copy_inputs() {
     bytes += list_.items(g).size() * (procedural(g) ? sizeof(VkAabbPositionsKHR) : 12);
     bytes = (bytes + 47) / 48 * 48;  // so that the next vertices are at a whole number of vertices
   }
-  auto buffer = gpu_->create_buffer(bytes, "inputs of a bottom level");
+  auto buffer = gpu_->create_buffer(bytes, "inputs of a bottom level", InitialContents::kAny);
   if (!buffer) return buffer.error();
   inputs_ = std::move(*buffer);
   for (size_t g = 0; g < geometries_.size(); ++g) {

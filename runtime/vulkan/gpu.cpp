@@ -207,11 +207,12 @@ uint32_t Gpu::memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
 }
 
 rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes,
-                                                             const std::string& what) {
+                                                             const std::string& what,
+                                                             InitialContents contents) {
   std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
   buffer->size_bytes_ = size_bytes;
   if (auto s = allocate(*buffer, what); !s) return s.error();
-  std::memset(buffer->host_, 0, size_bytes);
+  if (contents == InitialContents::kZero) std::memset(buffer->host_, 0, size_bytes);
   return buffer;
 }
 

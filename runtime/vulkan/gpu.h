@@ -83,6 +83,9 @@ class GpuBuffer {
   uint8_t* host_ = nullptr;
 };
 
+// kAny where everything is written before it is read: pages that nobody touches cost nothing.
+enum class InitialContents : uint8_t { kZero, kAny };
+
 class Gpu : public std::enable_shared_from_this<Gpu> {
  public:
   // The devices that can run this backend, best first. Empty where there is none.
@@ -107,10 +110,11 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   const std::vector<std::string>& unknown_workarounds() const { return unknown_workarounds_; }
   bool is_lavapipe() const { return properties_.driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE; }
 
-  // Zeroed, and visible to the host. `what` names it in messages. Errors: KA0990 out of memory,
-  // KA0956 larger than the device allows.
-  rtapi::Result<std::unique_ptr<GpuBuffer>> create_buffer(uint64_t size_bytes,
-                                                          const std::string& what);
+  // Visible to the host. `what` names it in messages. Errors: KA0990 out of memory, KA0956 larger
+  // than the device allows.
+  rtapi::Result<std::unique_ptr<GpuBuffer>> create_buffer(
+      uint64_t size_bytes, const std::string& what,
+      InitialContents contents = InitialContents::kZero);
   // For images: a type among `type_bits` that has all of `wanted`, and as much of `liked` as can
   // be; UINT32_MAX where none has.
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,

@@ -8,7 +8,11 @@ namespace kaamos::vulkan {
 
 rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Memory::create_buffer(
     Gpu& gpu, const rtapi::BufferDesc& desc, std::shared_ptr<Memory> self) {
-  auto made = gpu.create_buffer(desc.SizeInBytes, "buffer \"" + desc.Name + "\"");
+  // Of a buffer of acceleration structures only their headers are touched.
+  const bool structures =
+      desc.InitialState == rtapi::ResourceStates::kRaytracingAccelerationStructure;
+  auto made = gpu.create_buffer(desc.SizeInBytes, "buffer \"" + desc.Name + "\"",
+                                structures ? InitialContents::kAny : InitialContents::kZero);
   if (!made) return made.error();
   auto buffer = std::make_shared<Buffer>(std::move(self), std::move(*made));
   const std::unique_lock lock(mutex_);

@@ -63,7 +63,8 @@ struct Staging {
 };
 
 rtapi::Result<Staging> stage(Gpu& gpu, uint64_t texels, uint32_t texel_bytes) {
-  auto made = gpu.create_buffer((texels + 1) * texel_bytes, "staging memory of a texture");
+  auto made = gpu.create_buffer((texels + 1) * texel_bytes, "staging memory of a texture",
+                                InitialContents::kAny);
   if (!made) return made.error();
   Staging result;
   result.buffer = std::move(*made);

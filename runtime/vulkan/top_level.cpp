@@ -62,7 +62,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   level->entries_ = std::move(*range);
 
   const uint64_t bytes = instances.size() * sizeof(VkAccelerationStructureInstanceKHR);
-  auto inputs = gpu->create_buffer(bytes, "instances of a top level");
+  auto inputs = gpu->create_buffer(bytes, "instances of a top level", InitialContents::kAny);
   if (!inputs) return inputs.error();
   auto* records = reinterpret_cast<VkAccelerationStructureInstanceKHR*>((*inputs)->host());
   auto& kept = level->bottom_levels_;

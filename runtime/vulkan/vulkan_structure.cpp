@@ -87,13 +87,13 @@ rtapi::Result<std::unique_ptr<VulkanStructure>> VulkanStructure::build(
       gpu.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, counts.data(), &sizes);
 
   result->size_bytes_ = round_up(sizes.accelerationStructureSize, 256);
-  auto storage = gpu.create_buffer(result->size_bytes_ + extra_bytes, what);
+  auto storage = gpu.create_buffer(result->size_bytes_ + extra_bytes, what, InitialContents::kAny);
   if (!storage) return storage.error();
   result->storage_ = std::move(*storage);
   const uint64_t alignment =
       gpu.properties().acceleration_structure.minAccelerationStructureScratchOffsetAlignment;
-  auto scratch =
-      gpu.create_buffer(sizes.buildScratchSize + alignment, "scratch memory of a " + what);
+  auto scratch = gpu.create_buffer(sizes.buildScratchSize + alignment,
+                                   "scratch memory of a " + what, InitialContents::kAny);
   if (!scratch) return scratch.error();
 
   VkAccelerationStructureCreateInfoKHR create = {
