@@ -77,8 +77,7 @@ void Compiler::need_zeros(uint32_t bytes) {
 
 void Compiler::in_slot(Node& node, Evaluate evaluate) {
   node.evaluate = evaluate;
-  node.slot = temporary_bytes_;
-  temporary_bytes_ = align(temporary_bytes_ + node.bytes, 8);
+  node.slot = place({node.bytes, 8}, temporary_bytes_);
   most_temporary_bytes_ = std::max(most_temporary_bytes_, temporary_bytes_);
 }
 
@@ -109,7 +108,7 @@ Node* Compiler::variable_node(const Variable* variable, const Expr* expr) {
   Node& node = program_.nodes.emplace_back();
   const Place& place = places_[variable];
   node.expr = expr;
-  node.bytes = extent_of(variable->type).bytes;
+  node.bytes = bytes_of(variable->type);
   node.count = component_count(variable->type);
   node.offset = place.offset;
   node.data = place.data;
@@ -158,9 +157,10 @@ void Compiler::construct(Node& node) {
   const Type* type = node.expr->type;
   uint32_t end = 0;
   for (size_t i = 0; i < node.operands.size(); ++i) {
-    node.offsets.push_back(type->kind == TypeKind::kStruct
-                               ? field_offset(*type->structure, static_cast<uint32_t>(i))
-                               : end);
+    node.offsets.push_back(
+        type->kind == TypeKind::kStruct
+            ? program_.layouts.field_offset(*type->structure, static_cast<uint32_t>(i))
+            : end);
     end += node.operands[i]->bytes;
   }
   in_slot(node, evaluate_construct());
@@ -202,7 +202,7 @@ void Compiler::compile(Node& node) {
     case ExprKind::kVariable:
       return;  // variable_node
     case ExprKind::kField:
-      node.offset = field_offset(*operand->structure, expr.index);
+      node.offset = program_.layouts.field_offset(*operand->structure, expr.index);
       node.evaluate = evaluate_member();
       node.locate = locate_member();
       return;
@@ -268,7 +268,7 @@ const Node* Compiler::node(const Expr* expr) {
   Node& out = program_.nodes.emplace_back();
   out.expr = expr;
   out.operands = std::move(operands);
-  out.bytes = extent_of(expr->type).bytes;
+  out.bytes = bytes_of(expr->type);
   out.count = component_count(expr->type);
   compile(out);
   return &out;

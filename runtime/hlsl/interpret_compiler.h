@@ -25,6 +25,12 @@ class Compiler {
   Actions block(const ir::Block& body);
   const Action* action(const ir::Stmt& stmt);
   uint32_t declare(const ir::Variable* variable, bool reference);
+  // Room for a value behind `end`, which moves; its offset.
+  uint32_t place(Extent extent, uint32_t& end);
+  // With bytes 0 and an error where the type is too large.
+  Extent extent_of(const ir::Type* type);
+  uint32_t bytes_of(const ir::Type* type) { return extent_of(type).bytes; }
+  std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
   // interpret_compile_expressions.cpp
   const Node* node(const ir::Expr* expr);

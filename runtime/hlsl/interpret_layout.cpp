@@ -43,7 +43,25 @@ uint32_t component_count(const Type* type) {
   }
 }
 
-Extent extent_of(const Type* type) {
+const Layouts::StructLayout& Layouts::layout_of(const Struct& structure) {
+  const auto known = structs_.find(&structure);
+  if (known != structs_.end()) return known->second;
+  StructLayout out;
+  out.extent = {0, 1};
+  for (const Field& field : structure.fields) {
+    const Extent member = extent_of(field.type);
+    const uint32_t at = align(out.extent.bytes, member.alignment);
+    out.offsets.push_back(at);
+    out.extent.alignment = std::max(out.extent.alignment, member.alignment);
+    out.extent.bytes = std::min(at + member.bytes, kMaxValueBytes + 1);
+  }
+  // C++ gives an empty one a byte.
+  const uint32_t bytes = std::max(align(out.extent.bytes, out.extent.alignment), 1u);
+  out.extent.bytes = std::min(bytes, kMaxValueBytes + 1);
+  return structs_.emplace(&structure, std::move(out)).first->second;
+}
+
+Extent Layouts::extent_of(const Type* type) {
   switch (type->kind) {
     case TypeKind::kVoid:
       return {0, 1};
@@ -55,32 +73,20 @@ Extent extent_of(const Type* type) {
     }
     case TypeKind::kArray: {
       const Extent element = extent_of(type->element);
-      return {element.bytes * type->count, element.alignment};
+      const uint64_t bytes = uint64_t{element.bytes} * type->count;
+      return {static_cast<uint32_t>(std::min<uint64_t>(bytes, kMaxValueBytes + 1)),
+              element.alignment};
     }
-    case TypeKind::kStruct: {
-      Extent out{0, 1};
-      for (const Field& field : type->structure->fields) {
-        const Extent member = extent_of(field.type);
-        out.alignment = std::max(out.alignment, member.alignment);
-        out.bytes = align(out.bytes, member.alignment) + member.bytes;
-      }
-      out.bytes = std::max(align(out.bytes, out.alignment), 1u);  // C++ gives an empty one a byte
-      return out;
-    }
+    case TypeKind::kStruct:
+      return layout_of(*type->structure).extent;
     case TypeKind::kResource:
       return {32, 8};
   }
   return {};
 }
 
-uint32_t field_offset(const Struct& structure, uint32_t field) {
-  uint32_t end = 0;
-  for (uint32_t i = 0;; ++i) {
-    const Extent extent = extent_of(structure.fields[i].type);
-    const uint32_t at = align(end, extent.alignment);
-    if (i == field) return at;
-    end = at + extent.bytes;
-  }
+uint32_t Layouts::field_offset(const Struct& structure, uint32_t field) {
+  return layout_of(structure).offsets[field];
 }
 
 namespace {
@@ -98,21 +104,23 @@ const Type* innermost(const Type* type) {
 // left is one access whose scalars are all counted from its aligned start.
 class MoveCollector {
  public:
-  MoveCollector(ir::Layout layout, std::vector<Move>& out) : layout_(layout), out_(out) {}
+  MoveCollector(Layouts& layouts, ir::Layout layout, std::vector<Move>& out)
+      : layouts_(layouts), layout_(layout), out_(out) {}
 
   void value(const Type* type, bool row_major, uint32_t memory, uint32_t at) {
+    if (out_.size() > kMaxMoves) return;
     if (type->kind == TypeKind::kStruct) {
       const std::vector<uint32_t> offsets = field_offsets(*type->structure, layout_);
       for (uint32_t i = 0; i < offsets.size(); ++i) {
         const Field& field = type->structure->fields[i];
         value(field.type, field.row_major, memory + offsets[i],
-              at + field_offset(*type->structure, i));
+              at + layouts_.field_offset(*type->structure, i));
       }
       return;
     }
     if (type->kind == TypeKind::kArray && innermost(type)->kind == TypeKind::kStruct) {
       const auto stride = static_cast<uint32_t>(array_stride(type->element, layout_, row_major));
-      const uint32_t step = extent_of(type->element).bytes;
+      const uint32_t step = layouts_.extent_of(type->element).bytes;
       for (uint32_t i = 0; i < type->count; ++i) {
         value(type->element, row_major, memory + i * stride, at + i * step);
       }
@@ -127,7 +135,7 @@ class MoveCollector {
   void member(const Type* type, bool row_major, uint32_t memory, uint32_t at) {
     if (type->kind == TypeKind::kArray) {
       const auto stride = static_cast<uint32_t>(array_stride(type->element, layout_, row_major));
-      const uint32_t step = extent_of(type->element).bytes;
+      const uint32_t step = layouts_.extent_of(type->element).bytes;
       for (uint32_t i = 0; i < type->count; ++i) {
         member(type->element, row_major, memory + i * stride, at + i * step);
       }
@@ -164,6 +172,7 @@ class MoveCollector {
     out_.push_back({member_, ~((bytes < 4 ? bytes : 4u) - 1u), memory, at, count, bytes, is_bool});
   }
 
+  Layouts& layouts_;
   ir::Layout layout_;
   std::vector<Move>& out_;
   uint32_t member_ = 0;
@@ -172,9 +181,11 @@ class MoveCollector {
 
 }  // namespace
 
-std::vector<Move> moves_of(const Type* type, ir::Layout layout, bool row_major) {
+std::vector<Move> Layouts::moves_of(const Type* type, ir::Layout layout, bool row_major) {
   std::vector<Move> out;
-  MoveCollector(layout, out).value(type, row_major, 0, 0);
+  if (extent_of(type).bytes <= kMaxValueBytes) {
+    MoveCollector(*this, layout, out).value(type, row_major, 0, 0);
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "runtime/hlsl/ir.h"
@@ -16,9 +17,12 @@ struct Extent {
   uint32_t alignment = 1;
 };
 
+// Longer values are refused: they would fill the stacks of the threads.
+inline constexpr uint32_t kMaxValueBytes = 1u << 24;
+// Of one load or store; beyond it is no more than a part.
+inline constexpr size_t kMaxMoves = 1u << 20;
+
 uint32_t scalar_bytes(ir::Scalar scalar);
-Extent extent_of(const ir::Type* type);
-uint32_t field_offset(const ir::Struct& structure, uint32_t field);
 // Components of a scalar, vector or matrix.
 uint32_t component_count(const ir::Type* type);
 uint32_t align(uint32_t offset, uint32_t alignment);
@@ -35,7 +39,23 @@ struct Move {
   bool is_bool = false;
 };
 
-// How a value of the type travels to and from a buffer.
-std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
+// Remembers the structs it has seen: one in the other, they may unfold to millions of members.
+class Layouts {
+ public:
+  // bytes is never more than kMaxValueBytes + 1, which means too long.
+  Extent extent_of(const ir::Type* type);
+  uint32_t field_offset(const ir::Struct& structure, uint32_t field);
+  // How a value of the type travels to and from a buffer.
+  std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
+
+ private:
+  struct StructLayout {
+    Extent extent;
+    std::vector<uint32_t> offsets;
+  };
+  const StructLayout& layout_of(const ir::Struct& structure);
+
+  std::unordered_map<const ir::Struct*, StructLayout> structs_;
+};
 
 }  // namespace kaamos::hlsl::interpret

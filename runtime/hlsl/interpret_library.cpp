@@ -111,10 +111,10 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.mangled_name = entry.function->mangled.c_str();
   out.stage = stage_of(entry.stage);
   out.payload_bytes = callable ? 0 : entry.payload_bytes;
-  out.payload_storage_bytes = entry.payload != nullptr ? extent_of(entry.payload).bytes : 0;
+  out.payload_storage_bytes = code.payload_bytes;
   out.attribute_bytes = entry.attribute_bytes;
   out.callable_data_bytes = callable ? entry.payload_bytes : 0;
-  out.stack_bytes = code.code->stack_bytes;
+  out.stack_bytes = code.code->stack_bytes + code.static_bytes;
   out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |
               (entry.function->may_call ? shader::kExportCalls : 0u) |
               (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |

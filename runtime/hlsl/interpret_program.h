@@ -98,6 +98,7 @@ struct Action {
   std::vector<const Node*> arguments;
   const Code* callee = nullptr;
   uint32_t offset = 0;  // kDeclare: of the variable
+  uint32_t bytes = 0;
   Actions prelude;
   Actions body;
   Actions orelse;
@@ -110,7 +111,8 @@ struct Action {
 // A function.
 struct Code {
   const ir::Function* function = nullptr;
-  std::vector<uint32_t> parameters;  // offsets of the values, or of pointers to them
+  std::vector<uint32_t> parameters;       // offsets of the values, or of pointers to them
+  std::vector<uint32_t> parameter_bytes;  // of the values
   Actions body;
   uint32_t variable_bytes = 0;
   uint32_t temporary_bytes = 0;
@@ -130,8 +132,10 @@ struct StaticInitialiser {
 struct EntryCode {
   const ir::EntryPoint* entry = nullptr;
   const Code* code = nullptr;
+  uint32_t payload_bytes = 0;
   std::vector<StaticInitialiser> statics;
   uint32_t temporary_bytes = 0;  // of the initialisers
+  uint32_t static_bytes = 0;
 };
 
 struct Program {
@@ -141,6 +145,7 @@ struct Program {
   std::deque<Action> actions;
   std::deque<Code> codes;
   std::deque<EntryCode> entries;                 // as Module::entry_points
+  Layouts layouts;                               // while it is made
   std::deque<std::vector<std::byte>> constants;  // literals, constants
   std::vector<std::byte> zeros;                  // as long as the longest value
   uint32_t static_bytes = 0;

@@ -53,7 +53,7 @@ void put_compute_value(EntryParameter parameter, std::byte* to, const ir::Type* 
 
 void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Arguments& arguments) {
   const ir::Variable& variable = *entry.code->function->parameters[i];
-  const uint32_t bytes = extent_of(variable.type).bytes;
+  const uint32_t bytes = entry.code->parameter_bytes[i];
   std::byte* to = frame.variables + entry.code->parameters[i];
   std::memset(to, 0, variable.mode == ir::ParameterMode::kIn ? bytes : 8);
   switch (entry.entry->parameters[i]) {
@@ -96,7 +96,7 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
   const Program& program = *context.program;
   context.entry = entry.entry;
   context.steps_left = program.options.step_limit;
-  context.statics = static_cast<std::byte*>(alloca(program.static_bytes + 16));
+  context.statics = static_cast<std::byte*>(alloca(entry.static_bytes + 16));
   if (!entry.statics.empty()) initialise_statics(entry, context);
   Frame frame;
   frame.context = &context;

@@ -209,7 +209,7 @@ Flow run(const Action& action, Frame& frame) {
       if (action.value != nullptr) {
         std::memmove(to, evaluate(*action.value, frame), action.value->bytes);
       } else {
-        std::memset(to, 0, extent_of(stmt.variable->type).bytes);
+        std::memset(to, 0, action.bytes);
       }
       return Flow::kNext;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "compile_input.h"
 
+#include "interpret_input.h"
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
@@ -34,7 +35,8 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (flag(16)) options.target = "cs_6_0";
   if (flag(16)) options.exports = "Main;main=Other";
   hlsl::DiagnosticEngine diagnostics({.strict = options.strict});
-  const auto module = hlsl::compile_to_ir(options, sources, diagnostics);
+  const std::shared_ptr<const hlsl::ir::Module> module =
+      hlsl::compile_to_ir(options, sources, diagnostics);
   const std::string messages = hlsl::render_all(diagnostics, sources);
   if (diagnostics.has_errors() == (module != nullptr)) {
     return module != nullptr ? "a module in spite of errors:\n" + messages
@@ -46,6 +48,8 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (hlsl::dump(*module).empty()) return "an empty dump";
   if (hlsl::reflect_json(*module).empty()) return "no reflection";
   if (hlsl::emit_cpp(*module, {}).empty()) return "no C++";
+  const std::string interpreted = interpret_input(module);
+  if (!interpreted.empty()) return interpreted;
   return hlsl::compile_spirv(*module).error;
 }
 
