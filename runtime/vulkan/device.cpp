@@ -47,6 +47,16 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   return {};
 }
 
+rtapi::Status Device::validation_status() {
+  if (!gpu_->instance().validates()) return {};
+  const auto messages = gpu_->instance().validation_messages(&validation_position_);
+  if (messages.empty()) return {};
+  return rtapi::Error{
+      "KA0959", rtapi::ErrorCode::kDeviceRemoved,
+      "KA0959 Vulkan's validation layers found " + std::to_string(messages.size()) +
+          " faults of the Vulkan backend, which is a bug in it; the first: " + messages[0]};
+}
+
 Device::~Device() {
   memory_->on_buffer_end(nullptr);
 }

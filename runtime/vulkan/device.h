@@ -55,6 +55,8 @@ class Device final : public runtime::BackendDevice {
  private:
   explicit Device(const runtime::Context& context) : context_(context) {}
   rtapi::Status start(const rtapi::DeviceDesc& desc);
+  // KA0959 for what the validation layers said since the last time.
+  rtapi::Status validation_status();
 
   runtime::Context context_;
   // In the order in which they need each other.
@@ -66,6 +68,7 @@ class Device final : public runtime::BackendDevice {
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<AccelerationStructures> structures_;
   DispatchMemory scratch_;
+  size_t validation_position_ = 0;
 };
 
 }  // namespace kaamos::vulkan

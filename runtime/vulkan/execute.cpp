@@ -113,7 +113,8 @@ rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
     }
     executor.next();
   }
-  return stream_->flush();
+  if (auto s = stream_->flush(); !s) return s;
+  return validation_status();
 }
 
 }  // namespace kaamos::vulkan

@@ -114,9 +114,11 @@ VkBool32 Instance::on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
   return VK_FALSE;
 }
 
-std::vector<std::string> Instance::take_validation_messages() {
+std::vector<std::string> Instance::validation_messages(size_t* position) {
   const std::lock_guard lock(mutex_);
-  return std::move(messages_);
+  const size_t first = std::min(*position, messages_.size());
+  *position = messages_.size();
+  return {messages_.begin() + static_cast<ptrdiff_t>(first), messages_.end()};
 }
 
 std::string result_name(VkResult result) {

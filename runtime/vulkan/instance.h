@@ -26,9 +26,10 @@ class Instance {
   VkInstance handle() const { return handle_; }
   std::vector<VkPhysicalDevice> physical_devices() const;
 
-  // With KAAMOS_VULKAN_VALIDATION=1 the validation layers run; what they said since the last call.
+  // With KAAMOS_VULKAN_VALIDATION=1 the validation layers run. What they said from the message with
+  // number *position on, which becomes that of the next one.
   bool validates() const { return messenger_ != VK_NULL_HANDLE; }
-  std::vector<std::string> take_validation_messages();
+  std::vector<std::string> validation_messages(size_t* position);
 
  private:
   Instance() = default;

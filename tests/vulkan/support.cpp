@@ -24,13 +24,16 @@ bool vulkan_is_required() {
 
 #if KAAMOS_HAS_VULKAN
 ValidationGuard::ValidationGuard() {
-  if (auto instance = vulkan::Instance::get()) instance_ = *instance;
+  if (auto instance = vulkan::Instance::get()) {
+    (*instance)->validation_messages(&position_);
+    instance_ = *instance;
+  }
 }
 
 ValidationGuard::~ValidationGuard() {
   if (instance_ == nullptr) return;
   for (const std::string& message :
-       static_cast<vulkan::Instance*>(instance_.get())->take_validation_messages()) {
+       static_cast<vulkan::Instance*>(instance_.get())->validation_messages(&position_)) {
     ADD_FAILURE() << message;
   }
 }

@@ -27,6 +27,7 @@ class ValidationGuard {
 
  private:
   std::shared_ptr<void> instance_;
+  size_t position_ = 0;  // in its messages
 };
 
 }  // namespace kaamos::test

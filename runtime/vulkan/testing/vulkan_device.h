@@ -24,16 +24,18 @@ class ValidationGuard {
  public:
   ValidationGuard() {
     if (auto instance = Instance::get()) instance_ = *instance;
+    if (instance_ != nullptr) instance_->validation_messages(&position_);
   }
   ~ValidationGuard() {
     if (instance_ == nullptr) return;
-    for (const std::string& message : instance_->take_validation_messages()) {
+    for (const std::string& message : instance_->validation_messages(&position_)) {
       ADD_FAILURE() << message;
     }
   }
 
  private:
   std::shared_ptr<Instance> instance_;
+  size_t position_ = 0;
 };
 
 }  // namespace kaamos::vulkan::testing
