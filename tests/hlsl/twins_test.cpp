@@ -12,8 +12,8 @@
 #include <cstring>
 #include <random>
 
-#include "executors.h"
 #include "tests/vulkan/support.h"
+#include "twin_device.h"
 
 namespace kaamos::test {
 namespace {
@@ -328,33 +328,23 @@ bool agree(const Operation& operation, char kind, uint64_t expected, uint64_t ac
 
 std::vector<uint64_t> run(const char* backend, const std::string& source,
                           const std::vector<uint64_t>& values, size_t result_count) {
-  hlsl::FrontendOptions options;
-  options.path = "twins.hlsl";
-  options.text = source;
-  options.native_16bit = true;
-  const bool vulkan = std::string(backend) == "vulkan";
-  const Compiled code = vulkan ? compile_vulkan(options) : compile_interpreted(options);
-  EXPECT_EQ(code.error, "");
-  if (code.library == nullptr) return {};
-  const Device device = CreateDevice({.Backend = backend}).value();
-  CommandQueue queue = device.CreateCommandQueue().value();
-  const Buffer input = CreateUploadBuffer(device, values).value();
-  const Buffer output = device
-                            .CreateBuffer({.SizeInBytes = result_count * 8,
-                                           .Flags = ResourceFlags::kAllowUnorderedAccess})
-                            .value();
+  TwinDevice twin(backend);
+  Compiled code;
+  const ShaderLibrary library = twin.compile(source, code);
+  if (!library) return {};
+  const Buffer input = CreateUploadBuffer(twin.device, values).value();
+  const Buffer output = twin.output(result_count * 8);
   RootSignatureDesc desc;
   desc.Parameters = {RootParameter::Srv(0, 0), RootParameter::Uav(0, 0)};
-  const RootSignature root = device.CreateRootSignature(desc).value();
-  const ShaderLibrary library = LoadShaderLibrary(code.library).value();
-  CommandList list = device.CreateCommandList().value();
+  const RootSignature root = twin.device.CreateRootSignature(desc).value();
+  CommandList list = twin.device.CreateCommandList().value();
   list.SetComputeRootSignature(root);
-  list.SetPipelineState(device.CreateComputePipelineState({root, library, "", ""}).value());
+  list.SetPipelineState(twin.device.CreateComputePipelineState({root, library, "", ""}).value());
   list.SetComputeRootShaderResourceView(0, input.GetGPUVirtualAddress());
   list.SetComputeRootUnorderedAccessView(1, output.GetGPUVirtualAddress());
   list.Dispatch(kTuples / kThreads, 1, 1);
-  queue.ExecuteAndWait(list).value();
-  const std::vector<std::byte> bytes = ReadbackBuffer(device, queue, output).value();
+  twin.queue.ExecuteAndWait(list).value();
+  const std::vector<std::byte> bytes = ReadbackBuffer(twin.device, twin.queue, output).value();
   std::vector<uint64_t> results(result_count);
   std::memcpy(results.data(), bytes.data(), result_count * 8);
   return results;

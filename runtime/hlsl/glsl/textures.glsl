@@ -66,6 +66,26 @@ float k_lod(float lod) { return isnan(lod) ? -1000.0 : clamp(lod, -1000.0, 1000.
 bool k_inside(int at, int size) { return uint(at) < uint(size); }
 bool k_inside(ivec2 at, ivec2 size) { return all(lessThan(uvec2(at), uvec2(size))); }
 bool k_inside(ivec3 at, ivec3 size) { return all(lessThan(uvec3(at), uvec3(size))); }
+// The size of a mip from that of mip 0: lavapipe answers a size query with the mip of the first of
+// the invocations that run side by side.
+//@ k_size_$D_$C 1d 2d 3d
+$X k_size_$D_$C(k_Descriptor t, int mip) {
+  return max(textureSize(k_texture_$D_$C(t), 0) >> mip, $X(1));
+}
+//@ k_size_$D_$C 1d_array
+ivec2 k_size_$D_$C(k_Descriptor t, int mip) {
+  ivec2 size = textureSize(k_texture_$D_$C(t), 0);
+  return ivec2(max(size.x >> mip, 1), size.y);
+}
+//@ k_size_$D_$C 2d_array cube_array
+ivec3 k_size_$D_$C(k_Descriptor t, int mip) {
+  ivec3 size = textureSize(k_texture_$D_$C(t), 0);
+  return ivec3(max(size.xy >> mip, ivec2(1)), size.z);
+}
+//@ k_size_$D_$C cube
+ivec2 k_size_$D_$C(k_Descriptor t, int mip) {
+  return max(textureSize(k_texture_$D_$C(t), 0) >> mip, ivec2(1));
+}
 // A location, or a texel, moved by an offset in texels that leaves the array element alone.
 //@ k_moved
 float k_moved(float at, int offset, int size) { return at + float(offset) / float(size); }
@@ -114,7 +134,7 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
 //@ k_mip_size_$D 1d 1d_array 2d 2d_array 3d
 $X k_mip_size_$D(k_Descriptor t, float lod) {
   int levels = textureQueryLevels(k_texture_$D_f(t));
-  return textureSize(k_texture_$D_f(t), clamp(int(floor(k_lod(lod) + 0.5)), 0, levels - 1));
+  return k_size_$D_f(t, clamp(int(floor(k_lod(lod) + 0.5)), 0, levels - 1));
 }
 //@ k_sample_level_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_sample_level_$D_$C(k_Descriptor t, k_Descriptor s, $L at, float lod, $O offset) {
@@ -233,7 +253,7 @@ vec4 k_gather_compare_$D(k_Descriptor t, k_Descriptor s, $L at, float reference,
 $V k_load_texel_$D_$C(k_Descriptor t, $X at, int mip) {
   if (!k_can_read(t, k_class_$C)) return $V(0);
   if (uint(mip) >= uint(textureQueryLevels(k_texture_$D_$C(t)))) return $V(0);
-  if (!k_inside(at, textureSize(k_texture_$D_$C(t), mip))) return $V(0);
+  if (!k_inside(at, k_size_$D_$C(t, mip))) return $V(0);
   return texelFetch(k_texture_$D_$C(t), at, mip);
 }
 //@ k_load_texel_$D_$C 1d 1d_array 2d 2d_array 3d
@@ -262,14 +282,14 @@ uvec4 k_texture_dimensions_$D(k_Descriptor t, uint mip) {
   if (t.kind_access != 5u || t.address == 0UL) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_$D_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
-  return uvec4(k_extent(textureSize(k_texture_$D_f(t), int(mip))), levels);
+  return uvec4(k_extent(k_size_$D_f(t, int(mip))), levels);
 }
 //@ k_texture_dimensions_1d_array
 uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint mip) {
   if (t.kind_access != 5u || t.address == 0UL) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_1d_array_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
-  uvec2 size = uvec2(textureSize(k_texture_1d_array_f(t), int(mip)));
+  uvec2 size = uvec2(k_size_1d_array_f(t, int(mip)));
   return uvec4(size.x, 1u, size.y, levels);
 }
 //@ k_image_dimensions_$D 1d 2d 2d_array 3d

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "twin_device.h"
+
+#include <gtest/gtest.h>
+
+namespace kaamos::test {
+
+rtapi::ShaderLibrary TwinDevice::compile(const std::string& source, Compiled& code) const {
+  hlsl::FrontendOptions options;
+  options.path = "twins.hlsl";
+  options.text = source;
+  options.native_16bit = true;
+  code = is_vulkan() ? compile_vulkan(options) : compile_interpreted(options);
+  EXPECT_EQ(code.error, "");
+  if (code.library == nullptr) return {};
+  return rtapi::LoadShaderLibrary(code.library).value();
+}
+
+}  // namespace kaamos::test

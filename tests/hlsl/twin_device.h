@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// A device on which HLSL given as text runs: the CPU's with the interpreter, which says what is
+// expected, or Vulkan's.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <string>
+#include <vector>
+
+#include "executors.h"
+
+namespace kaamos::test {
+
+struct TwinDevice {
+  explicit TwinDevice(const std::string& backend)
+      : device(rtapi::CreateDevice({.Backend = backend}).value()),
+        queue(device.CreateCommandQueue().value()) {}
+
+  bool is_vulkan() const { return device.GetDesc().Backend == "vulkan"; }
+
+  // The library lives as long as `code`. A failed compilation fails the test.
+  rtapi::ShaderLibrary compile(const std::string& source, Compiled& code) const;
+
+  rtapi::Buffer output(uint64_t size_bytes) const {
+    return device
+        .CreateBuffer(
+            {.SizeInBytes = size_bytes, .Flags = rtapi::ResourceFlags::kAllowUnorderedAccess})
+        .value();
+  }
+
+  rtapi::Device device;
+  rtapi::CommandQueue queue;
+};
+
+}  // namespace kaamos::test
