@@ -13,7 +13,8 @@ set(KAAMOS_SHADER_COMPILE_OPTIONS
 # makes a static library TARGET to link to. Each source NAME.hlsl gives a header <shaders/NAME.h>
 # with
 #   const kaamos::shader::LibraryDesc* kaamos_shaders_NAME();
-# for rtapi::ShaderLibrary. A change of a source or of anything it includes compiles it again.
+# for rtapi::ShaderLibrary. It runs on every backend; OPTIONS -no-spirv leaves out what Vulkan needs.
+# A change of a source or of anything it includes compiles it again.
 function(kaamos_add_shader_library target)
   cmake_parse_arguments(arg "" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)

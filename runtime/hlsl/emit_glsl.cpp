@@ -53,6 +53,8 @@ void GlslEmitter::collect(const Function& function) {
       [&](const Stmt& stmt) {
         if (stmt.kind == StmtKind::kCall) {
           collect(*stmt.function);
+        } else if (stmt.kind == StmtKind::kReportHit) {
+          attribute_types_.push_back(stmt.operands[2]->type);
         }
       });
 }
@@ -187,6 +189,9 @@ void GlslEmitter::emit_main() {
 
 GlslShader GlslEmitter::run() {
   collect(*entry_.function);
+  if (entry_.attributes != nullptr) {
+    attribute_types_.push_back(entry_.attributes);
+  }
   if (entry_.stage != kStageCompute) {
     declarations_ += "uint g_depths = 0u;\n";
   }

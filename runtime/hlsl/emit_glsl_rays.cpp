@@ -273,14 +273,25 @@ void GlslEmitter::call_shader(const Stmt& stmt) {
 // ---------------------------------------------------------------------------------------------
 // Hit attributes
 
-void GlslEmitter::declare_attributes(const Type* attributes) {
-  if (!made_.insert("g_attributes").second) {
-    return;
+// A shader may report hits with attributes of several types.
+bool GlslEmitter::attributes_are_floats() const {
+  return std::all_of(attribute_types_.begin(), attribute_types_.end(), two_floats);
+}
+
+uint32_t GlslEmitter::attribute_words() const {
+  uint32_t most = 1;
+  for (const Type* type : attribute_types_) {
+    most = std::max(most, glsl::words(type));
   }
-  const uint32_t count = glsl::words(attributes);
-  declarations_ += two_floats(attributes) ? std::string("hitAttributeEXT vec2 g_attributes;\n")
-                                          : "hitAttributeEXT uint g_attributes[" +
-                                                std::to_string(count == 0 ? 1 : count) + "];\n";
+  return most;
+}
+
+void GlslEmitter::declare_attributes() {
+  if (made_.insert("g_attributes").second) {
+    declarations_ += attributes_are_floats() ? std::string("hitAttributeEXT vec2 g_attributes;\n")
+                                             : "hitAttributeEXT uint g_attributes[" +
+                                                   std::to_string(attribute_words()) + "];\n";
+  }
 }
 
 namespace {
@@ -364,9 +375,9 @@ std::string GlslEmitter::attributes_function(const Type* t, bool store) {
   if (!name.empty()) {
     return name;
   }
-  declare_attributes(t);
+  declare_attributes();
   name = (store ? "g_store_attributes_" : "g_load_attributes_") + std::to_string(generated_.size());
-  const bool floats = two_floats(t);
+  const bool floats = attributes_are_floats();
   std::string text = store ? "void " + name + "(" + type(t) + " value) {\n"
                            : type(t) + " " + name + "() {\n  " + type(t) + " value;\n";
   uint32_t next = 0;
@@ -399,10 +410,9 @@ std::string GlslEmitter::report_function(const Type* attributes) {
   const std::string store = attributes_function(attributes, true);
   name = "g_report_" + std::to_string(generated_.size());
   declare_workarounds();
-  const std::string saved =
-      two_floats(attributes)
-          ? std::string("vec2 saved")
-          : "uint saved[" + std::to_string(std::max(1u, glsl::words(attributes))) + "]";
+  const std::string saved = attributes_are_floats()
+                                ? std::string("vec2 saved")
+                                : "uint saved[" + std::to_string(attribute_words()) + "]";
   helpers_ += "bool " + name + "(float t, uint kind, " + type(attributes) + " value) {\n  " +
               saved + " = g_attributes;\n  " + store +
               "(value);\n"

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <spirv-tools/libspirv.hpp>
 #include <sstream>
+#include <thread>
 
 #include "runtime/hlsl/check_test_support.h"
 #include "runtime/hlsl/spirv.h"
@@ -207,6 +208,30 @@ TEST(EmitGlsl, APayloadIsWrittenBackBeforeAHitIsIgnored) {
 TEST(EmitGlsl, AttributesAreWordsUnlessTwoFloats) {
   EXPECT_THAT(glsl_of(kScene, "Meet"), HasSubstr("hitAttributeEXT uint g_attributes[4];"));
   EXPECT_THAT(glsl_of(kScene, "Hit"), HasSubstr("hitAttributeEXT vec2 g_attributes;"));
+}
+
+TEST(EmitGlsl, OneShaderReportsAttributesOfSeveralTypes) {
+  const std::string text = glsl_of(
+      "struct Small { float2 uv; };\nstruct Large { double d; bool b[3]; };\n"
+      "[shader(\"intersection\")] void Meet() {\n"
+      "  Small small = {float2(1, 2)};\n  ReportHit(1, 0, small);\n"
+      "  Large large = (Large)0;\n  ReportHit(2, 0, large);\n}\n",
+      "Meet");
+  EXPECT_THAT(text, HasSubstr("hitAttributeEXT uint g_attributes[5];"));
+  EXPECT_THAT(text, HasSubstr("g_attributes[1] = floatBitsToUint(value.m_uv.y);"));
+}
+
+TEST(Spirv, ManyThreadsCompileAtOnce) {
+  Compilation compilation(kScene);
+  const SpirvLibrary alone = compile_spirv(*compilation.module);
+  ASSERT_EQ(alone.error, "");
+  std::vector<SpirvLibrary> results(6);
+  std::vector<std::thread> threads;
+  for (SpirvLibrary& result : results) {
+    threads.emplace_back([&] { result = compile_spirv(*compilation.module); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const SpirvLibrary& result : results) EXPECT_EQ(result.modules, alone.modules);
 }
 
 // DXC refuses it; the native code takes it.

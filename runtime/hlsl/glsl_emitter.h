@@ -142,7 +142,9 @@ class GlslEmitter {
   void trace_ray(const ir::Stmt& stmt);
   std::string call_shader_function(const ir::Type* data);
   void call_shader(const ir::Stmt& stmt);
-  void declare_attributes(const ir::Type* attributes);
+  void declare_attributes();
+  bool attributes_are_floats() const;
+  uint32_t attribute_words() const;
   void each_scalar(const ir::Type* type, const std::string& at,
                    const std::function<void(ir::Scalar, const std::string&)>& visit);
   std::string attributes_function(const ir::Type* attributes, bool store);
@@ -217,6 +219,7 @@ class GlslEmitter {
 
   std::unordered_set<const ir::Function*> functions_;  // that the entry point reaches
   std::unordered_set<const ir::Variable*> globals_;
+  std::vector<const ir::Type*> attribute_types_;            // that it reports or is given
   std::unordered_set<std::string> made_;                    // generated functions and variables
   std::unordered_map<std::string, std::string> generated_;  // what is generated, by what for
   const ir::Function* current_ = nullptr;
