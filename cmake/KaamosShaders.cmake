@@ -6,7 +6,7 @@ include_guard()
 # same list for libraries that are compiled at run time.
 set(KAAMOS_SHADER_COMPILE_OPTIONS
   -w -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
-  -fno-strict-aliasing)
+  -fno-strict-aliasing -fstack-clash-protection)
 
 # kaamos_add_shader_library(TARGET SOURCES a.hlsl b.hlsl ... [INCLUDES folder ...]
 #   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...])

@@ -74,6 +74,7 @@ std::string read_file(const fs::path& path) {
 const std::vector<std::string>& flags_of(Optimisation optimisation) {
   // -fwrapv: HLSL's integers wrap. -ffp-contract=off: no fused operations that the source does not
   // ask for. -fno-math-errno, -fno-trapping-math: nobody looks at errno or the exception flags.
+  // -fstack-clash-protection: variables that do not fit the stack meet the page that guards it.
   static const std::vector<std::string> common = {"-std=c++20",
                                                   "-fPIC",
                                                   "-shared",
@@ -85,7 +86,8 @@ const std::vector<std::string>& flags_of(Optimisation optimisation) {
                                                   "-fvisibility=hidden",
                                                   "-fno-exceptions",
                                                   "-fno-rtti",
-                                                  "-fno-strict-aliasing"};
+                                                  "-fno-strict-aliasing",
+                                                  "-fstack-clash-protection"};
   const auto with = [](std::vector<std::string> more) {
     more.insert(more.begin(), common.begin(), common.end());
     return more;

@@ -9,6 +9,7 @@
 #include <kaamos/shader/vector.h>
 #include <rtapi/rtapi.h>
 #include <rtapi/shader_compiler.h>
+#include <rtapi/upload.h>
 
 #include <algorithm>
 #include <cstring>
@@ -252,26 +253,75 @@ TEST(Interpret, WithoutACompilerTheErrorNamesTheInterpreter) {
       << compiled.Status.error().message;
 }
 
-TEST(Interpret, OnADeviceTheLimitOfStepsRemovesIt) {
-  rtapi::ShaderCompileOptions options;
-  options.File = "test.hlsl";
-  options.Source = R"([shader("compute")] [numthreads(1, 1, 1)] void main() { while (true) { } })";
-  options.Interpret = true;
-  options.InterpretStepLimit = 1000;
+// Runs the kernel of a source in u0 on a device; `results` are 4 words of zeros.
+rtapi::Status run_on_device(const rtapi::ShaderCompileOptions& options,
+                            std::vector<uint32_t>& results) {
   const rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
-  ASSERT_TRUE(compiled.Status.ok()) << compiled.Status.error().message;
+  if (!compiled.Status.ok()) return compiled.Status;
   const auto device = rtapi::CreateDevice({.Backend = "embree"}).value();
   auto queue = device.CreateCommandQueue().value();
-  const auto root = device.CreateRootSignature(rtapi::RootSignatureDesc()).value();
+  rtapi::RootSignatureDesc signature;
+  signature.Parameters.push_back(rtapi::RootParameter::Uav(0, 0));
+  const auto root = device.CreateRootSignature(signature).value();
+  const std::vector<uint32_t> zeros(4);
+  const auto buffer = rtapi::CreateDefaultBuffer(device, queue, std::as_bytes(std::span(zeros)),
+                                                 rtapi::ResourceFlags::kAllowUnorderedAccess)
+                          .value();
   auto list = device.CreateCommandList().value();
   list.SetComputeRootSignature(root);
   list.SetPipelineState(
       device.CreateComputePipelineState({root, compiled.Library, "", ""}).value());
+  list.SetComputeRootUnorderedAccessView(0, buffer.GetGPUVirtualAddress());
   list.Dispatch(1, 1, 1);
   const auto status = queue.ExecuteAndWait(list);
+  if (!status.ok()) return status.error();
+  const auto bytes = rtapi::ReadbackBuffer(device, queue, buffer).value();
+  results.resize(4);
+  std::memcpy(results.data(), bytes.data(), 16);
+  return {};
+}
+
+TEST(Interpret, OnADeviceTheLimitOfStepsRemovesIt) {
+  rtapi::ShaderCompileOptions options;
+  options.File = "test.hlsl";
+  options.Source = R"(RWByteAddressBuffer results : register(u0);
+[shader("compute")] [numthreads(1, 1, 1)] void main() { while (true) { } results.Store(0, 1); })";
+  options.Interpret = true;
+  options.InterpretStepLimit = 1000;
+  std::vector<uint32_t> results;
+  const rtapi::Status status = run_on_device(options, results);
   ASSERT_FALSE(status.ok());
   EXPECT_NE(status.error().message.find("KA0897"), std::string::npos) << status.error().message;
   EXPECT_NE(status.error().message.find("main"), std::string::npos) << status.error().message;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+// On most machines 12 MB do not fit, and nothing but the device may suffer.
+TEST(Interpret, VariablesLargerThanTheStackRemoveTheDevice) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer reports the access itself";
+  rtapi::ShaderCompileOptions options;
+  options.File = "test.hlsl";
+  options.Source = R"(RWByteAddressBuffer results : register(u0);
+[shader("compute")] [numthreads(1, 1, 1)] void main() {
+  uint many[3 << 20];
+  for (uint i = 0; i < 8; ++i) many[(i * 400000 + results.Load(0)) % (3 << 20)] = i + 1;
+  results.Store(4, many[400000] + results.Load(8));
+})";
+  for (const bool interpret : {false, true}) {
+    options.Interpret = interpret;
+    std::vector<uint32_t> results;
+    const rtapi::Status status = run_on_device(options, results);
+    if (status.ok()) {
+      EXPECT_EQ(results[1], 2u);
+    } else {
+      EXPECT_NE(status.error().message.find("KA089"), std::string::npos) << status.error().message;
+    }
+  }
 }
 
 }  // namespace
