@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // compute/split/...: kernels with barriers, cut at them, over the same kernels on fibers.
+// compute/interpreted: a kernel by the interpreter, over the same in native code.
 #include <dlfcn.h>
 #include <kaamos/shader/abi.h>
 #include <rtapi/rtapi.h>
@@ -12,6 +13,7 @@
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/interpret.h"
 #include "temporary_folder.h"
 
 namespace kaamos::bench {
@@ -67,7 +69,7 @@ void main(uint i : SV_GroupIndex, uint3 id : SV_DispatchThreadID) {
 })"},
 };
 
-// One kernel both ways, with a device to run it on.
+// One kernel in all ways, with a device to run it on.
 class Comparison {
  public:
   Comparison(const Kernel& kernel, uint32_t groups)
@@ -84,7 +86,7 @@ class Comparison {
     build(kernel);
   }
   ~Comparison() {
-    cut_ = fibers_ = {};
+    cut_ = fibers_ = interpreted_ = {};
     if (handle_ != nullptr) dlclose(handle_);
   }
   Comparison(const Comparison&) = delete;
@@ -92,6 +94,7 @@ class Comparison {
 
   void run_cut() { run(cut_); }
   void run_fibers() { run(fibers_); }
+  void run_interpreted() { run(interpreted_); }
   std::vector<std::byte> results() {
     return rtapi::ReadbackBuffer(device_, queue_, results_).value();
   }
@@ -104,7 +107,8 @@ class Comparison {
     hlsl::FrontendOptions options;
     options.path = std::string(kernel.name) + ".hlsl";
     options.text = kernel.text;
-    const auto module = hlsl::compile_to_ir(options, sources, diagnostics);
+    const std::shared_ptr<const hlsl::ir::Module> module =
+        hlsl::compile_to_ir(options, sources, diagnostics);
     if (module == nullptr) throw std::runtime_error(hlsl::render_all(diagnostics, sources));
     const std::string source =
         hlsl::emit_cpp(*module, {.entry_point = "cut"}) +
@@ -119,6 +123,9 @@ class Comparison {
     if (handle_ == nullptr) throw std::runtime_error(dlerror());
     cut_ = pipeline("cut", true);
     fibers_ = pipeline("fibers", false);
+    const auto interpreted = hlsl::InterpretedLibrary::create(module, {}, error);
+    if (interpreted == nullptr) throw std::runtime_error(error);
+    interpreted_ = pipeline(rtapi::LoadShaderLibrary(&interpreted->desc(), interpreted).value());
   }
 
   rtapi::PipelineState pipeline(const char* name, bool is_cut) {
@@ -128,9 +135,10 @@ class Comparison {
     if ((library->exports[0].compute->group != nullptr) != is_cut) {
       throw std::runtime_error("the kernel was not compiled as the case needs it");
     }
-    return device_
-        .CreateComputePipelineState({root_, rtapi::LoadShaderLibrary(library).value(), "", ""})
-        .value();
+    return pipeline(rtapi::LoadShaderLibrary(library).value());
+  }
+  rtapi::PipelineState pipeline(const rtapi::ShaderLibrary& library) {
+    return device_.CreateComputePipelineState({root_, library, "", ""}).value();
   }
 
   void run(const rtapi::PipelineState& pipeline) {
@@ -151,15 +159,19 @@ class Comparison {
   rtapi::Buffer results_;
   rtapi::PipelineState cut_;
   rtapi::PipelineState fibers_;
+  rtapi::PipelineState interpreted_;
 };
+
+std::vector<std::byte> results_of(Comparison& comparison, void (Comparison::*run)()) {
+  (comparison.*run)();
+  return comparison.results();
+}
 
 Line split(const Kernel& kernel, Fixtures& fixtures, const Measure& measure) {
   const uint32_t groups = fixtures.options().quick ? 4 : 2048;
   Comparison comparison(kernel, groups);
-  comparison.run_fibers();
-  const auto expected = comparison.results();
-  comparison.run_cut();
-  if (comparison.results() != expected) {
+  if (results_of(comparison, &Comparison::run_cut) !=
+      results_of(comparison, &Comparison::run_fibers)) {
     throw std::runtime_error("the kernel gives something else on fibers");
   }
   const Pairs times = time_pairs(
@@ -173,10 +185,22 @@ Line split(const Kernel& kernel, Fixtures& fixtures, const Measure& measure) {
           true};
 }
 
+Line interpreted(Fixtures& fixtures, const Measure& measure) {
+  const uint32_t groups = fixtures.options().quick ? 2 : 64;
+  Comparison comparison(kKernels[1], groups);
+  if (results_of(comparison, &Comparison::run_interpreted) !=
+      results_of(comparison, &Comparison::run_fibers)) {
+    throw std::runtime_error("the kernel gives something else interpreted");
+  }
+  const Pairs times = time_pairs(
+      measure, [&] { comparison.run_interpreted(); }, [&] { comparison.run_cut(); });
+  return {"compute/interpreted", times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", false};
+}
+
 }  // namespace
 
 std::vector<Case> compute_cases() {
-  std::vector<Case> out;
+  std::vector<Case> out = {{"compute/interpreted", interpreted}};
   for (const Kernel& kernel : kKernels) {
     out.push_back({"compute/split/" + std::string(kernel.name),
                    [&kernel](Fixtures& fixtures, const Measure& measure) {
