@@ -297,6 +297,50 @@ TEST(VulkanScene, WhatIsTooLargeIsAnError) {
   ASSERT_FALSE(status);
 }
 
+// Any bits in vertices, boxes, matrices and rays.
+TEST(VulkanScene, NothingCrashesOnAnyInput) {
+  KAAMOS_NEED_GPU(gpu);
+  SceneHarness h(gpu);
+  RayCaster caster(h);
+  std::mt19937 random(11);
+  const auto number = [&] {
+    const uint32_t bits = random() % 3 == 0 ? random() : 0x3F000000u + random() % 0x02000000u;
+    float value;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+  };
+  for (int round = 0; round < 20; ++round) {
+    GeometryInput triangles[2];
+    GeometryInput boxes;
+    for (auto& geometry : triangles) {
+      for (uint32_t i = 0; i < 9 * (random() % 60); ++i) geometry.xyz.push_back(number());
+    }
+    for (uint32_t i = 0; i < 1 + random() % 30; ++i) {
+      boxes.boxes.push_back({number(), number(), number(), number(), number(), number()});
+    }
+    const uint64_t levels[2] = {h.bottom_level({triangles[0], triangles[1]}),
+                                h.bottom_level({boxes})};
+    std::vector<rtapi::RaytracingInstanceDesc> instances;
+    for (uint32_t i = 0; i < 8; ++i) {
+      auto& instance = instances.emplace_back(instance_of(levels[i % 2]));
+      instance.InstanceContributionToHitGroupIndex = i % 2;
+      instance.Flags = random() % 256;
+      for (auto& row : instance.Transform) {
+        for (float& value : row) value = i < 4 ? value : number();
+      }
+    }
+    std::vector<testing::CastRay> rays(200);
+    for (auto& ray : rays) {
+      for (float& value : ray.origin) value = number();
+      for (float& value : ray.direction) value = number();
+      ray.t_min = number();
+      ray.t_max = number();
+    }
+    const auto hits = caster.cast(h.top_level(instances), rays);
+    for (const auto& hit : hits) EXPECT_GE(hit.t, -1.0f);
+  }
+}
+
 // -------------------------------------------------------------------------------------------------
 // What goes wrong on lavapipe without the workarounds.
 

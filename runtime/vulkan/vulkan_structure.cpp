@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/vulkan/box_padding.h"
+
 namespace kaamos::vulkan {
 namespace {
 
@@ -114,6 +116,11 @@ rtapi::Result<std::unique_ptr<VulkanStructure>> VulkanStructure::build(
       },
       "build of a " + what);
   if (!status) return status.error();
+  if (gpu.workarounds().has(Workaround::kPadBoxes)) {
+    uint64_t leaves = 0;
+    for (const uint32_t count : counts) leaves += count;
+    pad_boxes({result->storage_->host(), result->size_bytes_}, leaves);
+  }
   VkAccelerationStructureDeviceAddressInfoKHR address = {
       VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
   address.accelerationStructure = result->handle_;
