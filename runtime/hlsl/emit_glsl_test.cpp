@@ -275,6 +275,18 @@ TEST(Spirv, ConstantsHaveTheNumbersOfTheInterface) {
   EXPECT_EQ(found, changed.constants);
 }
 
+TEST(Spirv, BindingsThatAreTooManyAreAnErrorOfTheSource) {
+  std::string globals;
+  std::string body;
+  for (int i = 0; i < 512; ++i) {
+    const std::string n = std::to_string(i);
+    globals += "RWByteAddressBuffer b" + n + " : register(u" + n + ", space1);\n";
+    body += "b" + n + ".Store(0, " + n + ");\n";
+  }
+  const SpirvLibrary library = compile_spirv(*Compilation(kernel(body, globals)).module);
+  EXPECT_THAT(library.error, HasSubstr("KA2761 'main' reaches 512 bindings"));
+}
+
 TEST(Spirv, AFailureNamesTheExport) {
   GlslShader broken;
   broken.text = "#version 460\nvoid main() { nonsense(); }\n";

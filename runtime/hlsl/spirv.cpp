@@ -50,6 +50,15 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
   initialise();
   static const TBuiltInResource kLimits = limits();
   SpirvModule out;
+  // glslang has 11 bits for the number of a constant; a binding takes four.
+  constexpr size_t kMostConstants = 2047;
+  if (shader.constants.size() > kMostConstants) {
+    out.error = "KA2761 '" + name + "' reaches " + std::to_string(shader.constants.size() / 4) +
+                " bindings, and a shader with SPIR-V can have 511: use arrays of resources or "
+                "ResourceDescriptorHeap, or go without SPIR-V (-no-spirv, "
+                "ShaderCompileOptions::Spirv = false)";
+    return out;
+  }
   const auto fail = [&](const char* log) {
     out.error = "KA2760 internal error: the SPIR-V of '" + name +
                 "' cannot be made (-no-spirv, ShaderCompileOptions::Spirv = false go without it), "

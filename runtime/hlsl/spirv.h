@@ -14,7 +14,8 @@ namespace kaamos::hlsl {
 
 struct SpirvModule {
   std::vector<uint32_t> words;  // empty on failure
-  std::string error;            // a fault of the emitter: KA2760, the export, glslang's messages
+  // KA2760, a fault of the emitter: the export, glslang's messages; KA2761 too many bindings.
+  std::string error;
 };
 
 // The entry point of the module is "main", for Vulkan 1.3. `name` is the export's, for the error.

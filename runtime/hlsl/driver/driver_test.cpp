@@ -160,6 +160,13 @@ TEST_F(Driver, EmitsEachForm) {
   const Outcome ir = run("-emit ir main.hlsl");
   EXPECT_EQ(ir.status, 0);
   EXPECT_THAT(ir.out, AllOf(StartsWith("module main.hlsl lib_6_6\n"), HasSubstr("helper")));
+  const Outcome glsl = run("-emit glsl main.hlsl");
+  EXPECT_THAT(glsl.out, HasSubstr("#version 460"));
+  EXPECT_THAT(glsl.out, HasSubstr("void f_Main()"));
+  EXPECT_EQ(run("-emit spirv -o main.spv main.hlsl").status, 0);
+  EXPECT_THAT(read(folder_ / "main.spv"), StartsWith("\x03\x02\x23\x07"));
+  EXPECT_THAT(run("main.hlsl").out, HasSubstr("spirv_0"));
+  EXPECT_THAT(run("-no-spirv main.hlsl").out, Not(HasSubstr("spirv_0")));
   const Outcome reflection = run("-emit reflection main.hlsl");
   EXPECT_EQ(reflection.status, 0);
   EXPECT_THAT(reflection.out,
