@@ -197,6 +197,7 @@ TEST_F(DescriptorTest, TextureViewsAreResolved) {
   EXPECT_EQ(view.first_slice, 6u);
   EXPECT_EQ(view.slice_count, 6u);
   EXPECT_EQ(At(0).kind, shader::DescriptorKind::kTexture);
+  EXPECT_EQ(At(0).stride_bytes, static_cast<uint32_t>(SrvDimension::kTextureCubeArray));
   EXPECT_EQ(At(0).address, null_log().texture_views.size());
   EXPECT_EQ(At(0).format, static_cast<uint32_t>(Format::kR8G8B8A8UnormSrgb));
   EXPECT_OK(device_.CreateUnorderedAccessView(cube,

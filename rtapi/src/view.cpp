@@ -224,6 +224,7 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   descriptor.kind = DescriptorKind::kTexture;
   descriptor.access =
       view.uav ? DescriptorAccess::kUnorderedAccess : DescriptorAccess::kShaderResource;
+  descriptor.stride_bytes = static_cast<uint32_t>(view.dimension);
   descriptor.address = *object;
   descriptor.format = static_cast<uint32_t>(view.format);
   return WriteSlot(*device, dest, descriptor);

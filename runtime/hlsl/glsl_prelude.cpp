@@ -60,18 +60,18 @@ void add_kind_of_identifier(std::string_view word, KindSet& kinds) {
 // Textures: a block for `textures` is written once for each dimension and number class.
 
 struct Dimension {
-  std::string_view name, glsl, location, texels, gradient, offset, zero_offset;
+  std::string_view name, glsl, location, texels, gradient, offset, number;
 };
 // location: the sampling coordinates; texels: coordinates of one texel, arrays included; gradient,
-// offset: without the array element.
+// offset: without the array element; number: D3D12_SRV_DIMENSION.
 constexpr Dimension kDimensions[] = {
-    {"1d", "1D", "float", "int", "float", "int", "0"},
-    {"1d_array", "1DArray", "vec2", "ivec2", "float", "int", "0"},
-    {"2d", "2D", "vec2", "ivec2", "vec2", "ivec2", "ivec2(0)"},
-    {"2d_array", "2DArray", "vec3", "ivec3", "vec2", "ivec2", "ivec2(0)"},
-    {"3d", "3D", "vec3", "ivec3", "vec3", "ivec3", "ivec3(0)"},
-    {"cube", "Cube", "vec3", "ivec3", "vec3", "ivec3", "ivec3(0)"},
-    {"cube_array", "CubeArray", "vec4", "ivec3", "vec3", "ivec3", "ivec3(0)"},
+    {"1d", "1D", "float", "int", "float", "int", "2"},
+    {"1d_array", "1DArray", "vec2", "ivec2", "float", "int", "3"},
+    {"2d", "2D", "vec2", "ivec2", "vec2", "ivec2", "4"},
+    {"2d_array", "2DArray", "vec3", "ivec3", "vec2", "ivec2", "5"},
+    {"3d", "3D", "vec3", "ivec3", "vec3", "ivec3", "8"},
+    {"cube", "Cube", "vec3", "ivec3", "vec3", "ivec3", "9"},
+    {"cube_array", "CubeArray", "vec4", "ivec3", "vec3", "ivec3", "10"},
 };
 struct NumberClass {
   std::string_view name, prefix, texel;
@@ -321,7 +321,7 @@ class Library {
           replace_all(out, "$X", dimension.texels);
           replace_all(out, "$G", dimension.gradient);
           replace_all(out, "$O", dimension.offset);
-          replace_all(out, "$Z", dimension.zero_offset);
+          replace_all(out, "$R", dimension.number);
           return out;
         };
         const std::string name = substituted(words[0]);

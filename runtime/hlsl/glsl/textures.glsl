@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Textures of the bindless set of kaamos/shader/spirv_interface.h. What stands behind a descriptor
 // is the driver's; guarded here is what D3D defines and Vulkan does not: null descriptors and those
-// of another kind, number class or access read 0 and write nothing, and so do texels outside of the
+// of another kind, dimension, number class or access read 0 and write nothing, and so do texels outside of the
 // texture or its mips [D3D11.3 7.18]; coordinates may be NaN or infinite.
 //
 // Blocks with $D and $C are written for each dimension and number class: $V texel, $L location of a
@@ -30,17 +30,18 @@ const uint k_class_i = 1u;
 //@ k_class_u
 const uint k_class_u = 2u;
 //@ k_can_read
-bool k_can_read(k_Descriptor t, uint number) {
-  return t.kind_access == 5u && t.address != 0UL && k_number_class(t.format) == number;
+bool k_can_read(k_Descriptor t, uint dimension, uint number) {
+  return t.kind_access == 5u && t.address != 0UL && t.stride == dimension &&
+         k_number_class(t.format) == number;
 }
 //@ k_can_write
-bool k_can_write(k_Descriptor t, uint number) {
-  return t.kind_access == (5u | 1u << 16) && t.address != 0UL &&
+bool k_can_write(k_Descriptor t, uint dimension, uint number) {
+  return t.kind_access == (5u | 1u << 16) && t.address != 0UL && t.stride == dimension &&
          k_number_class(t.format) == number;
 }
 //@ k_can_sample
-bool k_can_sample(k_Descriptor t, k_Descriptor s, uint number) {
-  return k_can_read(t, number) && (s.kind_access & 0xFFFFu) == 6u && s.address != 0UL;
+bool k_can_sample(k_Descriptor t, k_Descriptor s, uint dimension, uint number) {
+  return k_can_read(t, dimension, number) && (s.kind_access & 0xFFFFu) == 6u && s.address != 0UL;
 }
 
 // NaN is 0. Beyond 2^30 every float is a whole even number, so nothing is lost by the clamp.
@@ -119,12 +120,12 @@ ivec3 k_moved(ivec3 at, ivec3 offset) { return at + offset; }
 
 //@ k_sample_level_$D_$C
 $V k_sample_level_$D_$C(k_Descriptor t, k_Descriptor s, $L at, float lod) {
-  if (!k_can_sample(t, s, k_class_$C)) return $V(0);
+  if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   return textureLod(k_sampled_$D_$C(t, s), k_location_$D(at), k_lod(lod));
 }
 //@ k_sample_gradient_$D_$C
 $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy) {
-  if (!k_can_sample(t, s, k_class_$C)) return $V(0);
+  if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   return textureGrad(k_sampled_$D_$C(t, s), k_location_$D(at), k_coordinate(ddx),
                      k_coordinate(ddy));
 }
@@ -138,14 +139,14 @@ $X k_mip_size_$D(k_Descriptor t, float lod) {
 }
 //@ k_sample_level_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_sample_level_$D_$C(k_Descriptor t, k_Descriptor s, $L at, float lod, $O offset) {
-  if (offset == $O(0) || !k_can_sample(t, s, k_class_$C)) {
+  if (offset == $O(0) || !k_can_sample(t, s, $Ru, k_class_$C)) {
     return k_sample_level_$D_$C(t, s, at, lod);
   }
   return k_sample_level_$D_$C(t, s, k_moved(k_coordinate(at), offset, k_mip_size_$D(t, lod)), lod);
 }
 //@ k_sample_gradient_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy, $O offset) {
-  if (offset == $O(0) || !k_can_sample(t, s, k_class_$C)) {
+  if (offset == $O(0) || !k_can_sample(t, s, $Ru, k_class_$C)) {
     return k_sample_gradient_$D_$C(t, s, at, ddx, ddy);
   }
   $G size = $G(k_spatial_$D(k_mip_size_$D(t, 0.0)));
@@ -186,14 +187,14 @@ spirv_instruction(id = 90) float k_dref_lod_$D(sampler$DIMShadow s, $L at, float
 //@ k_sample_compare_level_$D 1d 1d_array 2d 2d_array cube cube_array
 float k_sample_compare_level_$D(k_Descriptor t, k_Descriptor s, $L at, float reference,
                                 float lod) {
-  if (!k_can_sample(t, s, k_class_f)) return 0.0;
+  if (!k_can_sample(t, s, $Ru, k_class_f)) return 0.0;
   return k_dref_lod_$D(k_compared_$D(t, s), k_location_$D(at), k_reference(t, reference), 2,
                        k_lod(lod));
 }
 //@ k_sample_compare_level_$D 1d 1d_array 2d 2d_array
 float k_sample_compare_level_$D(k_Descriptor t, k_Descriptor s, $L at, float reference, float lod,
                                 $O offset) {
-  if (offset == $O(0) || !k_can_sample(t, s, k_class_f)) {
+  if (offset == $O(0) || !k_can_sample(t, s, $Ru, k_class_f)) {
     return k_sample_compare_level_$D(t, s, at, reference, lod);
   }
   return k_sample_compare_level_$D(t, s, k_moved(k_coordinate(at), offset, k_mip_size_$D(t, lod)),
@@ -210,7 +211,7 @@ float k_sample_compare_level_$D(k_Descriptor t, k_Descriptor s, $L at, float ref
 
 //@ k_gather_$D_$C 2d 2d_array cube cube_array
 $V k_gather_$D_$C(k_Descriptor t, k_Descriptor s, $L at, uint component) {
-  if (!k_can_sample(t, s, k_class_$C)) return $V(0);
+  if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   $L p = k_location_$D(at);
   if (component == 0u) return textureGather(k_sampled_$D_$C(t, s), p, 0);
   if (component == 1u) return textureGather(k_sampled_$D_$C(t, s), p, 1);
@@ -219,7 +220,7 @@ $V k_gather_$D_$C(k_Descriptor t, k_Descriptor s, $L at, uint component) {
 }
 //@ k_gather_$D_$C 2d 2d_array
 $V k_gather_$D_$C(k_Descriptor t, k_Descriptor s, $L at, uint component, ivec2 offset) {
-  if (!k_can_sample(t, s, k_class_$C)) return $V(0);
+  if (!k_can_sample(t, s, $Ru, k_class_$C)) return $V(0);
   $L p = k_location_$D(at);
   if (component == 0u) return textureGatherOffset(k_sampled_$D_$C(t, s), p, offset, 0);
   if (component == 1u) return textureGatherOffset(k_sampled_$D_$C(t, s), p, offset, 1);
@@ -228,12 +229,12 @@ $V k_gather_$D_$C(k_Descriptor t, k_Descriptor s, $L at, uint component, ivec2 o
 }
 //@ k_gather_compare_$D 2d 2d_array cube cube_array
 vec4 k_gather_compare_$D(k_Descriptor t, k_Descriptor s, $L at, float reference) {
-  if (!k_can_sample(t, s, k_class_f)) return vec4(0.0);
+  if (!k_can_sample(t, s, $Ru, k_class_f)) return vec4(0.0);
   return textureGather(k_compared_$D(t, s), k_location_$D(at), k_reference(t, reference));
 }
 //@ k_gather_compare_$D 2d 2d_array
 vec4 k_gather_compare_$D(k_Descriptor t, k_Descriptor s, $L at, float reference, ivec2 offset) {
-  if (!k_can_sample(t, s, k_class_f)) return vec4(0.0);
+  if (!k_can_sample(t, s, $Ru, k_class_f)) return vec4(0.0);
   return textureGatherOffset(k_compared_$D(t, s), k_location_$D(at), k_reference(t, reference),
                              offset);
 }
@@ -251,7 +252,7 @@ vec4 k_gather_compare_$D(k_Descriptor t, k_Descriptor s, $L at, float reference,
 
 //@ k_load_texel_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_load_texel_$D_$C(k_Descriptor t, $X at, int mip) {
-  if (!k_can_read(t, k_class_$C)) return $V(0);
+  if (!k_can_read(t, $Ru, k_class_$C)) return $V(0);
   if (uint(mip) >= uint(textureQueryLevels(k_texture_$D_$C(t)))) return $V(0);
   if (!k_inside(at, k_size_$D_$C(t, mip))) return $V(0);
   return texelFetch(k_texture_$D_$C(t), at, mip);
@@ -262,13 +263,13 @@ $V k_load_texel_$D_$C(k_Descriptor t, $X at, int mip, $O offset) {
 }
 //@ k_load_image_$D_$C 1d 1d_array 2d 2d_array 3d
 $V k_load_image_$D_$C(k_Descriptor t, $X at) {
-  if (!k_can_write(t, k_class_$C)) return $V(0);
+  if (!k_can_write(t, $Ru, k_class_$C)) return $V(0);
   if (!k_inside(at, imageSize(k_image_$D_$C(t)))) return $V(0);
   return imageLoad(k_image_$D_$C(t), at);
 }
 //@ k_store_texel_$D_$C 1d 1d_array 2d 2d_array 3d
 void k_store_texel_$D_$C(k_Descriptor t, $X at, $V value) {
-  if (!k_can_write(t, k_class_$C)) return;
+  if (!k_can_write(t, $Ru, k_class_$C)) return;
   if (k_inside(at, imageSize(k_image_$D_$C(t)))) imageStore(k_image_$D_$C(t), at, value);
 }
 
@@ -279,14 +280,14 @@ uvec3 k_extent(ivec2 size) { return uvec3(size, 1); }
 uvec3 k_extent(ivec3 size) { return uvec3(size); }
 //@ k_texture_dimensions_$D 1d 2d 2d_array 3d cube cube_array
 uvec4 k_texture_dimensions_$D(k_Descriptor t, uint mip) {
-  if (t.kind_access != 5u || t.address == 0UL) return uvec4(0u);
+  if (t.kind_access != 5u || t.address == 0UL || t.stride != $Ru) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_$D_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
   return uvec4(k_extent(k_size_$D_f(t, int(mip))), levels);
 }
 //@ k_texture_dimensions_1d_array
 uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint mip) {
-  if (t.kind_access != 5u || t.address == 0UL) return uvec4(0u);
+  if (t.kind_access != 5u || t.address == 0UL || t.stride != 3u) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_1d_array_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
   uvec2 size = uvec2(k_size_1d_array_f(t, int(mip)));
@@ -294,12 +295,12 @@ uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint mip) {
 }
 //@ k_image_dimensions_$D 1d 2d 2d_array 3d
 uvec4 k_image_dimensions_$D(k_Descriptor t) {
-  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL) return uvec4(0u);
+  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL || t.stride != $Ru) return uvec4(0u);
   return uvec4(k_extent(imageSize(k_image_$D_f(t))), 1u);
 }
 //@ k_image_dimensions_1d_array
 uvec4 k_image_dimensions_1d_array(k_Descriptor t) {
-  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL) return uvec4(0u);
+  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL || t.stride != 3u) return uvec4(0u);
   uvec2 size = uvec2(imageSize(k_image_1d_array_f(t)));
   return uvec4(size.x, 1u, size.y, 1u);
 }
@@ -324,7 +325,7 @@ const uint k_r32_i = 43u;
 const uint k_r32_u = 42u;
 //@ k_has_atomic_texel_$D_$C 1d 1d_array 2d 2d_array 3d
 bool k_has_atomic_texel_$D_$C(k_Descriptor t, $X at) {
-  return k_can_write(t, k_class_$C) && t.format == k_r32_$C &&
+  return k_can_write(t, $Ru, k_class_$C) && t.format == k_r32_$C &&
          k_inside(at, imageSize(k_atomic_image_$D_$C(t)));
 }
 //@ k_image_atomic_add_$D_i 1d 1d_array 2d 2d_array 3d

@@ -39,7 +39,7 @@ enum class DescriptorAccess : uint16_t { kShaderResource = 0, kUnorderedAccess =
 struct alignas(8) Descriptor {
   DescriptorKind kind = DescriptorKind::kNull;
   DescriptorAccess access = DescriptorAccess::kShaderResource;
-  uint32_t stride_bytes = 0;  // structured buffers
+  uint32_t stride_bytes = 0;  // structured buffers; textures: D3D12_SRV_DIMENSION of the view
   uint64_t address = 0;       // GPU virtual address, or the backend's object
   uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
   uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
