@@ -51,6 +51,8 @@ struct InterpretOptions {
   // an endless loop ends. Half a minute or so.
   uint64_t step_limit = uint64_t{1} << 30;
   InterpretHooks hooks;
+  // The SPIR-V of each entry point (spirv.h), for the table; empty: a library without it.
+  std::vector<std::vector<uint32_t>> spirv;
 };
 
 // The library's table and all that it refers to. The table is valid as long as this object.

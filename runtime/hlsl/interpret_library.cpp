@@ -159,6 +159,11 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     } else {
       desc.entry = closure->function();
     }
+    const auto& spirv = tables.program->options.spirv;
+    if (const size_t i = tables.exports.size(); i < spirv.size()) {
+      desc.spirv = spirv[i].data();
+      desc.spirv_words = static_cast<uint32_t>(spirv[i].size());
+    }
     tables.exports.push_back(desc);
     tables.closures.push_back(std::move(closure));
   }

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <thread>
 
+#include "rtapi/src/shader_library_impl.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/frontend.h"
 
@@ -227,7 +228,7 @@ struct Payload { bool first; double wide; Inner inner[2]; float3x2 m; bool2 flag
   EXPECT_EQ(payload.last, 21u);
 }
 
-TEST(Interpret, TheLibraryLivesAsLongAsItsHandle) {
+TEST(Interpret, ALibraryNeedsNoCompilerAndHasSpirv) {
   rtapi::ShaderCompileOptions options;
   options.File = "test.hlsl";
   options.Source = R"(struct P { float x; };
@@ -238,6 +239,13 @@ TEST(Interpret, TheLibraryLivesAsLongAsItsHandle) {
   ASSERT_TRUE(compiled.Status.ok()) << compiled.Status.error().message;
   ASSERT_NE(compiled.Library.FindExport("Dark"), nullptr);
   EXPECT_EQ(compiled.Library.FindExport("Dark")->PayloadSizeInBytes, 4u);
+  const shader::ExportDesc& code = compiled.Library.impl()->desc->exports[0];
+  ASSERT_GT(code.spirv_words, 5u);
+  EXPECT_EQ(code.spirv[0], 0x07230203u);
+  options.Spirv = false;
+  const rtapi::ShaderCompilation without = rtapi::CompileShaderLibrary(options);
+  ASSERT_TRUE(without.Status.ok());
+  EXPECT_EQ(without.Library.impl()->desc->exports[0].spirv, nullptr);
 }
 
 TEST(Interpret, WithoutACompilerTheErrorNamesTheInterpreter) {

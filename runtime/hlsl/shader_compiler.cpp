@@ -8,6 +8,7 @@
 #include "runtime/hlsl/frontend.h"
 #include "runtime/hlsl/host_compiler.h"
 #include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/spirv.h"
 
 namespace rtapi {
 namespace {
@@ -97,6 +98,14 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
                ShaderCompilation& out) {
   hlsl::InterpretOptions settings;
   if (options.InterpretStepLimit != 0) settings.step_limit = options.InterpretStepLimit;
+  if (options.Spirv) {
+    hlsl::SpirvLibrary spirv = hlsl::compile_spirv(*module);
+    if (!spirv.error.empty()) {
+      out.Status = Error{spirv.error.substr(0, 6), ErrorCode::kFailed, spirv.error};
+      return;
+    }
+    settings.spirv = std::move(spirv.modules);
+  }
   std::string problem;
   const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
   if (interpreted == nullptr) {

@@ -38,7 +38,7 @@ struct ShaderCompileOptions {
   std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
   bool Spirv = true;                // false: without what Vulkan devices need
-  // Needs no C++ compiler; shaders run about a hundred times slower. No cache.
+  // Needs no C++ compiler; on the CPU shaders run about a hundred times slower. No cache.
   bool Interpret = false;
   // Statements that one shader invocation may run when interpreted, before the device is removed
   // (an endless loop); 0: about a thousand million.
