@@ -72,6 +72,36 @@ rtapi::DeviceInfo info_of(const GpuProperties& properties) {
   return info;
 }
 
+// lavapipe filters textures of 8 bits with 8 bits unless this option of its code generator says
+// otherwise. It reads it when its first device starts, so it is set for that time only.
+class FilterOption {
+ public:
+  explicit FilterOption(bool wanted) {
+    if (!wanted) return;
+    const char* given = std::getenv(kName);
+    set_ = true;
+    given_ = given != nullptr;
+    if (given_) before_ = given;
+    setenv(kName, given_ ? (before_ + ",no_aos_sampling").c_str() : "no_aos_sampling", 1);
+  }
+  ~FilterOption() {
+    if (!set_) return;
+    if (given_) {
+      setenv(kName, before_.c_str(), 1);
+    } else {
+      unsetenv(kName);
+    }
+  }
+  FilterOption(const FilterOption&) = delete;
+  FilterOption& operator=(const FilterOption&) = delete;
+
+ private:
+  static constexpr char kName[] = "GALLIVM_PERF";
+  bool set_ = false;
+  bool given_ = false;
+  std::string before_;
+};
+
 rtapi::Error no_device(const std::string& why) {
   return rtapi::Error{
       "KA0950", rtapi::ErrorCode::kUnsupported,
@@ -176,6 +206,7 @@ rtapi::Status Gpu::create_device() {
   info.pQueueCreateInfos = &queue;
   info.enabledExtensionCount = static_cast<uint32_t>(features.extensions().size());
   info.ppEnabledExtensionNames = features.extensions().data();
+  const FilterOption filter_option(workarounds_.has(Workaround::kFilterInFloats));
   const VkResult r = vkCreateDevice(physical_device_, &info, nullptr, &device_);
   if (r != VK_SUCCESS) return error(r, "starting " + info_.Name);
   volkLoadDeviceTable(&vk_, device_);

@@ -36,9 +36,11 @@ constexpr WorkaroundInfo kTable[] = {
      "a dispatch is cut into one contiguous piece per thread, of which some end early"},
     {Workaround::kSortPrimitives, "SORT", kLavapipe, kFirst, kOpen, true, 0,
      "the tree halves the list of primitives in the order of the input"},
+    {Workaround::kFilterInFloats, "FILTER", kLavapipe, kFirst, kOpen, true, 0,
+     "textures of 8 bits are filtered in 8 bits; applied when its first device starts"},
 };
 
-bool lists(std::string_view list, std::string_view name) {
+bool lists_workaround(std::string_view list, std::string_view name) {
   while (!list.empty()) {
     const size_t comma = list.find(',');
     const std::string_view item = list.substr(0, comma);
@@ -97,7 +99,8 @@ Workarounds workarounds_for(VkDriverId driver, std::string_view driver_info,
     if (info.driver != driver || version < info.first_version || version > info.last_version) {
       continue;
     }
-    if ((info.by_default || lists(enabled, info.name)) && !lists(disabled, info.name)) {
+    if ((info.by_default || lists_workaround(enabled, info.name)) &&
+        !lists_workaround(disabled, info.name)) {
       result.insert(info);
     }
   }

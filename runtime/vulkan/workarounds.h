@@ -24,6 +24,7 @@ enum class Workaround : uint32_t {
   kTrackReportedT,         // B7
   kInterleaveRows,         // B11
   kSortPrimitives,         // SORT
+  kFilterInFloats,         // FILTER
 };
 
 // Versions of drivers as one number: major * 1000 + minor.
