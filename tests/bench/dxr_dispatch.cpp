@@ -132,7 +132,7 @@ void DxrDispatch::record() {
 }
 
 void DxrDispatch::run() {
-  scene_.queue().ExecuteCommandLists({list_}).value();
+  scene_.queue().ExecuteAndWait(list_).value();
 }
 
 }  // namespace kaamos::bench

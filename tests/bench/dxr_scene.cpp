@@ -18,8 +18,9 @@ Buffer default_buffer(const Device& device, uint64_t bytes, const char* name) {
   return device.CreateBuffer(desc).value();
 }
 
-Device make_device(uint32_t threads) {
+Device make_device(uint32_t threads, const std::string& backend) {
   DeviceDesc desc;
+  desc.Backend = backend;
   desc.Threads = threads;
   return CreateDevice(desc).value();
 }
@@ -46,8 +47,11 @@ void build_structure(const Device& device, CommandQueue& queue,
   queue.ExecuteAndWait(list).value();
 }
 
-DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested)
-    : data_(data), device_(make_device(threads)), queue_(device_.CreateCommandQueue().value()) {
+DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
+                   const std::string& backend)
+    : data_(data),
+      device_(make_device(threads, backend)),
+      queue_(device_.CreateCommandQueue().value()) {
   meshes_.resize(data.meshes.size());
   for (size_t i = 0; i < meshes_.size(); ++i) build_mesh(data.meshes[i], alpha_tested, meshes_[i]);
   build_instances();

@@ -25,7 +25,8 @@ void build_structure(const rtapi::Device& device, rtapi::CommandQueue& queue,
 class DxrScene {
  public:
   // `alpha_tested`: plants are not opaque; else everything is.
-  DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested);
+  DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
+           const std::string& backend = "embree");
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }

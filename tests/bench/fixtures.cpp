@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "fixtures.h"
 
+#if KAAMOS_HAS_VULKAN
+#include "hand_vulkan.h"
+#else
+namespace kaamos::bench {
+class HandVulkan {};
+}  // namespace kaamos::bench
+#endif
+
 namespace kaamos::bench {
 
 Fixtures::Fixtures(const Options& options)
@@ -36,6 +44,20 @@ DxrScene& Fixtures::dxr_scene(bool alpha_tested) {
   if (!made) made = std::make_unique<DxrScene>(scene(), threads(), alpha_tested);
   return *made;
 }
+
+Fixtures::~Fixtures() = default;
+
+DxrScene& Fixtures::vulkan_scene() {
+  if (!vulkan_) vulkan_ = std::make_unique<DxrScene>(scene(), threads(), false, "vulkan");
+  return *vulkan_;
+}
+
+#if KAAMOS_HAS_VULKAN
+HandVulkan& Fixtures::hand_vulkan() {
+  if (!hand_) hand_ = std::make_unique<HandVulkan>(hand_meshes(scene(), true), scene().instances);
+  return *hand_;
+}
+#endif
 
 const OwnTopLevel& Fixtures::own_top_level() {
   if (!own_) own_ = std::make_unique<OwnTopLevel>(dxr_scene(false));

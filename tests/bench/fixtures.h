@@ -15,9 +15,12 @@
 
 namespace kaamos::bench {
 
+class HandVulkan;
+
 class Fixtures {
  public:
   explicit Fixtures(const Options& options);
+  ~Fixtures();
 
   const Options& options() const { return options_; }
   uint32_t threads() const { return options_.threads; }
@@ -28,6 +31,9 @@ class Fixtures {
   const EmbreeScene& embree_scene(bool alpha_tested);
   DxrScene& dxr_scene(bool alpha_tested);
   const OwnTopLevel& own_top_level();
+  DxrScene& vulkan_scene();  // everything opaque
+  bool has_vulkan_scene() const { return vulkan_ != nullptr; }
+  HandVulkan& hand_vulkan();
 
  private:
   const Options& options_;
@@ -36,6 +42,8 @@ class Fixtures {
   std::unique_ptr<EmbreeScene> embree_[2];
   std::unique_ptr<DxrScene> dxr_[2];
   std::unique_ptr<OwnTopLevel> own_;
+  std::unique_ptr<DxrScene> vulkan_;
+  std::unique_ptr<HandVulkan> hand_;
   std::vector<SurfacePoint> points_;
   RayGrid rays_[5];
 };

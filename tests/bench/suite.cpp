@@ -193,7 +193,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
   }
   if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<Case> cases;
-  for (auto part : {dispatch_cases, build_cases, hlsl_cases, compute_cases}) {
+  for (auto part : {dispatch_cases, build_cases, hlsl_cases, compute_cases, vulkan_cases}) {
     for (Case& one : part()) {
       if (one.name.starts_with(options.only)) cases.push_back(std::move(one));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A file of its own: a program that links the backend too takes volk's functions from there.
+// Of programs that do not link the backend, which has its own.
 #define VOLK_IMPLEMENTATION
 #define VK_NO_PROTOTYPES
 #include <volk.h>
