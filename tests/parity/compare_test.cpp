@@ -23,6 +23,7 @@ std::vector<HitRecord> halves() {
     hits[i].t = hits[i].primitive == 1 ? 5.0f : 9.0f;
     hits[i].cosine = 1;
     hits[i].record = 3;
+    hits[i].coordinate = 9;
   }
   return hits;
 }
@@ -102,10 +103,29 @@ TEST(CompareHits, DistanceIsComparedAwayFromGrazing) {
   auto b = a;
   b[9].t *= 1.0003f;
   EXPECT_NE(judge(compare_hits(a, b, kWidth)), "");
-  EXPECT_GT(compare_hits(a, b, kWidth).worst_t, 2e-4);
+  EXPECT_GT(compare_hits(a, b, kWidth).worst_t, 2);
   auto grazing = a;
   grazing[9].cosine = b[9].cosine = 0.01f;
   EXPECT_EQ(judge(compare_hits(grazing, b, kWidth)), "");
+}
+
+TEST(CompareHits, BarycentricsAreComparedByThePlaceThatTheyName) {
+  const auto a = halves();
+  auto b = a;
+  b[9].barycentrics[0] = 0.01f;
+  EXPECT_EQ(judge(compare_hits(a, b, kWidth)), "");
+  b[9].surface_point[1] = 0.01f;  // at t = 5
+  EXPECT_NE(judge(compare_hits(a, b, kWidth)), "");
+}
+
+TEST(CompareHits, AShortDistanceIsAsGoodAsItsCoordinates) {
+  auto a = halves();
+  auto b = a;
+  a[9].t = 1e-3f;
+  b[9].t = 1e-3f + 4e-6f;  // coordinates of 9: four units in their last place
+  EXPECT_EQ(judge(compare_hits(a, b, kWidth)), "");
+  b[9].t = 1e-3f + 2e-5f;
+  EXPECT_NE(judge(compare_hits(a, b, kWidth)), "");
 }
 
 TEST(CompareHits, ANumberThatIsNoneFails) {

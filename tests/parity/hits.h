@@ -23,9 +23,10 @@ struct HitRecord {
   float barycentrics[2] = {0, 0};
   float cosine = 0;  // between the ray and the triangle's normal, without sign
   float object_point[3] = {0, 0, 0};
-  uint32_t reserved = 0;
+  float surface_point[3] = {0, 0, 0};  // world, from the triangle's corners and the barycentrics
+  float coordinate = 0;                // the largest one that the hit was computed from, world
 };
-static_assert(sizeof(HitRecord) == 64);
+static_assert(sizeof(HitRecord) == 76);
 
 // Tolerances of the project's description. The two traversals round differently, so what may differ
 // is what rounding decides: which of two triangles at the same place is hit, and whether the edge
@@ -33,9 +34,11 @@ static_assert(sizeof(HitRecord) == 64);
 struct HitLimits {
   double visibility =
       1e-4;  // of rays: one hits and the other misses, or something else lies behind
-  double silhouettes = 5e-3;   // of rays: another triangle at the same t, or the neighbour's
-  double t_relative = 1e-4;    // away from grazing
-  double barycentrics = 1e-3;  // away from grazing
+  double silhouettes = 5e-3;  // of rays: another triangle at the same t, or the neighbour's
+  // Away from grazing, of t and of where in the triangle the hit lies; and what the last places of
+  // coordinates make of a short t: some 8 units in the last place of the largest.
+  double t_relative = 1e-4;
+  double per_coordinate = 1e-6;
   double grazing_cosine = 0.05;
 };
 
@@ -44,14 +47,14 @@ enum class HitChange : uint8_t {
   kSilhouette,  // another triangle, tied with it or its neighbour in the picture
   kVisibility,  // hit against miss, or a far hit
   kInteger,     // the same triangle, but an integer of it differs
-  kNumber,      // the same triangle, but t, barycentrics or the object's point are too far apart
+  kNumber,      // the same triangle, but t or where it is hit are too far apart
 };
 
 struct HitDifference {
   uint64_t rays = 0;
   uint64_t hits = 0;  // of `a`
   uint64_t counts[5] = {0, 0, 0, 0, 0};
-  double worst_t = 0;  // relative, of what is away from grazing
+  double worst_t = 0;  // of what is away from grazing, over what is allowed
   // The worst ray of the worst kind: index, and what differs in words. Empty: nothing does.
   HitChange worst_change = HitChange::kNone;
   uint64_t worst_ray = 0;

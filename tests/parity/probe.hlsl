@@ -23,7 +23,8 @@ struct Hit {
   float2 barycentrics;
   float cosine;
   float3 object_point;
-  uint reserved;
+  float3 surface_point;
+  float coordinate;
 };
 
 struct Attributes {
@@ -80,6 +81,13 @@ uint Corner(uint i) {
   return (i & 1) != 0 ? word >> 16 : word & 0xFFFF;
 }
 
+// The largest coordinate that the hit was computed from.
+float LargestCoordinate() {
+  const float3 hit = WorldRayOrigin() + RayTCurrent() * WorldRayDirection();
+  const float3 far = max(abs(WorldRayOrigin()), abs(hit));
+  return max(far.x, max(far.y, far.z));
+}
+
 float3 Position(uint corner) {
   return asfloat(l_vertices.Load3(corner * kVertexBytes));
 }
@@ -88,7 +96,9 @@ float3 Position(uint corner) {
 void ProbeHit(inout Hit payload, BuiltInTriangleIntersectionAttributes attributes) {
   const uint first = PrimitiveIndex() * 3;
   const float3 a = Position(Corner(first));
-  const float3 across = cross(Position(Corner(first + 1)) - a, Position(Corner(first + 2)) - a);
+  const float3 ab = Position(Corner(first + 1)) - a;
+  const float3 ac = Position(Corner(first + 2)) - a;
+  const float3 across = cross(ab, ac);
   const float3 normal = mul(across, (float3x3)WorldToObject3x4());
   const float3 direction = WorldRayDirection();
   payload.hit = 1;
@@ -104,6 +114,9 @@ void ProbeHit(inout Hit payload, BuiltInTriangleIntersectionAttributes attribute
   payload.cosine = abs(dot(normalize(normal), normalize(direction)));
   const float3 world = WorldRayOrigin() + RayTCurrent() * direction;
   payload.object_point = mul(WorldToObject3x4(), float4(world, 1.0f));
+  const float2 b = attributes.barycentrics;
+  payload.surface_point = mul(ObjectToWorld3x4(), float4(a + b.x * ab + b.y * ac, 1.0f));
+  payload.coordinate = LargestCoordinate();
 }
 
 // Boxes hold a ball that fills them.
@@ -139,4 +152,6 @@ void ProbeBallHit(inout Hit payload, Attributes attributes) {
   payload.barycentrics = attributes.place;
   payload.object_point = mul(WorldToObject3x4(), float4(world, 1.0f));
   payload.cosine = abs(dot(payload.object_point, normalize(ObjectRayDirection())));
+  payload.surface_point = world;
+  payload.coordinate = LargestCoordinate();
 }
