@@ -23,10 +23,29 @@ int main(int argc, char** argv) {
   app.add_option("--first", backends[0], "the backend to compare with")->capture_default_str();
   app.add_option("--second", backends[1], "the backend that is compared")->capture_default_str();
   app.add_option("--ray", ray, "the number of one ray: show what both found");
+  std::vector<float> from;
+  std::vector<float> along;
+  ProbeRay given;
+  app.add_option("--from", from, "trace one ray of your own: x y z, from the camera")->expected(3);
+  app.add_option("--along", along, "its direction: x y z")->expected(3);
+  app.add_option("--t-min", given.t_min, "of that ray")->capture_default_str();
+  app.add_option("--t-max", given.t_max, "of that ray")->capture_default_str();
+  app.add_option("--flags", given.flags, "of that ray")->capture_default_str();
+  app.add_option("--mask", given.mask, "of that ray")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   if (std::sscanf(size.c_str(), "%ux%u", &set.width, &set.height) != 2 || set.width == 0) {
     std::fprintf(stderr, "kaamos-parity: --size %s is not a size, like 480x270\n", size.c_str());
     return 2;
+  }
+  if (!from.empty() && !along.empty()) {
+    for (size_t i = 0; i < 3; ++i) {
+      given.origin[i] = from[i];
+      given.direction[i] = along[i];
+    }
+    set.kind = "given";
+    set.width = set.height = 1;
+    set.given = {given};
+    ray = 0;
   }
   try {
     const RayRun run = trace_on_both(set, backends);

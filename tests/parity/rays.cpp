@@ -129,7 +129,9 @@ RayRun trace_on_both(const RaySet& set, const std::string (&backends)[2]) {
   }
   run.rays = picture_rays(set, axes, tan_half_fov, eye);
   run.picture_width = set.width;
-  if (set.kind == "flags") {
+  if (set.kind == "given") {
+    run.rays = set.given;
+  } else if (set.kind == "flags") {
     add_flags(set, run.rays);
   } else if (set.kind == "ao" || set.kind == "diffuse" ||
              (set.kind == "sun" && scene && scene->sun)) {

@@ -20,6 +20,7 @@ struct RaySet {
   uint32_t width = 480;
   uint32_t height = 270;
   uint32_t seed = 1;
+  std::vector<ProbeRay> given;  // kind "given"; a whole number of rows of `width`
 };
 
 // Empty where the set names no scene or kind.
