@@ -3,10 +3,13 @@
 // kaamos-parity: traces the rays of a set on two backends and says what differs; with --ray, all
 // that is known of that one.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 
 #include "tests/parity/rays.h"
+#include "tests/parity/sampled.h"
 
 using namespace kaamos::parity;
 
@@ -32,6 +35,9 @@ int main(int argc, char** argv) {
   app.add_option("--t-max", given.t_max, "of that ray")->capture_default_str();
   app.add_option("--flags", given.flags, "of that ray")->capture_default_str();
   app.add_option("--mask", given.mask, "of that ray")->capture_default_str();
+  uint32_t sampled = 0;
+  app.add_option("--sampled", sampled,
+                 "instead of rays: the largest error of that many reads between two texels");
   CLI11_PARSE(app, argc, argv);
   if (std::sscanf(size.c_str(), "%ux%u", &set.width, &set.height) != 2 || set.width == 0) {
     std::fprintf(stderr, "kaamos-parity: --size %s is not a size, like 480x270\n", size.c_str());
@@ -48,6 +54,15 @@ int main(int argc, char** argv) {
     ray = 0;
   }
   try {
+    if (sampled != 0) {
+      const auto values = sample_between_texels(backends[1], sampled);
+      double worst = 0;
+      for (uint32_t i = 0; i < sampled; ++i) {
+        worst = std::max(worst, std::fabs(values[i] - (i + 0.5) / sampled));
+      }
+      std::printf("%.9g\n", worst);
+      return 0;
+    }
     const RayRun run = trace_on_both(set, backends);
     if (ray >= 0) {
       const auto i = static_cast<size_t>(ray);

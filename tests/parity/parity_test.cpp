@@ -3,6 +3,8 @@
 // Rays, effects and examples on Vulkan against the same on Embree.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
@@ -14,6 +16,13 @@
 #include "tests/parity/pictures.h"
 #include "tests/parity/rays.h"
 #include "tests/vulkan/support.h"
+
+namespace kaamos::parity {
+// gtest prints parameters.
+static void PrintTo(const RaySet& set, std::ostream* out) {
+  *out << set.scene << " " << set.kind;
+}
+}  // namespace kaamos::parity
 
 namespace {
 
@@ -91,6 +100,25 @@ std::vector<HitRecord> hits_of(const std::map<FrameTexture, FloatImage>& frame) 
   return hits;
 }
 
+// From octahedral form, in which vectors that are close together may lie far apart.
+FloatImage decoded_normals(const FloatImage& encoded) {
+  FloatImage out(encoded.width, encoded.height, 3);
+  for (uint32_t y = 0; y < encoded.height; ++y) {
+    for (uint32_t x = 0; x < encoded.width; ++x) {
+      const float u = encoded.at(x, y, 0);
+      const float v = encoded.at(x, y, 1);
+      float n[3] = {u, v, 1 - std::abs(u) - std::abs(v)};
+      if (n[2] < 0) {
+        n[0] = (1 - std::abs(v)) * (u >= 0 ? 1.0f : -1.0f);
+        n[1] = (1 - std::abs(u)) * (v >= 0 ? 1.0f : -1.0f);
+      }
+      const float length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      for (uint32_t c = 0; c < 3; ++c) out.at(x, y, c) = n[c] / length;
+    }
+  }
+  return out;
+}
+
 TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   const Scene scene = GetParam().make();
@@ -108,20 +136,30 @@ TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
   const FloatImage& ids_a = frames[0].at(kIds);
   const FloatImage& ids_b = frames[1].at(kIds);
   const auto pixels = static_cast<double>(run.width) * run.height;
-  const std::pair<FrameTexture, const char*> layers[] = {{kDepth, "depth"},
-                                                         {kViewZ, "view z"},
-                                                         {kNormal, "normal"},
-                                                         {kPosition, "position"},
-                                                         {kShadingNormal, "shading normal"},
-                                                         {kBaseColor, "base color"},
-                                                         {kEmissive, "emissive"},
-                                                         {kMaterial, "material"}};
-  for (const auto& [texture, name] : layers) {
+  struct Layer {
+    FrameTexture texture;
+    const char* name;
+    double allowed;
+  };
+  // One step of 8 bits where that is what the picture holds: decoding sRGB may be off by half a
+  // step [D3D11.3: 3.2.3.6], which decides how the other half is rounded.
+  constexpr double kStep = 1.01 / 255;
+  const Layer layers[] = {
+      {kDepth, "depth", 1e-4},           {kViewZ, "view z", 1e-4},
+      {kNormal, "normal", 1e-3},         {kPosition, "position", 1e-4},
+      {kBaseColor, "base color", kStep}, {kEmissive, "emissive", 2e-3},
+      {kMaterial, "material", kStep},    {kShadingNormal, "shading normal", 2e-3}};
+  for (const Layer& layer : layers) {
+    const bool is_normal = layer.texture == kNormal || layer.texture == kShadingNormal;
+    const auto values = [&](int i) {
+      const FloatImage& image = frames[i].at(layer.texture);
+      return is_normal ? decoded_normals(image) : image;
+    };
     const LayerDifference difference =
-        compare_layers(frames[0].at(texture), frames[1].at(texture), ids_a, ids_b, 2e-3);
+        compare_layers(values(0), values(1), ids_a, ids_b, layer.allowed);
     // What grazes differs by more; it is rare.
     EXPECT_LE(static_cast<double>(difference.above), 1e-3 * pixels)
-        << name << ": by up to " << difference.worst << ", "
+        << layer.name << ": by up to " << difference.worst << ", "
         << where(difference.worst_x, difference.worst_y);
   }
   for (const auto& [texture, name] : {std::pair(kAmbientOcclusionSum, "ambient occlusion"),
@@ -177,6 +215,31 @@ INSTANTIATE_TEST_SUITE_P(Programs, VulkanExamples,
                                          "05-callable-and-recursion", "06-local-root-signature",
                                          "07-update-and-compaction", "08-compute"),
                          [](const auto& tested) { return name_of(tested.param); });
+
+// The largest error of reads between two texels, in a process of its own: the driver looks at its
+// settings once in a process, and what this process set would be inherited.
+double sampling_error(const std::string& environment) {
+  const std::string command = "env -u GALLIVM_PERF " + environment +
+                              " " KAAMOS_BINARY_DIR "/bin/kaamos-parity --sampled 1000";
+  FILE* pipe = popen(command.c_str(), "r");
+  double error = NAN;
+  if (pipe == nullptr || std::fscanf(pipe, "%lf", &error) != 1) error = NAN;
+  if (pipe != nullptr) pclose(pipe);
+  return error;
+}
+
+TEST(VulkanFilters, AreAsExactAsEmbrees) {
+  KAAMOS_NEED_VULKAN();
+  EXPECT_LT(sampling_error(""), 1e-4);
+}
+
+// FILTER. A driver that mends it may go below.
+TEST(VulkanFilters, HaveEightBitsWithoutTheWorkaround) {
+  KAAMOS_NEED_VULKAN();
+  const double error = sampling_error("KAAMOS_VULKAN_DISABLE_WORKAROUNDS=FILTER");
+  EXPECT_GT(error, 1e-3);
+  EXPECT_LT(error, 1e-2);
+}
 
 // The whole program, files and all.
 TEST(VulkanNorthlight, DrawsWhatEmbreeDraws) {
