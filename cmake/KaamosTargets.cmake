@@ -39,6 +39,12 @@ if(KAAMOS_SANITIZE)
   kaamos_add_build_flags(
     COMPILE -fsanitize=${KAAMOS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined
     LINK -fsanitize=${KAAMOS_SANITIZE})
+  # What the sanitizers are to ignore is part of every program, so that it holds for tests, for the
+  # tools they start, and for a program started by hand.
+  add_library(kaamos_sanitizer_defaults OBJECT "${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp")
+  target_compile_options(kaamos_sanitizer_defaults PRIVATE -fsanitize=${KAAMOS_SANITIZE})
+  target_link_libraries(kaamos_build_flags INTERFACE
+    "$<BUILD_INTERFACE:$<TARGET_OBJECTS:kaamos_sanitizer_defaults>>")
 endif()
 find_program(KAAMOS_MOLD mold)
 if(KAAMOS_MOLD AND NOT KAAMOS_SANITIZE)

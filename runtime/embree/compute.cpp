@@ -3,10 +3,6 @@
 // Thread groups. A kernel that was split at its barriers, or has none, is one call per group. The
 // others run each thread of a group on a fiber: a barrier goes back to the group's loop, which
 // resumes the next thread, and so lets none pass before all have arrived.
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <cstring>
@@ -16,6 +12,7 @@
 #include "runtime/embree/compute.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/fault.h"
+#include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
 namespace {
@@ -187,12 +184,8 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
   const ComputeJob job = {&dispatch, &pipeline, command.groups};
   dispatch.begun.store(true, std::memory_order_release);
   if (count != 0) {
-    environment.arena->execute([&] {
-      tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count),
-                        [&](const tbb::blocked_range<uint64_t>& groups) {
-                          run_groups(job, groups.begin(), groups.end());
-                        });
-    });
+    parallel_ranges(*environment.arena, count,
+                    [&](uint64_t begin, uint64_t end) { run_groups(job, begin, end); });
   }
   return end_dispatch(dispatch);
 }

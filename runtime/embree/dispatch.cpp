@@ -2,13 +2,11 @@
 #include "runtime/embree/dispatch.h"
 
 #include <immintrin.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 
 #include "runtime/embree/fault.h"
+#include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/services.h"
 
@@ -230,11 +228,8 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
     return end_dispatch(dispatch);
   }
   dispatch.begun.store(true, std::memory_order_release);
-  environment.arena->execute([&] {
-    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, grid.tile_count()),
-                      [&](const tbb::blocked_range<uint64_t>& tiles) {
-                        run_tiles(dispatch, grid, read.record, tiles.begin(), tiles.end());
-                      });
+  parallel_ranges(*environment.arena, grid.tile_count(), [&](uint64_t begin, uint64_t end) {
+    run_tiles(dispatch, grid, read.record, begin, end);
   });
   return end_dispatch(dispatch);
 }

@@ -34,10 +34,12 @@ constexpr int kMaxFindings = 20;
 constexpr size_t kTextBytes = 8u << 20;
 
 constexpr char kUsage[] =
-    "hlsl_fuzz [--seed N] [--seconds S] [--out FOLDER] [--first N] [--replay PATH] SOURCE...\n"
+    "hlsl_fuzz [--seed N] [--seconds S | --long S] [--out FOLDER] [--first N] [--replay PATH] "
+    "SOURCE...\n"
     "  SOURCE          folders with the HLSL files to damage\n"
     "  --seed N        which sequence of inputs (default 1)\n"
     "  --seconds S     how long (default 3)\n"
+    "  --long S        as --seconds, but KAAMOS_FUZZ_SECONDS in the environment comes first\n"
     "  --first N       begin with input N of the sequence (default 0)\n"
     "  --out FOLDER    where inputs that were too much are written (default .)\n"
     "  --replay PATH   compiles this file, or the .hlsl files of this folder, as they are\n";
@@ -77,6 +79,15 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
       out.first = std::strtoull(value.c_str(), nullptr, 0);
     } else if (word == "--seconds") {
       out.seconds = std::strtod(value.c_str(), nullptr);
+    } else if (word == "--long") {
+      const char* wanted = std::getenv("KAAMOS_FUZZ_SECONDS");
+      const std::string text = wanted != nullptr ? wanted : value;
+      char* end = nullptr;
+      out.seconds = std::strtod(text.c_str(), &end);
+      if (end == text.c_str() || *end != '\0' || !(out.seconds > 0)) {
+        std::fprintf(stderr, "hlsl_fuzz: \"%s\" is no number of seconds above 0\n", text.c_str());
+        return std::nullopt;
+      }
     } else if (word == "--out") {
       out.out = value;
     } else if (word == "--replay") {
@@ -235,9 +246,10 @@ int fuzz(const Arguments& arguments) {
     if (++findings == kMaxFindings) break;
     ++shared.number;
   }
-  std::printf("hlsl_fuzz: seed %llu, %llu inputs, %d findings\n",
+  const std::chrono::duration<double> seconds = Clock::now() - start;
+  std::printf("hlsl_fuzz: seed %llu, %llu inputs in %.0f s, %d findings\n",
               static_cast<unsigned long long>(arguments.seed),
-              static_cast<unsigned long long>(shared.finished.load()), findings);
+              static_cast<unsigned long long>(shared.finished.load()), seconds.count(), findings);
   return findings == 0 ? 0 : 1;
 }
 

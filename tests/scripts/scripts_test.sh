@@ -139,7 +139,7 @@ label_option_needs_a_label() {
 help_builds_nothing() {
   run_test --help
   expect_status 0
-  expect 'Usage: scripts/test [--full] [-L LABEL]'
+  expect 'Usage: scripts/test [--full[=PARTS]] [-L LABEL]'
   run_demo --help
   expect_status 0
   expect 'Usage: scripts/demo [northlight arguments]'
@@ -504,14 +504,71 @@ label_is_passed_to_ctest() {
   expect_call 'ctest .*-L hlsl'
 }
 
-full_run_adds_both_sanitizers() {
+full_run_adds_every_part() {
   run_test --full
   expect_status 0
-  expect_last_line '6 passed, 0 failed, 0 skipped'
+  expect_last_line '10 passed, 0 failed, 0 skipped'
+  expect_call 'ctest .*build/release .*-LE \^full\$'
+  expect_call 'ctest .*build/release .*-L \^long\$'
   expect_call 'cmake --build --preset asan'
   expect_call 'cmake --build --preset tsan'
-  expect_call 'ctest .*build/tsan .*-LE \^package\$'
+  expect_call 'ctest .*build/asan .*-L \^fuzz\$'
+}
+
+release_is_built_once_for_tests_and_long() {
+  run_test --full
+  [[ $(grep -c 'cmake --build --preset release' "$state/calls") == 1 ]] || fail 'built more than once'
+}
+
+full_part_runs_alone() {
+  run_test --full=long
+  expect_status 0
+  expect_last_line '2 passed, 0 failed, 0 skipped'
+  expect_call 'ctest .*build/release .*-L \^long\$'
+  expect_no_call 'preset (asan|tsan)'
   expect_no_call 'LE \^full'
+}
+
+long_part_asks_for_full_size_and_sanitizers_do_not() {
+  fake ctest <<<"#!/bin/sh
+echo \"size: \$KAAMOS_FULL, \$*\" >>$state/calls
+exit 1"
+  run_test --full=long,tsan
+  expect_call 'size: 1, .*build/release'
+  expect_call 'size: , .*build/tsan'
+}
+
+sanitizers_leave_out_what_runs_no_program_of_ours() {
+  run_test --full=sanitizers
+  expect_last_line '4 passed, 0 failed, 0 skipped'
+  local sanitizer
+  for sanitizer in asan tsan; do
+    expect_call "ctest .*build/$sanitizer .*-LE \\^\\(full\\|package\\|vulkan\\)\\\$ -E \\^\\(style\\|scripts\\|debug\\)"
+  done
+  expect_no_call 'preset release'
+}
+
+fuzz_part_builds_the_fuzzer_only() {
+  run_test --full=fuzz
+  expect_status 0
+  expect_call 'cmake --build --preset asan .*--target hlsl_fuzz$'
+  expect_call 'ctest .*build/asan .*-L \^fuzz\$'
+}
+
+full_parts_go_together_with_a_label() {
+  run_test --full=asan -L hlsl
+  expect_call 'ctest .*build/asan .*-L hlsl'
+}
+
+unknown_full_part_is_named() {
+  run_test --full=long,fast
+  expect_status 1
+  expect 'scripts/test: error: --full has no part "fast".'
+  expect 'Its parts: long, asan, tsan, sanitizers (asan and tsan), fuzz.'
+  run_test --full=
+  expect_status 1
+  expect '--full= needs a part, for example: scripts/test --full=long'
+  expect_no_call .
 }
 
 ci_requires_vulkan() {

@@ -6,14 +6,6 @@
 #include <algorithm>
 #include <atomic>
 
-#if defined(__SANITIZE_THREAD__)
-// oneTBB and Embree are not instrumented: what their tasks hand over is not seen to be ordered.
-extern "C" const char* __tsan_default_suppressions() {
-  return "race:tbb::detail\ncalled_from_lib:libtbb.so\ncalled_from_lib:libembree\n"
-         "race:kaamos::embree::Device::count_bytes\n";
-}
-#endif
-
 namespace kaamos::embree::testing {
 namespace {
 
