@@ -6,7 +6,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 namespace kaamos::effects {
@@ -40,11 +42,14 @@ inline SpawnPoint make_spawn_point(const glm::vec3& v0, const glm::vec3& v1, con
   constexpr float kC2 = 1.1920928955078125e-7f;   // 2^-23
   const glm::vec3 e1 = v1 - v0, e2 = v2 - v0;
   const glm::vec3 p = v0 + (e1 * barycentrics.x + e2 * barycentrics.y);
-  const glm::vec3 n = glm::cross(e1, e2);
 
   const glm::vec3 a1 = glm::abs(e1), a2 = glm::abs(e2);
   const glm::vec3 extents = a1 + a2 + glm::abs(a1 - a2);
   const float extent = std::max(std::max(extents.x, extents.y), extents.z);
+  // 1 / extent by its exponent alone: exact, and keeps squares of the normal in range.
+  const float power =
+      std::bit_cast<float>((254u << 23) - (std::bit_cast<std::uint32_t>(extent) & 0x7F800000u));
+  const glm::vec3 n = glm::cross(e1 * power, e2 * power);
   glm::vec3 object_error = kC0 * glm::abs(v0) + glm::vec3(kC1 * extent);
 
   SpawnPoint out;

@@ -102,12 +102,15 @@ SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
   precise const float3 e1 = v1 - v0;
   precise const float3 e2 = v2 - v0;
   precise const float3 p = v0 + (e1 * barycentrics.x + e2 * barycentrics.y);
-  precise const float3 n = cross(e1, e2);
 
   const float3 a1 = abs(e1);
   const float3 a2 = abs(e2);
   const float3 extents = a1 + a2 + abs(a1 - a2);
   const float extent = max(max(extents.x, extents.y), extents.z);
+  // The normal's squared length is of the fourth power of the edges: it would vanish below 1e-10 m
+  // and overflow above 1e9 m. A power of two, 1 / extent by its exponent, changes no digit.
+  const float power = asfloat((254u << 23) - (asuint(extent) & 0x7F800000u));
+  precise const float3 n = cross(e1 * power, e2 * power);
   float3 object_error = c0 * abs(v0) + c1 * extent;
 
   SpawnPoint result;

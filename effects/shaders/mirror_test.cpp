@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -42,6 +43,12 @@ float3 lerp(const float3& a, const float3& b, float t) {
 }
 uint reversebits(uint x) {
   return kaamos::effects::reverse_bits(x);
+}
+uint asuint(float x) {
+  return std::bit_cast<uint>(x);
+}
+float asfloat(uint bits) {
+  return std::bit_cast<float>(bits);
 }
 
 template <glm::length_t N>

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// The lounge at 96 x 54 pixels: ambient occlusion and sun visibility, with how far they may be off.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "effect_run.h"
+#include "effects/common/result.h"
+#include "effects/scene/scene.h"
+
+namespace kaamos::test {
+
+inline constexpr std::uint32_t kLoungeWidth = 96;
+inline constexpr std::uint32_t kLoungeHeight = 54;
+// Of the committed reference: kLoungeScrambles pictures of kLoungeRays each, seeds from 0 on.
+inline constexpr std::uint32_t kLoungeScrambles = 16;
+inline constexpr std::uint32_t kLoungeRays = 2048;
+// Of the picture that a normal run compares with it.
+inline constexpr std::uint32_t kQuickRays = 256;
+inline constexpr std::uint32_t kQuickSeed = 1000;
+
+// The mean over scrambles, pixel by pixel.
+struct Estimate {
+  effects::FloatImage mean;
+  effects::FloatImage error;      // standard error of the mean, from the spread of the scrambles
+  effects::FloatImage deviation;  // of one scramble
+  effects::FloatImage ids;        // instance + 1, primitive
+};
+
+// Throws rtapi::ResultError. `scrambles` >= 2; seeds first_seed, first_seed + 1, ...
+Estimate estimate_lounge(const effects::Scene& lounge, Effect effect, std::uint32_t rays,
+                         std::uint32_t scrambles, std::uint32_t first_seed);
+EffectRun lounge_run(Effect effect, std::uint32_t rays, std::uint32_t seed);
+
+// What is committed of one effect.
+struct LoungeReference {
+  effects::FloatImage mean;
+  effects::FloatImage error;      // standard error of the mean
+  effects::FloatImage deviation;  // of one picture of kQuickRays
+  effects::FloatImage ids;
+};
+
+std::string lounge_reference_path();  // in the source tree
+effects::Result<LoungeReference> read_lounge_reference(Effect effect);
+// Renders everything anew: a minute or more. Throws rtapi::ResultError.
+effects::Status write_lounge_reference(const std::string& path);
+
+}  // namespace kaamos::test

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "ray_probe.h"
+
+#include <rtapi/rtapi.h>
+#include <rtapi/upload.h>
+#include <shaders/ray_probe.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace kaamos::test {
+namespace {
+
+using namespace rtapi;
+
+static_assert(sizeof(ProbeRay) == 32 && sizeof(ProbeHit) == 16, "as in ray_probe.hlsl");
+
+Buffer build(const Device& device, CommandQueue& queue,
+             const BuildRaytracingAccelerationStructureInputs& inputs) {
+  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+  BufferDesc desc;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.SizeInBytes = std::max<std::uint64_t>(sizes.ScratchDataSizeInBytes, 256);
+  const Buffer scratch = device.CreateBuffer(desc).value();
+  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  const Buffer structure = device.CreateBuffer(desc).value();
+  CommandList list = device.CreateCommandList().value();
+  BuildRaytracingAccelerationStructureDesc build;
+  build.Inputs = inputs;
+  build.DestAccelerationStructureData = structure.GetGPUVirtualAddress();
+  build.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
+  list.BuildRaytracingAccelerationStructure(build);
+  queue.ExecuteAndWait(list).value();
+  return structure;
+}
+
+Buffer build_bottom_level(const Device& device, CommandQueue& queue, const ProbeMesh& mesh) {
+  const Buffer vertices = CreateUploadBuffer(device, mesh.positions, "vertices").value();
+  const Buffer indices = CreateUploadBuffer(device, mesh.triangles, "indices").value();
+  RaytracingGeometryDesc geometry;
+  geometry.Flags = RaytracingGeometryFlags::kOpaque;
+  geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
+  geometry.Triangles.VertexCount = static_cast<std::uint32_t>(mesh.positions.size());
+  geometry.Triangles.VertexBuffer = {vertices.GetGPUVirtualAddress(), sizeof(glm::vec3)};
+  geometry.Triangles.IndexFormat = Format::kR32Uint;
+  geometry.Triangles.IndexCount = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+  geometry.Triangles.IndexBuffer = indices.GetGPUVirtualAddress();
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.NumDescs = 1;
+  inputs.pGeometryDescs = &geometry;
+  return build(device, queue, inputs);
+}
+
+Buffer build_top_level(const Device& device, CommandQueue& queue, const ProbeMesh& mesh,
+                       const Buffer& bottom_level) {
+  RaytracingInstanceDesc instance;
+  std::memcpy(instance.Transform, &mesh.transform, sizeof(instance.Transform));
+  instance.InstanceMask = 0xFF;
+  instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
+  const Buffer instances =
+      CreateUploadBuffer(device, std::vector<RaytracingInstanceDesc>{instance}, "instance").value();
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.NumDescs = 1;
+  inputs.InstanceDescs = instances.GetGPUVirtualAddress();
+  return build(device, queue, inputs);
+}
+
+StateObject create_pipeline(const Device& device, const RootSignature& root_signature) {
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{LoadShaderLibrary(kaamos_shaders_ray_probe()).value(), {}});
+  desc.Add(HitGroupDesc{.HitGroupExport = "Hit", .ClosestHitShaderImport = "ProbeClosestHit"});
+  desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = sizeof(ProbeHit)});
+  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 1});
+  desc.Add(GlobalRootSignature{root_signature});
+  return device.CreateStateObject(desc).value();
+}
+
+}  // namespace
+
+std::vector<ProbeHit> probe(const ProbeMesh& mesh, const std::vector<ProbeRay>& rays) {
+  const Device device = CreateDevice().value();
+  CommandQueue queue = device.CreateCommandQueue().value();
+  const Buffer bottom_level = build_bottom_level(device, queue, mesh);
+  const Buffer top_level = build_top_level(device, queue, mesh, bottom_level);
+  const Buffer ray_buffer = CreateUploadBuffer(device, rays, "rays").value();
+  BufferDesc desc;
+  desc.SizeInBytes = rays.size() * sizeof(ProbeHit);
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kUnorderedAccess;
+  const Buffer hit_buffer = device.CreateBuffer(desc).value();
+
+  const RootSignature root_signature =
+      device.CreateRootSignature("SRV(t0), SRV(t1), UAV(u0)").value();
+  const StateObject pipeline = create_pipeline(device, root_signature);
+  ShaderTable ray_generation(pipeline), miss(pipeline), hit(pipeline);
+  ray_generation.AddRecord("ProbeRays").value();
+  miss.AddRecord("ProbeMiss").value();
+  hit.AddRecord("Hit").value();
+  for (ShaderTable* table : {&ray_generation, &miss, &hit}) table->Build(device).value();
+
+  CommandList list = device.CreateCommandList().value();
+  list.SetComputeRootSignature(root_signature);
+  list.SetComputeRootShaderResourceView(0, top_level.GetGPUVirtualAddress());
+  list.SetComputeRootShaderResourceView(1, ray_buffer.GetGPUVirtualAddress());
+  list.SetComputeRootUnorderedAccessView(2, hit_buffer.GetGPUVirtualAddress());
+  list.SetPipelineState1(pipeline);
+  list.DispatchRays({.RayGenerationShaderRecord = ray_generation.GetRecord(0),
+                     .MissShaderTable = miss.GetTable(),
+                     .HitGroupTable = hit.GetTable(),
+                     .Width = static_cast<std::uint32_t>(rays.size()),
+                     .Height = 1});
+  queue.ExecuteAndWait(list).value();
+  const std::vector<std::byte> bytes = ReadbackBuffer(device, queue, hit_buffer).value();
+  std::vector<ProbeHit> hits(rays.size());
+  std::memcpy(hits.data(), bytes.data(), hits.size() * sizeof(ProbeHit));
+  return hits;
+}
+
+}  // namespace kaamos::test

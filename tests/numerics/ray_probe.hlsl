@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Rays from a buffer, and what they hit, number by number. ray_probe.h has the same layouts.
+
+struct ProbeRay {
+  float3 origin;
+  float t_min;
+  float3 direction;
+  float t_max;
+};
+
+struct ProbeHit {
+  float t;  // -1: nothing
+  float2 barycentrics;
+  uint primitive;
+};
+
+struct Payload {
+  ProbeHit hit;
+};
+
+RaytracingAccelerationStructure scene : register(t0);
+StructuredBuffer<ProbeRay> rays : register(t1);
+RWStructuredBuffer<ProbeHit> hits : register(u0);
+
+[shader("raygeneration")]
+void ProbeRays() {
+  const uint index = DispatchRaysIndex().x;
+  const ProbeRay ray = rays[index];
+  RayDesc desc;
+  desc.Origin = ray.origin;
+  desc.TMin = ray.t_min;
+  desc.Direction = ray.direction;
+  desc.TMax = ray.t_max;
+  Payload payload = (Payload)0;
+  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 0, 0, desc, payload);
+  hits[index] = payload.hit;
+}
+
+[shader("closesthit")]
+void ProbeClosestHit(inout Payload payload, in BuiltInTriangleIntersectionAttributes attributes) {
+  payload.hit.t = RayTCurrent();
+  payload.hit.barycentrics = attributes.barycentrics;
+  payload.hit.primitive = PrimitiveIndex();
+}
+
+[shader("miss")]
+void ProbeMiss(inout Payload payload) {
+  payload.hit.t = -1.0;
+}
