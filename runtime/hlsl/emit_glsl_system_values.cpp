@@ -114,14 +114,13 @@ std::string GlslEmitter::system_value(const Expr& expr) {
     case SystemValue::kRayFlags:
       return if_has(ray, [] { return "gl_IncomingRayFlagsEXT"; });
     case SystemValue::kInstanceIndex:
-      return if_has(hit,
-                    [&] { return hit_builtin("instance_index", "uint", "uint(gl_InstanceID)"); });
+      return if_has(hit, [&] { return instance_entry() + ".instance_index"; });
     case SystemValue::kInstanceId:
-      return if_has(hit, [&] { return instance_value(false); });
+      return if_has(hit, [&] { return instance_entry() + ".instance_id"; });
     case SystemValue::kGeometryIndex:
       return if_has(hit, [&] { return geometry_index(); });
     case SystemValue::kPrimitiveIndex:
-      return if_has(hit, [&] { return instance_value(true); });
+      return if_has(hit, [&] { return primitive_index(); });
     case SystemValue::kObjectRayOrigin:
       return if_has(hit, [&] { return object_ray(true); });
     case SystemValue::kObjectRayDirection:
@@ -145,19 +144,22 @@ std::string GlslEmitter::geometry_index() {
   return hit_builtin("geometry_index", "uint", "uint(gl_GeometryIndexEXT)");
 }
 
-// InstanceID, or PrimitiveIndex, which the backend may have to map back to the application's order.
-std::string GlslEmitter::instance_value(bool primitive) {
+// InstanceIndex and InstanceID as the application knows them, and the way back to its primitives.
+std::string GlslEmitter::instance_entry() {
   const std::string custom =
       hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)");
   generated("g_instance_entry",
             "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
-            "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; };\n"
+            "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; "
+            "uint instance_index; };\n"
             "g_InstanceEntry g_instance_entry() {\n"
             "  return g_InstanceEntry(k_dispatch.instances + uint64_t(" +
                 custom + ") * 16UL);\n}\n");
-  if (!primitive) {
-    return "g_instance_entry().instance_id";
-  }
+  return "g_instance_entry()";
+}
+
+std::string GlslEmitter::primitive_index() {
+  instance_entry();
   const std::string id = hit_builtin("primitive_id", "uint", "uint(gl_PrimitiveID)");
   const std::string geometry = geometry_index();
   return generated("g_primitive_index",

@@ -160,7 +160,8 @@ class GlslEmitter {
   std::string ray_t_current();
   std::string object_ray(bool origin);
   std::string geometry_index();
-  std::string instance_value(bool primitive);
+  std::string instance_entry();
+  std::string primitive_index();
 
   // emit_glsl.cpp
   void collect(const ir::Function& function);

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstring>
 #include <utility>
+#include <vector>
+
+#include "runtime/vulkan/sort.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -32,8 +35,9 @@ VkAccelerationStructureInstanceKHR record_of(const runtime::Instance& instance,
   return record;
 }
 
-InstanceEntry entry_of(const runtime::Instance& instance) {
+InstanceEntry entry_of(const runtime::Instance& instance, uint32_t index) {
   InstanceEntry entry;
+  entry.instance_index = index;
   entry.instance_id = instance.desc.InstanceID;
   if (instance.bottom_level != nullptr) {
     entry.primitive_remap =
@@ -48,6 +52,33 @@ uint64_t largest_record_of(const runtime::Instance& instance) {
   return instance.desc.InstanceContributionToHitGroupIndex + 15 + 15 * (geometries - 1);
 }
 
+// The instances for the driver, as positions in the input. Lavapipe halves their list as it does
+// with primitives; there those that cannot be hit are left out.
+std::vector<uint32_t> driver_order(const Workarounds& workarounds,
+                                   std::span<const runtime::Instance> instances) {
+  std::vector<uint32_t> order;
+  order.reserve(instances.size());
+  if (!workarounds.has(Workaround::kSortPrimitives)) {
+    for (uint32_t i = 0; i < instances.size(); ++i) order.push_back(i);
+    return order;
+  }
+  std::vector<SortItem> items;
+  items.reserve(instances.size());
+  for (uint32_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].bottom_level == nullptr) continue;
+    SortItem& item = items.emplace_back();
+    item.primitive = i;
+    const runtime::Bounds& bounds = instances[i].bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+      item.centre[axis] = 0.5f * bounds.lower[axis] + 0.5f * bounds.upper[axis];
+    }
+  }
+  constexpr uint32_t kOneList[] = {0};
+  sort_for_halving(items, kOneList);
+  for (const SortItem& item : items) order.push_back(item.primitive);
+  return order;
+}
+
 }  // namespace
 
 rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
@@ -56,30 +87,33 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   std::shared_ptr<TopLevel> level(new TopLevel);
   std::vector<InstanceEntry> entries;
   entries.reserve(instances.size());
-  for (const auto& instance : instances) entries.push_back(entry_of(instance));
+  for (const auto& instance : instances) {
+    entries.push_back(entry_of(instance, static_cast<uint32_t>(entries.size())));
+  }
   auto range = table.add(entries);
   if (!range) return range.error();
   level->entries_ = std::move(*range);
 
-  const uint64_t bytes = instances.size() * sizeof(VkAccelerationStructureInstanceKHR);
+  const std::vector<uint32_t> order = driver_order(gpu->workarounds(), instances);
+  const uint64_t bytes = order.size() * sizeof(VkAccelerationStructureInstanceKHR);
   auto inputs = gpu->create_buffer(bytes, "instances of a top level", InitialContents::kAny);
   if (!inputs) return inputs.error();
   auto* records = reinterpret_cast<VkAccelerationStructureInstanceKHR*>((*inputs)->host());
   auto& kept = level->bottom_levels_;
-  for (uint32_t i = 0; i < instances.size(); ++i) {
-    records[i] = record_of(instances[i], level->entries_.first() + i);
-    if (instances[i].bottom_level == nullptr) continue;
-    level->largest_hit_record_ =
-        std::max(level->largest_hit_record_, largest_record_of(instances[i]));
-    if (kept.empty() || kept.back() != instances[i].bottom_level) {
-      kept.push_back(instances[i].bottom_level);
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    const runtime::Instance& instance = instances[order[i]];
+    records[i] = record_of(instance, level->entries_.first() + order[i]);
+    if (instance.bottom_level == nullptr) continue;
+    level->largest_hit_record_ = std::max(level->largest_hit_record_, largest_record_of(instance));
+    if (kept.empty() || kept.back() != instance.bottom_level) {
+      kept.push_back(instance.bottom_level);
     }
   }
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
 
   StructureGeometry geometry;
-  geometry.range.primitiveCount = static_cast<uint32_t>(instances.size());
+  geometry.range.primitiveCount = static_cast<uint32_t>(order.size());
   geometry.geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
   geometry.geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
   auto& data = geometry.geometry.geometry.instances;

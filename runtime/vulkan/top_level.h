@@ -19,8 +19,8 @@ namespace kaamos::vulkan {
 
 class TopLevel final : public runtime::TopLevelBase {
  public:
-  // `instances` in the order of the input: its index is InstanceIndex, gl_InstanceID. Errors:
-  // KA0794 too many instances, KA0990 no memory.
+  // `instances` in the order of the input: its index is InstanceIndex. Errors: KA0794 too many
+  // instances, KA0990 no memory.
   static rtapi::Result<std::shared_ptr<TopLevel>> build(
       const std::shared_ptr<Gpu>& gpu, InstanceTable& table,
       std::span<const runtime::Instance> instances, runtime::BuildFlags flags);

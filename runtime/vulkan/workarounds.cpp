@@ -35,7 +35,7 @@ constexpr WorkaroundInfo kTable[] = {
      shader::spirv::kInterleaveRows,
      "a dispatch is cut into one contiguous piece per thread, of which some end early"},
     {Workaround::kSortPrimitives, "SORT", kLavapipe, kFirst, kOpen, true, 0,
-     "the tree halves the list of primitives in the order of the input"},
+     "the tree halves the list of primitives or instances in the order of the input"},
     {Workaround::kFilterInFloats, "FILTER", kLavapipe, kFirst, kOpen, true, 0,
      "textures of 8 bits are filtered in 8 bits; applied when its first device starts"},
 };

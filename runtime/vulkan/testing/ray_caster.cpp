@@ -17,7 +17,7 @@ constexpr char kCommon[] = R"(#version 460
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 struct Ray { vec3 origin; float t_min; vec3 direction; float t_max; };
 struct Hit { float t; uint instance, instance_id, geometry, primitive, kind; };
-struct Entry { uint64_t primitive_remap; uint instance_id, reserved; };
+struct Entry { uint64_t primitive_remap; uint instance_id, instance_index; };
 layout(buffer_reference, scalar) buffer Rays { Ray of[]; };
 layout(buffer_reference, scalar) buffer Hits { Hit of[]; };
 layout(buffer_reference, scalar) buffer Entries { Entry of[]; };
@@ -63,8 +63,9 @@ void main() { hit = Hit(-1, 0, 0, 0, 0, 0); }
 constexpr char kClosestHit[] = R"(
 layout(location = 0) rayPayloadInEXT Hit hit;
 void main() {
-  hit = Hit(gl_HitTEXT, gl_InstanceID, Entries(entries).of[gl_InstanceCustomIndexEXT].instance_id,
-            gl_GeometryIndexEXT, primitive(), gl_HitKindEXT);
+  Entry entry = Entries(entries).of[gl_InstanceCustomIndexEXT];
+  hit = Hit(gl_HitTEXT, entry.instance_index, entry.instance_id, gl_GeometryIndexEXT,
+            primitive(), gl_HitKindEXT);
 }
 )";
 constexpr char kIntersection[] = R"(

@@ -103,15 +103,15 @@ constexpr uint32_t top_level_hash(uint64_t address) {
   return (static_cast<uint32_t>(address >> 8) * 0x9E3779B1u) >> 7;
 }
 
-// InstanceIndex is gl_InstanceID, InstanceID comes from here. The driver may see the primitives of
-// a bottom level in another order than the application gave them:
+// InstanceIndex and InstanceID come from here. The driver may see instances, and the primitives of
+// a bottom level, in another order than the application gave them:
 //   words = uint32_t[] at primitive_remap;
 //   PrimitiveIndex = primitive_remap != 0 ? words[words[GeometryIndex] + gl_PrimitiveID]
 //                                         : gl_PrimitiveID
 struct InstanceEntry {
   uint64_t primitive_remap = 0;
   uint32_t instance_id = 0;
-  uint32_t reserved = 0;
+  uint32_t instance_index = 0;
 };
 static_assert(sizeof(InstanceEntry) == 16);
 
