@@ -76,7 +76,9 @@ k_Descriptor k_from_table(uint kind, uint access, uint64_t handle, uint index) {
 }
 
 // The four constants of a binding, and the index in it, 0 unless it is an array. The constants are
-// known when a pipeline is made: one branch is left.
+// known when a pipeline is made, so that one of these ways is left. Kind and size of a root
+// descriptor are constants too, but for a null one's size: the compiler then drops what k_window
+// and its like compare.
 //@ k_resolve
 k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint array_index) {
   uint from = source & 0xFFu;
@@ -87,20 +89,23 @@ k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint ar
     if (array_index != 0u) return k_null;
     return k_Descriptor(6u | 2u << 16, 0u, uint64_t(offset), 0UL, 0u, 0u);
   }
-  uint64_t arguments = (source & 0x100u) != 0u ? k_local_arguments() : k_global_arguments();
-  if (arguments == 0UL) return k_null;
+  bool local = (source & 0x100u) != 0u;
+  uint64_t arguments = local ? k_local_arguments() : k_global_arguments();
+  bool there = !local || arguments != 0UL;
   if (from == 3u) {  // descriptor table
-    if (array_index >= count && count != 0xFFFFFFFFu) return k_null;
+    if (!there || (array_index >= count && count != 0xFFFFFFFFu)) return k_null;
     uint64_t handle = k_read_argument(arguments + offset) + uint64_t(index) * 32UL;
     return k_from_table(kind, access, handle, array_index);
   }
   if (array_index != 0u) return k_null;  // root parameters are no arrays
   if (from == 1u) {
-    return k_Descriptor(1u | 2u << 16, 0u, arguments + offset, uint64_t(count), 0u, 0u);
+    return k_Descriptor(1u | 2u << 16, 0u, arguments + offset, there ? uint64_t(count) : 0UL, 0u,
+                        0u);
   }
-  uint64_t address = k_read_argument(arguments + offset);
-  if (address == 0UL) return k_null;
-  return k_Descriptor(kind | access << 16, count, address, ~0UL, 0u, 0u);  // no bounds [D3D12]
+  uint64_t address = 0UL;
+  if (there) address = k_read_argument(arguments + offset);
+  // A root descriptor has no bounds. [D3D12]
+  return k_Descriptor(kind | access << 16, count, address, address != 0UL ? ~0UL : 0UL, 0u, 0u);
 }
 
 // ResourceDescriptorHeap[index], SamplerDescriptorHeap[index]

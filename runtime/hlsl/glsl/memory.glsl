@@ -27,25 +27,34 @@ uint64_t k_buffer_bytes(k_Descriptor d) {
   uint kind = d.kind_access & 0xFFFFu;
   return kind >= 1u && kind <= 3u ? d.size : 0UL;  // constant, raw, structured
 }
+// What is without bounds (a root descriptor) stays so: then a compiler sees a constant, and leaves
+// out every comparison with it.
+//@ k_rest
+uint64_t k_rest(uint64_t bytes, uint offset) {
+  if (bytes == ~0UL) return bytes;
+  return bytes > offset ? bytes - offset : 0UL;
+}
 // The low bits of the offset that an access ignores are for the caller to clear: two, or one for
 // 16-bit scalars.
 //@ k_window
 k_Window k_window(k_Descriptor d, uint offset) {
   uint64_t size = k_buffer_bytes(d);
-  return k_Window(d.address + offset, size > offset ? size - offset : 0UL);
+  return k_Window(d.address + offset, k_rest(size, offset));
 }
 //@ k_element_window
 k_Window k_element_window(k_Descriptor d, uint index, uint offset) {
   if ((d.kind_access & 0xFFFFu) != 3u || offset >= d.stride) return k_Window(0UL, 0UL);
   uint64_t at = uint64_t(index) * d.stride + offset;
-  if (at >= d.size) return k_Window(0UL, 0UL);
   // An element ends at the view's stride, even where the shader believes it to be longer.
-  return k_Window(d.address + at, min(d.size - at, uint64_t(d.stride - offset)));
+  uint64_t in_element = uint64_t(d.stride - offset);
+  if (d.size == ~0UL) return k_Window(d.address + at, in_element);
+  if (at >= d.size) return k_Window(0UL, 0UL);
+  return k_Window(d.address + at, min(d.size - at, in_element));
 }
 // A part of a window: what begins `offset` bytes into it.
 //@ k_sub_window
 k_Window k_sub_window(k_Window w, uint offset) {
-  return k_Window(w.base + offset, w.bytes > offset ? w.bytes - offset : 0UL);
+  return k_Window(w.base + offset, k_rest(w.bytes, offset));
 }
 // For atomics: 0 where out of bounds or misaligned.
 //@ k_atomic_address_32
@@ -249,6 +258,7 @@ void k_write_f64(k_Window w, uint at, double value) {
 uint k_clamped_size(uint64_t n) { return n > 0xFFFFFFFFUL ? 0xFFFFFFFFu : uint(n); }
 //@ k_buffer_dimensions
 uvec4 k_buffer_dimensions(k_Descriptor d) {
+  if (d.address == 0UL) return uvec4(0u);
   uint kind = d.kind_access & 0xFFFFu;
   if (kind == 2u) return uvec4(k_clamped_size(d.size), 1u, 0u, 0u);
   if (kind == 3u) {
