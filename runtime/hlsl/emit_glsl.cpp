@@ -3,6 +3,7 @@
 // The text as a whole: globals, functions, main.
 #include "runtime/hlsl/emit_glsl.h"
 
+#include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/glsl_emitter.h"
 #include "runtime/hlsl/glsl_prelude.h"
 #include "runtime/hlsl/ir_visit.h"
@@ -158,6 +159,23 @@ std::string GlslEmitter::entry_argument(size_t index) {
   return "";
 }
 
+void GlslEmitter::count_invocation() {
+  switch (entry_.stage) {
+    case kStageIntersection:
+      return line(count(shader::spirv::kIntersectionInvocations));
+    case kStageAnyHit:
+      return line(count(shader::spirv::kAnyHitInvocations));
+    case kStageClosestHit:
+      return line(count(shader::spirv::kClosestHitInvocations));
+    case kStageMiss:
+      return line(count(shader::spirv::kMissInvocations));
+    case kStageCallable:
+      return line(count(shader::spirv::kCallableInvocations));
+    default:
+      return;
+  }
+}
+
 void GlslEmitter::emit_main() {
   std::string functions = std::move(out_);
   out_.clear();
@@ -172,6 +190,7 @@ void GlslEmitter::emit_main() {
     line(type(entry_.payload) + " g_argument = " + convert_wire(entry_.payload, false) +
          "(g_in.data);");
   }
+  count_invocation();
   std::string text = function_names_[entry_.function] + "(";
   for (size_t i = 0; i < entry_.parameters.size(); ++i) {
     text += (i == 0 ? "" : ", ") + entry_argument(i);

@@ -4,6 +4,7 @@
 // <kaamos/shader/spirv_interface.h> lays them out.
 #include <algorithm>
 
+#include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -12,14 +13,15 @@ using namespace ir;
 
 namespace {
 
-// Bits of kaamos::shader::spirv::Workaround.
-constexpr const char* kRestoreAttributes = "(g_workarounds & 1u) != 0u";
-constexpr const char* kTrackReportedT = "(g_workarounds & 4u) != 0u";
+using shader::spirv::kMaxCallableDepthConstant;
+using shader::spirv::kMaxTraceDepthConstant;
+using shader::spirv::kWorkaroundsConstant;
 
-// Of kaamos::shader::spirv.
-constexpr uint32_t kWorkaroundsConstant = 0xFFFF0000u;
-constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;
-constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;
+// Bits of shader::spirv::Workaround.
+constexpr const char* kRestoreAttributes = "(g_workarounds & 1u) != 0u";
+static_assert(shader::spirv::kRestoreAttributes == 1);
+constexpr const char* kTrackReportedT = "(g_workarounds & 4u) != 0u";
+static_assert(shader::spirv::kTrackReportedT == 4);
 
 bool two_floats(const Type* type) {
   if (glsl::words(type) != 2) {
@@ -139,12 +141,34 @@ std::string GlslEmitter::convert_wire(const Type* t, bool to_wire) {
 // ---------------------------------------------------------------------------------------------
 // TraceRay and CallShader
 
+void GlslEmitter::declare_status() {
+  generated("g_Status",
+            "layout(buffer_reference, scalar, buffer_reference_align = 8) buffer g_Status {\n"
+            "  uint removal_reason;\n"
+            "  uint reserved;\n"
+            "  uint counts[" +
+                std::to_string(2 * shader::spirv::kCountCount) + "];\n};\n");
+}
+
+// A statement that counts, where the device collects statistics.
+std::string GlslEmitter::count(uint32_t what) {
+  constant(shader::spirv::kCountConstant, "g_counts");
+  declare_status();
+  generated("g_count",
+            "void g_count(uint what) {\n"
+            "  if (g_counts == 0u) return;\n"
+            "  g_Status status = g_Status(k_dispatch.status);\n"
+            "  if (atomicAdd(status.counts[2u * what], 1u) == 0xFFFFFFFFu) {\n"
+            "    atomicAdd(status.counts[2u * what + 1u], 1u);\n"
+            "  }\n"
+            "}\n");
+  return "g_count(" + glsl::number(what) + ");";
+}
+
 void GlslEmitter::declare_remove_device() {
+  declare_status();
   if (made_.insert("g_remove_device").second) {
     helpers_ +=
-        "layout(buffer_reference, scalar, buffer_reference_align = 8) buffer g_Status {\n"
-        "  uint removal_reason;\n"
-        "};\n"
         "void g_remove_device(uint reason) {\n"
         "  g_Status(k_dispatch.status).removal_reason = reason + 1u;\n"
         "}\n";
@@ -205,6 +229,12 @@ std::string GlslEmitter::trace_function(const Type* payload) {
               "    g_remove_device(0u);\n"
               "    return;\n"
               "  }\n"
+              "  " +
+              count(shader::spirv::kTraceRayCalls) +
+              "\n"
+              "  if ((flags & 8u) != 0u && (flags & 5u) != 0u) " +
+              count(shader::spirv::kVisibilityRays) +
+              "\n"
               "  " +
               out +
               ".depths = g_depths + 1u;\n"

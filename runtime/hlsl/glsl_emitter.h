@@ -135,7 +135,9 @@ class GlslEmitter {
   std::string generated(const std::string& name, const std::string& text);
   std::string wire_type(const ir::Type* type);
   std::string convert_wire(const ir::Type* type, bool to_wire);
+  void declare_status();
   void declare_remove_device();
+  std::string count(uint32_t what);
   std::string payload_block(const char* qualifier, int location, const ir::Type* type,
                             const std::string& name);
   std::string trace_function(const ir::Type* payload);
@@ -168,6 +170,7 @@ class GlslEmitter {
   void collect(const ir::Expr& expr);
   void emit_globals();
   void emit_function(const ir::Function& function);
+  void count_invocation();
   void emit_main();
   void initialise_globals();
   std::string entry_argument(size_t index);

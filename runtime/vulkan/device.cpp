@@ -24,7 +24,7 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   auto descriptors = DescriptorSet::create(gpu_);
   if (!descriptors) return descriptors.error();
   descriptors_ = *descriptors;
-  auto layout = PipelineLayout::create(gpu_, descriptors_);
+  auto layout = PipelineLayout::create(gpu_, descriptors_, desc.CollectStatistics);
   if (!layout) return layout.error();
   layout_ = *layout;
   stream_ = std::make_unique<CommandStream>(gpu_);
@@ -40,9 +40,6 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
     warn("KA0957",
          "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
              "\", which is none; they are listed in runtime/vulkan/README.md.");
-  }
-  if (desc.CollectStatistics) {
-    warn("KA0958", "CollectStatistics: the Vulkan backend counts nothing; GetStatistics gives 0.");
   }
   return {};
 }
@@ -99,6 +96,29 @@ rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(
     rtapi::RaytracingAccelerationStructureBuildFlags flags,
     std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const {
   return structures_->prebuild_info(type, flags, geometries, instance_count);
+}
+
+rtapi::RaytracingStatistics Device::statistics() const {
+  const std::lock_guard lock(statistics_mutex_);
+  return statistics_;
+}
+
+void Device::reset_statistics() {
+  const std::lock_guard lock(statistics_mutex_);
+  statistics_ = {};
+}
+
+void Device::add(const rtapi::RaytracingStatistics& statistics) {
+  const std::lock_guard lock(statistics_mutex_);
+  statistics_.TraceRayCalls += statistics.TraceRayCalls;
+  statistics_.VisibilityRays += statistics.VisibilityRays;
+  statistics_.Hits += statistics.Hits;
+  statistics_.Misses += statistics.Misses;
+  statistics_.AnyHitInvocations += statistics.AnyHitInvocations;
+  statistics_.IntersectionInvocations += statistics.IntersectionInvocations;
+  statistics_.ClosestHitInvocations += statistics.ClosestHitInvocations;
+  statistics_.MissInvocations += statistics.MissInvocations;
+  statistics_.CallableInvocations += statistics.CallableInvocations;
 }
 
 void Device::warn(const char* id, const std::string& text) const {

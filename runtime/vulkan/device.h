@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "runtime/backend.h"
@@ -41,6 +42,8 @@ class Device final : public runtime::BackendDevice {
       std::span<const rtapi::RaytracingGeometryDesc> geometries,
       uint32_t instance_count) const override;
   rtapi::Status execute(std::span<const runtime::Command> commands) override;
+  rtapi::RaytracingStatistics statistics() const override;
+  void reset_statistics() override;
 
   // What the commands' code needs; see execute.cpp.
   Gpu& gpu() { return *gpu_; }
@@ -50,6 +53,7 @@ class Device final : public runtime::BackendDevice {
   DispatchEnvironment dispatch_environment() {
     return {stream_.get(), memory_.get(), structures_.get(), &scratch_};
   }
+  void add(const rtapi::RaytracingStatistics& statistics);
   void warn(const char* id, const std::string& text) const;
 
  private:
@@ -69,6 +73,8 @@ class Device final : public runtime::BackendDevice {
   std::unique_ptr<AccelerationStructures> structures_;
   DispatchMemory scratch_;
   size_t validation_position_ = 0;
+  mutable std::mutex statistics_mutex_;  // guards:
+  rtapi::RaytracingStatistics statistics_;
 };
 
 }  // namespace kaamos::vulkan

@@ -14,7 +14,8 @@ using shader::spirv::DispatchStatus;
 
 constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks lie at multiples of 64
 static_assert(sizeof(DispatchBlock) <= kBlockBytes);
-constexpr uint64_t kStatusBytes = 64;
+constexpr uint64_t kStatusBytes = 128;
+static_assert(sizeof(DispatchStatus) <= kStatusBytes);
 
 // The application's tables, where they are in the driver's form, and how many records each has.
 struct Table {
@@ -216,6 +217,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
                                 parts[i].size[0], parts[i].size[1], parts[i].size[2]);
   }
   if (auto s = environment_.stream->flush(); !s) return s;
+  add_counts(*buffer_, result_.statistics);
   return status_of(*buffer_, pipeline_.linked().max_recursion_depth, pipeline_.max_trace_depth(),
                    label_);
 }
@@ -272,6 +274,23 @@ void write_blocks(const DispatchBlock& block, const std::vector<GridPart>& parts
     own.rows = parts[i].size[1];
     std::memcpy(buffer.host() + kStatusBytes + i * kBlockBytes, &own, sizeof(own));
   }
+}
+
+void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics) {
+  DispatchStatus status;
+  std::memcpy(&status, buffer.host(), sizeof(status));
+  const auto count = [&](uint32_t what) {
+    return uint64_t{status.counts[what][1]} << 32 | status.counts[what][0];
+  };
+  statistics.TraceRayCalls += count(shader::spirv::kTraceRayCalls);
+  statistics.VisibilityRays += count(shader::spirv::kVisibilityRays);
+  statistics.AnyHitInvocations += count(shader::spirv::kAnyHitInvocations);
+  statistics.IntersectionInvocations += count(shader::spirv::kIntersectionInvocations);
+  statistics.ClosestHitInvocations += count(shader::spirv::kClosestHitInvocations);
+  statistics.MissInvocations += count(shader::spirv::kMissInvocations);
+  statistics.CallableInvocations += count(shader::spirv::kCallableInvocations);
+  statistics.Misses = statistics.MissInvocations;
+  statistics.Hits = statistics.TraceRayCalls - statistics.Misses;
 }
 
 rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,

@@ -46,6 +46,9 @@ struct DispatchResult {
     std::string text;
   };
   std::vector<Warning> warnings;
+  // Where the device collects them. A miss without a miss shader counts as a hit: only shaders can
+  // count.
+  rtapi::RaytracingStatistics statistics;
 };
 
 // `label` names the dispatch in messages.
@@ -64,6 +67,8 @@ void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<G
                   const GpuBuffer& buffer);
 uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
+// After the work: what shaders counted.
+void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics);
 // After the work: Ok, or why a shader removed the device.
 rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
                         const std::string& label);

@@ -67,6 +67,7 @@ class Executor {
   }
   rtapi::Status finish(DispatchResult result) {
     for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
+    device_.add(result.statistics);
     return std::move(result.status);
   }
 

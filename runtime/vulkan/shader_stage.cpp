@@ -77,6 +77,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
   constants.add(shader::spirv::kWorkaroundsConstant, workaround_bits);
   constants.add(shader::spirv::kMaxTraceDepthConstant, options.max_trace_depth);
   constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
+  if (options.count) constants.add(shader::spirv::kCountConstant, 1);
   return std::move(constants.result);
 }
 

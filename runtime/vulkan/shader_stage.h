@@ -18,6 +18,7 @@ namespace kaamos::vulkan {
 struct StageOptions {
   uint32_t max_trace_depth = 0;
   uint32_t max_callable_depth = 0;
+  bool count = false;  // for statistics
 };
 
 // The values of a stage's constants, as pSpecializationInfo has them.

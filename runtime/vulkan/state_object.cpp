@@ -78,9 +78,10 @@ VkPipelineCreateFlags create_flags(rtapi::RaytracingPipelineFlags flags) {
 }  // namespace
 
 rtapi::Result<std::shared_ptr<PipelineLayout>> PipelineLayout::create(
-    std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors) {
+    std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors, bool collect_statistics) {
   std::shared_ptr<PipelineLayout> layout(
       new PipelineLayout(std::move(gpu), std::move(descriptors)));
+  layout->collect_statistics_ = collect_statistics;
   const VkPushConstantRange range = {kAllStages, 0, sizeof(uint64_t)};
   const VkDescriptorSetLayout set = layout->descriptors_->layout();
   VkPipelineLayoutCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
@@ -123,7 +124,7 @@ rtapi::Status RaytracingPipeline::start() {
   max_trace_depth_ =
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
-  StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth});
+  StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth, layout_->collect_statistics()});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
   Groups groups;
   bool runs = false;

@@ -18,13 +18,15 @@ namespace kaamos::vulkan {
 class PipelineLayout {
  public:
   static rtapi::Result<std::shared_ptr<PipelineLayout>> create(
-      std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors);
+      std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors,
+      bool collect_statistics = false);
   ~PipelineLayout();
   PipelineLayout(const PipelineLayout&) = delete;
   PipelineLayout& operator=(const PipelineLayout&) = delete;
 
   VkPipelineLayout handle() const { return handle_; }
   Gpu& gpu() const { return *gpu_; }
+  bool collect_statistics() const { return collect_statistics_; }
   // Binds a pipeline, the set and the address of a block.
   void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
   void push(VkCommandBuffer commands, uint64_t block_address) const;
@@ -35,6 +37,7 @@ class PipelineLayout {
 
   std::shared_ptr<Gpu> gpu_;
   std::shared_ptr<DescriptorSet> descriptors_;
+  bool collect_statistics_ = false;
   VkPipelineLayout handle_ = VK_NULL_HANDLE;
 };
 

@@ -62,6 +62,40 @@ INSTANTIATE_TEST_SUITE_P(Sets, VulkanRays,
                            return tested.param.scene + "_" + tested.param.kind;
                          });
 
+// What shaders counted is what the rays say of themselves. How often a traversal asks any-hit and
+// intersection shaders is its own affair.
+TEST(VulkanStatistics, CountWhatRan) {
+  KAAMOS_NEED_VULKAN();
+  for (const std::string& backend : kBackends) {
+    Probe probe(backend);
+    std::vector<ProbeRay> rays(4096);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      rays[i].origin[0] = static_cast<float>(i % 64) / 4 - 8;
+      rays[i].origin[1] = static_cast<float>(i / 64) / 4 - 8;
+      rays[i].origin[2] = -20;
+    }
+    uint64_t hits = 0;
+    for (const HitRecord& hit : probe.trace(rays, 64)) hits += hit.hit;
+    const auto statistics = probe.device().GetStatistics();
+    EXPECT_GT(hits, 100u) << backend;
+    EXPECT_EQ(statistics.TraceRayCalls, rays.size()) << backend;
+    EXPECT_EQ(statistics.VisibilityRays, 0u) << backend;
+    EXPECT_EQ(statistics.Hits, hits) << backend;
+    EXPECT_EQ(statistics.Misses, rays.size() - hits) << backend;
+    EXPECT_EQ(statistics.ClosestHitInvocations, hits) << backend;
+    EXPECT_EQ(statistics.MissInvocations, rays.size() - hits) << backend;
+    EXPECT_GT(statistics.AnyHitInvocations, 0u) << backend;
+    EXPECT_GT(statistics.IntersectionInvocations, 0u) << backend;
+    EXPECT_EQ(statistics.CallableInvocations, 0u) << backend;
+    rays.resize(64);
+    for (ProbeRay& ray : rays) ray.flags = 0xC;  // the first hit ends it, no closest-hit shader
+    rtapi::Device(probe.device()).ResetStatistics();
+    probe.trace(rays, 64);
+    EXPECT_EQ(probe.device().GetStatistics().VisibilityRays, 64u) << backend;
+    EXPECT_EQ(probe.device().GetStatistics().ClosestHitInvocations, 0u) << backend;
+  }
+}
+
 struct NamedScene {
   const char* name;
   Scene (*make)();

@@ -72,6 +72,7 @@ void random_transform(std::mt19937& random, uint32_t number, float (&transform)[
 void Probe::open(const std::string& backend) {
   DeviceDesc desc;
   desc.Backend = backend;
+  desc.CollectStatistics = true;
   device_ = CreateDevice(desc).value();
   queue_ = device_.CreateCommandQueue().value();
 }

@@ -45,6 +45,8 @@ enum BindingConstant : uint32_t {
 inline constexpr uint32_t kWorkaroundsConstant = 0xFFFF0000u;
 inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // traces nested in each other
 inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls nested
+// Not 0: shaders count in DispatchStatus::counts.
+inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 
 // Faults of drivers that generated code works around; each is off unless its bit is set. The
 // numbers are those of the list in runtime/vulkan/README.md.
@@ -123,10 +125,23 @@ struct RecordData {
   uint64_t local_arguments = 0;
 };
 
+// What shaders count: TraceRay calls, those that only ask whether there is a hit, and invocations.
+enum Count : uint32_t {
+  kTraceRayCalls,
+  kVisibilityRays,
+  kAnyHitInvocations,
+  kIntersectionInvocations,
+  kClosestHitInvocations,
+  kMissInvocations,
+  kCallableInvocations,
+  kCountCount
+};
+
 // Written by shaders, read when the dispatch is over.
 struct DispatchStatus {
   uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
   uint32_t reserved = 0;
+  uint32_t counts[kCountCount][2] = {};  // low and high half; added to with wrap-around
 };
 
 // ---------------------------------------------------------------------------------------------
