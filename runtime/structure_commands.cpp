@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 #include <utility>
 
 #include "runtime/build_inputs.h"
@@ -104,6 +105,19 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
   return {};
 }
 
+// Copies of inputs are as large as the application asks for.
+rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure* source,
+                      AccelerationStructure& structure) {
+  try {
+    return build_level(source, structure);
+  } catch (const std::bad_alloc&) {
+    return rtapi::Error{
+        "KA0990", rtapi::ErrorCode::kOutOfMemory,
+        "KA0990 out of memory: copies of the inputs of the acceleration structure " +
+            at(structure.address) + " could not be allocated."};
+  }
+}
+
 }  // namespace
 
 void StructureEnvironment::warn(const char* id, const std::string& text) const {
@@ -158,7 +172,7 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
           : estimate_sizes(command.type, command.flags, command.geometries, command.instance_count)
                 .ResultDataMaxSizeInBytes;
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
-  if (auto s = build_level(source.get(), structure); !s) return s;
+  if (auto s = guarded(build_level, source.get(), structure); !s) return s;
   structure.compacted_bytes =
       source != nullptr
           ? source->compacted_bytes
