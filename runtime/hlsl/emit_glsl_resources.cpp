@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Resources: from a binding to its descriptor, typed buffers, textures, atomics.
+#include <algorithm>
+#include <cctype>
+
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -102,6 +105,22 @@ Scalar texel_scalar(Scalar scalar) {
 std::string texture_function(const char* operation, const Type* resource, Scalar scalar) {
   return std::string("k_") + operation + "_" + dimension_name(resource->resource) + "_" +
          texel_class(scalar);
+}
+
+// Whether it is a constant that Vulkan takes as an offset.
+bool is_texel_offset(const Expr& offset) {
+  if (offset.kind != ExprKind::kLiteral) {
+    return false;
+  }
+  return std::all_of(offset.literal.begin(), offset.literal.end(), [](uint64_t bits) {
+    const auto texels = static_cast<int64_t>(bits);
+    return texels >= -8 && texels <= 7;
+  });
+}
+
+bool is_name(const std::string& text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
 }
 
 std::string zero_offset(const Type* resource) {
@@ -238,13 +257,20 @@ std::string GlslEmitter::sample(const Expr& expr) {
   const bool compares =
       expr.sample == SampleKind::kCompareLevel || expr.sample == SampleKind::kGatherCompare;
   const Scalar scalar = compares ? Scalar::kFloat32 : expr.type->scalar;
-  std::string out = texture_function(kNames[kind], resource, scalar);
+  // Gathers take any offset; for others a constant one is exact, and stands in a macro, which wants
+  // names for what it uses more than once.
+  const bool constant_offset =
+      kind < 3 && operands.size() > kFixed[kind] && is_texel_offset(*operands[kFixed[kind]]);
+  std::string out = texture_function(
+      (kNames[kind] + std::string(constant_offset ? "_offset" : "")).c_str(), resource, scalar);
   if (compares) {
     out.resize(out.size() - 2);  // depths are floats
   }
   out += "(";
   for (size_t i = 0; i < kFixed[kind]; ++i) {
-    out += (i == 0 ? "" : ", ") + value(operands[i]);
+    const std::string operand = value(operands[i]);
+    const bool named = !constant_offset || i > 1 || is_name(operand);
+    out += (i == 0 ? "" : ", ") + (named ? operand : hoist(type(operands[i]->type), operand));
   }
   if (expr.sample == SampleKind::kGather) {
     out += ", " + glsl::number(expr.index);

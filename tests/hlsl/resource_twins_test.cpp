@@ -276,7 +276,14 @@ std::vector<std::string> operations_of(const TextureCase& t) {
     const char* const kOffsets[] = {"", "-1", "int2(2, -1)", "int3(1, -2, 1)"};
     const std::string offset = kOffsets[t.offset];
     out.push_back("t.SampleLevel(s[k], " + at + ", 0, " + offset + ")");
-    out.push_back("t.SampleLevel(s[k], " + at + ", 1, " + offset + ")");
+    out.push_back("t.SampleLevel(s[k], " + at + ", p.w, " + offset + ")");
+    out.push_back("t.SampleGrad(s[k], " + at + ", " + gradient_x + ", " + gradient_y + ", " +
+                  offset + ")");
+    // One that the compiler does not know.
+    out.push_back("t.SampleLevel(s[k], " + at + ", 1, " + offset + " * (texel.w > -9 ? 1 : 0))");
+    if (t.compares) {
+      out.push_back("t.SampleCmpLevelZero(c[k], " + at + ", p.w / 4, " + offset + ")");
+    }
     out.push_back("t.Load(" + texel_type + "(texel." + std::string("xyz").substr(0, t.location) +
                   ", texel.w))");
     out.push_back("t.Load(" + texel_type + "(texel." + std::string("xyz").substr(0, t.location) +

@@ -130,8 +130,21 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
                      k_coordinate(ddy));
 }
 
-// With an offset. GLSL wants a constant one: the location moves instead, by texels of the mip that
-// is nearest; between two mips of different size the other's share is off by part of a texel.
+// With an offset that is a constant, from -8 to 7 texels; t and s are names.
+//@ k_sample_level_offset_$D_$C 1d 1d_array 2d 2d_array 3d
+#define k_sample_level_offset_$D_$C(t, s, at, lod, offset)                                      \
+  (k_can_sample(t, s, $Ru, k_class_$C)                                                          \
+       ? textureLodOffset(k_sampled_$D_$C(t, s), k_location_$D(at), k_lod(lod), offset)         \
+       : $V(0))
+//@ k_sample_gradient_offset_$D_$C 1d 1d_array 2d 2d_array 3d
+#define k_sample_gradient_offset_$D_$C(t, s, at, ddx, ddy, offset)                              \
+  (k_can_sample(t, s, $Ru, k_class_$C)                                                          \
+       ? textureGradOffset(k_sampled_$D_$C(t, s), k_location_$D(at), k_coordinate(ddx),         \
+                           k_coordinate(ddy), offset)                                           \
+       : $V(0))
+
+// With any offset. Vulkan wants a constant one: the location moves instead, by texels of the mip
+// that is nearest; between two mips of different size the other's share is off by part of a texel.
 //@ k_mip_size_$D 1d 1d_array 2d 2d_array 3d
 $X k_mip_size_$D(k_Descriptor t, float lod) {
   int levels = textureQueryLevels(k_texture_$D_f(t));
@@ -191,6 +204,17 @@ float k_sample_compare_level_$D(k_Descriptor t, k_Descriptor s, $L at, float ref
   return k_dref_lod_$D(k_compared_$D(t, s), k_location_$D(at), k_reference(t, reference), 2,
                        k_lod(lod));
 }
+// With the operands Lod and ConstOffset (2 + 8).
+//@ k_dref_lod_offset_$D 1d 1d_array 2d 2d_array
+spirv_instruction(id = 90) float k_dref_lod_offset_$D(sampler$DIMShadow s, $L at, float reference,
+                                                      spirv_literal int operands, float lod,
+                                                      $O offset);
+//@ k_sample_compare_level_offset_$D 1d 1d_array 2d 2d_array
+#define k_sample_compare_level_offset_$D(t, s, at, reference, lod, offset)                      \
+  (k_can_sample(t, s, $Ru, k_class_f)                                                           \
+       ? k_dref_lod_offset_$D(k_compared_$D(t, s), k_location_$D(at), k_reference(t, reference), \
+                              10, k_lod(lod), offset)                                           \
+       : 0.0)
 //@ k_sample_compare_level_$D 1d 1d_array 2d 2d_array
 float k_sample_compare_level_$D(k_Descriptor t, k_Descriptor s, $L at, float reference, float lod,
                                 $O offset) {
