@@ -40,8 +40,7 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
     pipeline.layout().push(*commands, address_of_block(**buffer, i));
     gpu.vk().vkCmdDispatch(*commands, parts[i].size[0], parts[i].size[1], parts[i].size[2]);
   }
-  if (auto s = stream.flush(); !s) return s;
-  return status_of(**buffer, 0, 0, label);
+  return run_dispatch(stream, **buffer, 0, 0, label);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "runtime/vulkan/dispatch.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
+#include "runtime/vulkan/fault_guard.h"
 #include "runtime/vulkan/state_object.h"
 
 namespace kaamos::vulkan {
@@ -216,10 +218,58 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
     gpu_.vk().vkCmdTraceRaysKHR(*commands, &ray_generation, &miss, &hit_group, &callable,
                                 parts[i].size[0], parts[i].size[1], parts[i].size[2]);
   }
-  if (auto s = environment_.stream->flush(); !s) return s;
+  auto status = run_dispatch(*environment_.stream, *buffer_, pipeline_.linked().max_recursion_depth,
+                             pipeline_.max_trace_depth(), label_);
   add_counts(*buffer_, result_.statistics);
-  return status_of(*buffer_, pipeline_.linked().max_recursion_depth, pipeline_.max_trace_depth(),
-                   label_);
+  return status;
+}
+
+constexpr char kWhoseAddress[] =
+    ". A root descriptor, a table handle or a record argument may name memory that is not there";
+
+rtapi::Error fault_at(uint64_t address, const std::string& label) {
+  char number[2 + 16 + 1];
+  std::snprintf(number, sizeof(number), "0x%llx", static_cast<unsigned long long>(address));
+  return rtapi::Error{"KA0892", rtapi::ErrorCode::kDeviceRemoved,
+                      std::string("KA0892 shader code failed: access to memory that is not there "
+                                  "at address ") +
+                          number + kWhoseAddress + " (" + label + ")."};
+}
+
+// Why a shader removed the device, if it did.
+rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
+                        const std::string& label) {
+  DispatchStatus status;
+  std::memcpy(&status, buffer.host(), sizeof(status));
+  if (status.removal_reason == 0) return {};
+  std::string id = "KA0893";
+  std::string text = "the shader asked for the device's removal";
+  switch (static_cast<shader::RemovalReason>(status.removal_reason - 1)) {
+    case shader::RemovalReason::kRecursionDepth:
+      id = "KA0890";
+      text = "TraceRay past the recursion limit: the pipeline declares MaxTraceRecursionDepth " +
+             std::to_string(declared_depth) + " and a shader at that depth called TraceRay";
+      if (depth_limit < declared_depth) {
+        text = "TraceRay past the recursion limit: this Vulkan device allows a depth of " +
+               std::to_string(depth_limit) +
+               " and a shader at that depth called TraceRay; the pipeline declares "
+               "MaxTraceRecursionDepth " +
+               std::to_string(declared_depth);
+      }
+      break;
+    case shader::RemovalReason::kStackOverflow:
+      id = "KA0891";
+      text = "the shader stack is used up: calls are nested too deep";
+      break;
+    case shader::RemovalReason::kFault:
+      id = "KA0892";
+      text = std::string("shader code failed: an address that no memory has") + kWhoseAddress;
+      break;
+    case shader::RemovalReason::kOther:
+    case shader::RemovalReason::kStepLimit:
+      break;
+  }
+  return rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, id + " " + text + " (" + label + ")."};
 }
 
 }  // namespace
@@ -293,39 +343,13 @@ void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics
   statistics.Hits = statistics.TraceRayCalls - statistics.Misses;
 }
 
-rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
-                        const std::string& label) {
-  DispatchStatus status;
-  std::memcpy(&status, buffer.host(), sizeof(status));
-  if (status.removal_reason == 0) return {};
-  std::string id = "KA0893";
-  std::string text = "the shader asked for the device's removal";
-  switch (static_cast<shader::RemovalReason>(status.removal_reason - 1)) {
-    case shader::RemovalReason::kRecursionDepth:
-      id = "KA0890";
-      text = "TraceRay past the recursion limit: the pipeline declares MaxTraceRecursionDepth " +
-             std::to_string(declared_depth) + " and a shader at that depth called TraceRay";
-      if (depth_limit < declared_depth) {
-        text = "TraceRay past the recursion limit: this Vulkan device allows a depth of " +
-               std::to_string(depth_limit) +
-               " and a shader at that depth called TraceRay; the pipeline declares "
-               "MaxTraceRecursionDepth " +
-               std::to_string(declared_depth);
-      }
-      break;
-    case shader::RemovalReason::kStackOverflow:
-      id = "KA0891";
-      text = "the shader stack is used up: calls are nested too deep";
-      break;
-    case shader::RemovalReason::kFault:
-      id = "KA0892";
-      text = "shader code failed";
-      break;
-    case shader::RemovalReason::kOther:
-    case shader::RemovalReason::kStepLimit:
-      break;
-  }
-  return rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, id + " " + text + " (" + label + ")."};
+rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
+                           uint32_t depth_limit, const std::string& label) {
+  const bool processor = stream.gpu().properties().core.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  const FaultGuard guard(processor);
+  if (auto s = stream.flush(); !s) return s;
+  if (guard.faulted()) return fault_at(guard.address(), label);
+  return status_of(buffer, declared_depth, depth_limit, label);
 }
 
 DispatchResult dispatch_rays(const DispatchEnvironment& environment,

@@ -67,10 +67,10 @@ void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<G
                   const GpuBuffer& buffer);
 uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
+// Submits what was recorded and waits. Ok, or why the device is removed.
+rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
+                           uint32_t depth_limit, const std::string& label);
 // After the work: what shaders counted.
 void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics);
-// After the work: Ok, or why a shader removed the device.
-rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
-                        const std::string& label);
 
 }  // namespace kaamos::vulkan

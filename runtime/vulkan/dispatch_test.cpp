@@ -193,6 +193,31 @@ TEST(DispatchRays, WhatShadersReportRemovesTheDevice) {
   }
 }
 
+TEST(DispatchRays, WildAddressesRemoveTheDevice) {
+  KAAMOS_NEED_GPU(gpu);
+  // Only where shaders run on the processor is it certain that the device bears it.
+  if (!gpu->is_lavapipe()) GTEST_SKIP() << "a real device may hang";
+  Bench bench(gpu);
+  PipelineBuilder builder;
+  const auto table = bench.table({builder.ray_generation(R"(
+void main() {
+  uint64_t at = block.arguments[0] + 4096 * uint64_t(gl_LaunchIDEXT.x);
+  Words(at).w[0] = Words(at + 8).w[0] + 1;
+})")});
+  const auto pipeline = bench.create(builder.pipeline());
+  ASSERT_TRUE(pipeline) << pipeline.error().message;
+  const uint64_t wild = 0x00005EAD00000000;
+  for (int i = 0; i < 2; ++i) {
+    const auto result = bench.rays(*pipeline, desc_of(table, 64, 4), {wild});
+    ASSERT_FALSE(result.status);
+    EXPECT_EQ(result.status.error().id, "KA0892");
+    EXPECT_EQ(result.status.error().code, rtapi::ErrorCode::kDeviceRemoved);
+    EXPECT_THAT(result.status.error().message, HasSubstr("address 0x5ead"));
+  }
+  const auto out = bench.buffer(64 * 4096);
+  EXPECT_TRUE(bench.rays(*pipeline, desc_of(table, 64), {out->address()}).status);
+}
+
 // Calls itself until the limit says no.
 constexpr char kCallYourself[] = R"(
 struct Data { uint depths; uint value; };

@@ -13,8 +13,6 @@
 namespace kaamos::vulkan {
 namespace {
 
-constexpr uint64_t kAddressAlignment = 64 * 1024;  // of buffers, as D3D12's
-
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
@@ -107,14 +105,6 @@ rtapi::Error no_device(const std::string& why) {
       "KA0950", rtapi::ErrorCode::kUnsupported,
       "KA0950 no Vulkan device with ray tracing pipelines: " + why + ". " + kWhatToInstall};
 }
-
-constexpr VkBufferUsageFlags kEveryUsage =
-    VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-    VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
-    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
-    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR |
-    VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR;
 
 }  // namespace
 
@@ -235,63 +225,6 @@ uint32_t Gpu::memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
     }
   }
   return best;
-}
-
-rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes,
-                                                             const std::string& what,
-                                                             InitialContents contents) {
-  std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
-  buffer->size_bytes_ = size_bytes;
-  if (auto s = allocate(*buffer, what); !s) return s.error();
-  if (contents == InitialContents::kZero) std::memset(buffer->host_, 0, size_bytes);
-  return buffer;
-}
-
-rtapi::Status Gpu::allocate(GpuBuffer& buffer, const std::string& what) {
-  const std::string name = what + " of " + std::to_string(buffer.size_bytes_) + " bytes";
-  if (buffer.size_bytes_ > UINT64_MAX - 2 * kAddressAlignment) {
-    return error(VK_ERROR_OUT_OF_DEVICE_MEMORY, name);
-  }
-  VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  // Where Vulkan puts it is only known afterwards: room to move up to the alignment.
-  info.size = std::max<uint64_t>(buffer.size_bytes_, 1) + kAddressAlignment;
-  info.usage = kEveryUsage;
-  VkResult r = vk_.vkCreateBuffer(device_, &info, nullptr, &buffer.handle_);
-  if (r != VK_SUCCESS) return error(r, name);
-  VkMemoryRequirements needs;
-  vk_.vkGetBufferMemoryRequirements(device_, buffer.handle_, &needs);
-  VkMemoryAllocateFlagsInfo flags = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
-  flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-  VkMemoryAllocateInfo allocate = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-  allocate.pNext = &flags;
-  allocate.allocationSize = needs.size;
-  allocate.memoryTypeIndex =
-      memory_type(needs.memoryTypeBits,
-                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  if (allocate.memoryTypeIndex == UINT32_MAX) return error(VK_ERROR_FEATURE_NOT_PRESENT, name);
-  r = vk_.vkAllocateMemory(device_, &allocate, nullptr, &buffer.memory_);
-  if (r == VK_SUCCESS) {
-    r = vk_.vkBindBufferMemory(device_, buffer.handle_, buffer.memory_, 0);
-  }
-  void* mapped = nullptr;
-  if (r == VK_SUCCESS) {
-    r = vk_.vkMapMemory(device_, buffer.memory_, 0, VK_WHOLE_SIZE, 0, &mapped);
-  }
-  if (r != VK_SUCCESS) return error(r, name);
-  VkBufferDeviceAddressInfo address = {VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
-  address.buffer = buffer.handle_;
-  const uint64_t start = vk_.vkGetBufferDeviceAddress(device_, &address);
-  buffer.address_ = (start + kAddressAlignment - 1) / kAddressAlignment * kAddressAlignment;
-  buffer.offset_ = buffer.address_ - start;
-  buffer.host_ = static_cast<uint8_t*>(mapped) + buffer.offset_;
-  return {};
-}
-
-GpuBuffer::~GpuBuffer() {
-  const VolkDeviceTable& vk = gpu_->vk();
-  vk.vkDestroyBuffer(gpu_->device(), handle_, nullptr);
-  vk.vkFreeMemory(gpu_->device(), memory_, nullptr);
 }
 
 rtapi::Status Gpu::run(const std::function<void(VkCommandBuffer)>& record,

@@ -27,7 +27,9 @@ struct GpuProperties {
   VkPhysicalDeviceDriverProperties driver = {};
   VkPhysicalDeviceRayTracingPipelinePropertiesKHR ray_tracing = {};
   VkPhysicalDeviceAccelerationStructurePropertiesKHR acceleration_structure = {};
+  VkPhysicalDeviceVulkan11Properties vulkan11 = {};
   VkPhysicalDeviceVulkan12Properties vulkan12 = {};
+  VkPhysicalDeviceVulkan13Properties vulkan13 = {};
   VkPhysicalDeviceMemoryProperties memory = {};
 };
 
@@ -50,6 +52,7 @@ struct GpuFeatures {
   bool null_descriptor = false;      // VK_EXT_robustness2
   bool sampler_filter_minmax = false;
   bool mirror_clamp_to_edge = false;
+  bool external_memory_host = false;  // VK_EXT_external_memory_host
 };
 
 class Gpu;
@@ -81,12 +84,16 @@ class GpuBuffer {
   uint64_t address_ = 0;
   uint64_t size_bytes_ = 0;
   uint8_t* host_ = nullptr;
+  void* pages_ = nullptr;  // of the process, where the memory is an import of them
+  uint64_t pages_bytes_ = 0;
 };
 
 // kAny where everything is written before it is read: pages that nobody touches cost nothing.
 enum class InitialContents : uint8_t { kZero, kAny };
 
 class Gpu : public std::enable_shared_from_this<Gpu> {
+  friend class GpuBuffer;
+
  public:
   // The devices that can run this backend, best first. Empty where there is none.
   static std::vector<rtapi::DeviceInfo> enumerate();
@@ -138,7 +145,11 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   Gpu() = default;
   rtapi::Status start(std::shared_ptr<Instance> instance, VkPhysicalDevice physical_device);
   rtapi::Status create_device();
-  rtapi::Status allocate(GpuBuffer& buffer, const std::string& what);
+  // [gpu_buffer.cpp]
+  VkResult allocate(GpuBuffer& buffer);
+  bool import_pages(GpuBuffer& buffer);  // false where that cannot be; nothing is left then
+  VkResult bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bits);
+  void release(GpuBuffer& buffer);
 
   std::shared_ptr<Instance> instance_;
   VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;

@@ -25,13 +25,16 @@ GpuProperties read_properties(VkPhysicalDevice device) {
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR);
   chain_to(head, result.acceleration_structure,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR);
+  chain_to(head, result.vulkan11, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES);
   chain_to(head, result.vulkan12, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES);
+  chain_to(head, result.vulkan13, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_PROPERTIES);
   VkPhysicalDeviceProperties2 properties = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
   properties.pNext = head;
   vkGetPhysicalDeviceProperties2(device, &properties);
   result.core = properties.properties;
   result.driver.pNext = result.ray_tracing.pNext = nullptr;
-  result.acceleration_structure.pNext = result.vulkan12.pNext = nullptr;
+  result.acceleration_structure.pNext = nullptr;
+  result.vulkan11.pNext = result.vulkan12.pNext = result.vulkan13.pNext = nullptr;
   vkGetPhysicalDeviceMemoryProperties(device, &result.memory);
   return result;
 }
@@ -143,6 +146,10 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   optional_.image_view_min_lod = min_lod_.minLod;
   optional_.null_descriptor = robustness2_.nullDescriptor;
   optional_.sampler_filter_minmax = vulkan12_.samplerFilterMinmax;
+  optional_.external_memory_host = has(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+  if (optional_.external_memory_host) {
+    extensions_.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+  }
   optional_.mirror_clamp_to_edge = vulkan12_.samplerMirrorClampToEdge;
 }
 

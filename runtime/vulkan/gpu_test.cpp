@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <memory>
+#include <vector>
 
 #include "runtime/vulkan/testing/vulkan_device.h"
 
@@ -41,11 +43,25 @@ TEST(Gpu, BuffersAreZeroAlignedAndMapped) {
   }
 }
 
+TEST(Gpu, LargeBuffersCostNothingUntilTheyAreUsed) {
+  KAAMOS_NEED_GPU(gpu);
+  if (!gpu->is_lavapipe()) GTEST_SKIP() << "memory of the device";
+  std::vector<std::unique_ptr<GpuBuffer>> buffers;
+  for (int i = 0; i < 40; ++i) {  // 40 GiB
+    auto buffer = gpu->create_buffer(uint64_t{1} << 30, "large");
+    ASSERT_TRUE(buffer) << buffer.error().message;
+    EXPECT_EQ((*buffer)->address() % 65536, 0u);
+    EXPECT_EQ((*buffer)->host()[123456789], 0);
+    buffers.push_back(*std::move(buffer));
+  }
+}
+
 TEST(Gpu, TooMuchMemoryIsAnErrorThatNamesIt) {
   KAAMOS_NEED_GPU(gpu);
   const auto buffer = gpu->create_buffer(uint64_t{1} << 60, "the huge buffer");
   ASSERT_FALSE(buffer);
-  EXPECT_EQ(buffer.error().id, "KA0990");
+  EXPECT_EQ(buffer.error().id, "KA0956");
+  EXPECT_EQ(buffer.error().code, rtapi::ErrorCode::kOutOfMemory);
   EXPECT_NE(buffer.error().message.find("the huge buffer"), std::string::npos);
   EXPECT_NE(buffer.error().message.find("1152921504606846976"), std::string::npos);
 }

@@ -104,6 +104,8 @@ k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint ar
   }
   uint64_t address = 0UL;
   if (there) address = k_read_argument(arguments + offset);
+  // No device has such addresses, and no driver that runs on the processor survives one.
+  if (uint(address >> 32) > 0x00FFFFFFu) address = 0UL;
   // A root descriptor has no bounds. [D3D12]
   return k_Descriptor(kind | access << 16, count, address, address != 0UL ? ~0UL : 0UL, 0u, 0u);
 }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/vulkan/fault_guard.h"
+
+#include <dlfcn.h>
+#include <signal.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <mutex>
+
+namespace kaamos::vulkan {
+namespace {
+
+constexpr uintptr_t kPageBytes = 4096;
+constexpr uint32_t kMaxPages = 16384;  // beyond, the fault is nobody's
+
+// All of it is read and written by a signal handler.
+struct Faults {
+  std::atomic<bool> active = false;
+  std::atomic<uint32_t> count = 0;
+  std::atomic<uintptr_t> first = 0;
+  std::atomic<uintptr_t> pages[kMaxPages];
+};
+Faults faults;
+std::mutex owner;  // of the guard that is active
+struct sigaction previous_action;
+
+void* instruction_of(const void* context) {
+  const auto* machine = static_cast<const ucontext_t*>(context);
+#if defined(__x86_64__)
+  return reinterpret_cast<void*>(machine->uc_mcontext.gregs[REG_RIP]);
+#elif defined(__aarch64__)
+  return reinterpret_cast<void*>(machine->uc_mcontext.pc);
+#else
+  return nullptr;
+#endif
+}
+
+// Code that a driver made at run time is in no file, unlike all other code.
+bool is_generated_code(const void* context) {
+  void* instruction = instruction_of(context);
+  Dl_info info;
+  return instruction != nullptr && dladdr(instruction, &info) == 0;
+}
+
+// True if the instruction can run again.
+bool give_page(uintptr_t address) {
+  const uint32_t slot = faults.count.fetch_add(1);
+  if (slot >= kMaxPages) return false;
+  const uintptr_t page = address / kPageBytes * kPageBytes;
+  void* mapped = mmap(reinterpret_cast<void*>(page), kPageBytes, PROT_READ | PROT_WRITE,
+                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED_NOREPLACE, -1, 0);
+  const bool given = mapped == reinterpret_cast<void*>(page);
+  const bool taken = mapped == MAP_FAILED && errno == EEXIST;  // by another thread, a moment before
+  if (!given && mapped != MAP_FAILED) munmap(mapped, kPageBytes);
+  if (given) faults.pages[slot] = page;
+  uintptr_t none = 0;
+  faults.first.compare_exchange_strong(none, std::max<uintptr_t>(address, 1));
+  return given || taken;
+}
+
+void on_fault(int signal_number, siginfo_t* info, void* context) {
+  if (faults.active && info->si_code == SEGV_MAPERR && is_generated_code(context) &&
+      give_page(reinterpret_cast<uintptr_t>(info->si_addr))) {
+    return;
+  }
+  if ((previous_action.sa_flags & SA_SIGINFO) != 0 && previous_action.sa_sigaction != nullptr) {
+    previous_action.sa_sigaction(signal_number, info, context);
+  } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
+    previous_action.sa_handler(signal_number);
+  } else {
+    // Restored, the default takes the instruction that faulted, when it runs again.
+    sigaction(signal_number, &previous_action, nullptr);
+    if (info->si_code <= 0) raise(signal_number);
+  }
+}
+
+void install_handler() {
+  static const bool installed = [] {
+    struct sigaction action = {};
+    action.sa_sigaction = on_fault;
+    action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
+    sigemptyset(&action.sa_mask);
+    return sigaction(SIGSEGV, &action, &previous_action) == 0;
+  }();
+  static_cast<void>(installed);
+}
+
+}  // namespace
+
+FaultGuard::FaultGuard(bool wanted) : wanted_(wanted) {
+  if (!wanted_) return;
+  owner.lock();
+  install_handler();
+  faults.count = 0;
+  faults.first = 0;
+  faults.active = true;
+}
+
+FaultGuard::~FaultGuard() {
+  if (!wanted_) return;
+  faults.active = false;
+  const uint32_t count = std::min(faults.count.load(), kMaxPages);
+  for (uint32_t i = 0; i < count; ++i) {
+    if (const uintptr_t page = faults.pages[i].exchange(0); page != 0) {
+      munmap(reinterpret_cast<void*>(page), kPageBytes);
+    }
+  }
+  owner.unlock();
+}
+
+bool FaultGuard::faulted() const {
+  return wanted_ && faults.count != 0;
+}
+
+uint64_t FaultGuard::address() const {
+  return faults.first;
+}
+
+}  // namespace kaamos::vulkan

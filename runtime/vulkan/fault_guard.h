@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// On a driver that runs shaders on the processor, a wild address in a shader is a fault of this
+// process. While a guard lives, such a fault meets a page of zeros instead, and is remembered: the
+// dispatch ends, and the device is removed, as a device of its own would be.
+#pragma once
+
+#include <cstdint>
+
+namespace kaamos::vulkan {
+
+class FaultGuard {
+ public:
+  // One at a time in the process is active; another waits. Does nothing unless `wanted`.
+  explicit FaultGuard(bool wanted);
+  ~FaultGuard();
+  FaultGuard(const FaultGuard&) = delete;
+  FaultGuard& operator=(const FaultGuard&) = delete;
+
+  // Once the work is done: whether there was a fault, and the address of the first one.
+  bool faulted() const;
+  uint64_t address() const;
+
+ private:
+  bool wanted_;
+};
+
+}  // namespace kaamos::vulkan
