@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/bottom_level.h"
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -108,7 +109,8 @@ rtapi::Status BottomLevelBuilder::copy_inputs() {
   inputs_ = std::move(*buffer);
   for (size_t g = 0; g < geometries_.size(); ++g) {
     const Decoded& in = decoded_[g];
-    std::memcpy(inputs_->host() + in.vertex_offset, in.xyz.data(), in.xyz.size() * sizeof(float));
+    std::copy(in.xyz.begin(), in.xyz.end(),
+              reinterpret_cast<float*>(inputs_->host() + in.vertex_offset));
     uint8_t* out = inputs_->host() + in.list_offset;
     for (const SortItem& item : list_.items(g)) {
       if (procedural(g)) {
