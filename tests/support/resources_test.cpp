@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "tests/support/harness.h"
+
+namespace {
+
+using namespace rtapi;
+using namespace kaamos::support;
+
+KAAMOS_CALLS(Resources);
+
+TEST_P(Resources, CreateBuffer) {
+  BufferDesc desc;
+  desc.SizeInBytes = 1000;
+  const auto made = device_.CreateBuffer(desc);
+  KAAMOS_SUPPORTED(made);
+  EXPECT_NE(made->GetGPUVirtualAddress(), 0u);
+}
+
+TEST_P(Resources, CreateTexture) {
+  TextureDesc desc;
+  desc.Width = desc.Height = 16;
+  desc.MipLevels = 5;
+  desc.Format = Format::kR16G16B16A16Float;
+  KAAMOS_SUPPORTED(device_.CreateTexture(desc));
+}
+
+TEST_P(Resources, GetCopyableFootprints) {
+  TextureDesc desc;
+  desc.Width = desc.Height = 8;
+  desc.Format = Format::kR8G8B8A8Unorm;
+  std::vector<PlacedSubresourceFootprint> layouts;
+  const auto bytes = device_.GetCopyableFootprints(desc, 0, 1, 0, &layouts);
+  KAAMOS_SUPPORTED(bytes);
+  ASSERT_EQ(layouts.size(), 1u);
+  EXPECT_GE(*bytes, 8u * 8 * 4);
+}
+
+TEST_P(Resources, CopyBufferRegion) {
+  const Buffer source = upload(numbers(1));
+  const Buffer dest = buffer(32);
+  CommandList list = device_.CreateCommandList().value();
+  list.CopyBufferRegion(dest, 4, source, 8, 12);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(dest), (std::vector<uint32_t>{0, 3, 4, 5, 0, 0, 0, 0}));
+}
+
+TEST_P(Resources, CopyTextureRegion) {
+  const Texture from = texture_of(0xFF000010);
+  const Texture to = texture();
+  CommandList list = device_.CreateCommandList().value();
+  const Box box{2, 0, 0, 5, 1, 1};
+  list.CopyTextureRegion({to, 0}, 1, 0, 0, {from, 0}, &box);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  const auto bytes = ReadbackTexture(device_, queue_, to, 0).value();
+  uint32_t texels[kCount];
+  std::memcpy(texels, bytes.data(), sizeof texels);
+  EXPECT_EQ(texels[1], 0xFF000012u);
+  EXPECT_EQ(texels[3], 0xFF000014u);
+}
+
+TEST_P(Resources, CopyResource) {
+  const Buffer source = upload(numbers(9));
+  const Buffer dest = buffer(32);
+  CommandList list = device_.CreateCommandList().value();
+  list.CopyResource(dest, source);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(dest), numbers(9));
+}
+
+KAAMOS_CALLS(Descriptors);
+
+TEST_P(Descriptors, StructuredSrv) {
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Buffer.StructureByteStride = 4;
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(upload(numbers(20)), view, slot(kStructured)));
+  EXPECT_EQ(compute("FromStructuredView"), numbers(22));
+}
+
+TEST_P(Descriptors, TypedSrv) {
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Format = Format::kR32Uint;
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(upload(numbers(20)), view, slot(kTyped)));
+  EXPECT_EQ(compute("FromTypedView"), numbers(23));
+}
+
+TEST_P(Descriptors, RawSrv) {
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Format = Format::kR32Typeless;
+  view.Buffer.Flags = BufferSrvFlags::kRaw;
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(upload(numbers(20)), view, slot(kRaw)));
+  EXPECT_EQ(compute("FromRawView"), numbers(24));
+}
+
+TEST_P(Descriptors, TextureSrv) {
+  const Texture source = texture_of(30);
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(source, slot(kTexture)));
+  EXPECT_EQ(compute("FromTexture"), numbers(30));
+}
+
+TEST_P(Descriptors, AccelerationStructureSrv) {
+  const auto bottom = bottom_level(2);
+  KAAMOS_SUPPORTED(bottom);
+  const auto top = top_level(*bottom);
+  KAAMOS_SUPPORTED(top);
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+  view.RaytracingAccelerationStructure.Location = top->GetGPUVirtualAddress();
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(Resource(), view, slot(kScene)));
+  Rays rays;
+  rays.ray_generation = "TraceTableView";
+  EXPECT_EQ(trace(rays, *top), (std::vector<uint32_t>{104, 114, 7, 7, 7, 7, 7, 7}));
+}
+
+TEST_P(Descriptors, TypedUav) {
+  const Buffer words = buffer(32);
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kBuffer;
+  view.Format = Format::kR32Uint;
+  KAAMOS_SUPPORTED(device_.CreateUnorderedAccessView(words, view, slot(kTypedOut)));
+  compute("ToTypedView");
+  EXPECT_EQ(read(words), numbers(5));
+}
+
+TEST_P(Descriptors, TextureUav) {
+  const Texture picture = texture();
+  KAAMOS_SUPPORTED(device_.CreateUnorderedAccessView(picture, slot(kTextureOut)));
+  compute("ToTexture");
+  const auto bytes = ReadbackTexture(device_, queue_, picture, 0).value();
+  for (uint32_t i = 0; i < kCount; ++i) EXPECT_EQ(std::to_integer<uint32_t>(bytes[i * 4]), 10 + i);
+}
+
+TEST_P(Descriptors, ConstantBufferView) {
+  std::vector<uint32_t> words(64);
+  words[0] = 5;
+  words[1] = 6;
+  ConstantBufferViewDesc view;
+  view.BufferLocation = upload(words).GetGPUVirtualAddress();
+  view.SizeInBytes = 256;
+  KAAMOS_SUPPORTED(device_.CreateConstantBufferView(view, slot(kConstants)));
+  EXPECT_EQ(compute("FromConstantView"), numbers(6, 5));
+}
+
+TEST_P(Descriptors, CreateSampler) {
+  const Texture source = texture_of(40);
+  device_.CreateShaderResourceView(source, slot(kTexture)).value();
+  SamplerDesc sampler;
+  KAAMOS_SUPPORTED(device_.CreateSampler(sampler, samplers_.GetCPUDescriptorHandle(0)));
+  EXPECT_EQ(compute("FromSampler"), numbers(40));
+}
+
+TEST_P(Descriptors, StaticSampler) {
+  const Texture source = texture_of(40);
+  KAAMOS_SUPPORTED(device_.CreateShaderResourceView(source, slot(kTexture)));
+  EXPECT_EQ(compute("FromStaticSampler"), numbers(40));
+}
+
+TEST_P(Descriptors, CopyDescriptorsSimple) {
+  DescriptorHeapDesc desc;
+  desc.NumDescriptors = 1;
+  const DescriptorHeap heap = device_.CreateDescriptorHeap(desc).value();
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Buffer.StructureByteStride = 4;
+  device_.CreateShaderResourceView(upload(numbers(60)), view, heap.GetCPUDescriptorHandle(0))
+      .value();
+  KAAMOS_SUPPORTED(device_.CopyDescriptorsSimple(
+      1, slot(kStructured), heap.GetCPUDescriptorHandle(0), DescriptorHeapType::kCbvSrvUav));
+  EXPECT_EQ(compute("FromStructuredView"), numbers(62));
+}
+
+TEST_P(Descriptors, ClearUnorderedAccessViewUint) {
+  const Buffer words = buffer(32);
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kBuffer;
+  view.Format = Format::kR32Uint;
+  device_.CreateUnorderedAccessView(words, view, slot(kTypedOut)).value();
+  CommandList list = device_.CreateCommandList().value();
+  list.SetDescriptorHeaps({views_, samplers_});
+  const uint32_t values[4] = {77, 0, 0, 0};
+  list.ClearUnorderedAccessViewUint(views_.GetGPUDescriptorHandle(kTypedOut), slot(kTypedOut),
+                                    words, values);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(words), numbers(77, 0));
+}
+
+TEST_P(Descriptors, ClearUnorderedAccessViewFloat) {
+  const Texture picture = texture();
+  device_.CreateUnorderedAccessView(picture, slot(kTextureOut)).value();
+  CommandList list = device_.CreateCommandList().value();
+  list.SetDescriptorHeaps({views_, samplers_});
+  const float values[4] = {0.2f, 1, 0, 1};
+  list.ClearUnorderedAccessViewFloat(views_.GetGPUDescriptorHandle(kTextureOut), slot(kTextureOut),
+                                     picture, values);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  const auto bytes = ReadbackTexture(device_, queue_, picture, 0).value();
+  EXPECT_EQ(std::to_integer<uint32_t>(bytes[0]), 51u);
+  EXPECT_EQ(std::to_integer<uint32_t>(bytes[29]), 255u);
+}
+
+}  // namespace
