@@ -47,9 +47,10 @@ uint32_t Compiler::declare(const Variable* variable, bool reference) {
 }
 
 const Action* Compiler::action(const Stmt& stmt) {
-  temporary_bytes_ = 0;
   Action& out = program_.actions.emplace_back();
   out.stmt = &stmt;
+  out.prelude = block(stmt.prelude);  // declares what a loop's condition reads
+  temporary_bytes_ = 0;
   out.place = node(stmt.place);
   out.value = node(stmt.value);
   out.compare = node(stmt.compare);
@@ -78,7 +79,6 @@ const Action* Compiler::action(const Stmt& stmt) {
     default:
       break;
   }
-  out.prelude = block(stmt.prelude);
   out.body = block(stmt.body);
   out.orelse = block(stmt.orelse);
   out.step = block(stmt.step);

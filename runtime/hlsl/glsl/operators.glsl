@@ -13,10 +13,11 @@ $T k_multiply($T a, $T b) { return a * b; }
 $T k_divide($T a, $T b) { return a / b; }
 //@ k_divide u16 u32 u64 each
 $T k_divide($T a, $T b) { return b == $0 ? ~$0 : a / b; }
+// Both sides of a choice may be computed, and the lowest integer / -1 stops a CPU's driver.
 //@ k_divide i16 i32 i64 each
 $T k_divide($T a, $T b) {
-  if (b == $0) return ~$0;
-  return b == ~$0 ? -a : a / b;
+  $T quotient = a / (b == $0 || b == ~$0 ? $1 : b);
+  return b == $0 ? ~$0 : b == ~$0 ? -a : quotient;
 }
 //@ k_modulo floats each
 $T k_modulo($T a, $T b) { return k_fmod(a, b); }
@@ -25,8 +26,9 @@ $T k_modulo($T a, $T b) { return b == $0 ? ~$0 : a % b; }
 //@ k_modulo i16 i32 i64 each
 $T k_modulo($T a, $T b) {
   // Of GLSL's % the result is undefined where an operand is negative.
-  if (b == $0) return ~$0;
-  return b == ~$0 ? $0 : a - a / b * b;
+  $T divisor = b == $0 || b == ~$0 ? $1 : b;
+  $T rest = a - a / divisor * divisor;
+  return b == $0 ? ~$0 : rest;
 }
 
 //@ k_bit_and ints any
