@@ -55,7 +55,7 @@ TEST(RandomPrograms, VulkanAgreesWithTheInterpreter) {
       std::memcpy(&e, &expected[i], 4);
       std::memcpy(&a, &actual[i], 4);
       if (e != a) {
-        ADD_FAILURE() << "thread " << i / 512 << ", word " << i % 512 / 4;
+        ADD_FAILURE() << "thread " << i / 512 << ", word " << i % 512 / 4 << " of\n" << text;
         break;
       }
     }
