@@ -147,7 +147,8 @@ void GlslEmitter::declare_status() {
             "  uint removal_reason;\n"
             "  uint reserved;\n"
             "  uint counts[" +
-                std::to_string(2 * shader::spirv::kCountCount) + "];\n};\n");
+                std::to_string(2 * shader::spirv::kCountCount) +
+                "];\n  uint64_t unknown_structure;\n};\n");
 }
 
 // A statement that counts, where the device collects statistics.
@@ -215,8 +216,9 @@ std::string GlslEmitter::trace_function(const Type* payload) {
             "        g_TopLevelEntry(k_dispatch.top_levels + uint64_t(slot & mask) * 16UL);\n"
             "    uint64_t found = entry.address;\n"
             "    if (found == scene.address) return entry.vulkan;\n"
-            "    if (found == 0UL) return empty;\n"
+            "    if (found == 0UL) break;\n"
             "  }\n"
+            "  g_Status(k_dispatch.status).unknown_structure = scene.address;\n"
             "  return empty;\n"
             "}\n");
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
@@ -276,7 +278,7 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
   helpers_ += "void " + function + "(uint shader, inout " + type(data) +
               " data) {\n"
               "  if ((g_depths >> 16) >= g_max_callable_depth) {\n"
-              "    g_remove_device(0u);\n"
+              "    g_remove_device(1u);\n"
               "    return;\n"
               "  }\n"
               "  " +

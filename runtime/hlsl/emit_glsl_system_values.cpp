@@ -23,7 +23,7 @@ std::string GlslEmitter::hit_builtin(const std::string& name, const std::string&
     declare_workarounds();
     const std::string saved = "g_saved_" + name;
     declarations_ += type + " " + saved + ";\n";
-    start_ += "  " + saved + " = " + text + ";\n";
+    start_ += "  if ((g_workarounds & 2u) != 0u) " + saved + " = " + text + ";\n";
     helpers_ += type + " " + function + "() { return (g_workarounds & 2u) != 0u ? " + saved +
                 " : " + text + "; }\n";
   }

@@ -60,6 +60,7 @@ class RaysDispatch {
                            uint64_t address, uint64_t size_bytes, uint64_t stride_bytes);
   rtapi::Status place_tables(uint64_t start, uint64_t max_hit_record);
   void write_table(const Table& table);
+  void warn_of_structure();
   GridLimits limits() const;
   rtapi::Status trace(const std::vector<GridPart>& parts);
   VkStridedDeviceAddressRegionKHR region(TableIndex index) const;
@@ -156,6 +157,16 @@ void RaysDispatch::write_table(const Table& table) {
            label_ + "). Was it written, and with an identifier of this state object?"});
 }
 
+void RaysDispatch::warn_of_structure() {
+  DispatchStatus status;
+  std::memcpy(&status, buffer_->host(), sizeof(status));
+  if (status.unknown_structure == 0) return;
+  result_.warnings.push_back(
+      {"KA0894", "rays were traced against address " + std::to_string(status.unknown_structure) +
+                     ", where no top level stands, and missed (" + label_ +
+                     "). Was it built, and not overwritten or freed since?"});
+}
+
 GridLimits RaysDispatch::limits() const {
   const VkPhysicalDeviceLimits& core = gpu_.properties().core.limits;
   GridLimits result;
@@ -221,6 +232,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   auto status = run_dispatch(*environment_.stream, *buffer_, pipeline_.linked().max_recursion_depth,
                              pipeline_.max_trace_depth(), label_);
   add_counts(*buffer_, result_.statistics);
+  warn_of_structure();
   return status;
 }
 

@@ -142,6 +142,7 @@ struct DispatchStatus {
   uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
   uint32_t reserved = 0;
   uint32_t counts[kCountCount][2] = {};  // low and high half; added to with wrap-around
+  uint64_t unknown_structure = 0;        // an address that rays were traced against for nothing
 };
 
 // ---------------------------------------------------------------------------------------------
