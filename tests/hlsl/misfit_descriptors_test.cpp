@@ -159,10 +159,7 @@ std::vector<uint32_t> run(const char* backend) {
   list.SetComputeRootUnorderedAccessView(4, results.GetGPUVirtualAddress());
   list.Dispatch(1, 1, 1);
   twin.queue.ExecuteAndWait(list).value();
-  const std::vector<std::byte> bytes = ReadbackBuffer(device, twin.queue, results).value();
-  std::vector<uint32_t> out(bytes.size() / 4);
-  std::memcpy(out.data(), bytes.data(), bytes.size());
-  return out;
+  return twin.words(results);
 }
 
 TEST(VulkanMisfitDescriptors, ReadZeroAndAreNotWritten) {

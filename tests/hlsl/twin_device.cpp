@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 namespace kaamos::test {
 
 rtapi::ShaderLibrary TwinDevice::compile(const std::string& source, Compiled& code) const {
@@ -14,6 +16,13 @@ rtapi::ShaderLibrary TwinDevice::compile(const std::string& source, Compiled& co
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
   return rtapi::LoadShaderLibrary(code.library).value();
+}
+
+std::vector<uint32_t> TwinDevice::words(const rtapi::Buffer& buffer) {
+  const std::vector<std::byte> bytes = rtapi::ReadbackBuffer(device, queue, buffer).value();
+  std::vector<uint32_t> out(bytes.size() / 4);
+  std::memcpy(out.data(), bytes.data(), out.size() * 4);
+  return out;
 }
 
 }  // namespace kaamos::test

@@ -30,6 +30,9 @@ struct TwinDevice {
         .value();
   }
 
+  // What is in a buffer.
+  std::vector<uint32_t> words(const rtapi::Buffer& buffer);
+
   rtapi::Device device;
   rtapi::CommandQueue queue;
 };
