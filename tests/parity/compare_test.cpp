@@ -114,7 +114,10 @@ TEST(CompareHits, BarycentricsAreComparedByThePlaceThatTheyName) {
   auto b = a;
   b[9].barycentrics[0] = 0.01f;
   EXPECT_EQ(judge(compare_hits(a, b, kWidth)), "");
-  b[9].surface_point[1] = 0.01f;  // at t = 5
+  for (size_t i = 9; i < 11; ++i) b[i].surface_point[1] = 0.01f;  // at t = 5
+  EXPECT_EQ(compare_hits(a, b, kWidth).count(HitChange::kPlace), 2u);
+  EXPECT_EQ(judge(compare_hits(a, b, kWidth)), "");  // 2 of 20,000: slivers
+  b[11].surface_point[1] = 0.01f;
   EXPECT_NE(judge(compare_hits(a, b, kWidth)), "");
 }
 

@@ -70,7 +70,10 @@ class Comparison {
     const bool both = a.hit != 0 && b.hit != 0;
     const double distance = both ? relative(a.t, b.t) : 1;
     const bool grazing = std::min(a.cosine, b.cosine) < limits_.grazing_cosine;
-    const bool tied = both && distance <= (grazing ? 1e-2 : limits_.t_relative);
+    const double size = std::max(double{a.t}, double{b.t});
+    const double rounding = limits_.per_coordinate * double{std::max(a.coordinate, b.coordinate)};
+    const bool tied = both && apart(a.t, b.t) <= (grazing ? 1e-2 : limits_.t_relative) * size +
+                                                     (grazing ? 100 : 1) * rounding;
     const bool silhouette = tied || is_next_to(i, b, a_);
     note(i, silhouette ? HitChange::kSilhouette : HitChange::kVisibility, distance, a, b);
   }
@@ -101,35 +104,43 @@ class Comparison {
     const double rounding = limits_.per_coordinate * double{a.coordinate} / cosine;
     const double along = apart(a.t, b.t);
     const double allowed = limits_.t_relative * std::fabs(double{a.t}) + rounding;
-    double error = along / std::max(allowed, 1e-30);
+    const double error = along / std::max(allowed, 1e-30);
     out_.worst_t = std::max(out_.worst_t, error);
     const double in_plane = limits_.t_relative * std::fabs(double{a.t}) / cosine + rounding;
+    if (!(error <= 1)) {
+      note(i, HitChange::kNumber, error, a, b);
+      return;
+    }
     // Barycentrics by the place that they name: in a thin triangle they are far off for little.
+    double place = 0;
     for (int k = 0; k < 3; ++k) {
-      error = std::max(error, apart(a.surface_point[k], b.surface_point[k]) / in_plane);
+      place = std::max(place, apart(a.surface_point[k], b.surface_point[k]) / in_plane);
     }
-    for (int k = 0; k < 2; ++k) {
-      if (!std::isfinite(b.barycentrics[k])) error = INFINITY;
-    }
-    // Instances shrink by 2.5 at most: t carries over.
+    // Objects of mixed sizes: an instance that is much larger than its mesh divides what t is off
+    // by.
     for (int k = 0; k < 3; ++k) {
       const double size = std::max(1.0, std::fabs(double{a.object_point[k]}));
-      error = std::max(error, apart(a.object_point[k], b.object_point[k]) /
+      place = std::max(place, apart(a.object_point[k], b.object_point[k]) /
                                   (limits_.t_relative * size + 4 * along));
     }
-    if (error <= 1) {
+    for (int k = 0; k < 2; ++k) {
+      if (!std::isfinite(b.barycentrics[k])) {
+        note(i, HitChange::kNumber, INFINITY, a, b);
+        return;
+      }
+    }
+    if (place <= 1) {
       ++out_.counts[0];
     } else {
-      note(i, HitChange::kNumber, error, a, b);
+      note(i, HitChange::kPlace, place, a, b);
     }
   }
 
   void note(uint64_t i, HitChange change, double size, const HitRecord& a, const HitRecord& b) {
     ++out_.counts[static_cast<int>(change)];
-    // Kinds are listed from the harmless to the bad, numbers being the mildest of the bad.
-    const auto rank = [](HitChange c) {
-      return c == HitChange::kInteger ? 10 : static_cast<int>(c);
-    };
+    // From the harmless to the bad, in the order of HitChange.
+    static constexpr int kRanks[] = {0, 1, 3, 5, 2, 4};
+    const auto rank = [](HitChange c) { return kRanks[static_cast<int>(c)]; };
     if (rank(change) < rank(out_.worst_change)) return;
     if (change == out_.worst_change && size <= worst_size_) return;
     out_.worst_change = change;
@@ -165,6 +176,7 @@ std::string judge(const HitDifference& difference, const HitLimits& limits) {
   };
   complain(HitChange::kVisibility, limits.visibility, "visibility differs");
   complain(HitChange::kSilhouette, limits.silhouettes, "silhouettes differ");
+  complain(HitChange::kPlace, limits.places, "barycentrics differ");
   complain(HitChange::kInteger, 0, "integers differ");
   complain(HitChange::kNumber, 0, "numbers differ");
   return text;
@@ -184,12 +196,13 @@ std::string describe(const HitRecord& hit) {
 std::string describe(const HitDifference& d) {
   return line(
       "%llu rays, %llu hits: visibility %llu, silhouettes %llu, integers %llu, numbers "
-      "%llu; worst t %.2g of what is allowed",
+      "%llu, barycentrics %llu; worst t %.2g of what is allowed",
       static_cast<unsigned long long>(d.rays), static_cast<unsigned long long>(d.hits),
       static_cast<unsigned long long>(d.count(HitChange::kVisibility)),
       static_cast<unsigned long long>(d.count(HitChange::kSilhouette)),
       static_cast<unsigned long long>(d.count(HitChange::kInteger)),
-      static_cast<unsigned long long>(d.count(HitChange::kNumber)), d.worst_t);
+      static_cast<unsigned long long>(d.count(HitChange::kNumber)),
+      static_cast<unsigned long long>(d.count(HitChange::kPlace)), d.worst_t);
 }
 
 }  // namespace kaamos::parity

@@ -39,6 +39,9 @@ struct HitLimits {
   // coordinates make of a short t: some 8 units in the last place of the largest.
   double t_relative = 1e-4;
   double per_coordinate = 1e-6;
+  // Of rays: barycentrics of slivers, which rounding moves along them, and of very large triangles;
+  // points of objects that are much smaller than their instances.
+  double places = 1e-4;
   double grazing_cosine = 0.05;
 };
 
@@ -47,13 +50,14 @@ enum class HitChange : uint8_t {
   kSilhouette,  // another triangle, tied with it or its neighbour in the picture
   kVisibility,  // hit against miss, or a far hit
   kInteger,     // the same triangle, but an integer of it differs
-  kNumber,      // the same triangle, but t or where it is hit are too far apart
+  kPlace,       // the same triangle at the same t, but another place in it or in its object
+  kNumber,      // the same triangle, but t is too far apart, or a number is none
 };
 
 struct HitDifference {
   uint64_t rays = 0;
   uint64_t hits = 0;  // of `a`
-  uint64_t counts[5] = {0, 0, 0, 0, 0};
+  uint64_t counts[6] = {0, 0, 0, 0, 0, 0};
   double worst_t = 0;  // of what is away from grazing, over what is allowed
   // The worst ray of the worst kind: index, and what differs in words. Empty: nothing does.
   HitChange worst_change = HitChange::kNone;
