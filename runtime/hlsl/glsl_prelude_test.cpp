@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <regex>
+#include <spirv-tools/libspirv.hpp>
+
 #include "runtime/hlsl/intrinsics.h"
 #include "runtime/hlsl/spirv.h"
 
@@ -60,6 +64,46 @@ TEST(GlslPrelude, EveryBlockFindsWhatItUses) {
   const std::string text = glsl_prelude(all).text;
   EXPECT_THAT(text, Not(HasSubstr("$"))) << "a placeholder is left";
   for (const std::string& name : names) EXPECT_THAT(text, HasSubstr(name));
+}
+
+// Calls of the functions that `text` defines, but of those with parameters that are no values.
+std::string calls_of(const std::string& text) {
+  static const std::regex kHead(R"(\n(\w+) (k_\w+)\(([^)]*)\) \{)");
+  static const std::regex kParameter(R"((\w+) \w+,?\s*)");
+  std::string calls;
+  for (std::sregex_iterator at(text.begin(), text.end(), kHead), end; at != end; ++at) {
+    const std::string parameters = (*at)[3];
+    if (parameters.find("out ") != std::string::npos) continue;
+    std::string arguments;
+    for (std::sregex_iterator p(parameters.begin(), parameters.end(), kParameter); p != end; ++p) {
+      const std::string type = (*p)[1];
+      arguments += (arguments.empty() ? "" : ", ") + (type == "k_Descriptor" ? std::string("k_null")
+                                                      : type == "k_Window"   ? "k_Window(0UL, 0UL)"
+                                                                             : type + "(1)");
+    }
+    calls += "  " + std::string((*at)[2]) + "(" + arguments + ");\n";
+  }
+  return calls;
+}
+
+TEST(GlslPrelude, EveryFunctionIsValidSpirv) {
+  std::string all = "float16_t int16_t uint16_t int64_t uint64_t double k_null k_Window";
+  for (const std::string& name : glsl_prelude_names()) all += " " + name;
+  const std::string prelude = glsl_prelude(all).text;
+  const std::string calls = calls_of(prelude);
+  EXPECT_GT(std::count(calls.begin(), calls.end(), '\n'), 2000);
+  GlslShader shader;
+  shader.text = "#version 460\n" + prelude + "void main() {\n" + calls + "}\n";
+  shader.stage = ir::kStageCompute;
+  const SpirvModule module = compile_spirv(shader, "test");
+  ASSERT_EQ(module.error, "");
+  std::string messages;
+  spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
+  tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                               const char* message) { messages += std::string(message) + "\n"; });
+  spvtools::ValidatorOptions options;
+  options.SetScalarBlockLayout(true);
+  EXPECT_TRUE(tools.Validate(module.words.data(), module.words.size(), options)) << messages;
 }
 
 // The text of `body` and of what it uses is GLSL.

@@ -202,7 +202,7 @@ class FeatureReport : public testing::Test {
     EXPECT_GT(tested, 0u);
   }
 
-  std::string where() const { return backend_ == "embree" ? "" : "on " + backend_ + " "; }
+  std::string where() const { return backend_ == "embree" ? "" : "on Vulkan "; }
 
   std::string backend_;
 };
