@@ -76,12 +76,18 @@ VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bi
   VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   info.pNext = &flags;
   info.allocationSize = std::max(needs.size, buffer.pages_bytes_);
-  info.memoryTypeIndex =
-      memory_type(needs.memoryTypeBits & type_bits,
-                  VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                  VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-  if (info.memoryTypeIndex == UINT32_MAX) return VK_ERROR_FEATURE_NOT_PRESENT;
-  VkResult r = vk_.vkAllocateMemory(device_, &info, nullptr, &buffer.memory_);
+  // Memory of a graphics card that the host sees may be a small part of it: the next best type
+  // then.
+  VkResult r = VK_ERROR_FEATURE_NOT_PRESENT;
+  for (uint32_t types = needs.memoryTypeBits & type_bits; types != 0;) {
+    info.memoryTypeIndex = memory_type(
+        types, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+        VK_MEMORY_PROPERTY_HOST_CACHED_BIT | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (info.memoryTypeIndex == UINT32_MAX) break;
+    r = vk_.vkAllocateMemory(device_, &info, nullptr, &buffer.memory_);
+    if (r != VK_ERROR_OUT_OF_DEVICE_MEMORY) break;
+    types &= ~(1u << info.memoryTypeIndex);
+  }
   if (r != VK_SUCCESS) return r;
   r = vk_.vkBindBufferMemory(device_, buffer.handle_, buffer.memory_, 0);
   if (r != VK_SUCCESS) return r;
