@@ -8,17 +8,25 @@ namespace kaamos::test {
 namespace {
 
 struct Shape {
-  char kind = 'i';  // i, u, f, b
+  char kind = 'i';  // i int, u uint, f float, b bool, h float16_t, d double, l int64_t, s uint16_t
   int columns = 1;
   int rows = 0;   // 0: no matrix
   int count = 0;  // 0: no array
   bool operator==(const Shape&) const = default;
 
+  bool real() const { return kind == 'f' || kind == 'h' || kind == 'd'; }
   Shape scalar() const { return {kind}; }
   Shape with(char other) const { return {other, columns, rows, count}; }
   Shape element() const { return {kind, columns, rows}; }
   std::string name() const {
-    std::string out = kind == 'i' ? "int" : kind == 'u' ? "uint" : kind == 'f' ? "float" : "bool";
+    std::string out = kind == 'i'   ? "int"
+                      : kind == 'u' ? "uint"
+                      : kind == 'f' ? "float"
+                      : kind == 'b' ? "bool"
+                      : kind == 'h' ? "float16_t"
+                      : kind == 'd' ? "double"
+                      : kind == 'l' ? "int64_t"
+                                    : "uint16_t";
     if (rows > 0) return out + std::to_string(rows) + "x" + std::to_string(columns);
     return columns > 1 ? out + std::to_string(columns) : out;
   }
@@ -44,10 +52,16 @@ class Writer {
     text_ =
         "RWByteAddressBuffer results : register(u0);\n"
         "ByteAddressBuffer input : register(t0);\nstatic int nought = 0;\n"
+        "static int varying = 0;\nstatic float drift = 0;\n"
         "uint bits(float x) { return isnan(x) ? 0x7fc00000u : abs(x) < 1.2e-38 ? 0u : asuint(x); "
         "}\n"
         "uint bits(int x) { return asuint(x); }\nuint bits(uint x) { return x; }\n"
         "uint bits(bool x) { return x ? 1u : 0u; }\n"
+        "uint bits(float16_t x) { return abs((float)x) < 6.2e-5 ? 0u : bits((float)x); }\n"
+        "uint bits(double x) { uint low, high; asuint(x, low, high); return x != x ? 1u : x == 0 ? "
+        "0u : low ^ high * 3u; }\n"
+        "uint bits(int64_t x) { return (uint)x ^ (uint)(x >> 32) * 3u; }\n"
+        "uint bits(uint16_t x) { return (uint)x; }\n"
         "uint mix(uint h, uint v) { return (h ^ v) * 16777619u; }\n";
     for (int i = 0; i < 3; ++i) statics_.push_back(declare_static(i));
     write_struct();
@@ -66,7 +80,7 @@ class Writer {
   std::string number(int n) { return std::to_string(n); }
 
   Shape any_shape() {
-    Shape s{"iuffb"[below(5)], 1 + below(4)};
+    Shape s{"iuffbiuhdls"[below(11)], 1 + below(4)};
     if (s.kind != 'b' && one_in(4)) {
       s.rows = 2 + below(3);
       s.columns = 2 + below(3);
@@ -77,13 +91,13 @@ class Writer {
 
   std::string literal(Shape s) {
     if (s.kind == 'b') return one_in(2) ? "true" : "false";
-    if (s.kind == 'f') {
+    if (s.real()) {
       constexpr const char* kFloats[] = {"0.5", "-1.0", "2.0", "3.25", "-7.5", "1024.0", "0.0"};
       return any(kFloats);
     }
     constexpr const char* kInts[] = {"0", "1", "-1", "7", "31", "33", "0x7fffffff", "-12345"};
     constexpr const char* kUints[] = {"0u", "1u", "2u", "31u", "33u", "0xffffffffu", "12345u"};
-    return s.kind == 'i' ? any(kInts) : any(kUints);
+    return s.kind == 'i' || s.kind == 'l' ? any(kInts) : any(kUints);
   }
 
   const Variable* find(Shape s) {
@@ -108,6 +122,7 @@ class Writer {
     array.count = 3;
     if (const Variable* v = find(array); v != nullptr && one_in(2))
       return v->name + "[" + index() + "]";
+    if (one_in(2)) return "((" + s.name() + ")" + any({"varying", "drift"}) + ")";
     if (s.rows > 0 || s.columns > 1) return "((" + s.name() + ")" + literal(s) + ")";
     if (s.kind == 'u' && one_in(2)) return "input.Load(" + expression({'u'}, 0) + " & 0x7fc)";
     return "((" + s.name() + ")" + literal(s) + ")";
@@ -151,7 +166,7 @@ class Writer {
 
   std::string boolean(Shape s, int depth) {
     const auto e = [&](Shape shape) { return expression(shape, depth - 1); };
-    const Shape operand = s.with("iuf"[below(3)]);
+    const Shape operand = s.with("iufiufhdls"[below(10)]);
     switch (below(6)) {
       case 0:
         if (s.columns == 1) return "(" + e(s) + any({" && ", " || "}) + e(s) + ")";
@@ -170,7 +185,7 @@ class Writer {
 
   std::string arithmetic(Shape s, int depth) {
     const auto e = [&](Shape shape) { return expression(shape, depth - 1); };
-    const bool real = s.kind == 'f';
+    const bool real = s.real();
     switch (below(12)) {
       case 0:
       case 1:
@@ -182,6 +197,7 @@ class Writer {
       case 3:
         return std::string(any({"min", "max"})) + "(" + e(s) + ", " + e(s) + ")";
       case 4:
+        if (s.kind == 'd') return std::string(any({"abs", "-"})) + "(" + e(s) + ")";
         if (real)
           return std::string(any({"abs", "floor", "ceil", "trunc", "saturate", "-", "round"})) +
                  "(" + e(s) + ")";
@@ -198,7 +214,7 @@ class Writer {
         return e({s.kind, from}) + swizzle(from, s.columns, true);
       }
       case 8:
-        return "((" + s.name() + ")" + e(s.with("iufb"[below(4)])) + ")";
+        return "((" + s.name() + ")" + e(s.with("iufbhdls"[below(8)])) + ")";
       case 9:
         if (s.columns == 1) return "dot(" + e({s.kind, 3}) + ", " + e({s.kind, 3}) + ")";
         if (s.columns > 2)
@@ -289,7 +305,7 @@ class Writer {
       }
     }
     const char* op = s.kind == 'b' || one_in(2) ? " = "
-                     : s.kind == 'f'            ? any({" += ", " -= ", " *= "})
+                     : s.real()                 ? any({" += ", " -= ", " *= "})
                                                 : any({" += ", " *= ", " ^= ", " >>= "});
     if (s.rows > 0 && s.kind != 'b') op = any({" = ", " += ", " -= "});
     line(place.name + op + expression(s, 3) + ";");
@@ -428,6 +444,8 @@ class Writer {
     locals_.clear();
     line("Outer o = (Outer)0;");
     line("uint h = 2166136261u;");
+    line("varying = (int)id.x - 3;");
+    line("drift = varying * 1.5 + 0.25;");
     line("uint3 thread = id;");
     line("int seen = (int)id.x - 3;");
     line("float fraction = id.x * 0.5 - 1.75;");

@@ -23,6 +23,7 @@ hlsl::FrontendOptions options_of(const std::string& text) {
   hlsl::FrontendOptions options;
   options.path = "random.hlsl";
   options.text = text;
+  options.native_16bit = true;
   return options;
 }
 
