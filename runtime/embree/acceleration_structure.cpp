@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "runtime/embree/device.h"
+#include "runtime/embree/parallel.h"
 #include "runtime/instances.h"
 #include "runtime/structure_commands.h"
 
@@ -53,7 +54,7 @@ rtapi::Status build(Device& device, const runtime::BuildCommand& command) {
   const auto build_level = [&](const AccelerationStructure* source, AccelerationStructure& result) {
     const int64_t before = device.embree_bytes();
     rtapi::Status status;
-    device.arena().execute([&] {
+    run_in_arena(device.arena(), [&] {
       status = command.type == rtapi::RaytracingAccelerationStructureType::kTopLevel
                    ? build_top_level(device, command, result)
                    : build_bottom_level(device, command, source, result);

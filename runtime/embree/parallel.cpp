@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// oneTBB is not instrumented, so the thread sanitizer sees neither its locks nor the order they
+// give. This file is not instrumented either, so that half of oneTBB (its headers) is not checked
+// against the other half, and tells the sanitizer what order holds: the fork before every task,
+// every task before the join, tasks among themselves in none.
+#include "runtime/embree/parallel.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#if defined(KAAMOS_THREAD_SANITIZER)
+extern "C" void __tsan_acquire(void* address);
+extern "C" void __tsan_release(void* address);
+#endif
+
+namespace kaamos::embree {
+namespace {
+
+class TaskOrder {
+ public:
+#if defined(KAAMOS_THREAD_SANITIZER)
+  void fork() {
+    __tsan_release(&fork_);
+  }
+  void begin_task() {
+    __tsan_acquire(&fork_);
+  }
+  void end_task() {
+    __tsan_release(&join_);
+  }
+  void join() {
+    __tsan_acquire(&join_);
+  }
+
+ private:
+  char fork_ = 0;
+  char join_ = 0;
+#else
+  void fork() {}
+  void begin_task() {}
+  void end_task() {}
+  void join() {}
+#endif
+};
+
+}  // namespace
+
+void parallel_ranges(tbb::task_arena& arena, uint64_t count, RangeBody body, const void* context) {
+  TaskOrder order;
+  order.fork();
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<uint64_t>(0, count),
+                      [&](const tbb::blocked_range<uint64_t>& range) {
+                        order.begin_task();
+                        body(context, range.begin(), range.end());
+                        order.end_task();
+                      });
+  });
+  order.join();
+}
+
+void run_in_arena(tbb::task_arena& arena, void (*body)(const void* context), const void* context) {
+  TaskOrder order;
+  order.fork();
+  arena.execute([&] {
+    order.begin_task();
+    body(context);
+    order.end_task();
+  });
+  order.join();
+}
+
+}  // namespace kaamos::embree
