@@ -106,6 +106,9 @@ void Compiler::literal(Node& node) {
 
 Node* Compiler::variable_node(const Variable* variable, const Expr* expr) {
   Node& node = program_.nodes.emplace_back();
+  if (places_.count(variable) == 0) {
+    program_.error = "variable \"" + variable->name + "\" is used before it is declared";
+  }
   const Place& place = places_[variable];
   node.expr = expr;
   node.bytes = bytes_of(variable->type);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "executors.h"
 
+#include <dlfcn.h>
+
 #include <cstdlib>
 #include <vector>
 
+#include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/file_loader.h"
+#include "runtime/hlsl/host_compiler.h"
 #include "runtime/hlsl/interpret.h"
 #include "runtime/hlsl/spirv.h"
 
@@ -43,6 +47,35 @@ Compiled compile_interpreted(const hlsl::FrontendOptions& options) {
   if (!library) return out;
   out.library = &library->desc();
   out.owner = library;
+  return out;
+}
+
+std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources) {
+  std::vector<Compiled> out(sources.size());
+  const auto name_of = [](size_t i) { return "kaamos_test_native_" + std::to_string(i); };
+  std::string text;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    const auto module = compile_module(sources[i], out[i].error);
+    if (module) text += hlsl::emit_cpp(*module, {.entry_point = name_of(i)});
+  }
+  std::string error;
+  const auto compiler = hlsl::find_host_compiler(error);
+  hlsl::SharedObject object;
+  if (compiler) {
+    object = hlsl::build_shared_object(*compiler, text, hlsl::Optimisation::kFull,
+                                       std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
+    error = object.error;
+  }
+  void* handle = error.empty() ? dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
+  for (size_t i = 0; i < sources.size(); ++i) {
+    if (!out[i].error.empty()) continue;
+    void* entry = handle != nullptr ? dlsym(handle, name_of(i).c_str()) : nullptr;
+    if (entry != nullptr) {
+      out[i].library = reinterpret_cast<shader::LibraryEntryPointFn>(entry)();
+    } else {
+      out[i].error = error.empty() ? "the shared object lacks its entry" : error;
+    }
+  }
   return out;
 }
 

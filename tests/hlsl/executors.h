@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "runtime/hlsl/frontend.h"
 
@@ -22,6 +23,9 @@ std::unique_ptr<hlsl::ir::Module> compile_module(const hlsl::FrontendOptions& op
                                                  std::string& error);
 // By the interpreter of the intermediate representation, on the Embree backend.
 Compiled compile_interpreted(const hlsl::FrontendOptions& options);
+// To native code, all in one shared object, which stays loaded: starting the C++ compiler costs
+// more than a small shader.
+std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources);
 // To SPIR-V; there is no native code in it.
 Compiled compile_vulkan(const hlsl::FrontendOptions& options);
 

@@ -27,9 +27,7 @@ hlsl::FrontendOptions options_of(const std::string& text) {
   return options;
 }
 
-std::vector<std::byte> run(const std::string& backend, const std::string& text) {
-  const Compiled code = backend == "vulkan" ? compile_vulkan(options_of(text))
-                                            : compile_interpreted(options_of(text));
+std::vector<std::byte> run(const std::string& backend, const Compiled& code) {
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
   std::string error;
@@ -38,28 +36,50 @@ std::vector<std::byte> run(const std::string& backend, const std::string& text) 
   return out;
 }
 
-TEST(RandomPrograms, VulkanAgreesWithTheInterpreter) {
-  KAAMOS_NEED_VULKAN();
+void expect_equal(const std::vector<std::byte>& expected, const std::vector<std::byte>& actual,
+                  const std::string& text) {
+  ASSERT_EQ(expected.size(), actual.size());
+  for (size_t i = 0; i + 4 <= expected.size(); i += 4) {
+    uint32_t e = 0, a = 0;
+    std::memcpy(&e, &expected[i], 4);
+    std::memcpy(&a, &actual[i], 4);
+    if (e != a) {
+      ADD_FAILURE() << "thread " << i / 512 << ", word " << i % 512 / 4 << " of\n" << text;
+      return;
+    }
+  }
+}
+
+std::vector<uint64_t> seeds(uint64_t count) {
   uint64_t first = 1;
-  uint64_t count = 6;
   if (const char* asked = std::getenv("KAAMOS_RANDOM_PROGRAMS")) {
     std::istringstream(asked) >> first >> count;
   }
-  for (uint64_t seed = first; seed < first + count; ++seed) {
+  std::vector<uint64_t> out;
+  for (uint64_t seed = first; seed < first + count; ++seed) out.push_back(seed);
+  return out;
+}
+
+TEST(RandomPrograms, VulkanAgreesWithTheInterpreter) {
+  KAAMOS_NEED_VULKAN();
+  for (const uint64_t seed : seeds(6)) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::string text = random_program(seed);
-    const auto expected = run("embree", text);
-    const auto actual = run("vulkan", text);
-    ASSERT_EQ(expected.size(), actual.size());
-    for (size_t i = 0; i + 4 <= expected.size(); i += 4) {
-      uint32_t e = 0, a = 0;
-      std::memcpy(&e, &expected[i], 4);
-      std::memcpy(&a, &actual[i], 4);
-      if (e != a) {
-        ADD_FAILURE() << "thread " << i / 512 << ", word " << i % 512 / 4 << " of\n" << text;
-        break;
-      }
-    }
+    expect_equal(run("embree", compile_interpreted(options_of(text))),
+                 run("vulkan", compile_vulkan(options_of(text))), text);
+  }
+}
+
+TEST(RandomPrograms, NativeCodeAgreesWithTheInterpreter) {
+  // Few: a C++ compiler takes a second for each.
+  const std::vector<uint64_t> programs = seeds(2);
+  std::vector<hlsl::FrontendOptions> sources;
+  for (const uint64_t seed : programs) sources.push_back(options_of(random_program(seed)));
+  const std::vector<Compiled> native = compile_native(sources);
+  for (size_t i = 0; i < sources.size(); ++i) {
+    SCOPED_TRACE("seed " + std::to_string(programs[i]));
+    expect_equal(run("embree", compile_interpreted(sources[i])), run("embree", native[i]),
+                 *sources[i].text);
   }
 }
 
