@@ -71,7 +71,8 @@ rtapi::DeviceInfo info_of(const GpuProperties& properties) {
 }
 
 // lavapipe filters textures of 8 bits with 8 bits unless this option of its code generator says
-// otherwise. It reads it when its first device starts, so it is set for that time only.
+// otherwise. It reads it when its first device starts, so it is set for that time only, in which no
+// other thread should look at the environment.
 class FilterOption {
  public:
   explicit FilterOption(bool wanted) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Lavapipe builds no tree of its own choice: it halves the list of primitives in the order in which
-// it gets them, so that the order is the tree; instances likewise. This brings them into the order in which each half
-// is one side of a median split: on a shuffled mesh hundreds of times faster to trace.
+// it gets them, so that the order is the tree; instances likewise. This brings them into the order
+// in which each half is one side of a median split: on a shuffled mesh hundreds of times faster to
+// trace.
 #pragma once
 
 #include <cstdint>
