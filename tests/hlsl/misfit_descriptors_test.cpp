@@ -182,7 +182,7 @@ TEST(VulkanMisfitDescriptors, ReadZeroAndAreNotWritten) {
   }
 }
 
-TEST(VulkanMisfitDescriptors, WhatFitsIsTheSameOnTheCpu) {
+TEST(MisfitDescriptors, WhatFitsIsTheSameOnTheCpu) {
   const std::vector<uint32_t> results = run("embree");
   ASSERT_EQ(results.size(), kThreads * 8);
   for (uint32_t i = 0; i < kThreads; ++i) {
@@ -200,6 +200,61 @@ TEST(VulkanMisfitDescriptors, WhatFitsIsTheSameOnTheCpu) {
                                                : 5;
     EXPECT_EQ(is[what], expected) << "thread " << i << ", slot " << slot;
   }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Root descriptors
+
+constexpr const char* kRootSource = R"(
+struct Item { uint a; float4 b; };
+ByteAddressBuffer raw : register(t0);
+StructuredBuffer<Item> items : register(t1);
+cbuffer Constants : register(b0) { float4x4 transform; uint tail; };
+RWByteAddressBuffer written : register(u1);
+RWByteAddressBuffer results : register(u0);
+
+[shader("compute")] [numthreads(8, 1, 1)]
+void main(uint3 id : SV_DispatchThreadID) {
+  written.Store4(id.x * 16, uint4(1, 2, 3, 4));
+  const Item item = items[id.x];
+  uint old, count, stride;
+  written.InterlockedAdd(4, 5, old);
+  items.GetDimensions(count, stride);
+  const uint4 sum = raw.Load4(id.x * 4) + uint4(item.a, asuint(item.b.xyz)) +
+                    asuint(transform[id.x & 3]) + tail + written.Load(id.x * 16) + old + count;
+  results.Store(id.x * 4, 100 + sum.x + sum.y + sum.z + sum.w);
+}
+)";
+
+void expect_null_root_descriptors_read_zero(const char* backend) {
+  TwinDevice twin(backend);
+  Compiled code;
+  const ShaderLibrary library = twin.compile(kRootSource, code);
+  ASSERT_TRUE(library);
+  RootSignatureDesc desc;
+  desc.Parameters = {RootParameter::Srv(0, 0), RootParameter::Srv(1, 0), RootParameter::Cbv(0, 0),
+                     RootParameter::Uav(1, 0), RootParameter::Uav(0, 0)};
+  const RootSignature root = twin.device.CreateRootSignature(desc).value();
+  const Buffer results = twin.output(32);
+  CommandList list = twin.device.CreateCommandList().value();
+  list.SetComputeRootSignature(root);
+  list.SetPipelineState(twin.device.CreateComputePipelineState({root, library, "", ""}).value());
+  list.SetComputeRootShaderResourceView(0, 0);
+  list.SetComputeRootShaderResourceView(1, 0);
+  list.SetComputeRootConstantBufferView(2, 0);
+  list.SetComputeRootUnorderedAccessView(3, 0);
+  list.SetComputeRootUnorderedAccessView(4, results.GetGPUVirtualAddress());
+  list.Dispatch(1, 1, 1);
+  twin.queue.ExecuteAndWait(list).value();
+  EXPECT_EQ(twin.words(results), std::vector<uint32_t>(8, 100));
+}
+
+TEST(VulkanMisfitDescriptors, NullRootDescriptorsReadZero) {
+  KAAMOS_NEED_VULKAN();
+  expect_null_root_descriptors_read_zero("vulkan");
+}
+TEST(MisfitDescriptors, NullRootDescriptorsReadZeroOnTheCpu) {
+  expect_null_root_descriptors_read_zero("embree");
 }
 
 }  // namespace
