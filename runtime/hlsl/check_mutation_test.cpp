@@ -5,6 +5,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 #include "check_test_support.h"
@@ -78,7 +80,9 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
     FrontendOptions options;
     options.path = entry.path().string();
     options.include_folders = {KAAMOS_SOURCE_DIR "/tests/hlsl"};
-    options.native_16bit = options.path.find("16_t") != std::string::npos;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    options.native_16bit = text.find("OPTIONS: -enable-16bit-types") != std::string::npos;
     DiskFileLoader loader;
     SourceManager sources(loader);
     DiagnosticEngine diagnostics;
