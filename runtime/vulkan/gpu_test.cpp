@@ -2,7 +2,10 @@
 #include "runtime/vulkan/gpu.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -86,6 +89,33 @@ TEST(Gpu, RunCopiesOnTheQueue) {
     EXPECT_EQ((*to)->host()[1039], 0x5A);
     EXPECT_EQ((*to)->host()[1040], i);
   }
+}
+
+TEST(Gpu, ALostDeviceSaysWhatRan) {
+  KAAMOS_NEED_GPU(gpu);
+  const auto lost = gpu->error(VK_ERROR_DEVICE_LOST, "DispatchRays, command 3");
+  EXPECT_EQ(lost.id, "KA0955");
+  EXPECT_EQ(lost.code, rtapi::ErrorCode::kDeviceRemoved);
+  EXPECT_NE(lost.message.find("DispatchRays, command 3"), std::string::npos);
+  EXPECT_NE(lost.message.find(gpu->info().Name), std::string::npos);
+}
+
+// In a process of its own, whose loader is shown no driver.
+TEST(Gpu, WithoutADriverThePackageIsNamed) {
+  char path[4096] = {};
+  ASSERT_GT(readlink("/proc/self/exe", path, sizeof(path) - 1), 0);
+  const std::string command = std::string(
+                                  "KAAMOS_REQUIRE_VULKAN=0 VK_DRIVER_FILES=/none "
+                                  "VK_ICD_FILENAMES=/none '") +
+                              path + "' --gtest_filter='Gpu.ListsDevicesThatCanBeMade' 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string text;
+  char line[512];
+  while (fgets(line, sizeof(line), pipe) != nullptr) text += line;
+  EXPECT_EQ(pclose(pipe), 0);  // skipped
+  EXPECT_NE(text.find("KA0950"), std::string::npos) << text;
+  EXPECT_NE(text.find("mesa-vulkan-drivers"), std::string::npos) << text;
 }
 
 TEST(Gpu, DevicesComeAndGo) {

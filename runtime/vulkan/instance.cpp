@@ -74,7 +74,9 @@ rtapi::Status Instance::start() {
   info.ppEnabledLayerNames = layers;
   info.ppEnabledExtensionNames = extensions;
   if (const VkResult r = vkCreateInstance(&info, nullptr, &handle_); r != VK_SUCCESS) {
-    return no_vulkan("vkCreateInstance returned " + result_name(r));
+    return no_vulkan(r == VK_ERROR_INCOMPATIBLE_DRIVER
+                         ? "no driver is installed"
+                         : "vkCreateInstance returned " + result_name(r));
   }
   volkLoadInstanceOnly(handle_);
   if (!validation) return {};
