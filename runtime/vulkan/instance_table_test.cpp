@@ -58,7 +58,7 @@ TEST(InstanceTable, WhatIsFreedIsUsedAgain) {
   const uint64_t address = table->address();
   for (uint32_t i = 0; i < 50; ++i) {
     std::vector<InstanceTable::Range> ranges;
-    for (uint32_t j = 0; j < 10; ++j) ranges.push_back(std::move(*table->add(entries_of(100, j))));
+    for (uint32_t j = 0; j < 10; ++j) ranges.push_back(*table->add(entries_of(100, j)));
     std::swap(ranges[i % 10], ranges[(7 * i) % 10]);
   }
   EXPECT_EQ(table->address(), address);  // it never had to grow
