@@ -59,7 +59,10 @@ int open_device() {
     std::printf("driver: %s\n", gpu.name().c_str());
     return 0;
   } catch (const std::exception& error) {
-    std::printf("%s\n", error.what());
+    std::printf(
+        "no Vulkan device with ray tracing pipelines: %s. Install mesa-vulkan-drivers 24.3 or "
+        "newer (Debian 12: apt-get install -t bookworm-backports mesa-vulkan-drivers).\n",
+        error.what());
     return kSkipped;
   }
 }

@@ -93,9 +93,7 @@ void Gpu::choose_device() {
     if (physical_) break;
   }
   if (!physical_) {
-    throw std::runtime_error(
-        "no Vulkan device has VK_KHR_ray_tracing_pipeline: install "
-        "mesa-vulkan-drivers 24.3 or newer");
+    throw std::runtime_error("no device has VK_KHR_ray_tracing_pipeline");
   }
   VkPhysicalDeviceAccelerationStructurePropertiesKHR accel{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
