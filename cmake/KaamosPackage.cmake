@@ -125,7 +125,7 @@ function(kaamos_install_package)
   kaamos_collect_dependencies(KAAMOS_DEPENDENCIES ${libraries})
 
   set(programs)
-  foreach(program IN ITEMS kaamos-hlsl northlight)
+  foreach(program IN ITEMS kaamos-hlsl northlight kaamos-conformance)
     if(TARGET ${program})
       list(APPEND programs ${program})
       kaamos_add_alias(${program} ${program})

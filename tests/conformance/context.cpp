@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/context.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace kaamos::conformance {
+
+using namespace rtapi;
+
+std::string Target::name() const {
+  if (backend != "embree") return backend;
+  const char* names[] = {"fast", "robust", "exact"};
+  return backend + "/" + names[static_cast<uint32_t>(precision)];
+}
+
+Geometry triangle(float z, float x, RaytracingGeometryFlags flags) {
+  Geometry out;
+  out.vertices = {x, 3, z, x + 3, -3, z, x - 3, -3, z};
+  out.flags = flags;
+  return out;
+}
+
+Geometry box(float z, float x, RaytracingGeometryFlags flags) {
+  Geometry out;
+  out.boxes = {{x - 1, -1, z - 1, x + 1, 1, z + 1}};
+  out.flags = flags;
+  return out;
+}
+
+RaytracingInstanceDesc instance(const Buffer& bottom_level, float x, uint32_t contribution,
+                                uint32_t flags) {
+  RaytracingInstanceDesc out;
+  out.Transform[0][3] = x;
+  out.InstanceContributionToHitGroupIndex = contribution;
+  out.Flags = flags;
+  out.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
+  return out;
+}
+
+Context::Context(const Target& target) : target_(target) {
+  DeviceDesc desc;
+  desc.Backend = target.backend;
+  desc.Precision = target.precision;
+  device_ = CreateDevice(desc).value();
+  queue_ = device_.CreateCommandQueue().value();
+}
+
+void Context::close(const std::string& what, float found, float expected, float tolerance) {
+  if (std::abs(found - expected) <= tolerance) return;
+  fail(what + ": " + show(found) + ", expected " + show(expected) + " +- " + show(tolerance));
+}
+
+void Context::refused(const std::string& what, const Status& status, const char* id) {
+  if (status) {
+    fail(what + ": accepted, expected an error");
+  } else if (id != nullptr && status.error().id != id) {
+    fail(what + ": expected " + id + ", found " + status.error().message);
+  }
+}
+
+std::string Context::show_float(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+Buffer Context::keep(Buffer buffer) {
+  keep_.push_back(buffer);
+  return buffer;
+}
+
+Buffer Context::zeros(uint64_t bytes) {
+  BufferDesc desc;
+  desc.SizeInBytes = bytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kUnorderedAccess;
+  return keep(device_.CreateBuffer(desc).value());
+}
+
+std::vector<uint32_t> Context::read(const Buffer& buffer) {
+  const auto bytes = ReadbackBuffer(device_, queue_, buffer).value();
+  std::vector<uint32_t> out(bytes.size() / 4);
+  std::memcpy(out.data(), bytes.data(), out.size() * 4);
+  return out;
+}
+
+Buffer Context::build(const BuildRaytracingAccelerationStructureInputs& inputs) {
+  const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+  BufferDesc desc;
+  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  const Buffer result = keep(device_.CreateBuffer(desc).value());
+  BuildRaytracingAccelerationStructureDesc build;
+  build.Inputs = inputs;
+  build.DestAccelerationStructureData = result.GetGPUVirtualAddress();
+  build.ScratchAccelerationStructureData =
+      zeros(std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256)).GetGPUVirtualAddress();
+  CommandList list = device_.CreateCommandList().value();
+  list.BuildRaytracingAccelerationStructure(build);
+  queue_.ExecuteAndWait(list).value();
+  return result;
+}
+
+Buffer Context::bottom_level(const std::vector<Geometry>& geometries) {
+  std::vector<RaytracingGeometryDesc> descs;
+  for (const Geometry& geometry : geometries) {
+    RaytracingGeometryDesc desc;
+    desc.Flags = geometry.flags;
+    if (geometry.boxes.empty()) {
+      desc.Triangles.VertexFormat = Format::kR32G32B32Float;
+      desc.Triangles.VertexCount = static_cast<uint32_t>(geometry.vertices.size() / 3);
+      desc.Triangles.VertexBuffer = {upload(geometry.vertices).GetGPUVirtualAddress(), 12};
+      if (!geometry.transform.empty()) {
+        desc.Triangles.Transform3x4 = upload(geometry.transform).GetGPUVirtualAddress();
+      }
+    } else {
+      desc.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
+      desc.AABBs.AABBCount = geometry.boxes.size();
+      desc.AABBs.AABBs = {upload(geometry.boxes).GetGPUVirtualAddress(), 24};
+    }
+    descs.push_back(desc);
+  }
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+  inputs.NumDescs = static_cast<uint32_t>(descs.size());
+  inputs.pGeometryDescs = descs.data();
+  return build(inputs);
+}
+
+Buffer Context::top_level(const std::vector<RaytracingInstanceDesc>& instances) {
+  BuildRaytracingAccelerationStructureInputs inputs;
+  inputs.NumDescs = static_cast<uint32_t>(instances.size());
+  if (!instances.empty()) inputs.InstanceDescs = upload(instances).GetGPUVirtualAddress();
+  return build(inputs);
+}
+
+Buffer Context::scene(const std::vector<Geometry>& geometries, uint32_t contribution,
+                      uint32_t flags) {
+  return top_level({instance(bottom_level(geometries), 0, contribution, flags)});
+}
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// What the test of a rule works with: a device, checks, and short ways to make scenes.
+#pragma once
+
+#include <rtapi/rtapi.h>
+#include <rtapi/upload.h>
+
+#include <concepts>
+#include <cstring>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace kaamos::conformance {
+
+struct Target {
+  std::string backend = "embree";
+  rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;
+  std::string name() const;  // "embree/robust", "vulkan"
+};
+
+// One geometry: triangles of nine floats each, or boxes.
+struct Geometry {
+  std::vector<float> vertices = {};
+  std::vector<rtapi::RaytracingAabb> boxes = {};
+  rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque;
+  std::vector<float> transform = {};  // Transform3x4; empty: none
+};
+// A triangle that rays along z meet at t = z, front first, within 1 of (x, 0).
+Geometry triangle(float z, float x = 0,
+                  rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
+// A box of edge 2 around (x, 0, z).
+Geometry box(float z, float x = 0,
+             rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
+
+class Context {
+ public:
+  // Errors here and below leave as rtapi::ResultError and fail the rule.
+  explicit Context(const Target& target);
+
+  const Target& target() const { return target_; }
+  const rtapi::Device& device() const { return device_; }
+  rtapi::CommandQueue& queue() { return queue_; }
+
+  // Checks: each that does not hold fails the rule with what was found and expected.
+  template <class T>
+  void equal(const std::string& what, const T& found, const std::type_identity_t<T>& expected) {
+    if (!(found == expected)) fail(what + ": " + show(found) + ", expected " + show(expected));
+  }
+  void close(const std::string& what, float found, float expected, float tolerance);
+  void holds(const std::string& what, bool condition) {
+    if (!condition) fail(what + ": does not hold");
+  }
+  // The call must have returned an error; of this id where one is given.
+  void refused(const std::string& what, const rtapi::Status& status, const char* id = nullptr);
+  template <class T>
+  void refused(const std::string& what, const rtapi::Result<T>& result, const char* id = nullptr) {
+    refused(what, result ? rtapi::Status() : rtapi::Status(result.error()), id);
+  }
+  void accepted(const std::string& what, const rtapi::Status& status) {
+    if (!status) fail(what + ": refused with " + status.error().message);
+  }
+  template <class T>
+  void accepted(const std::string& what, const rtapi::Result<T>& result) {
+    if (!result) fail(what + ": refused with " + result.error().message);
+  }
+  void fail(std::string message) { failures_.push_back(std::move(message)); }
+  const std::vector<std::string>& failures() const { return failures_; }
+
+  // Buffers live as long as the context.
+  template <class T>
+  rtapi::Buffer upload(const std::vector<T>& elements) {
+    return keep(rtapi::CreateUploadBuffer(device_, elements).value());
+  }
+  rtapi::Buffer zeros(uint64_t bytes);  // default heap, unordered access
+  std::vector<uint32_t> read(const rtapi::Buffer& buffer);
+
+  rtapi::Buffer bottom_level(const std::vector<Geometry>& geometries);
+  rtapi::Buffer top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);
+  // A bottom level of its own for these, in one instance.
+  rtapi::Buffer scene(const std::vector<Geometry>& geometries, uint32_t contribution = 0,
+                      uint32_t flags = 0);
+  rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs);
+
+ private:
+  rtapi::Buffer keep(rtapi::Buffer buffer);
+  static std::string show(std::integral auto value) { return std::to_string(value); }
+  static std::string show(std::floating_point auto value) { return show_float(value); }
+  template <class T>
+  static std::string show(const std::vector<T>& values) {
+    std::string out;
+    for (const T value : values) out += (out.empty() ? "{" : ", ") + show(value);
+    return out + (out.empty() ? "{}" : "}");
+  }
+  static std::string show_float(double value);
+
+  Target target_;
+  rtapi::Device device_;
+  rtapi::CommandQueue queue_;
+  std::vector<rtapi::Buffer> keep_;
+  std::vector<std::string> failures_;
+};
+
+rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom_level, float x = 0,
+                                       uint32_t contribution = 0, uint32_t flags = 0);
+
+// A rule's test. `rules`: their numbers, "SBT-03, SBT-04".
+struct RuleTest {
+  const char* rules;
+  void (*run)(Context& t);
+};
+std::vector<RuleTest> sbt_tests();
+std::vector<RuleTest> root_tests();
+std::vector<RuleTest> flg_tests();
+std::vector<RuleTest> sv_tests();
+std::vector<RuleTest> pay_tests();
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// kaamos-conformance: holds a machine and its drivers against DXR's rules.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "tests/conformance/report.h"
+
+namespace {
+
+using namespace kaamos::conformance;
+
+bool g_summary_only = false;
+
+void print(const RuleResult& result) {
+  const bool bad = result.outcome == Outcome::kFailed || result.outcome == Outcome::kKnownDeviation;
+  if (!g_summary_only || bad) std::cout << line_of(result) << std::endl;
+}
+
+void list_rules(const std::string& filter) {
+  const auto tests = all_tests();
+  for (const Rule& rule : all_rules()) {
+    if (std::string_view(rule.id).substr(0, filter.size()) != filter) continue;
+    const bool tested = std::any_of(tests.begin(), tests.end(), [&](const RuleTest& test) {
+      return test_covers(test, rule.id);
+    });
+    std::cout << rule.id << " [" << rule.tag << "] " << rule.title
+              << (tested                ? ""
+                  : rule.not_applicable ? " (not applicable)"
+                                        : " (not yet tested)")
+              << "\n";
+  }
+}
+
+std::vector<Target> targets_of(const std::string& backend, const std::string& precision) {
+  Target embree;
+  if (precision == "fast") embree.precision = rtapi::TraversalPrecision::kFast;
+  if (precision == "exact") embree.precision = rtapi::TraversalPrecision::kExact;
+  Target vulkan;
+  vulkan.backend = "vulkan";
+  if (backend == "embree") return {embree};
+  if (backend == "vulkan") return {vulkan};
+  return {embree, vulkan};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string backend, filter, json, precision = "robust";
+  bool list = false;
+  CLI::App app("Holds this machine's backends against the rules of DirectX Raytracing.");
+  app.add_option("--backend", backend, "embree or vulkan; without it every one there is")
+      ->check(CLI::IsMember({"embree", "vulkan"}));
+  app.add_option("--precision", precision, "of embree: fast, robust or exact")
+      ->check(CLI::IsMember({"fast", "robust", "exact"}));
+  app.add_option("--filter", filter, "only rules whose number begins so, e.g. SBT-");
+  app.add_option("--json", json, "writes the results into this file");
+  app.add_flag("--list", list, "prints the rules and runs nothing");
+  app.add_flag("--summary", g_summary_only, "prints failures and the summary only");
+  CLI11_PARSE(app, argc, argv);
+  if (list) {
+    list_rules(filter);
+    return 0;
+  }
+  std::vector<TargetResults> results;
+  bool failed = false;
+  for (const Target& target : targets_of(backend, precision)) {
+    const DeviceCheck device = check_device(target);
+    if (!device.error.empty()) {
+      std::cerr << target.name() << ": no device: " << device.error << "\n";
+      failed = failed || !backend.empty();
+      continue;
+    }
+    std::cout << target.name() << ": " << device.name << std::endl;
+    results.emplace_back(target, run_rules(target, device.name, filter, print));
+  }
+  for (const TargetResults& each : results) {
+    for (const RuleResult& result : each.second) {
+      failed = failed || result.outcome == Outcome::kFailed;
+    }
+    std::cout << summary_of(each) << "\n";
+  }
+  if (!json.empty() && !(std::ofstream(json) << json_of(results) << "\n")) {
+    std::cerr << "cannot write " << json << "\n";
+    return 2;
+  }
+  return failed || results.empty() ? 1 : 0;
+}

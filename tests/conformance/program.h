@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// A ray tracing pipeline with its tables, and the pipeline that most rules share.
+#pragma once
+
+#include <rtapi/shader_table.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/conformance/context.h"
+
+namespace kaamos::shader {
+struct LibraryDesc;
+}
+
+namespace kaamos::conformance {
+
+inline constexpr char kGlobalSignature[] = "SRV(t0), SRV(t1), UAV(u0)";
+// Of every record of common.hlsli.
+inline constexpr char kRecordSignature[] =
+    "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b0, space = 1, num32BitConstants = 4)";
+
+// common.hlsli's structures.
+struct Ray {
+  float origin[3] = {0.1f, 0.2f, 0};
+  float t_min = 0;
+  float direction[3] = {0, 0, 1};
+  float t_max = 1000;
+  uint32_t flags = 0;
+  uint32_t mask = 0xFF;
+  uint32_t contribution = 0;
+  uint32_t multiplier = 0;
+  uint32_t miss = 0;
+  uint32_t unused[3] = {};
+};
+enum End : uint32_t { kNothingRan, kClosestHitRan, kMissRan };
+struct Seen {
+  uint32_t end;  // End
+  uint32_t record;
+  uint32_t any_hits;
+  uint32_t any_record;
+  uint32_t box_record;
+  uint32_t instance_index;
+  uint32_t instance_id;
+  uint32_t geometry;
+  uint32_t primitive;
+  uint32_t hit_kind;
+  uint32_t flags;
+  float t;
+  float any_t;
+  float barycentrics[2];
+  uint32_t unused;
+};
+static_assert(sizeof(Ray) == 64 && sizeof(Seen) == 64);
+Ray ray_at(float x, float y = 0.2f);
+
+// Bytes of the buffer behind u0, and the word in it that counts intersection shaders.
+inline constexpr uint32_t kWordBytes = 65536;
+inline constexpr uint32_t kIntersectionWord = 32768 / 4;
+
+struct Constants {
+  uint32_t ordinal = 0;
+  float reported_t = 5;
+  uint32_t reported_kind = 7;
+  uint32_t unused = 0;
+};
+
+class Program {
+ public:
+  // Exports everything in the library. Change `desc` before the first record or run.
+  Program(Context& t, const shader::LibraryDesc* library, uint32_t payload_bytes = 64,
+          const char* global_signature = kGlobalSignature);
+
+  // A hit group; with an intersection shader a procedural one.
+  void group(const std::string& name, const std::string& closest, const std::string& any = "",
+             const std::string& intersection = "");
+  void local(const std::string& signature, const std::vector<std::string>& exports);
+
+  // Makes the pipeline; called by everything below. `try_create` for tests of refusals.
+  void create();
+  rtapi::Result<rtapi::StateObject> try_create() const {
+    return context_->device().CreateStateObject(desc);
+  }
+
+  // Append records; return their index.
+  uint32_t miss(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
+  uint32_t hit(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
+  uint32_t callable(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
+  uint32_t raygen(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
+
+  rtapi::DispatchRaysDesc tables();
+  // All words of u0 after the dispatch; they start at zero.
+  std::vector<uint32_t> run(const rtapi::DispatchRaysDesc& desc);
+  std::vector<uint32_t> run(uint32_t width = 1, uint32_t height = 1, uint32_t depth = 1);
+
+  rtapi::StateObjectDesc desc;
+  rtapi::StateObject pipeline;
+  rtapi::RootSignature global;
+  rtapi::Buffer scene;                                 // behind t0
+  rtapi::Buffer rays;                                  // behind t1
+  std::function<void(rtapi::CommandList&)> bind = {};  // instead of t0, t1 and u0
+  std::vector<rtapi::ShaderTable> shader_tables;       // ray generation, miss, hit, callable
+
+ private:
+  uint32_t add(size_t table, const std::string& name,
+               const std::vector<rtapi::LocalArgument>& arguments);
+  Context* context_;
+};
+
+// standard.hlsl: hit groups Plain, Counted, Ignored, Box, BoxCounted, BoxIgnored. Hit record i has
+// the ordinal i, miss record i 1000 + i.
+class Standard : public Program {
+ public:
+  explicit Standard(Context& t,
+                    rtapi::RaytracingPipelineFlags flags = rtapi::RaytracingPipelineFlags::kNone);
+  uint32_t record(const std::string& group, float reported_t = 5, uint32_t reported_kind = 7);
+  void records(const std::string& group, uint32_t count);
+  void miss_records(uint32_t count);
+
+  // Adds the ray generation record, and one miss record if there is none.
+  std::vector<Seen> trace(const std::vector<Ray>& list);
+  Seen trace(const Ray& ray) { return trace(std::vector<Ray>{ray})[0]; }
+  Seen trace(const rtapi::Buffer& top_level, const Ray& ray = {});
+  void prepare(const std::vector<Ray>& list);
+  uint32_t intersections() const { return intersections_; }  // in the last trace
+
+ private:
+  Context* context_;
+  uint32_t intersections_ = 0;
+};
+
+std::vector<Seen> seen_of(const std::vector<uint32_t>& words, size_t count);
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "tests/conformance/report.h"
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace kaamos::conformance {
+
+namespace {
+
+const char* name_of(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kPassed:
+      return "pass";
+    case Outcome::kFailed:
+      return "fail";
+    case Outcome::kKnownDeviation:
+      return "known deviation";
+    case Outcome::kNotApplicable:
+      return "not applicable";
+    case Outcome::kNotTested:
+      break;
+  }
+  return "not yet tested";
+}
+
+}  // namespace
+
+std::string line_of(const RuleResult& result) {
+  std::string out = name_of(result.outcome);
+  out.resize(16, ' ');
+  out += result.rule->id;
+  out.resize(25, ' ');
+  out += result.rule->title;
+  if (result.outcome == Outcome::kPassed && result.rule->partly != nullptr) {
+    out += std::string(" (") + result.rule->partly + ")";
+  }
+  std::istringstream detail(result.detail);
+  for (std::string line; std::getline(detail, line);) {
+    out += result.outcome == Outcome::kNotApplicable ? ": " + line : "\n    " + line;
+  }
+  return out;
+}
+
+std::string summary_of(const TargetResults& results) {
+  size_t required = 0, passed = 0, not_tested = 0;
+  std::string failing;
+  for (const RuleResult& result : results.second) {
+    if (!result.rule->required() || result.outcome == Outcome::kNotApplicable) continue;
+    ++required;
+    if (result.outcome == Outcome::kPassed) ++passed;
+    if (result.outcome == Outcome::kNotTested) ++not_tested;
+    if (result.outcome == Outcome::kFailed || result.outcome == Outcome::kKnownDeviation) {
+      failing += (failing.empty() ? "" : ", ") + std::string(result.rule->id);
+      if (result.outcome == Outcome::kKnownDeviation) failing += " (known)";
+    }
+  }
+  std::string out = results.first.name() + ": " + std::to_string(passed) + " of " +
+                    std::to_string(required) + " required rules pass";
+  if (!failing.empty()) out += "; failing: " + failing;
+  if (not_tested > 0) out += "; not yet tested: " + std::to_string(not_tested);
+  return out;
+}
+
+std::string json_of(const std::vector<TargetResults>& results) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const TargetResults& each : results) {
+    nlohmann::ordered_json rules = nlohmann::ordered_json::array();
+    for (const RuleResult& result : each.second) {
+      rules.push_back({{"rule", result.rule->id},
+                       {"tag", std::string(1, result.rule->tag)},
+                       {"title", result.rule->title},
+                       {"result", name_of(result.outcome)},
+                       {"detail", result.detail}});
+    }
+    out.push_back({{"target", each.first.name()}, {"summary", summary_of(each)}, {"rules", rules}});
+  }
+  return out.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+//
+// Results as text and JSON.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/conformance/run.h"
+
+namespace kaamos::conformance {
+
+using TargetResults = std::pair<Target, std::vector<RuleResult>>;
+
+// "pass SBT-02  The record hit is ...", and indented lines behind it.
+std::string line_of(const RuleResult& result);
+// "vulkan: P of N required rules pass; failing: ...; not yet tested: K".
+std::string summary_of(const TargetResults& results);
+std::string json_of(const std::vector<TargetResults>& results);
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// The rules of DXR that Kaamos keeps, and what is known not to be kept.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace kaamos::conformance {
+
+struct Rule {
+  const char* id;  // "SBT-02"
+  // R required; O observed on native runtimes; U undefined, with a policy of ours; A the
+  // application's duty; F freedom of implementations; I our reading; C computed.
+  char tag;
+  const char* title;
+  const char* not_applicable = nullptr;  // why the rule cannot hold or be broken here
+  const char* partly = nullptr;          // which part of it does not apply
+
+  bool required() const { return tag == 'R'; }
+};
+
+std::span<const Rule> all_rules();
+const Rule* find_rule(std::string_view id);
+
+// A rule that a backend is known to break, and why.
+struct Deviation {
+  const char* rule;
+  const char* backend;
+  const char* driver;  // a part of the device's name; "" for every one
+  const char* reason;
+};
+const Deviation* find_deviation(std::string_view rule, std::string_view backend,
+                                std::string_view device_name);
+
+}  // namespace kaamos::conformance

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Rays of a buffer into a scene, and shaders that note where they stood. For most rules.
+#include "common.hlsli"
+
+[shader("raygeneration")]
+void Trace() {
+  const uint i = DispatchRaysIndex().x;
+  const Ray ray = rays[i];
+  Seen seen = nothingSeen();
+  TraceRay(scene, ray.flags, ray.mask, ray.contribution, ray.multiplier, ray.miss, describe(ray),
+           seen);
+  words.Store<Seen>(64 * i, seen);
+}
+
+[shader("raygeneration")]
+void WriteOrdinal() {
+  words.Store(0, ordinal + 1);
+}
+
+[shader("miss")]
+void Miss(inout Seen seen) {
+  seen.end = 2;
+  seen.record = ordinal;
+  seen.flags = RayFlags();
+  seen.t = RayTCurrent();
+}
+
+void noteHit(inout Seen seen) {
+  seen.end = 1;
+  seen.record = ordinal;
+  seen.instanceIndex = InstanceIndex();
+  seen.instanceID = InstanceID();
+  seen.geometry = GeometryIndex();
+  seen.primitive = PrimitiveIndex();
+  seen.hitKind = HitKind();
+  seen.flags = RayFlags();
+  seen.t = RayTCurrent();
+}
+
+void noteCandidate(inout Seen seen) {
+  seen.anyHits += 1;
+  seen.anyRecord = ordinal;
+  seen.anyT = RayTCurrent();
+}
+
+[shader("closesthit")]
+void Closest(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  noteHit(seen);
+  seen.barycentrics = attributes.barycentrics;
+}
+
+[shader("anyhit")]
+void Count(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  noteCandidate(seen);
+}
+
+[shader("anyhit")]
+void Ignore(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  noteCandidate(seen);
+  IgnoreHit();
+}
+
+[shader("intersection")]
+void Boxed() {
+  words.InterlockedAdd(kIntersectionCounter, 1u);
+  BoxAttributes attributes;
+  attributes.record = ordinal;
+  attributes.t = RayTCurrent();
+  ReportHit(reportedT, reportedKind, attributes);
+}
+
+[shader("closesthit")]
+void BoxClosest(inout Seen seen, BoxAttributes attributes) {
+  noteHit(seen);
+  seen.boxRecord = attributes.record;
+  seen.barycentrics.x = attributes.t;
+}
+
+[shader("anyhit")]
+void BoxCount(inout Seen seen, BoxAttributes attributes) {
+  noteCandidate(seen);
+}
+
+[shader("anyhit")]
+void BoxIgnore(inout Seen seen, BoxAttributes attributes) {
+  noteCandidate(seen);
+  IgnoreHit();
+}
