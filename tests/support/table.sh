@@ -14,6 +14,11 @@ if [[ $results == *'no device: '* ]]; then
   grep -m 1 'no device: ' <<<"$results"
   exit 77
 fi
+if [[ $results != *' tests from '*' ran.'* ]]; then
+  tail -n 3 <<<"$results"
+  echo "$support_test did not come to its end: no table can be made."
+  exit 1
+fi
 table=$(awk '
   # "AccelerationStructures" becomes "acceleration structures".
   function words(name) { gsub(/[A-Z]/, " &", name); return tolower(substr(name, 2)) }
