@@ -30,7 +30,7 @@ struct Seen {
   float t;
   float anyT;
   float2 barycentrics;
-  uint unused;
+  uint closestHits;  // invocations
 };
 
 struct BoxAttributes {

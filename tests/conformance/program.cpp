@@ -20,14 +20,15 @@ std::vector<Seen> seen_of(const std::vector<uint32_t>& words, size_t count) {
   return out;
 }
 
-Program::Program(Context& t, const shader::LibraryDesc* library, uint32_t payload_bytes,
+Program::Program(Context& t, const shader::LibraryDesc* library, std::vector<std::string> exports,
                  const char* global_signature)
     : context_(&t) {
   DxilLibraryDesc code;
   code.DXILLibrary = LoadShaderLibrary(library).value();
+  for (const std::string& name : exports) code.Exports.push_back({name, ""});
   global = t.device().CreateRootSignature(global_signature).value();
   desc.Add(code);
-  desc.Add(RaytracingShaderConfig{payload_bytes, 32});
+  desc.Add(RaytracingShaderConfig{64, 32});
   desc.Add(RaytracingPipelineConfig1{3});
   desc.Add(GlobalRootSignature{global});
 }
@@ -96,12 +97,9 @@ std::vector<uint32_t> Program::run(const DispatchRaysDesc& dispatch) {
   CommandList list = context_->device().CreateCommandList().value();
   list.SetComputeRootSignature(global);
   list.SetPipelineState1(pipeline);
-  if (bind) {
-    bind(list);
-  } else {
-    list.SetComputeRootShaderResourceView(0, scene.GetGPUVirtualAddress());
-    list.SetComputeRootShaderResourceView(1, rays.GetGPUVirtualAddress());
-  }
+  if (scene) list.SetComputeRootShaderResourceView(0, scene.GetGPUVirtualAddress());
+  if (rays) list.SetComputeRootShaderResourceView(1, rays.GetGPUVirtualAddress());
+  if (bind) bind(list);
   list.SetComputeRootUnorderedAccessView(2, words.GetGPUVirtualAddress());
   list.DispatchRays(dispatch);
   context_->queue().ExecuteAndWait(list).value();
@@ -116,11 +114,23 @@ std::vector<uint32_t> Program::run(uint32_t width, uint32_t height, uint32_t dep
   return run(dispatch);
 }
 
-Standard::Standard(Context& t, RaytracingPipelineFlags flags)
-    : Program(t, kaamos_shaders_standard()), context_(&t) {
-  for (StateSubobject& each : desc.Subobjects) {
-    if (auto* config = std::get_if<RaytracingPipelineConfig1>(&each)) config->Flags = flags;
+namespace {
+
+std::vector<std::string> with_standard_exports(std::vector<std::string> exports) {
+  for (const char* name : {"Trace", "WriteOrdinal", "Miss", "Closest", "Count", "Ignore", "Boxed",
+                           "BoxClosest", "BoxCount", "BoxIgnore"}) {
+    exports.push_back(name);
   }
+  return exports;
+}
+
+}  // namespace
+
+Standard::Standard(Context& t, const shader::LibraryDesc* library,
+                   std::vector<std::string> more_exports, const char* global_signature)
+    : Program(t, library == nullptr ? kaamos_shaders_standard() : library,
+              with_standard_exports(std::move(more_exports)), global_signature),
+      context_(&t) {
   group("Plain", "Closest");
   group("Counted", "Closest", "Count");
   group("Ignored", "Closest", "Ignore");
@@ -129,6 +139,12 @@ Standard::Standard(Context& t, RaytracingPipelineFlags flags)
   group("BoxIgnored", "BoxClosest", "BoxIgnore", "Boxed");
   local(kRecordSignature,
         {"Plain", "Counted", "Ignored", "Box", "BoxCounted", "BoxIgnored", "Miss", "WriteOrdinal"});
+}
+
+void Standard::set_pipeline_flags(RaytracingPipelineFlags flags) {
+  for (StateSubobject& each : desc.Subobjects) {
+    if (auto* config = std::get_if<RaytracingPipelineConfig1>(&each)) config->Flags = flags;
+  }
 }
 
 uint32_t Standard::record(const std::string& name, float reported_t, uint32_t reported_kind) {

@@ -51,7 +51,7 @@ struct Seen {
   float t;
   float any_t;
   float barycentrics[2];
-  uint32_t unused;
+  uint32_t closest_hits;  // invocations
 };
 static_assert(sizeof(Ray) == 64 && sizeof(Seen) == 64);
 Ray ray_at(float x, float y = 0.2f);
@@ -69,8 +69,8 @@ struct Constants {
 
 class Program {
  public:
-  // Exports everything in the library. Change `desc` before the first record or run.
-  Program(Context& t, const shader::LibraryDesc* library, uint32_t payload_bytes = 64,
+  // Without `exports` everything in the library. Change `desc` before the first record or run.
+  Program(Context& t, const shader::LibraryDesc* library, std::vector<std::string> exports = {},
           const char* global_signature = kGlobalSignature);
 
   // A hit group; with an intersection shader a procedural one.
@@ -98,10 +98,11 @@ class Program {
   rtapi::StateObjectDesc desc;
   rtapi::StateObject pipeline;
   rtapi::RootSignature global;
-  rtapi::Buffer scene;                                 // behind t0
-  rtapi::Buffer rays;                                  // behind t1
-  std::function<void(rtapi::CommandList&)> bind = {};  // instead of t0, t1 and u0
-  std::vector<rtapi::ShaderTable> shader_tables;       // ray generation, miss, hit, callable
+  rtapi::Buffer scene;  // behind t0
+  rtapi::Buffer rays;   // behind t1
+  // Further root arguments and descriptor heaps.
+  std::function<void(rtapi::CommandList&)> bind = {};
+  std::vector<rtapi::ShaderTable> shader_tables;  // ray generation, miss, hit, callable
 
  private:
   uint32_t add(size_t table, const std::string& name,
@@ -113,8 +114,12 @@ class Program {
 // the ordinal i, miss record i 1000 + i.
 class Standard : public Program {
  public:
-  explicit Standard(Context& t,
-                    rtapi::RaytracingPipelineFlags flags = rtapi::RaytracingPipelineFlags::kNone);
+  explicit Standard(Context& t) : Standard(t, nullptr, {}) {}
+  // Of a library that includes standard.hlsl, with more of its exports.
+  Standard(Context& t, const shader::LibraryDesc* library, std::vector<std::string> more_exports,
+           const char* global_signature = kGlobalSignature);
+  void set_pipeline_flags(rtapi::RaytracingPipelineFlags flags);
+
   uint32_t record(const std::string& group, float reported_t = 5, uint32_t reported_kind = 7);
   void records(const std::string& group, uint32_t count);
   void miss_records(uint32_t count);

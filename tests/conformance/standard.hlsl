@@ -27,6 +27,7 @@ void Miss(inout Seen seen) {
 
 void noteHit(inout Seen seen) {
   seen.end = 1;
+  seen.closestHits += 1;
   seen.record = ordinal;
   seen.instanceIndex = InstanceIndex();
   seen.instanceID = InstanceID();
