@@ -262,11 +262,13 @@ rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32
       text = "TraceRay past the recursion limit: the pipeline declares MaxTraceRecursionDepth " +
              std::to_string(declared_depth) + " and a shader at that depth called TraceRay";
       if (depth_limit < declared_depth) {
-        text = "TraceRay past the recursion limit: this Vulkan device allows a depth of " +
-               std::to_string(depth_limit) +
-               " and a shader at that depth called TraceRay; the pipeline declares "
-               "MaxTraceRecursionDepth " +
-               std::to_string(declared_depth);
+        text =
+            "TraceRay past the recursion limit: with such payloads this Vulkan device allows a "
+            "depth of " +
+            std::to_string(depth_limit) +
+            " and a shader at that depth called TraceRay; the pipeline declares "
+            "MaxTraceRecursionDepth " +
+            std::to_string(declared_depth);
       }
       break;
     case shader::RemovalReason::kStackOverflow:

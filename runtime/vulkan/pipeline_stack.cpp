@@ -52,4 +52,19 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
   return static_cast<uint32_t>(std::min<uint64_t>(total, UINT32_MAX));
 }
 
+uint32_t nested_payload_limit(uint32_t payload_bytes) {
+  constexpr uint64_t kStackBytes = 6u << 20;  // the rest is for all else
+  constexpr uint64_t kLanes = 8;
+  constexpr uint64_t kHeaderBytes = 16;
+  return static_cast<uint32_t>(kStackBytes / (2 * kLanes * (payload_bytes + kHeaderBytes)));
+}
+
+uint32_t largest_payload(const runtime::LinkedPipeline& pipeline) {
+  uint32_t largest = 0;
+  for (const auto& shader : pipeline.shaders) {
+    largest = std::max(largest, shader->code->payload_storage_bytes);
+  }
+  return largest;
+}
+
 }  // namespace kaamos::vulkan

@@ -21,4 +21,11 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               const std::vector<const runtime::LinkedRecord*>& records,
                               uint32_t trace_depth, uint32_t callable_depth);
 
+// Traces that lavapipe can nest with a payload of so many bytes (PAYLOAD). It keeps the payloads of
+// all 8 lanes on a thread's stack of 8 MiB, and for each level both the shader's own and the one
+// that travels.
+uint32_t nested_payload_limit(uint32_t payload_bytes);
+// The largest payload that a shader of the pipeline takes, as it is stored.
+uint32_t largest_payload(const runtime::LinkedPipeline& pipeline);
+
 }  // namespace kaamos::vulkan

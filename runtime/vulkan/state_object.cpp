@@ -123,6 +123,9 @@ rtapi::Status RaytracingPipeline::start() {
   Gpu& gpu = layout_->gpu();
   max_trace_depth_ =
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
+  if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
+    max_trace_depth_ = std::min(max_trace_depth_, nested_payload_limit(largest_payload(*linked_)));
+  }
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
   StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth, layout_->collect_statistics()});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);

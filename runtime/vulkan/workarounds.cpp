@@ -38,6 +38,8 @@ constexpr WorkaroundInfo kTable[] = {
      "the tree halves the list of primitives or instances in the order of the input"},
     {Workaround::kFilterInFloats, "FILTER", kLavapipe, kFirst, kOpen, true, 0,
      "textures of 8 bits are filtered in 8 bits; applied when its first device starts"},
+    {Workaround::kBoundPayloads, "PAYLOAD", kLavapipe, kFirst, kOpen, true, 0,
+     "large payloads of deeply nested traces overflow the stack of a driver's thread"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

@@ -25,6 +25,7 @@ enum class Workaround : uint32_t {
   kInterleaveRows,         // B11
   kSortPrimitives,         // SORT
   kFilterInFloats,         // FILTER
+  kBoundPayloads,          // PAYLOAD
 };
 
 // Versions of drivers as one number: major * 1000 + minor.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/vulkan/pipeline_stack.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -47,6 +48,22 @@ TEST(Workarounds, EachHasASwitch) {
   }
   EXPECT_TRUE(of(VK_DRIVER_ID_MESA_LLVMPIPE, kMesa, "B1").has(Workaround::kInterleaveRows));
   EXPECT_FALSE(of(VK_DRIVER_ID_MESA_LLVMPIPE, kMesa, "all").has(Workaround::kCopyHitBuiltins));
+}
+
+// 64 KiB at depth 31 end the process, 16 KiB do not (tests/vulkan/driver_stress).
+TEST(Workarounds, LargePayloadsNestLessDeep) {
+  EXPECT_EQ(nested_payload_limit(64 << 10), 5u);
+  EXPECT_EQ(nested_payload_limit(16 << 10), 23u);
+  EXPECT_GE(nested_payload_limit(4 << 10), 31u);
+  EXPECT_GE(nested_payload_limit(0), 31u);
+  runtime::LinkedPipeline pipeline;
+  EXPECT_EQ(largest_payload(pipeline), 0u);
+  shader::ExportDesc code = {};
+  code.payload_storage_bytes = 128;
+  auto shader = std::make_unique<runtime::LinkedShader>();
+  shader->code = &code;
+  pipeline.shaders.push_back(std::move(shader));
+  EXPECT_EQ(largest_payload(pipeline), 128u);
 }
 
 TEST(Workarounds, NamesThatAreNoneAreReported) {
