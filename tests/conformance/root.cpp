@@ -4,6 +4,8 @@
 #include <shaders/calls.h>
 #include <shaders/root.h>
 
+#include <array>
+
 #include "tests/conformance/program.h"
 
 namespace kaamos::conformance {
@@ -67,15 +69,14 @@ void worked_example_of_layout(Context& t) {
   program.create();
   const DescriptorHeap heap = make_heap(t, 8);
   put_raw_view(t, words_buffer(t, 66), heap, 5);
-  const RawRecord record =
-      RawRecord(96)
-          .identifier(program.pipeline, "ReadExample")
-          .put(32, 11u)
-          .put(40, words_buffer(t, 22).GetGPUVirtualAddress())
-          .put(48, 33u)
-          .put(52, 44u)
-          .put(56, 55u)
-          .put(64, heap.GetGPUDescriptorHandle(5).ptr);
+  const RawRecord record = RawRecord(96)
+                               .identifier(program.pipeline, "ReadExample")
+                               .put(32, 11u)
+                               .put(40, words_buffer(t, 22).GetGPUVirtualAddress())
+                               .put(48, 33u)
+                               .put(52, 44u)
+                               .put(56, 55u)
+                               .put(64, heap.GetGPUDescriptorHandle(5).ptr);
   program.bind = [&](CommandList& list) { list.SetDescriptorHeaps({heap}); };
   DispatchRaysDesc desc = program.tables();
   desc.RayGenerationShaderRecord = {t.upload(record.bytes).GetGPUVirtualAddress(), 96};
@@ -83,11 +84,12 @@ void worked_example_of_layout(Context& t) {
   t.equal("constant, SRV, three constants, table",
           std::vector<uint32_t>(words.begin(), words.begin() + 6), {11u, 22u, 33u, 44u, 55u, 66u});
   ShaderTable table(program.pipeline);
-  t.accepted("the record by arguments",
-             table.AddRecord("ReadExample", {LocalArgument::Constants(11u),
-                                             LocalArgument::Address(words_buffer(t, 22)),
-                                             LocalArgument::Constants(std::array{33u, 44u, 55u}),
-                                             LocalArgument::Table(heap.GetGPUDescriptorHandle(5))}));
+  t.accepted(
+      "the record by arguments",
+      table.AddRecord("ReadExample",
+                      {LocalArgument::Constants(11u), LocalArgument::Address(words_buffer(t, 22)),
+                       LocalArgument::Constants(std::array{33u, 44u, 55u}),
+                       LocalArgument::Table(heap.GetGPUDescriptorHandle(5))}));
   t.equal("stride", table.stride_bytes() >= 96, true);
 }
 
@@ -155,8 +157,8 @@ void largest_local_signature(Context& t) {
 
 void local_flag_stands_alone(Context& t) {
   RootSignatureDesc desc;
-  desc.Flags = RootSignatureFlags::kLocalRootSignature |
-               RootSignatureFlags::kAllowInputAssemblerInputLayout;
+  desc.Flags =
+      RootSignatureFlags::kLocalRootSignature | RootSignatureFlags::kAllowInputAssemblerInputLayout;
   t.refused("flags 0x81", t.device().CreateRootSignature(desc));
   desc.Flags = RootSignatureFlags::kLocalRootSignature;
   t.accepted("flag 0x80", t.device().CreateRootSignature(desc));
@@ -174,8 +176,7 @@ void visibility_is_all(Context& t) {
   t.refused("a local parameter of the pixel shader",
             t.device().CreateRootSignature("RootFlags(LOCAL_ROOT_SIGNATURE), CBV(b0, visibility = "
                                            "SHADER_VISIBILITY_PIXEL)"));
-  const char* global =
-      "SRV(t0), SRV(t1), UAV(u0, visibility = SHADER_VISIBILITY_PIXEL)";
+  const char* global = "SRV(t0), SRV(t1), UAV(u0, visibility = SHADER_VISIBILITY_PIXEL)";
   const auto signature = t.device().CreateRootSignature(global);
   if (!signature) return;
   Standard program(t, nullptr, {}, global);
@@ -249,8 +250,7 @@ void each_shader_has_its_own(Context& t) {
   program.hit("Wide", {LocalArgument::Address(words_buffer(t, 5000)),
                        LocalArgument::Constants(std::array{1u, 2u, 3u})});
   program.record("Plain");
-  program.scene =
-      t.scene({triangle(5), triangle(5, 10), triangle(5, 20), triangle(5, 30)});
+  program.scene = t.scene({triangle(5), triangle(5, 10), triangle(5, 20), triangle(5, 30)});
   std::vector<Ray> rays;
   for (uint32_t i = 0; i < 4; ++i) {
     rays.push_back(ray_at(10.0f * static_cast<float>(i)));
@@ -321,8 +321,7 @@ void handles_are_unique(Context& t) {
     for (size_t k = 0; k < heaps.size(); ++k) {
       if (i == k) continue;
       const uint64_t start = heaps[i].GetGPUDescriptorHandleForHeapStart().ptr;
-      const uint64_t end =
-          heaps[i].GetGPUDescriptorHandle(heaps[i].GetDesc().NumDescriptors).ptr;
+      const uint64_t end = heaps[i].GetGPUDescriptorHandle(heaps[i].GetDesc().NumDescriptors).ptr;
       const uint64_t other = heaps[k].GetGPUDescriptorHandleForHeapStart().ptr;
       t.holds("handles of two heaps do not meet", other < start || other >= end);
     }
@@ -339,8 +338,7 @@ void structures_by_table_and_address(Context& t) {
   for (const auto& [slot, z] : {std::pair{0u, 6.0f}, {2u, 7.0f}, {3u, 8.0f}}) {
     ShaderResourceViewDesc view;
     view.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
-    view.RaytracingAccelerationStructure.Location =
-        t.scene({triangle(z)}).GetGPUVirtualAddress();
+    view.RaytracingAccelerationStructure.Location = t.scene({triangle(z)}).GetGPUVirtualAddress();
     t.device().CreateShaderResourceView({}, view, heap.GetCPUDescriptorHandle(slot)).value();
   }
   program.bind = [&](CommandList& list) {

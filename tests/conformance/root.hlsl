@@ -87,5 +87,3 @@ void TraceBound() {
   }
 }
 
-SamplerState samplerZero : register(s0, space1);
-SamplerState samplerOne : register(s1, space1);
