@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -55,7 +56,7 @@ runtime::CopyBufferCommand copy(const std::shared_ptr<runtime::BackendBuffer>& d
 runtime::DispatchCommand dispatch(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
                                   const std::vector<uint64_t>& arguments) {
   auto root = std::make_shared<runtime::RootArguments>();
-  std::memcpy(root->bytes.data(), arguments.data(), arguments.size() * sizeof(uint64_t));
+  std::copy(arguments.begin(), arguments.end(), reinterpret_cast<uint64_t*>(root->bytes.data()));
   runtime::DispatchCommand command;
   command.pipeline = pipeline;
   command.state.root_arguments = root;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/testing/harness.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "runtime/vulkan/testing/glsl.h"
@@ -19,7 +20,7 @@ rtapi::ShaderIdentifier next_identifier() {
 
 runtime::DispatchState state_of(const std::vector<uint64_t>& arguments) {
   auto root = std::make_shared<runtime::RootArguments>();
-  std::memcpy(root->bytes.data(), arguments.data(), arguments.size() * sizeof(uint64_t));
+  std::copy(arguments.begin(), arguments.end(), reinterpret_cast<uint64_t*>(root->bytes.data()));
   return {root, nullptr, nullptr};
 }
 
