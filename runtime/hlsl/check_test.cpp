@@ -329,6 +329,15 @@ TEST(EntryPoints, PayloadsAndAttributesAreMeasured) {
   EXPECT_EQ(compilation.module->entry_points[0].attribute_bytes, 12u);
 }
 
+TEST(EntryPoints, AttributesOfReportHitAreMeasured) {
+  const Compilation compilation(
+      "struct A { float2 uv; uint id; };\n"
+      "void Report(float t) { A a = (A)0; ReportHit(t, 0, a); }\n"
+      "[shader(\"intersection\")] void I() { Report(RayTMin()); }\n");
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  EXPECT_EQ(compilation.module->entry_points[0].attribute_bytes, 12u);
+}
+
 TEST(EntryPoints, ComputeInputsInAnyShape) {
   const Compilation compilation(
       "RWByteAddressBuffer results : register(u0);\n"

@@ -16,6 +16,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
   if (function->visit_mark == mark) return;
   function->visit_mark = mark;
   if (function->ir) function->ir->stages |= entry.stage;
+  entry.attribute_bytes = std::max(entry.attribute_bytes, function->reported_bytes);
   for (const StageUse& use : function->stage_uses) {
     if (use.stages & entry.stage) continue;
     if (!reported_uses_.insert({use.location.raw, entry.stage}).second) continue;

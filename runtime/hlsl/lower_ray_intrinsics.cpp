@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What only ray tracing shaders do. [DXR: Ray tracing HLSL intrinsics]
+#include <algorithm>
+
 #include "checker.h"
 
 namespace kaamos::hlsl {
@@ -99,6 +101,9 @@ Value Checker::call_report_hit(std::vector<Value>& arguments, SourceLocation loc
     report(CheckId::kAttributeSize, arguments[2].location,
            {to_string(attributes), std::to_string(payload_bytes(attributes))});
     return error_value();
+  }
+  if (function_) {
+    function_->reported_bytes = std::max(function_->reported_bytes, payload_bytes(attributes));
   }
   const ir::Expr* t = convert(arguments[0], types_.scalar(Scalar::kFloat32), arguments[0].location);
   const ir::Expr* kind =

@@ -37,6 +37,8 @@ std::string line_of(const RuleResult& result) {
   }
   std::istringstream detail(result.detail);
   for (std::string line; std::getline(detail, line);) {
+    const bool first = detail.tellg() == std::streampos(-1) || out.find('\n') == std::string::npos;
+    if (result.outcome == Outcome::kKnownDeviation && !first) break;  // JSON has what was found
     out += result.outcome == Outcome::kNotApplicable ? ": " + line : "\n    " + line;
   }
   return out;
