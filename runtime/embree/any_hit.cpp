@@ -4,6 +4,8 @@
 // the tests is DXR's [DXR: TraceRay control flow].
 #include "runtime/embree/any_hit.h"
 
+#include "runtime/embree/inline_query.h"
+
 namespace kaamos::embree {
 namespace {
 
@@ -35,7 +37,12 @@ struct TriangleFilter {
     const float normal[3] = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
     const uint32_t hit_kind = triangle_hit_kind(*state.instance, normal, &ray.dir_x);
     if (is_culled(hit_kind)) return false;
-    if (is_opaque(state, geometry.opaque)) return commit(false), true;
+    const bool opaque = is_opaque(state, geometry.opaque);
+    if (state.search != nullptr) {
+      return state.search->take_triangle(state, geometry, ray, hit, opaque,
+                                         hit_kind == kHitKindTriangleFrontFace);
+    }
+    if (opaque) return commit(false), true;
     const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
     // Without an any-hit shader the geometry is opaque. [DXR: TraceRay control flow, note 3]
     if (record.target->any_hit == nullptr) return commit(false), true;

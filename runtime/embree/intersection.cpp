@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "runtime/embree/any_hit.h"
+#include "runtime/embree/inline_query.h"
 
 namespace kaamos::embree {
 namespace {
@@ -24,6 +25,7 @@ struct IntersectionInvocation : RayInvocation {
 void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t primitive,
                       RTCRay& ray, RTCHit* hit) {
   if (state.ended) return;
+  if (state.search != nullptr) return state.search->take_box(state, geometry, primitive, ray);
   const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
   if (record.target->intersection == nullptr) return;  // NULL record: nothing can be reported
   Worker& worker = *state.worker;

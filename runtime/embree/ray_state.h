@@ -35,6 +35,8 @@ inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
 inline constexpr uint32_t kMaxAttributeBytes = 32;
 
+struct QuerySearch;
+
 struct RayState {
   shim::QueryContext query;  // first: see embree_shim.h
   Worker* worker;
@@ -49,6 +51,7 @@ struct RayState {
   uint32_t inclusion_mask;  // 8 bits
   const uint8_t* classes;   // GeometryClass bits to visit, by OpacityOverride of the instance
   OpacityOverride opacity;  // by the ray's flags
+  QuerySearch* search;      // of a RayQuery: null while TraceRay runs
   bool ended;               // the search is over: Embree's ray holds kEndedSearch
 
   float t_min;  // of the DXR interval, 0 or more

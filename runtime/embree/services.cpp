@@ -3,6 +3,7 @@
 
 #include "runtime/embree/compute.h"
 #include "runtime/embree/fault.h"
+#include "runtime/embree/inline_query.h"
 #include "runtime/embree/intersection.h"
 #include "runtime/embree/trace.h"
 #include "runtime/shader/texture/texture_sampling.h"
@@ -19,6 +20,8 @@ shader::Services make_services() {
   table.trace_ray = trace_ray;
   table.report_hit = report_hit;
   table.call_shader = call_shader;
+  table.begin_query = begin_query;
+  table.proceed = proceed;
   table.group_barrier = group_barrier;
   table.remove_device = remove;
   shader::set_texture_services(table);

@@ -3,94 +3,13 @@
 // TraceRay: guard, traverse, then run the closest-hit or the miss shader.
 #include "runtime/embree/trace.h"
 
-#include <cfloat>
-#include <limits>
-
 #include "runtime/embree/fault.h"
-#include "runtime/embree/memory.h"
-#include "runtime/embree/ray_state.h"
+#include "runtime/embree/ray_setup.h"
 
 namespace kaamos::embree {
 namespace {
 
 using shader::TraceRayArguments;
-
-// GeometryClass bits that a ray visits, by its four flags that cull or skip classes (bits 6 to 9)
-// and by the instance's opacity. CULL_OPAQUE looks at the opacity after the instance's override.
-// [DXR: Ray flags]
-struct ClassTable {
-  uint8_t classes[16][3];
-
-  constexpr ClassTable() : classes{} {
-    for (uint32_t flags = 0; flags < 16; ++flags) {
-      uint32_t skipped = 0;
-      if ((flags & 4) != 0) skipped |= kTriangleOpaque | kTriangleNonOpaque;
-      if ((flags & 8) != 0) skipped |= kProceduralOpaque | kProceduralNonOpaque;
-      const uint32_t all = kAllClasses & ~skipped;
-      const bool cull_opaque = (flags & 1) != 0;
-      const bool cull_non_opaque = (flags & 2) != 0;
-      uint32_t by_geometry = all;
-      if (cull_opaque) by_geometry &= ~uint32_t{kTriangleOpaque | kProceduralOpaque};
-      if (cull_non_opaque) by_geometry &= ~uint32_t{kTriangleNonOpaque | kProceduralNonOpaque};
-      classes[flags][static_cast<int>(OpacityOverride::kNone)] = static_cast<uint8_t>(by_geometry);
-      classes[flags][static_cast<int>(OpacityOverride::kOpaque)] =
-          static_cast<uint8_t>(cull_opaque ? 0 : all);
-      classes[flags][static_cast<int>(OpacityOverride::kNonOpaque)] =
-          static_cast<uint8_t>(cull_non_opaque ? 0 : all);
-    }
-  }
-};
-constexpr ClassTable kClassTable;
-
-// What Embree may be given: all else, NaN included, is a miss.
-bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
-  return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
-}
-
-// Out of line: only a ray against another structure than the last one comes here.
-[[gnu::noinline]] const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
-  worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
-  worker.cached_address = address;
-  if (worker.cached_top_level == nullptr && address != 0) {
-    worker.dispatch->unknown_structure.store(address, std::memory_order_relaxed);
-  }
-  return worker.cached_top_level.get();
-}
-
-const TopLevel* find_top_level(Worker& worker, uint64_t address) {
-  if (address == worker.cached_address) return worker.cached_top_level.get();
-  return look_up_top_level(worker, address);
-}
-
-void begin_query(RayState& state, const TraceRayArguments& arguments, const TopLevel* top_level,
-                 float t_min, float t_max) {
-  const uint32_t flags = arguments.ray_flags | state.worker->dispatch->pipeline_flags;
-  shim::init(state.query);
-  state.top_level = top_level;
-  state.ray_flags = flags;
-  state.inclusion_mask = arguments.instance_inclusion_mask & 0xFFu;
-  state.classes = kClassTable.classes[(flags >> 6) & 15];
-  state.opacity = (flags & kRayForceOpaque) != 0      ? OpacityOverride::kOpaque
-                  : (flags & kRayForceNonOpaque) != 0 ? OpacityOverride::kNonOpaque
-                                                      : OpacityOverride::kNone;
-  state.ended = false;
-  // A negative TMin is undefined in DXR; here it is 0.
-  state.t_min = t_min > 0 ? t_min : 0.0f;
-  state.t_max = t_max;
-  state.t_near = next_above(state.t_min);
-  state.t_far = next_below(state.t_max);
-  state.committed_t = std::numeric_limits<float>::infinity();
-}
-
-void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {
-  const bool closed = state.top_level->has_procedurals();
-  _mm_store_ps(&ray.org_x, with_fourth_lane(world.origin, closed ? state.t_min : state.t_near));
-  _mm_store_ps(&ray.dir_x, world.direction);  // time 0
-  ray.tfar = closed ? state.t_max : state.t_far;
-  ray.mask = kAllClasses;
-  ray.id = 0;
-  ray.flags = 0;
-}
 
 // Whether only the existence of a hit counts. Forced-opaque rays without a closest-hit shader are
 // such rays too, as long as no intersection shader could see the difference.
@@ -170,7 +89,8 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max)) {
     return run_miss(state);
   }
-  begin_query(state, arguments, top_level, t_min, t_max);
+  begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
+               arguments.instance_inclusion_mask, top_level, t_min, t_max);
 
   RTCRayHit ray_hit;
   begin_embree_ray(state, world, ray_hit.ray);

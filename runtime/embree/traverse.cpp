@@ -3,7 +3,7 @@
 // The instance level of a traversal: Embree calls one of these for each instance whose box a ray
 // meets. Decides by the instance's mask and flags what the ray sees of it, takes the ray to object
 // space, and traverses the bottom level with it.
-#include "runtime/embree/ray_state.h"
+#include "runtime/embree/inline_query.h"
 
 namespace kaamos::embree {
 namespace {
@@ -16,7 +16,8 @@ void select_filter(RayState& state, const InstanceNode& node) {
   constexpr uint32_t kFacingFlags = kRayCullBackFacingTriangles | kRayCullFrontFacingTriangles;
   const bool culls_facing =
       (state.ray_flags & kFacingFlags) != 0 && (node.flags & kInstanceTriangleCullDisable) == 0;
-  const bool all_hits = culls_facing || opacity == OpacityOverride::kNonOpaque;
+  const bool all_hits = culls_facing || opacity == OpacityOverride::kNonOpaque ||
+                        (state.search != nullptr && state.search->any);
   shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
 }
 

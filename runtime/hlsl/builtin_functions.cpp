@@ -95,6 +95,44 @@ constexpr ir::Scalar kF = ir::Scalar::kFloat32;
 constexpr ir::Scalar kU = ir::Scalar::kUint32;
 
 // [DXR: Ray tracing system values by stage]
+constexpr QueryValueRule kQueryValues[] = {
+    {"CandidateType", ir::QueryValue::kType, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedStatus", ir::QueryValue::kType, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateTriangleRayT", ir::QueryValue::kRayT, false, ir::Scalar::kFloat32, 0, 0},
+    {"CommittedRayT", ir::QueryValue::kRayT, true, ir::Scalar::kFloat32, 0, 0},
+    {"CandidateInstanceIndex", ir::QueryValue::kInstanceIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceIndex", ir::QueryValue::kInstanceIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateInstanceID", ir::QueryValue::kInstanceId, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceID", ir::QueryValue::kInstanceId, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateInstanceContributionToHitGroupIndex", ir::QueryValue::kInstanceContribution, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceContributionToHitGroupIndex", ir::QueryValue::kInstanceContribution, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateGeometryIndex", ir::QueryValue::kGeometryIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedGeometryIndex", ir::QueryValue::kGeometryIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidatePrimitiveIndex", ir::QueryValue::kPrimitiveIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedPrimitiveIndex", ir::QueryValue::kPrimitiveIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateObjectRayOrigin", ir::QueryValue::kObjectRayOrigin, false, ir::Scalar::kFloat32, 0, 3},
+    {"CommittedObjectRayOrigin", ir::QueryValue::kObjectRayOrigin, true, ir::Scalar::kFloat32, 0, 3},
+    {"CandidateObjectRayDirection", ir::QueryValue::kObjectRayDirection, false, ir::Scalar::kFloat32, 0, 3},
+    {"CommittedObjectRayDirection", ir::QueryValue::kObjectRayDirection, true, ir::Scalar::kFloat32, 0, 3},
+    {"CandidateObjectToWorld3x4", ir::QueryValue::kObjectToWorld3x4, false, ir::Scalar::kFloat32, 3, 4},
+    {"CommittedObjectToWorld3x4", ir::QueryValue::kObjectToWorld3x4, true, ir::Scalar::kFloat32, 3, 4},
+    {"CandidateObjectToWorld4x3", ir::QueryValue::kObjectToWorld4x3, false, ir::Scalar::kFloat32, 4, 3},
+    {"CommittedObjectToWorld4x3", ir::QueryValue::kObjectToWorld4x3, true, ir::Scalar::kFloat32, 4, 3},
+    {"CandidateWorldToObject3x4", ir::QueryValue::kWorldToObject3x4, false, ir::Scalar::kFloat32, 3, 4},
+    {"CommittedWorldToObject3x4", ir::QueryValue::kWorldToObject3x4, true, ir::Scalar::kFloat32, 3, 4},
+    {"CandidateWorldToObject4x3", ir::QueryValue::kWorldToObject4x3, false, ir::Scalar::kFloat32, 4, 3},
+    {"CommittedWorldToObject4x3", ir::QueryValue::kWorldToObject4x3, true, ir::Scalar::kFloat32, 4, 3},
+    {"CandidateTriangleBarycentrics", ir::QueryValue::kBarycentrics, false, ir::Scalar::kFloat32, 0, 2},
+    {"CommittedTriangleBarycentrics", ir::QueryValue::kBarycentrics, true, ir::Scalar::kFloat32, 0, 2},
+    {"CandidateTriangleFrontFace", ir::QueryValue::kFrontFace, false, ir::Scalar::kBool, 0, 0},
+    {"CommittedTriangleFrontFace", ir::QueryValue::kFrontFace, true, ir::Scalar::kBool, 0, 0},
+    {"CandidateProceduralPrimitiveNonOpaque", ir::QueryValue::kProceduralNonOpaque, false, ir::Scalar::kBool, 0, 0},
+    {"RayFlags", ir::QueryValue::kRayFlags, false, ir::Scalar::kUint32, 0, 0},
+    {"RayTMin", ir::QueryValue::kRayTMin, false, ir::Scalar::kFloat32, 0, 0},
+    {"WorldRayOrigin", ir::QueryValue::kWorldRayOrigin, false, ir::Scalar::kFloat32, 0, 3},
+    {"WorldRayDirection", ir::QueryValue::kWorldRayDirection, false, ir::Scalar::kFloat32, 0, 3},
+};
+
 constexpr SystemValueRule kSystemValues[] = {
     {"DispatchRaysIndex", V::kDispatchRaysIndex, kU, 0, 3, kRayStages},
     {"DispatchRaysDimensions", V::kDispatchRaysDimensions, kU, 0, 3, kRayStages},
@@ -174,7 +212,7 @@ constexpr Family kUnsupported[] = {
     {"EvaluateAttribute", "pixel shaders", false},
     {"GetRenderTargetSample", "pixel shaders", false},
     {"CheckAccessFullyMapped", "tiled resources", true},
-    {"AllocateRayQuery", "inline ray tracing", true},
+    {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},
     {"printf", "printf", true},
     {"errorf", "errorf", true},
     {"abort", "abort", true},
@@ -236,6 +274,9 @@ const IntrinsicRule* find_intrinsic(std::string_view name) {
 }
 const SystemValueRule* find_system_value(std::string_view name) {
   return find_rule(kSystemValues, name);
+}
+const QueryValueRule* find_query_value(std::string_view name) {
+  return find_rule(kQueryValues, name);
 }
 const AtomicRule* find_atomic(std::string_view name) {
   if (name.ends_with("64")) name.remove_suffix(2);

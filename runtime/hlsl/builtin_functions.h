@@ -52,6 +52,16 @@ struct IntrinsicRule {
 };
 const IntrinsicRule* find_intrinsic(std::string_view name);
 
+// A method of RayQuery that only tells. [DXR: RayQuery intrinsics]
+struct QueryValueRule {
+  std::string_view name;
+  ir::QueryValue value;
+  bool of_committed;
+  ir::Scalar scalar;
+  uint8_t rows;  // 0: no matrix
+  uint8_t columns;
+};
+
 struct SystemValueRule {
   std::string_view name;
   ir::SystemValue value;
@@ -61,6 +71,7 @@ struct SystemValueRule {
   uint32_t stages;  // ir::StageBits
 };
 const SystemValueRule* find_system_value(std::string_view name);
+const QueryValueRule* find_query_value(std::string_view name);
 
 struct AtomicRule {
   std::string_view name;

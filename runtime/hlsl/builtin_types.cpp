@@ -42,7 +42,6 @@ struct Unsupported {
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"RayQuery", "inline ray tracing"},
     {"HitObject", "shader execution reordering"},
     {"Texture2DMS", "multisampled textures"},
     {"Texture2DMSArray", "multisampled textures"},
@@ -80,7 +79,7 @@ const ResourceTraits* find_resource(std::string_view name) {
   }
   if (name == "texture" || name == "texture2D") return &traits_of(K::kTexture2D);
   for (const ResourceTraits& traits : kTraits) {
-    if (traits.name == name && traits.kind != K::kRayQuery) return &traits;
+    if (traits.name == name) return &traits;
   }
   return nullptr;
 }

@@ -210,6 +210,10 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
     report(CheckId::kStringUse, location);
     return false;
   }
+  if (element->is_query() && type->is_array()) {
+    report(CheckId::kRayQueryPlace, location, {to_string(element), "an element of an array"});
+    return false;
+  }
   if (element->is_struct() && !element->structure->complete) {
     report(CheckId::kIncomplete, location, {to_string(element)});
     return false;
@@ -231,6 +235,10 @@ void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
   }
   if (find_local(scope, decl->name)) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+    return;
+  }
+  if (type->is_query()) {
+    report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "a global variable"});
     return;
   }
   const bool is_static = (decl->modifiers & (kModStatic | kModGroupshared)) != 0;
@@ -358,6 +366,12 @@ void Checker::resolve_signature(FunctionInfo* function) {
   const FunctionDecl* decl = function->decl;
   function->result = resolve_type(decl->return_type, function->scope);
   if (function->result->is_error()) function->signature_failed = true;
+  if (function->result->is_query()) {
+    report(CheckId::kRayQueryPlace, decl->location,
+           {to_string(function->result), "what a function returns"});
+    function->result = types_.error();
+    function->signature_failed = true;
+  }
   if (function->result->kind == TypeKind::kString) {
     report(CheckId::kStringUse, decl->location);
     function->signature_failed = true;

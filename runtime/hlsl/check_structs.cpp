@@ -109,6 +109,10 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
   }
   const Type* type = resolve_type(variable->type, info->scope);
   if (!check_variable_type(type, variable->location, variable->name)) type = types_.error();
+  if (type->is_query()) {
+    report(CheckId::kRayQueryPlace, variable->location, {to_string(type), "a member of a struct"});
+    type = types_.error();
+  }
   if (find_local(info->scope, variable->name)) {
     report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
     return;

@@ -110,6 +110,7 @@ struct FunctionInfo {
   std::vector<VariableInfo*> globals;
   std::vector<StageUse> stage_uses;
   bool traces = false;
+  bool queries = false;
   bool calls_shader = false;
   bool ends_shader = false;
   uint32_t reported_bytes = 0;  // the largest attributes that it gives to ReportHit

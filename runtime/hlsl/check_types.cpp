@@ -6,6 +6,7 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr int64_t kMaxArrayElements = 1 << 24;
+constexpr int64_t kAllRayFlags = 0x3FF;
 
 }  // namespace
 
@@ -234,6 +235,7 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
                                       Scope* scope) {
   const auto arguments = part.template_arguments;
   const std::string name(part.identifier);
+  if (traits.kind == ir::ResourceKind::kRayQuery) return resolve_ray_query(part, scope);
   if (traits.element == ElementRule::kNone) {
     if (!arguments.empty()) report(CheckId::kNotATemplate, part.location, {name});
     return types_.resource(traits.kind, nullptr);
@@ -268,6 +270,22 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
     return types_.error();
   }
   return types_.resource(traits.kind, element);
+}
+
+const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  if (arguments.size() != 1) {
+    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+    return types_.error();
+  }
+  const auto flags = value_argument(arguments[0], scope);
+  if (!flags) return types_.error();
+  if (*flags < 0 || *flags > kAllRayFlags) {
+    report(CheckId::kRayQueryFlags, arguments[0].location, {std::to_string(*flags)});
+    return types_.error();
+  }
+  return types_.ray_query(static_cast<uint32_t>(*flags));
 }
 
 std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* scope,

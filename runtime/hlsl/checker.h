@@ -69,6 +69,7 @@ class Checker {
   const Type* resolve_type(const TypeSyntax* syntax, Scope* scope);
   const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
   const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
+  const Type* resolve_ray_query(const NamePart& part, Scope* scope);
   const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
   const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
@@ -255,6 +256,13 @@ class Checker {
   Value emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
                     std::span<Value> arguments, SourceLocation location);
   Value call_trace_ray(std::vector<Value>& arguments, SourceLocation location);
+  // lower_ray_query.cpp
+  Value call_query_method(const Value& object, const NamePart& part, std::vector<Value>& arguments,
+                          SourceLocation location);
+  Value trace_ray_inline(ir::Stmt* statement, const Type* query, std::vector<Value>& arguments);
+  const ir::Expr* query_object(const Value& value, const Type* type);
+  void lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info);
+
   Value call_report_hit(std::vector<Value>& arguments, SourceLocation location);
   Value call_call_shader(std::vector<Value>& arguments, SourceLocation location);
   Value call_system_value(const SystemValueRule& rule, SourceLocation location);

@@ -52,6 +52,7 @@ class CppEmitter {
   std::string binary(const ir::Expr& expr);
   std::string element(const ir::Expr& expr, bool as_place);
   std::string system_value(const ir::Expr& expr);
+  std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   std::string load(const ir::Expr& expr);
   std::string typed_load(const ir::Expr& expr);
@@ -72,6 +73,7 @@ class CppEmitter {
   void call_function(const ir::Stmt& stmt);
   void trace_ray(const ir::Stmt& stmt);
   void report_hit(const ir::Stmt& stmt);
+  void query(const ir::Stmt& stmt);
   void loop(const ir::Stmt& stmt);
   void switch_(const ir::Stmt& stmt);
   void end_shader();  // return from the function with any value

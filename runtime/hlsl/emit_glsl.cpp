@@ -114,6 +114,12 @@ void GlslEmitter::emit_function(const Function& function) {
     const Variable* parameter = function.parameters[i];
     variable_names_[parameter] = local_names_.add(parameter->name);
     constexpr const char* kModes[] = {"", "inout ", "out "};
+    if (parameter->type->is_query()) {  // opaque: by reference without being told
+      const std::string& name = variable_names_[parameter];
+      text += (i == 0 ? "" : ", ") + type(parameter->type) + " " + name + ", inout g_Query g_s_" +
+              name;
+      continue;
+    }
     text += (i == 0 ? "" : ", ") + std::string(kModes[static_cast<int>(parameter->mode)]) +
             type(parameter->type) + " " + variable_names_[parameter];
   }
@@ -242,6 +248,9 @@ GlslShader GlslEmitter::run() {
              ", local_size_z = " + std::to_string(entry_.thread_group[2]) + ") in;\n";
   } else {
     head += "#extension GL_EXT_ray_tracing : require\n#define KAAMOS_SHADER_RECORD\n";
+  }
+  if (uses_queries()) {
+    head += "#extension GL_EXT_ray_query : require\n";
   }
   const std::string body =
       layout + constants_ + matrices_ + structs_ + declarations_ + helpers_ + out_;

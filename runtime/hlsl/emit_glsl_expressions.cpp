@@ -307,6 +307,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return intrinsic(expr);
     case ExprKind::kSystemValue:
       return system_value(expr);
+    case ExprKind::kQueryValue:
+      return query_value(expr);
     case ExprKind::kBinding:
       return binding(expr);
     case ExprKind::kHeapResource: {

@@ -185,24 +185,9 @@ std::string GlslEmitter::payload_block(const char* qualifier, int location, cons
   return name;
 }
 
-std::string GlslEmitter::trace_function(const Type* payload) {
-  auto& name = generated_["trace " + type(payload)];
-  if (!name.empty()) {
-    return name;
-  }
-  const int location = next_location_++;
-  const std::string number = std::to_string(location);
-  const std::string function = "g_trace_" + number;
-  name = function;
-  const std::string out = payload_block("rayPayloadEXT", location, payload, "g_payload_" + number);
-  const std::string to = convert_wire(payload, true);
-  const std::string from = convert_wire(payload, false);
-  Type desc;
-  desc.kind = TypeKind::kStruct;
-  desc.structure = module_.ray_desc;
-  const std::string ray = type(&desc);
-  constant(kMaxTraceDepthConstant, "g_max_trace_depth");
-  declare_remove_device();
+// Which acceleration structure a resource means.
+void GlslEmitter::declare_top_level() {
+  declare_status();
   generated("g_top_level",
             "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
             "g_TopLevelEntry { uint64_t address; uint64_t vulkan; };\n"
@@ -221,6 +206,27 @@ std::string GlslEmitter::trace_function(const Type* payload) {
             "  g_Status(k_dispatch.status).unknown_structure = scene.address;\n"
             "  return empty;\n"
             "}\n");
+}
+
+std::string GlslEmitter::trace_function(const Type* payload) {
+  auto& name = generated_["trace " + type(payload)];
+  if (!name.empty()) {
+    return name;
+  }
+  const int location = next_location_++;
+  const std::string number = std::to_string(location);
+  const std::string function = "g_trace_" + number;
+  name = function;
+  const std::string out = payload_block("rayPayloadEXT", location, payload, "g_payload_" + number);
+  const std::string to = convert_wire(payload, true);
+  const std::string from = convert_wire(payload, false);
+  Type desc;
+  desc.kind = TypeKind::kStruct;
+  desc.structure = module_.ray_desc;
+  const std::string ray = type(&desc);
+  constant(kMaxTraceDepthConstant, "g_max_trace_depth");
+  declare_remove_device();
+  declare_top_level();
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
   helpers_ += "void " + function +
               "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "

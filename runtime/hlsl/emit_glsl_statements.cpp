@@ -61,6 +61,11 @@ void GlslEmitter::declare(const Stmt& stmt) {
   if (name.empty()) {
     name = local_names_.add(stmt.variable->name);
   }
+  if (stmt.variable->type->is_query()) {
+    line(t + " " + name + ";");
+    line("g_Query g_s_" + name + " = {};");
+    return;
+  }
   line(t + " " + name + " = " + initial + ";");
 }
 
@@ -88,7 +93,12 @@ void GlslEmitter::assign(const Stmt& stmt) {
 
 void GlslEmitter::call_function(const Stmt& stmt) {
   const std::string result = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
-  line(result + call(function_names_[stmt.function], stmt.arguments) + ";");
+  std::string arguments;
+  for (const Expr* argument : stmt.arguments) {
+    arguments += arguments.empty() ? "" : ", ";
+    arguments += argument->type->is_query() ? query_arguments(argument) : value(argument);
+  }
+  line(result + function_names_[stmt.function] + "(" + arguments + ");");
   if (stmt.function->may_end_shader) {
     return_if_ended();
   }
@@ -212,6 +222,9 @@ void GlslEmitter::statement(const Stmt& stmt) {
       break;
     case StmtKind::kTraceRay:
       trace_ray(stmt);
+      break;
+    case StmtKind::kQuery:
+      query(stmt);
       break;
     case StmtKind::kReportHit:
       report_hit(stmt);

@@ -144,14 +144,26 @@ std::string GlslEmitter::geometry_index() {
   return hit_builtin("geometry_index", "uint", "uint(gl_GeometryIndexEXT)");
 }
 
+void GlslEmitter::declare_instance_entry() {
+  generated("g_InstanceEntry",
+            "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
+            "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; "
+            "uint instance_index; };\n"
+            "layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer "
+            "g_Word { uint v; };\n"
+            "uint g_remapped(uint64_t words, uint geometry, uint id) {\n"
+            "  if (words == 0UL) return id;\n"
+            "  uint first = g_Word(words + uint64_t(geometry) * 4UL).v;\n"
+            "  return g_Word(words + uint64_t(first + id) * 4UL).v;\n"
+            "}\n");
+}
+
 // InstanceIndex and InstanceID as the application knows them, and the way back to its primitives.
 std::string GlslEmitter::instance_entry() {
   const std::string custom =
       hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)");
+  declare_instance_entry();
   generated("g_instance_entry",
-            "layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer "
-            "g_InstanceEntry { uint64_t primitive_remap; uint instance_id; "
-            "uint instance_index; };\n"
             "g_InstanceEntry g_instance_entry() {\n"
             "  return g_InstanceEntry(k_dispatch.instances + uint64_t(" +
                 custom + ") * 16UL);\n}\n");
@@ -163,19 +175,9 @@ std::string GlslEmitter::primitive_index() {
   const std::string id = hit_builtin("primitive_id", "uint", "uint(gl_PrimitiveID)");
   const std::string geometry = geometry_index();
   return generated("g_primitive_index",
-                   "layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer "
-                   "g_Word { uint v; };\n"
                    "uint g_primitive_index() {\n"
-                   "  uint id = " +
-                       id +
-                       ";\n"
-                       "  uint64_t words = g_instance_entry().primitive_remap;\n"
-                       "  if (words == 0UL) return id;\n"
-                       "  uint first = g_Word(words + uint64_t(" +
-                       geometry +
-                       ") * 4UL).v;\n"
-                       "  return g_Word(words + uint64_t(first + id) * 4UL).v;\n"
-                       "}\n") +
+                   "  return g_remapped(g_instance_entry().primitive_remap, " +
+                       geometry + ", " + id + ");\n}\n") +
          "()";
 }
 

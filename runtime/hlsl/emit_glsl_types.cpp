@@ -151,6 +151,10 @@ std::string GlslEmitter::type(const Type* t) {
       emit_struct(t->structure);
       return struct_names_[t->structure];
     case TypeKind::kResource:
+      if (t->is_query()) {
+        declare_query();
+        return "rayQueryEXT";
+      }
       return "k_Descriptor";
   }
   return "void";

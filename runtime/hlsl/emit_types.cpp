@@ -2,6 +2,7 @@
 //
 // Types, and how values of struct and array types travel between variables and memory: C++ lays a
 // struct out its own way, so it is read and written member by member at HLSL's offsets.
+#include "kaamos/shader/abi.h"
 #include "runtime/hlsl/cpp_emitter.h"
 #include "runtime/hlsl/ir_layout.h"
 
@@ -109,7 +110,7 @@ std::string CppEmitter::type(const Type* t) {
     case TypeKind::kStruct:
       return "u::" + struct_names_[t->structure];
     case TypeKind::kResource:
-      return "ks::Descriptor";
+      return t->is_query() ? "ks::RayQuery" : "ks::Descriptor";
   }
   return "void";
 }
@@ -134,7 +135,7 @@ uint32_t CppEmitter::stack_bytes(const Type* t) const {
       return bytes;
     }
     case TypeKind::kResource:
-      return 32;
+      return t->is_query() ? sizeof(shader::RayQuery) : 32;
   }
   return 0;
 }

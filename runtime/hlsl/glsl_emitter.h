@@ -141,6 +141,7 @@ class GlslEmitter {
   std::string payload_block(const char* qualifier, int location, const ir::Type* type,
                             const std::string& name);
   std::string trace_function(const ir::Type* payload);
+  void declare_top_level();
   void trace_ray(const ir::Stmt& stmt);
   std::string call_shader_function(const ir::Type* data);
   void call_shader(const ir::Stmt& stmt);
@@ -154,7 +155,17 @@ class GlslEmitter {
   std::string reported_t();
   void report_hit(const ir::Stmt& stmt);
 
+  // emit_glsl_queries.cpp
+  void declare_query();
+  bool uses_queries() const;
+  std::string query_arguments(const ir::Expr* object);
+  std::string query_trace_function();
+  void query(const ir::Stmt& stmt);
+  std::string query_result(const ir::Expr& expr);
+  std::string query_value(const ir::Expr& expr);
+
   // emit_glsl_system_values.cpp
+  void declare_instance_entry();
   std::string system_value(const ir::Expr& expr);
   std::string hit_builtin(const std::string& name, const std::string& type,
                           const std::string& text);

@@ -245,6 +245,8 @@ void Compiler::compile(Node& node) {
       reads_hit_kind_ = reads_hit_kind_ || expr.system_value == SystemValue::kHitKind;
       need_zeros(node.bytes);
       return in_slot(node, evaluate_system_value());
+    case ExprKind::kQueryValue:
+      return in_slot(node, evaluate_query_value());
     case ExprKind::kBinding:
       return in_slot(node, evaluate_binding());
     case ExprKind::kHeapResource:

@@ -170,6 +170,61 @@ const std::byte* system_value(const Node& node, Frame& frame) {
   }
 }
 
+const std::byte* query_value(const Node& node, Frame& frame) {
+  const auto& query =
+      *reinterpret_cast<const shader::RayQuery*>(node.operands[0]->locate(*node.operands[0], frame));
+  const shader::RayQueryHit& hit = node.expr->index == 1 ? query.committed : query.candidate;
+  const auto rows_of = [&](const float* transform) {
+    return keep(node, frame, shader::load_transform(transform));
+  };
+  const auto columns_of = [&](const float* transform) {
+    return keep(node, frame, shader::transpose(shader::load_transform(transform)));
+  };
+  switch (node.expr->query_value) {
+    case QueryValue::kType:
+      return keep(node, frame, hit.type);
+    case QueryValue::kRayT:
+      return keep(node, frame, hit.t);
+    case QueryValue::kInstanceIndex:
+      return keep(node, frame, hit.instance_index);
+    case QueryValue::kInstanceId:
+      return keep(node, frame, hit.instance_id);
+    case QueryValue::kInstanceContribution:
+      return keep(node, frame, hit.instance_contribution);
+    case QueryValue::kGeometryIndex:
+      return keep(node, frame, hit.geometry_index);
+    case QueryValue::kPrimitiveIndex:
+      return keep(node, frame, hit.primitive_index);
+    case QueryValue::kObjectRayOrigin:
+      return keep(node, frame, shader::query_object_origin(query, hit));
+    case QueryValue::kObjectRayDirection:
+      return keep(node, frame, shader::query_object_direction(query, hit));
+    case QueryValue::kObjectToWorld3x4:
+      return rows_of(hit.object_to_world);
+    case QueryValue::kObjectToWorld4x3:
+      return columns_of(hit.object_to_world);
+    case QueryValue::kWorldToObject3x4:
+      return rows_of(hit.world_to_object);
+    case QueryValue::kWorldToObject4x3:
+      return columns_of(hit.world_to_object);
+    case QueryValue::kBarycentrics:
+      return keep(node, frame, shader::query_barycentrics(hit));
+    case QueryValue::kFrontFace:
+      return keep(node, frame, hit.front_face);
+    case QueryValue::kProceduralNonOpaque:
+      return keep(node, frame, hit.non_opaque);
+    case QueryValue::kRayFlags:
+      return keep(node, frame, query.ray_flags);
+    case QueryValue::kRayTMin:
+      return keep(node, frame, query.ray.t_min);
+    case QueryValue::kWorldRayOrigin:
+      return keep(node, frame, shader::query_world_origin(query));
+    case QueryValue::kWorldRayDirection:
+      return keep(node, frame, shader::query_world_direction(query));
+  }
+  return frame.context->program->zeros.data();
+}
+
 const std::byte* binding(const Node& node, Frame& frame) {
   const uint32_t index =
       node.operands.empty() ? 0 : evaluate_as<uint32_t>(*node.operands[0], frame);
@@ -250,6 +305,9 @@ Evaluate evaluate_logical_or() {
 }
 Evaluate evaluate_system_value() {
   return system_value;
+}
+Evaluate evaluate_query_value() {
+  return query_value;
 }
 Evaluate evaluate_binding() {
   return binding;

@@ -24,6 +24,7 @@ Evaluate evaluate_conditional();  // the chosen operand only
 Evaluate evaluate_logical_and();
 Evaluate evaluate_logical_or();
 Evaluate evaluate_system_value();
+Evaluate evaluate_query_value();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "kaamos/shader/abi.h"
 #include "runtime/hlsl/ir_layout.h"
 
 namespace kaamos::hlsl::interpret {
@@ -80,7 +81,8 @@ Extent Layouts::extent_of(const Type* type) {
     case TypeKind::kStruct:
       return layout_of(*type->structure).extent;
     case TypeKind::kResource:
-      return {32, 8};
+      return type->is_query() ? Extent{sizeof(shader::RayQuery), alignof(shader::RayQuery)}
+                              : Extent{32, 8};
   }
   return {};
 }

@@ -116,6 +116,7 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.callable_data_bytes = callable ? entry.payload_bytes : 0;
   out.stack_bytes = code.code->stack_bytes + code.static_bytes;
   out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |
+              (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
               (entry.function->may_call ? shader::kExportCalls : 0u) |
               (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
               (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |

@@ -6,6 +6,7 @@
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
+#include <new>
 
 #include "runtime/hlsl/interpret_evaluate.h"
 
@@ -99,6 +100,34 @@ void trace_ray(const Action& action, Frame& frame) {
   invocation.dispatch->services->trace_ray(invocation, arguments,
                                            action.place->locate(*action.place, frame),
                                            shader::origin_t_min(ray), shader::direction_t_max(ray));
+}
+
+void run_query(const Action& action, Frame& frame) {
+  shader::Invocation& invocation = *frame.context->invocation;
+  auto& query =
+      *reinterpret_cast<shader::RayQuery*>(action.place->locate(*action.place, frame));
+  const auto& operands = action.operands;
+  switch (action.stmt->query) {
+    case ir::QueryOp::kTrace:
+      shader::begin_query(invocation, query, evaluate_as<shader::Descriptor>(*operands[0], frame),
+                          evaluate_as<uint32_t>(*operands[1], frame),
+                          evaluate_as<uint32_t>(*operands[2], frame),
+                          evaluate_as<shader::RayDesc>(*operands[3], frame));
+      return;
+    case ir::QueryOp::kProceed: {
+      const bool goes_on = shader::query_proceed(invocation, query);
+      if (action.result != nullptr) {
+        std::memcpy(action.result->locate(*action.result, frame), &goes_on, sizeof(goes_on));
+      }
+      return;
+    }
+    case ir::QueryOp::kAbort:
+      return shader::query_abort(query);
+    case ir::QueryOp::kCommitTriangle:
+      return shader::query_commit_triangle(query);
+    case ir::QueryOp::kCommitProcedural:
+      return shader::query_commit_procedural(query, evaluate_as<float>(*operands[0], frame));
+  }
 }
 
 void report_hit(const Action& action, Frame& frame) {
@@ -206,6 +235,10 @@ Flow run(const Action& action, Frame& frame) {
       return run(action.body, frame);
     case StmtKind::kDeclare: {
       std::byte* to = frame.variables + action.offset;
+      if (stmt.variable->type->is_query()) {
+        new (to) shader::RayQuery();
+        return Flow::kNext;
+      }
       if (action.value != nullptr) {
         std::memmove(to, evaluate(*action.value, frame), action.value->bytes);
       } else {
@@ -233,6 +266,9 @@ Flow run(const Action& action, Frame& frame) {
       return context.ended ? Flow::kReturn : Flow::kNext;
     case StmtKind::kTraceRay:
       trace_ray(action, frame);
+      return Flow::kNext;
+    case StmtKind::kQuery:
+      run_query(action, frame);
       return Flow::kNext;
     case StmtKind::kReportHit:
       report_hit(action, frame);

@@ -89,6 +89,11 @@ struct Type {
   const Struct* structure = nullptr;
   ResourceKind resource = ResourceKind::kByteAddressBuffer;
   uint32_t ray_query_flags = 0;
+
+  // A RayQuery is no value: it is only a local variable, or a parameter that stands for one.
+  bool is_query() const {
+    return kind == TypeKind::kResource && resource == ResourceKind::kRayQuery;
+  }
 };
 
 struct Field {
@@ -124,7 +129,8 @@ enum class Storage : uint8_t {
 
 enum class ParameterMode : uint8_t {
   kIn,     // by value
-  kInOut,  // by reference to a variable that nothing else refers to (the caller copies in and out)
+  kInOut,  // by reference to a variable that nothing else refers to (the caller copies in and out);
+           // a RayQuery: to the caller's own, which several parameters may refer to
   kOut,    // the same; the callee sees zeros
 };
 
@@ -174,6 +180,7 @@ enum class ExprKind : uint8_t {
   kTypedLoad,    // operands: Buffer/RWBuffer/texture, coordinates (int or uint scalar/vector),
                  // [mip level (textures that have them)], [offset: int vector]
   kSample,       // sampling below; operands by SampleKind
+  kQueryValue,   // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
   kDimensions,   // operands: resource, [mip level]. uint4: textures {width, height,
                  // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
 };
@@ -232,6 +239,30 @@ enum class SystemValue : uint8_t {
   kHitKind,
 };
 
+// What a RayQuery tells. Of the candidate, and of the committed hit where Expr::index is 1.
+enum class QueryValue : uint8_t {
+  kType,  // CANDIDATE_TYPE or COMMITTED_STATUS
+  kRayT,
+  kInstanceIndex,
+  kInstanceId,
+  kInstanceContribution,
+  kGeometryIndex,
+  kPrimitiveIndex,
+  kObjectRayOrigin,
+  kObjectRayDirection,
+  kObjectToWorld3x4,
+  kObjectToWorld4x3,
+  kWorldToObject3x4,
+  kWorldToObject4x3,
+  kBarycentrics,
+  kFrontFace,
+  kProceduralNonOpaque,  // of the candidate only
+  kRayFlags,             // these are the ray's
+  kRayTMin,
+  kWorldRayOrigin,
+  kWorldRayDirection,
+};
+
 struct Expr {
   ExprKind kind = ExprKind::kZero;
   const Type* type = nullptr;
@@ -247,6 +278,7 @@ struct Expr {
   Intrinsic intrinsic = {};
   SystemValue system_value = {};
   SampleKind sample = {};
+  QueryValue query_value = {};
   Layout layout = Layout::kStructured;  // kLoad, kLoadElement
   bool row_major = false;               // kLoad, kLoadElement of a matrix or an array of them
 };
@@ -278,7 +310,12 @@ enum class StmtKind : uint8_t {
   kContinue,
   kReturn,  // value or null
   kBarrier,
+  kQuery,  // place: the kVariable of a RayQuery, query: what it does. operands: kTrace:
+           // acceleration structure, flags (with the type's), mask (uint32), RayDesc;
+           // kCommitProcedural: t; result of kProceed (bool) or null
 };
+
+enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
 
 enum class AtomicOp : uint8_t {
   kAdd,
@@ -329,6 +366,7 @@ struct Stmt {
   std::vector<SwitchCase> cases;
   AtomicOp atomic = AtomicOp::kAdd;
   AtomicTarget target = AtomicTarget::kPlace;
+  QueryOp query = {};
   Layout layout = Layout::kStructured;
   bool row_major = false;
   uint32_t barrier = 0;  // BarrierFlags
@@ -357,6 +395,7 @@ struct Function {
   Location end_location;        // of the closing brace
   uint32_t stages = 0;          // StageBits: which stages' entry points reach it
   bool may_trace = false;       // can reach TraceRay
+  bool uses_query = false;      // can reach TraceRayInline
   bool may_call = false;        // can reach CallShader
   bool may_end_shader = false;  // can reach IgnoreHit, AcceptHitAndEndSearch or ReportHit: after a
                                 // call, the caller must return at once if the shader has ended

@@ -19,6 +19,9 @@ constexpr const char* kSampleNames[] = {"sample_level", "sample_gradient", "samp
                                         "gather", "gather_compare"};
 constexpr const char* kAtomicNames[] = {
     "add", "and", "or", "xor", "min", "max", "exchange", "compare_exchange", "compare_store"};
+constexpr const char* kQueryOpNames[] = {"trace_inline", "proceed", "abort", "commit_triangle",
+                                         "commit_procedural"};
+
 constexpr const char* kSystemValueNames[] = {"DispatchRaysIndex",
                                              "DispatchRaysDimensions",
                                              "WorldRayOrigin",
@@ -142,6 +145,12 @@ class Dumper {
         return call("logical_or", *of);
       case ir::ExprKind::kIntrinsic:
         return call(std::string(kaamos::hlsl::name_of(of->intrinsic)), *of);
+      case ir::ExprKind::kQueryValue:
+        text += of->index == 1 ? "committed_" : "query_";
+        text += std::to_string(static_cast<int>(of->query_value)) + "(";
+        expr(of->operands[0]);
+        text += ")";
+        return;
       case ir::ExprKind::kSystemValue:
         text += kSystemValueNames[static_cast<size_t>(of->system_value)];
         return;
@@ -238,6 +247,15 @@ class Dumper {
       case ir::StmtKind::kReportHit:
         result_prefix(of);
         text += "report_hit(";
+        list(of.operands);
+        text += ")";
+        break;
+      case ir::StmtKind::kQuery:
+        result_prefix(of);
+        text += kQueryOpNames[static_cast<size_t>(of.query)];
+        text += "(";
+        expr(of.place);
+        if (!of.operands.empty()) text += ", ";
         list(of.operands);
         text += ")";
         break;

@@ -252,6 +252,11 @@ class Verifier {
                     is_sampler(operands[1]->type->resource),
                 "sampler is none", of);
         break;
+      case ExprKind::kQueryValue:
+        operand_count(of, 1, 1);
+        require(operands[0]->kind == ExprKind::kVariable && operands[0]->type->is_query(),
+                "a query's object is no variable of its type", of);
+        break;
       case ExprKind::kDimensions:
         operand_count(of, 1, 2);
         resource(of, 0);
@@ -317,7 +322,8 @@ class Verifier {
       const Expr* argument = of.arguments[i];
       require(argument->type == parameters[i]->type, "argument has another type", argument);
       if (parameters[i]->mode == ir::ParameterMode::kIn) continue;
-      require(argument->kind == ExprKind::kVariable && references.insert(argument->variable).second,
+      require(argument->kind == ExprKind::kVariable &&
+                  (references.insert(argument->variable).second || argument->type->is_query()),
               "reference is no variable of its own", argument);
     }
     if (of.result) {
@@ -387,6 +393,17 @@ class Verifier {
       case StmtKind::kReportHit:
         require(of.operands.size() == 3 && function_->may_end_shader, "ReportHit", nullptr);
         break;
+      case StmtKind::kQuery: {
+        require(of.place && of.place->kind == ExprKind::kVariable && of.place->type->is_query(),
+                "a query's object is no variable of its type", of.place);
+        expr(of.place);
+        const size_t operands = of.query == ir::QueryOp::kTrace              ? 4
+                                : of.query == ir::QueryOp::kCommitProcedural ? 1
+                                                                             : 0;
+        require(of.operands.size() == operands, "operands of a query", nullptr);
+        require(!of.result || of.query == ir::QueryOp::kProceed, "result of a query", nullptr);
+        break;
+      }
       case StmtKind::kIf:
         expr(of.value);
         require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is no bool", of.value);

@@ -71,6 +71,7 @@ void visit_written(const Stmt& stmt, const VariableVisitor& on_variable) {
       }
       break;
     case StmtKind::kAtomic:
+    case StmtKind::kQuery:
     case StmtKind::kTraceRay:
     case StmtKind::kCallShader:
       if (stmt.place != nullptr) on_variable(root_of(stmt.place), nullptr);

@@ -109,6 +109,7 @@ Value Checker::call_method(const MemberExpr* callee, const CallExpr* call_expr) 
     load(object);
     return error_value();
   }
+  if (object.type->is_query()) return call_query_method(object, part, arguments, location);
   if (object.type->is_resource()) {
     if (object.type->resource != ir::ResourceKind::kConstantBuffer) {
       return call_resource_method(object, part, arguments, location);
@@ -233,7 +234,12 @@ Value Checker::call(FunctionInfo* function, const Value* object, std::vector<Val
   for (size_t i = 0; i < arguments.size(); ++i) {
     const ParameterInfo& parameter = function->parameters[i];
     const Value& argument = arguments[i];
-    if (parameter.is_out) {
+    if (parameter.type->is_query()) {
+      // One object under two names, whatever the parameter's direction. [DXR: RayQuery]
+      const ir::Expr* query = query_object(argument, parameter.type);
+      if (!query) return error_value();
+      statement->arguments.push_back(query);
+    } else if (parameter.is_out) {
       const std::string purpose = std::string("an argument of ") +
                                   (parameter.is_in ? "inout" : "out") + " parameter '" +
                                   std::string(parameter.name) + "'";
@@ -280,7 +286,8 @@ ir::Function* Checker::make_ir_function(FunctionInfo* function) {
     if (parameter.decl) at(parameter.decl->location);
     ir::Variable* variable =
         build_.variable(std::string(parameter.name), parameter.type->ir, ir::Storage::kParameter);
-    variable->mode = !parameter.is_out ? ir::ParameterMode::kIn
+    variable->mode = parameter.type->is_query() ? ir::ParameterMode::kInOut
+                     : !parameter.is_out        ? ir::ParameterMode::kIn
                      : parameter.is_in ? ir::ParameterMode::kInOut
                                        : ir::ParameterMode::kOut;
     node->parameters.push_back(variable);

@@ -128,7 +128,8 @@ std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, 
           freeze(earlier, &position);
           const bool is_memory =
               earlier.kind == ValueKind::kMemory || earlier.kind == ValueKind::kTyped;
-          if (save_values && (earlier.kind == ValueKind::kExpr || is_memory)) {
+          const bool is_query = earlier.type && earlier.type->is_query();
+          if (save_values && !is_query && (earlier.kind == ValueKind::kExpr || is_memory)) {
             const ir::Expr* held = load(earlier);
             if (held && !is_fixed(held)) earlier.saved = build_.read(temporary(held, &position));
           }

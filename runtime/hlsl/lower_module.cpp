@@ -48,12 +48,14 @@ void Checker::finish(ir::Module& module) {
                             function->callees.end());
     ir::Function* node = function->ir;
     node->may_trace = function->traces;
+    node->uses_query = function->queries;
     node->may_call = function->calls_shader;
     node->may_end_shader = function->ends_shader;
     node->has_barrier = function->has_barrier;
     for (const FunctionInfo* callee : function->callees) {
       if (!callee->ir) continue;
       node->may_trace |= callee->ir->may_trace;
+      node->uses_query |= callee->ir->uses_query;
       node->may_call |= callee->ir->may_call;
       node->may_end_shader |= callee->ir->may_end_shader;
       node->has_barrier |= callee->ir->has_barrier;

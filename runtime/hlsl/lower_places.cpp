@@ -164,6 +164,10 @@ void Checker::freeze(Value& value, size_t* position) {
 
 const ir::Expr* Checker::load(const Value& value) {
   if (value.saved) return value.saved;
+  if (value.type && value.type->is_query()) {
+    report(CheckId::kRayQueryCopy, value.location, {to_string(value.type)});
+    return nullptr;
+  }
   switch (value.kind) {
     case ValueKind::kExpr:
       return value.expr;

@@ -215,6 +215,11 @@ void Checker::lower_local(const VariableDecl* decl) {
     add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
     return;
   }
+  if (valid && type->is_query()) {
+    lower_local_query(decl, type, info);
+    add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+    return;
+  }
   if (decl->modifiers & kModStatic) {
     if (valid) lower_local_static(decl, type);
     return;

@@ -174,6 +174,20 @@ const Type* TypeTable::resource(ir::ResourceKind kind, const Type* element, bool
   return resources_[{kind, element, written}] = type;
 }
 
+const Type* TypeTable::ray_query(uint32_t flags) {
+  const Type*& slot = ray_queries_[flags];
+  if (slot) return slot;
+  Type* type = make(TypeKind::kResource);
+  type->resource = ir::ResourceKind::kRayQuery;
+  type->ray_query_flags = flags;
+  ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
+  ir_type->resource = ir::ResourceKind::kRayQuery;
+  ir_type->ray_query_flags = flags;
+  type->ir = ir_type;
+  slot = type;
+  return slot;
+}
+
 const Type* TypeTable::structure(StructInfo* info) {
   Type* type = make(TypeKind::kStruct);
   type->structure = info;
@@ -223,6 +237,7 @@ std::string to_string(const Type* type) {
     }
     case TypeKind::kResource: {
       std::string text(resource_name(type->resource));
+      if (type->is_query()) text += "<" + std::to_string(type->ray_query_flags) + ">";
       if (type->element && type->resource != ir::ResourceKind::kByteAddressBuffer &&
           type->resource != ir::ResourceKind::kRWByteAddressBuffer) {
         text += "<" + to_string(type->element) + ">";

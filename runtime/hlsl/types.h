@@ -82,6 +82,7 @@ struct Type {
   EnumInfo* enumeration = nullptr;
   ir::ResourceKind resource = ir::ResourceKind::kByteAddressBuffer;
   bool has_written_element = false;  // Texture2D<float4>, not Texture2D
+  uint32_t ray_query_flags = 0;      // of RayQuery<flags>
   const Type* canonical = nullptr;   // without storage order
   const ir::Type* ir = nullptr;
 
@@ -92,6 +93,7 @@ struct Type {
   bool is_array() const { return kind == TypeKind::kArray; }
   bool is_struct() const { return kind == TypeKind::kStruct; }
   bool is_resource() const { return kind == TypeKind::kResource; }
+  bool is_query() const { return ir && ir->is_query(); }
   bool is_enum() const { return kind == TypeKind::kEnum; }
   bool is_void() const { return kind == TypeKind::kVoid; }
   bool is_error() const { return kind == TypeKind::kError; }
@@ -155,6 +157,7 @@ class TypeTable {
   const Type* with_scalar(const Type* shape, Scalar scalar);
   const Type* array(const Type* element, uint32_t count);
   const Type* resource(ir::ResourceKind kind, const Type* element, bool written = true);
+  const Type* ray_query(uint32_t flags);
   const Type* structure(StructInfo* info);
   const Type* enumeration(EnumInfo* info);
   const Type* boolean() { return scalar(Scalar::kBool); }
@@ -172,6 +175,7 @@ class TypeTable {
   std::map<std::pair<const Type*, uint32_t>, const Type*> arrays_;
   std::map<std::tuple<ir::ResourceKind, const Type*, bool>, const Type*> resources_;
   std::map<std::pair<ir::ResourceKind, const ir::Type*>, const ir::Type*> ir_resources_;
+  std::map<uint32_t, const Type*> ray_queries_;
 };
 
 // As written in HLSL: "float3", "row_major float4x4", "Light[4]".

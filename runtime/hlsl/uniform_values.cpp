@@ -90,6 +90,7 @@ bool UniformValues::holds(const Expr* expr) const {
     case ExprKind::kTypedLoad:
     case ExprKind::kSample:
     case ExprKind::kSystemValue:
+    case ExprKind::kQueryValue:
       return false;
     default:
       break;

@@ -36,6 +36,7 @@ struct GpuProperties {
 // Optional abilities that were found and switched on; what must be there is checked when the device
 // is made.
 struct GpuFeatures {
+  bool ray_query = false;  // VK_KHR_ray_query
   bool float64 = false;
   bool int16 = false;
   bool float16 = false;

@@ -76,6 +76,8 @@ void FeatureChain::query(VkPhysicalDevice device) {
              VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR);
     optional(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME, ray_tracing_,
              VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR);
+    optional(VK_KHR_RAY_QUERY_EXTENSION_NAME, ray_query_,
+             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR);
   }
   optional(VK_EXT_CUSTOM_BORDER_COLOR_EXTENSION_NAME, border_color_,
            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CUSTOM_BORDER_COLOR_FEATURES_EXT);
@@ -130,6 +132,7 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   ray_tracing_.rayTracingPipelineShaderGroupHandleCaptureReplay = VK_FALSE;
   ray_tracing_.rayTracingPipelineShaderGroupHandleCaptureReplayMixed = VK_FALSE;
 
+  optional_.ray_query = ray_query_.rayQuery;
   optional_.float64 = core.shaderFloat64;
   optional_.int16 = core.shaderInt16;
   optional_.float16 = vulkan12_.shaderFloat16;

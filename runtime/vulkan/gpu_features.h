@@ -43,6 +43,7 @@ class FeatureChain {
   VkPhysicalDeviceVulkan13Features vulkan13_ = {};
   VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_ = {};
   VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure_ = {};
+  VkPhysicalDeviceRayQueryFeaturesKHR ray_query_ = {};
   VkPhysicalDeviceCustomBorderColorFeaturesEXT border_color_ = {};
   VkPhysicalDeviceImage2DViewOf3DFeaturesEXT view_of_3d_ = {};
   VkPhysicalDeviceImageViewMinLodFeaturesEXT min_lod_ = {};

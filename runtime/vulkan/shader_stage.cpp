@@ -96,6 +96,13 @@ rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& sha
             " has no code for Vulkan: its library was compiled without SPIR-V; compile it again "
             "with kaamos-hlsl of a build that has glslang, and without -no-spirv."};
   }
+  if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
+    return rtapi::Error{
+        "KA0963", rtapi::ErrorCode::kUnsupported,
+        "KA0963 shader \"" + shader.name + "\" of " + shader.library->name +
+            " uses RayQuery, and the device has no VK_KHR_ray_query: take another device "
+            "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay."};
+  }
   VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
   info.codeSize = size_t{shader.code->spirv_words} * sizeof(uint32_t);
   info.pCode = shader.code->spirv;

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 2;
+inline constexpr uint32_t kAbiVersion = 3;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -202,12 +202,75 @@ enum class RemovalReason : uint32_t {
   kStepLimit,  // interpreted shaders only
 };
 
+// ---------------------------------------------------------------------------------------------
+// Inline ray tracing [DXR: RayQuery]. Plain bytes: a shader may be left by a jump, and the object
+// may be moved between two calls.
+
+// What is known of a candidate or of the committed hit.
+struct RayQueryHit {
+  uint32_t type = 0;  // CANDIDATE_TYPE, COMMITTED_STATUS
+  float t = 0;        // committed: RayDesc.TMax while there is nothing
+  uint32_t instance_index = 0;
+  uint32_t instance_id = 0;
+  uint32_t instance_contribution = 0;
+  uint32_t geometry_index = 0;
+  uint32_t primitive_index = 0;
+  float barycentrics[2] = {0, 0};
+  bool front_face = false;
+  bool non_opaque = false;                 // procedural candidates
+  const float* object_to_world = nullptr;  // 3x4, row-major
+  const float* world_to_object = nullptr;
+};
+
+// Found by the backend and not yet shown to the shader.
+struct RayQueryFound {
+  float t;  // boxes: none of their hits is nearer
+  uint32_t instance;
+  uint32_t geometry;
+  uint32_t primitive;
+  float barycentrics[2];
+  bool procedural;
+  bool non_opaque;
+  bool front_face;
+};
+
+struct RayQuery {
+  static constexpr uint32_t kChunk = 8;
+
+  RayQuery() {}  // `found` is not cleared: only found[next..count) is ever read
+
+  RayDesc ray = {};
+  uint32_t ray_flags = 0;      // with the template's
+  uint32_t inclusion_mask = 0;
+  bool has_candidate = false;  // Proceed returned true
+  bool ended = true;           // Proceed returns false
+  RayQueryHit candidate;
+  RayQueryHit committed;
+  // The backend's.
+  const void* scene = nullptr;
+  bool searched = false;  // the first search was made
+  uint32_t next = 0;
+  uint32_t count = 0;
+  float next_left_out = 0;  // t of the nearest candidate that found no room; infinity: none
+  RayQueryFound found[kChunk];
+};
+
+struct RayQueryArguments {
+  uint64_t acceleration_structure;  // GPU virtual address; 0 is missed by every ray
+  uint32_t ray_flags;
+  uint32_t instance_inclusion_mask;  // low 8 bits count
+};
+
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
                     RayLanes direction_t_max);
   ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
                                 uint32_t attribute_bytes);
   void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);
+
+  // TraceRayInline and Proceed; the rest is done without the backend (ray_query.h).
+  void (*begin_query)(Invocation&, RayQuery&, const RayQueryArguments&, const RayDesc&);
+  bool (*proceed)(Invocation&, RayQuery&);
 
   Texel (*sample_level)(const SampleArguments&);
   Texel (*sample_gradient)(const SampleArguments&);
@@ -278,6 +341,7 @@ enum ExportFlags : uint32_t {
   kExportCalls = 2,            // can reach CallShader
   kExportUsesViewHeap = 4,     // ResourceDescriptorHeap[]
   kExportUsesSamplerHeap = 8,  // SamplerDescriptorHeap[]
+  kExportUsesRayQuery = 32,    // TraceRayInline
   kExportReadsHitKind = 16,    // HitKind; without it a closest-hit shader may find any value there
 };
 

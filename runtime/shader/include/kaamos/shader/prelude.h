@@ -17,6 +17,7 @@
 #include "kaamos/shader/intrinsics_scalar.h"
 #include "kaamos/shader/memory.h"
 #include "kaamos/shader/operators.h"
+#include "kaamos/shader/ray_query.h"
 #include "kaamos/shader/stage.h"
 #include "kaamos/shader/system_values.h"
 #include "kaamos/shader/texture_access.h"

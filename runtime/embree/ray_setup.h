@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// What TraceRay and RayQuery do with a ray before Embree sees it.
+#pragma once
+
+#include <cfloat>
+#include <limits>
+
+#include "runtime/embree/memory.h"
+#include "runtime/embree/ray_state.h"
+
+namespace kaamos::embree {
+
+// GeometryClass bits that a ray visits, by its four flags that cull or skip classes (bits 6 to 9)
+// and by the instance's opacity. CULL_OPAQUE looks at the opacity after the instance's override.
+// [DXR: Ray flags]
+struct ClassTable {
+  uint8_t classes[16][3];
+
+  constexpr ClassTable() : classes{} {
+    for (uint32_t flags = 0; flags < 16; ++flags) {
+      uint32_t skipped = 0;
+      if ((flags & 4) != 0) skipped |= kTriangleOpaque | kTriangleNonOpaque;
+      if ((flags & 8) != 0) skipped |= kProceduralOpaque | kProceduralNonOpaque;
+      const uint32_t all = kAllClasses & ~skipped;
+      const bool cull_opaque = (flags & 1) != 0;
+      const bool cull_non_opaque = (flags & 2) != 0;
+      uint32_t by_geometry = all;
+      if (cull_opaque) by_geometry &= ~uint32_t{kTriangleOpaque | kProceduralOpaque};
+      if (cull_non_opaque) by_geometry &= ~uint32_t{kTriangleNonOpaque | kProceduralNonOpaque};
+      classes[flags][static_cast<int>(OpacityOverride::kNone)] = static_cast<uint8_t>(by_geometry);
+      classes[flags][static_cast<int>(OpacityOverride::kOpaque)] =
+          static_cast<uint8_t>(cull_opaque ? 0 : all);
+      classes[flags][static_cast<int>(OpacityOverride::kNonOpaque)] =
+          static_cast<uint8_t>(cull_non_opaque ? 0 : all);
+    }
+  }
+};
+inline constexpr ClassTable kClassTable;
+
+// What Embree may be given: all else, NaN included, is a miss.
+inline bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
+  return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
+}
+
+// Out of line: only a ray against another structure than the last one comes here.
+[[gnu::noinline]] inline const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
+  worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
+  worker.cached_address = address;
+  if (worker.cached_top_level == nullptr && address != 0) {
+    worker.dispatch->unknown_structure.store(address, std::memory_order_relaxed);
+  }
+  return worker.cached_top_level.get();
+}
+
+inline const TopLevel* find_top_level(Worker& worker, uint64_t address) {
+  if (address == worker.cached_address) return worker.cached_top_level.get();
+  return look_up_top_level(worker, address);
+}
+
+// `flags`: with the pipeline's, which a RayQuery does not have.
+inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mask,
+                         const TopLevel* top_level, float t_min, float t_max) {
+  shim::init(state.query);
+  state.top_level = top_level;
+  state.ray_flags = flags;
+  state.inclusion_mask = inclusion_mask & 0xFFu;
+  state.classes = kClassTable.classes[(flags >> 6) & 15];
+  state.opacity = (flags & kRayForceOpaque) != 0      ? OpacityOverride::kOpaque
+                  : (flags & kRayForceNonOpaque) != 0 ? OpacityOverride::kNonOpaque
+                                                      : OpacityOverride::kNone;
+  state.ended = false;
+  state.search = nullptr;
+  // A negative TMin is undefined in DXR; here it is 0.
+  state.t_min = t_min > 0 ? t_min : 0.0f;
+  state.t_max = t_max;
+  state.t_near = next_above(state.t_min);
+  state.t_far = next_below(state.t_max);
+  state.committed_t = std::numeric_limits<float>::infinity();
+}
+
+inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {
+  const bool closed = state.top_level->has_procedurals();
+  _mm_store_ps(&ray.org_x, with_fourth_lane(world.origin, closed ? state.t_min : state.t_near));
+  _mm_store_ps(&ray.dir_x, world.direction);  // time 0
+  ray.tfar = closed ? state.t_max : state.t_far;
+  ray.mask = kAllClasses;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+}  // namespace kaamos::embree
