@@ -43,7 +43,8 @@ RayQueryHit hit_of(const TopLevel& scene, const RayQueryFound& found, uint32_t t
 
 RayQueryFound triangle_of(const RTCHit& hit, float t, uint32_t instance, uint32_t geometry,
                           bool front_face) {
-  RayQueryFound found = {t, instance, geometry, hit.primID, {hit.u, hit.v}, false, true, front_face};
+  RayQueryFound found = {t,     instance, geometry,  hit.primID, {hit.u, hit.v},
+                         false, true,     front_face};
   clamp_barycentrics(found.barycentrics[0], found.barycentrics[1]);
   return found;
 }
@@ -79,8 +80,7 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   _mm_store_ps(direction, to_object_vector(instance, _mm_load_ps(&ray_hit.ray.dir_x)));
   const bool front =
       triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction) == kHitKindTriangleFrontFace;
-  search.opaque =
-      triangle_of(ray_hit.hit, ray_hit.ray.tfar, index, ray_hit.hit.geomID, front);
+  search.opaque = triangle_of(ray_hit.hit, ray_hit.ray.tfar, index, ray_hit.hit.geomID, front);
   search.has_opaque = true;
 }
 
@@ -93,11 +93,9 @@ void search(Worker& worker, RayQuery& query) {
   const bool first = !query.searched;
   begin_search(state, query.ray_flags, query.inclusion_mask, &scene, query.ray.t_min,
                query.ray.t_max);
-  QuerySearch search = {query, first,
-                        first && (query.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0,
-                        {},
-                        false,
-                        {}};
+  QuerySearch search = {
+      query, first, first && (query.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0,
+      {},    false, {}};
   if (!first) {
     // `found` is used up; its last one was the farthest of what was shown.
     search.shown = query.found[query.count - 1];
@@ -154,8 +152,7 @@ void QuerySearch::offer(const RayQueryFound& found) {
 bool QuerySearch::take_triangle(RayState& state, const GeometryInfo& geometry, RTCRay& ray,
                                 const RTCHit& hit, bool is_opaque, bool front_face) {
   const auto instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
-  const RayQueryFound found =
-      triangle_of(hit, ray.tfar, instance, geometry.index, front_face);
+  const RayQueryFound found = triangle_of(hit, ray.tfar, instance, geometry.index, front_face);
   if (is_opaque) {
     if (!any) {
       state.committed_t = ray.tfar;
@@ -171,6 +168,7 @@ bool QuerySearch::take_triangle(RayState& state, const GeometryInfo& geometry, R
   // Nothing behind a full buffer counts in this search, except opaque triangles in the first one.
   if (first || query.count < RayQuery::kChunk) return false;
   const float farthest = query.found[query.count - 1].t;
+  query.next_left_out = std::min(query.next_left_out, farthest);  // what is not visited any more
   // One more, as the ray of the next instance ends before what is committed.
   ray.tfar = std::min(state.t_far, next_above(farthest));
   state.t_far = ray.tfar;
@@ -207,8 +205,8 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
   query.next_left_out = kNone;
   const ObjectRay world = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
                            _mm_setr_ps(ray.direction[0], ray.direction[1], ray.direction[2], 0)};
-  query.ended = scene == nullptr || scene->scene() == nullptr ||
-                !is_valid(world, ray.t_min, ray.t_max);
+  query.ended =
+      scene == nullptr || scene->scene() == nullptr || !is_valid(world, ray.t_min, ray.t_max);
 }
 
 bool proceed(shader::Invocation& caller, RayQuery& query) {
@@ -218,9 +216,9 @@ bool proceed(shader::Invocation& caller, RayQuery& query) {
     while (query.next < query.count) {
       const RayQueryFound& found = query.found[query.next++];
       if (is_beyond(query, found)) continue;
-      query.candidate = hit_of(*static_cast<const TopLevel*>(query.scene), found,
-                               found.procedural ? shader::kQueryProcedural
-                                                : shader::kQueryTriangle);
+      query.candidate =
+          hit_of(*static_cast<const TopLevel*>(query.scene), found,
+                 found.procedural ? shader::kQueryProcedural : shader::kQueryTriangle);
       if (found.procedural) query.candidate.t = 0;  // where it is hit is for the shader to say
       return true;
     }

@@ -368,8 +368,8 @@ void CppEmitter::emit_tables() {
     const bool callable = e.stage == kStageCallable;
     const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
     uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->uses_query ? 32u : 0u) |
-                     (e.function->may_call ? 2u : 0u) |
-                     (e.uses_view_heap ? 4u : 0u) | (e.uses_sampler_heap ? 8u : 0u) |
+                     (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
+                     (e.uses_sampler_heap ? 8u : 0u) |
                      (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +

@@ -116,8 +116,8 @@ void GlslEmitter::emit_function(const Function& function) {
     constexpr const char* kModes[] = {"", "inout ", "out "};
     if (parameter->type->is_query()) {  // opaque: by reference without being told
       const std::string& name = variable_names_[parameter];
-      text += (i == 0 ? "" : ", ") + type(parameter->type) + " " + name + ", inout g_Query g_s_" +
-              name;
+      text +=
+          (i == 0 ? "" : ", ") + type(parameter->type) + " " + name + ", inout g_Query g_s_" + name;
       continue;
     }
     text += (i == 0 ? "" : ", ") + std::string(kModes[static_cast<int>(parameter->mode)]) +

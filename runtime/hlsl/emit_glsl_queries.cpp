@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery. Beside each rayQueryEXT goes what GLSL does not tell, or not at every time: the ray, and
-// whether the query runs and has a candidate. A driver is asked for nothing that is not there.
+// RayQuery. Beside each rayQueryEXT goes what GLSL does not tell, or not at every time: the ray,
+// and whether the query runs and has a candidate. A driver is asked for nothing that is not there.
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
@@ -212,8 +212,8 @@ std::string GlslEmitter::query_value(const Expr& expr) {
   const bool committed = expr.index == 1;
   const std::string name = std::string(committed ? "g_committed_" : "g_candidate_") +
                            std::to_string(static_cast<int>(expr.query_value));
-  std::string guard = committed ? "(s.state & g_query_begun) != 0u"
-                                : "(s.state & g_query_has_candidate) != 0u";
+  std::string guard =
+      committed ? "(s.state & g_query_begun) != 0u" : "(s.state & g_query_has_candidate) != 0u";
   const std::string kind =
       std::string("rayQueryGetIntersectionTypeEXT(q, ") + (committed ? "true)" : "false)");
   std::string otherwise = zero(expr.type);

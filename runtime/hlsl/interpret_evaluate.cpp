@@ -7,6 +7,7 @@
 
 namespace kaamos::hlsl::interpret {
 
+using ir::QueryValue;
 using ir::Storage;
 using ir::SystemValue;
 
@@ -171,8 +172,8 @@ const std::byte* system_value(const Node& node, Frame& frame) {
 }
 
 const std::byte* query_value(const Node& node, Frame& frame) {
-  const auto& query =
-      *reinterpret_cast<const shader::RayQuery*>(node.operands[0]->locate(*node.operands[0], frame));
+  const auto& query = *reinterpret_cast<const shader::RayQuery*>(
+      node.operands[0]->locate(*node.operands[0], frame));
   const shader::RayQueryHit& hit = node.expr->index == 1 ? query.committed : query.candidate;
   const auto rows_of = [&](const float* transform) {
     return keep(node, frame, shader::load_transform(transform));

@@ -104,8 +104,7 @@ void trace_ray(const Action& action, Frame& frame) {
 
 void run_query(const Action& action, Frame& frame) {
   shader::Invocation& invocation = *frame.context->invocation;
-  auto& query =
-      *reinterpret_cast<shader::RayQuery*>(action.place->locate(*action.place, frame));
+  auto& query = *reinterpret_cast<shader::RayQuery*>(action.place->locate(*action.place, frame));
   const auto& operands = action.operands;
   switch (action.stmt->query) {
     case ir::QueryOp::kTrace:

@@ -180,9 +180,9 @@ enum class ExprKind : uint8_t {
   kTypedLoad,    // operands: Buffer/RWBuffer/texture, coordinates (int or uint scalar/vector),
                  // [mip level (textures that have them)], [offset: int vector]
   kSample,       // sampling below; operands by SampleKind
-  kQueryValue,   // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
-  kDimensions,   // operands: resource, [mip level]. uint4: textures {width, height,
-                 // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
+  kQueryValue,  // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
+  kDimensions,  // operands: resource, [mip level]. uint4: textures {width, height,
+                // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
 };
 
 enum class UnaryOp : uint8_t { kNegate, kNot, kBitNot };
@@ -399,7 +399,7 @@ struct Function {
   bool may_call = false;        // can reach CallShader
   bool may_end_shader = false;  // can reach IgnoreHit, AcceptHitAndEndSearch or ReportHit: after a
                                 // call, the caller must return at once if the shader has ended
-  bool has_barrier = false;  // can reach a group barrier
+  bool has_barrier = false;     // can reach a group barrier
 };
 
 // How an entry point's parameter gets its value.

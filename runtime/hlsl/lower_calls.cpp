@@ -288,8 +288,8 @@ ir::Function* Checker::make_ir_function(FunctionInfo* function) {
         build_.variable(std::string(parameter.name), parameter.type->ir, ir::Storage::kParameter);
     variable->mode = parameter.type->is_query() ? ir::ParameterMode::kInOut
                      : !parameter.is_out        ? ir::ParameterMode::kIn
-                     : parameter.is_in ? ir::ParameterMode::kInOut
-                                       : ir::ParameterMode::kOut;
+                     : parameter.is_in          ? ir::ParameterMode::kInOut
+                                                : ir::ParameterMode::kOut;
     node->parameters.push_back(variable);
   }
   node->mangled = mangle(*function);

@@ -24,6 +24,20 @@ Services make_services() {
     return t > 0 ? ReportHitResult::kEndSearch : ReportHitResult::kAccepted;
   };
   out.call_shader = [](Invocation&, uint32_t, void*, uint32_t) {};
+  // Candidates of both kinds without end, so that loops end at the limit of steps.
+  out.begin_query = [](Invocation&, RayQuery& query, const RayQueryArguments& arguments,
+                       const RayDesc& ray) {
+    query = RayQuery();
+    query.ray = ray;
+    query.ray_flags = arguments.ray_flags;
+    query.committed.t = ray.t_max;
+    query.ended = false;
+  };
+  out.proceed = [](Invocation&, RayQuery& query) {
+    query.candidate.type ^= 1u;
+    query.candidate.t = 1;
+    return true;
+  };
   const auto sample = [](const SampleArguments&) { return Texel{{0x3F000000, 0, 1, 2}}; };
   out.sample_level = sample;
   out.sample_gradient = sample;

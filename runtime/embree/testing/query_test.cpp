@@ -283,8 +283,8 @@ TEST(Rq15, BoxesAndTrianglesInOneSceneAreAllShown) {
     boxes.push_back(box_at(static_cast<float>(2 * i + 1)));
     triangles.push_back(triangle_at(static_cast<float>(2 * i + 2), kNonOpaque));
   }
-  const uint64_t scene = h.top_level(
-      {instance_of(h.bottom_level(boxes)), instance_of(h.bottom_level(triangles))});
+  const uint64_t scene =
+      h.top_level({instance_of(h.bottom_level(boxes)), instance_of(h.bottom_level(triangles))});
   run(h, [&](Invocation& i) {
     RayQuery q;
     trace(i, q, ray_along_z(scene));

@@ -240,7 +240,7 @@ struct RayQuery {
   RayQuery() {}  // `found` is not cleared: only found[next..count) is ever read
 
   RayDesc ray = {};
-  uint32_t ray_flags = 0;      // with the template's
+  uint32_t ray_flags = 0;  // with the template's
   uint32_t inclusion_mask = 0;
   bool has_candidate = false;  // Proceed returned true
   bool ended = true;           // Proceed returns false
