@@ -113,6 +113,7 @@ struct RuleTest {
 std::vector<RuleTest> sbt_tests();
 std::vector<RuleTest> root_tests();
 std::vector<RuleTest> flg_tests();
+std::vector<RuleTest> trv_tests();
 std::vector<RuleTest> sv_tests();
 std::vector<RuleTest> pay_tests();
 
