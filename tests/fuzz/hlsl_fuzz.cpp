@@ -28,10 +28,10 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-#if defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 constexpr double kMaxCpuSeconds = 60;  // for one input; everything takes ten times as long
 #else
-constexpr double kMaxCpuSeconds = 5;  // for one input
+constexpr double kMaxCpuSeconds = 5;
 #endif
 constexpr uint64_t kMaxMegabytes = 3000;  // with what a sanitizer needs
 constexpr int kMaxFindings = 20;
