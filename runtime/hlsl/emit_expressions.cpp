@@ -249,54 +249,6 @@ std::string CppEmitter::element(const Expr& expr, bool as_place) {
          ")";
 }
 
-std::string CppEmitter::query_value(const Expr& expr) {
-  const std::string query = place(expr.operands[0]);
-  const std::string hit = query + (expr.index == 1 ? ".committed" : ".candidate");
-  switch (expr.query_value) {
-    case QueryValue::kType:
-      return hit + ".type";
-    case QueryValue::kRayT:
-      return hit + ".t";
-    case QueryValue::kInstanceIndex:
-      return hit + ".instance_index";
-    case QueryValue::kInstanceId:
-      return hit + ".instance_id";
-    case QueryValue::kInstanceContribution:
-      return hit + ".instance_contribution";
-    case QueryValue::kGeometryIndex:
-      return hit + ".geometry_index";
-    case QueryValue::kPrimitiveIndex:
-      return hit + ".primitive_index";
-    case QueryValue::kObjectRayOrigin:
-      return "ks::query_object_origin(" + query + ", " + hit + ")";
-    case QueryValue::kObjectRayDirection:
-      return "ks::query_object_direction(" + query + ", " + hit + ")";
-    case QueryValue::kObjectToWorld3x4:
-      return "ks::load_transform(" + hit + ".object_to_world)";
-    case QueryValue::kObjectToWorld4x3:
-      return "ks::transpose(ks::load_transform(" + hit + ".object_to_world))";
-    case QueryValue::kWorldToObject3x4:
-      return "ks::load_transform(" + hit + ".world_to_object)";
-    case QueryValue::kWorldToObject4x3:
-      return "ks::transpose(ks::load_transform(" + hit + ".world_to_object))";
-    case QueryValue::kBarycentrics:
-      return "ks::query_barycentrics(" + hit + ")";
-    case QueryValue::kFrontFace:
-      return hit + ".front_face";
-    case QueryValue::kProceduralNonOpaque:
-      return hit + ".non_opaque";
-    case QueryValue::kRayFlags:
-      return query + ".ray_flags";
-    case QueryValue::kRayTMin:
-      return query + ".ray.t_min";
-    case QueryValue::kWorldRayOrigin:
-      return "ks::query_world_origin(" + query + ")";
-    case QueryValue::kWorldRayDirection:
-      return "ks::query_world_direction(" + query + ")";
-  }
-  return "0u";
-}
-
 std::string CppEmitter::system_value(const Expr& expr) {
   switch (expr.system_value) {
     case SystemValue::kDispatchRaysIndex:

@@ -162,19 +162,6 @@ void CppEmitter::report_hit(const Stmt& stmt) {
   close("}");
 }
 
-void CppEmitter::query(const Stmt& stmt) {
-  constexpr const char* kNames[] = {"trace_ray_inline", "query_proceed", "query_abort",
-                                    "query_commit_triangle", "query_commit_procedural"};
-  const bool searches = stmt.query == QueryOp::kTrace || stmt.query == QueryOp::kProceed;
-  std::string text = stmt.result != nullptr ? variable(stmt.result) + " = ks::" : "ks::";
-  text += std::string(kNames[static_cast<int>(stmt.query)]) + "(" +
-          (searches ? "ctx.invocation, " : "") + place(stmt.place);
-  for (const Expr* operand : stmt.operands) {
-    text += ", " + value(operand);
-  }
-  line(text + ");");
-}
-
 void CppEmitter::loop(const Stmt& stmt) {
   const int label = next_label_++;
   open("for (;;) {");

@@ -6,27 +6,6 @@
 namespace kaamos::vulkan {
 namespace {
 
-VkShaderStageFlagBits stage_of(shader::Stage stage) {
-  switch (stage) {
-    case shader::Stage::kRayGeneration:
-      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
-    case shader::Stage::kIntersection:
-      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
-    case shader::Stage::kAnyHit:
-      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
-    case shader::Stage::kClosestHit:
-      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
-    case shader::Stage::kMiss:
-      return VK_SHADER_STAGE_MISS_BIT_KHR;
-    case shader::Stage::kCallable:
-      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
-    case shader::Stage::kCompute:
-    case shader::Stage::kLibrary:
-      break;
-  }
-  return VK_SHADER_STAGE_COMPUTE_BIT;
-}
-
 class Constants {
  public:
   void add(uint32_t id, uint32_t value) {
@@ -67,6 +46,27 @@ void add_slot(uint32_t binding, const shader::BindingSlot& slot, Constants& cons
 }
 
 }  // namespace
+
+VkShaderStageFlagBits stage_of(shader::Stage stage) {
+  switch (stage) {
+    case shader::Stage::kRayGeneration:
+      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
+    case shader::Stage::kIntersection:
+      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
+    case shader::Stage::kAnyHit:
+      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
+    case shader::Stage::kClosestHit:
+      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
+    case shader::Stage::kMiss:
+      return VK_SHADER_STAGE_MISS_BIT_KHR;
+    case shader::Stage::kCallable:
+      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+    case shader::Stage::kCompute:
+    case shader::Stage::kLibrary:
+      break;
+  }
+  return VK_SHADER_STAGE_COMPUTE_BIT;
+}
 
 StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
                                const StageOptions& options) {

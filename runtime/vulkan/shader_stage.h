@@ -21,6 +21,8 @@ struct StageOptions {
   bool count = false;  // for statistics
 };
 
+VkShaderStageFlagBits stage_of(shader::Stage stage);
+
 // The values of a stage's constants, as pSpecializationInfo has them.
 struct StageConstants {
   std::vector<VkSpecializationMapEntry> entries;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/testing/glsl.h"
+#include "runtime/vulkan/shader_stage.h"
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/vulkan/testing/compile_glsl.h"
@@ -49,25 +50,6 @@ uint64_t find_top_level(uint64_t address) {
 constexpr char kRecord[] = R"(
 layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; } record;
 )";
-
-VkShaderStageFlagBits stage_of(shader::Stage stage) {
-  switch (stage) {
-    case shader::Stage::kRayGeneration:
-      return VK_SHADER_STAGE_RAYGEN_BIT_KHR;
-    case shader::Stage::kIntersection:
-      return VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
-    case shader::Stage::kAnyHit:
-      return VK_SHADER_STAGE_ANY_HIT_BIT_KHR;
-    case shader::Stage::kClosestHit:
-      return VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR;
-    case shader::Stage::kMiss:
-      return VK_SHADER_STAGE_MISS_BIT_KHR;
-    case shader::Stage::kCallable:
-      return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
-    default:
-      return VK_SHADER_STAGE_COMPUTE_BIT;
-  }
-}
 
 // glslang takes constant ids up to 2046: those of the interface that are larger stand for 2000 on.
 void restore_constant_ids(std::vector<uint32_t>& words) {
