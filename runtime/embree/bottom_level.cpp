@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/bottom_level.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -154,6 +155,16 @@ rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
       if (auto s = add_boxes(context, desc.AABBs, std::move(info)); !s) return s;
       continue;
     }
+    if (context.exact) {
+      GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
+      const auto* built = indices_of != nullptr ? indices_of->geometries_[i]->exact.get() : nullptr;
+      if (auto s = add_exact_triangles(context, desc.Triangles, user,
+                                       built != nullptr ? &built->indices : nullptr);
+          !s) {
+        return s;
+      }
+      continue;
+    }
     const uint32_t* indices = nullptr;
     if (indices_of != nullptr && info->primitives != 0 && info->vertices != 0) {
       indices = static_cast<const uint32_t*>(rtcGetGeometryBufferData(
@@ -200,6 +211,61 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
   return embree_status(context.device, "triangles");
 }
 
+rtapi::Status BottomLevel::add_exact_triangles(const BuildContext& context,
+                                               const rtapi::RaytracingGeometryTrianglesDesc& desc,
+                                               GeometryInfo* user,
+                                               const std::vector<uint32_t>* indices) {
+  if (user->primitives == 0 || user->vertices == 0) return {};
+  user->exact = std::make_unique<ExactTriangles>();
+  user->exact->frame = &exact_frame_;
+  user->exact->vertices.resize(3 * uint64_t{user->vertices});
+  runtime::decode_vertices(desc, user->exact->vertices.data());
+  if (indices != nullptr) {
+    user->exact->indices = *indices;
+  } else {
+    user->exact->indices.resize(3 * uint64_t{user->primitives});
+    out_of_range_triangles_ += runtime::decode_indices(desc, user->exact->indices.data());
+  }
+  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
+  if (geometry == nullptr) return embree_status(context.device, "new geometry");
+  rtcSetGeometryUserPrimitiveCount(geometry, user->primitives);
+  rtcSetGeometryUserData(geometry, user);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of_exact_triangle, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_exact_triangle);
+  rtcSetGeometryOccludedFunction(geometry, occlude_exact_triangle);
+  rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
+  rtcSetGeometryMask(geometry, class_of(*user));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, user->index);
+  rtcReleaseGeometry(geometry);
+  return embree_status(context.device, "triangles");
+}
+
+// The frame of the triangles that can be hit, and the bounds of the level: those of Embree's scene
+// are relative to the frame.
+void BottomLevel::measure_exact_triangles() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double lower[3] = {kInfinity, kInfinity, kInfinity};
+  double upper[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (const auto& info : geometries_) {
+    if (info->exact == nullptr) continue;
+    for (uint32_t i = 0; i < info->primitives; ++i) {
+      double low[3];
+      double high[3];
+      if (!info->exact->bounds(i, low, high)) continue;
+      for (int k = 0; k < 3; ++k) {
+        lower[k] = std::min(lower[k], low[k]);
+        upper[k] = std::max(upper[k], high[k]);
+      }
+    }
+  }
+  exact_frame_ = ExactFrame::of(lower, upper);
+  empty_ = lower[0] > upper[0];
+  const auto narrow = [](double value) { return static_cast<float>(value); };  // it was a float
+  bounds_ = {narrow(lower[0]), narrow(lower[1]), narrow(lower[2]), 0,
+             narrow(upper[0]), narrow(upper[1]), narrow(upper[2]), 0};
+}
+
 rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
                                      const rtapi::RaytracingGeometryAabbsDesc& desc,
                                      std::unique_ptr<GeometryInfo> info) {
@@ -222,8 +288,11 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
 }
 
 rtapi::Status BottomLevel::commit(const BuildContext& context) {
+  const bool own_bounds = context.exact && !procedural_;
+  if (own_bounds) measure_exact_triangles();
   rtcCommitScene(scene_);
   if (auto s = embree_status(context.device, "commit"); !s) return s;
+  if (own_bounds) return {};
   rtcGetSceneBounds(scene_, &bounds_);
   empty_ = !(bounds_.lower_x <= bounds_.upper_x && bounds_.lower_y <= bounds_.upper_y &&
              bounds_.lower_z <= bounds_.upper_z);
@@ -250,7 +319,11 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
     if (info.primitives == 0 || (!procedural_ && info.vertices == 0)) continue;
     RTCGeometry geometry = rtcGetGeometry(scene_, i);
     RTCBuildQuality quality = RTC_BUILD_QUALITY_REFIT;
-    if (info.type == RaytracingGeometryType::kTriangles) {
+    if (info.exact != nullptr) {
+      runtime::decode_vertices(geometries[i].Triangles, info.exact->vertices.data());
+      // Degenerate triangles may come and go: they were no part of the tree.
+      quality = geometry_quality(flags_);
+    } else if (info.type == RaytracingGeometryType::kTriangles) {
       auto* vertices =
           static_cast<float*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
       const uint64_t count = 3 * uint64_t{info.vertices};

@@ -12,6 +12,7 @@
 #include <rtapi/result.h>
 
 #include "runtime/embree/embree_shim.h"
+#include "runtime/embree/exact.h"
 #include "runtime/structure_map.h"
 
 namespace kaamos::embree {
@@ -21,11 +22,13 @@ using runtime::BuildFlags;
 struct BuildContext {
   RTCDevice device = nullptr;
   bool robust = true;  // RTC_SCENE_FLAG_ROBUST: DXR's open t interval is exact only with it
+  bool exact = false;  // triangles are our own: exact.h
 };
 
 // What Embree's callbacks get as the user pointer of a geometry.
 struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
+  std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
 };
 
 class BottomLevel final : public runtime::BottomLevelBase {
@@ -51,6 +54,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   RTCScene scene() const { return scene_; }
   bool procedural() const { return procedural_; }
+  const ExactFrame& exact_frame() const { return exact_frame_; }
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
   BuildFlags flags() const { return flags_; }
@@ -63,6 +67,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
   rtapi::Status add_triangles(const BuildContext& context,
                               const rtapi::RaytracingGeometryTrianglesDesc& desc,
                               std::unique_ptr<GeometryInfo> info, const uint32_t* indices);
+  rtapi::Status add_exact_triangles(const BuildContext& context,
+                                    const rtapi::RaytracingGeometryTrianglesDesc& desc,
+                                    GeometryInfo* user, const std::vector<uint32_t>* indices);
   rtapi::Status add_boxes(const BuildContext& context,
                           const rtapi::RaytracingGeometryAabbsDesc& desc,
                           std::unique_ptr<GeometryInfo> info);
@@ -70,12 +77,14 @@ class BottomLevel final : public runtime::BottomLevelBase {
                                std::span<const rtapi::RaytracingGeometryDesc> geometries,
                                const BottomLevel* indices_of);
   rtapi::Status commit(const BuildContext& context);
+  void measure_exact_triangles();
 
   RTCScene scene_ = nullptr;
   BuildFlags flags_ = BuildFlags::kNone;
   bool procedural_ = false;
   bool empty_ = true;
   RTCBounds bounds_ = {};
+  ExactFrame exact_frame_;
   uint64_t out_of_range_triangles_ = 0;
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
 };

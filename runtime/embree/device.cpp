@@ -65,6 +65,7 @@ Device::Device(const rtapi::DeviceDesc& desc, const runtime::Context& context)
     : info_(device_info()),
       context_(context),
       robust_(desc.Precision != rtapi::TraversalPrecision::kFast),
+      exact_(desc.Precision == rtapi::TraversalPrecision::kExact),
       arena_(arena_threads(desc.Threads)) {
   if (desc.Threads > hardware_threads()) {
     parallelism_.emplace(tbb::global_control::max_allowed_parallelism, arena_threads(desc.Threads));
@@ -73,11 +74,6 @@ Device::Device(const rtapi::DeviceDesc& desc, const runtime::Context& context)
 
 rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
     const rtapi::DeviceDesc& desc, const runtime::Context& context) {
-  if (desc.Precision == rtapi::TraversalPrecision::kExact) {
-    return rtapi::Error{"KA0991", rtapi::ErrorCode::kUnsupported,
-                        "KA0991 traversal precision kExact is not available on the Embree backend; "
-                        "use kRobust, whose deviations are in runtime/embree/README.md."};
-  }
   std::unique_ptr<Device> device(new Device(desc, context));
   device->embree_ = rtcNewDevice(kEmbreeConfig);
   if (device->embree_ == nullptr) {

@@ -27,12 +27,10 @@ TEST(Device, SaysWhatItIs) {
   EXPECT_GT(devices[0].HardwareThreads, 0u);
 }
 
-TEST(Device, ExactPrecisionIsRefusedFastIsNot) {
-  const auto exact = create(rtapi::TraversalPrecision::kExact);
-  ASSERT_FALSE(exact.ok());
-  EXPECT_EQ(exact.error().id, "KA0991");
-  EXPECT_EQ(exact.error().code, rtapi::ErrorCode::kUnsupported);
+TEST(Device, ComesInEachPrecision) {
   EXPECT_TRUE(create(rtapi::TraversalPrecision::kFast).ok());
+  EXPECT_TRUE(create(rtapi::TraversalPrecision::kRobust).ok());
+  EXPECT_TRUE(create(rtapi::TraversalPrecision::kExact).ok());
 }
 
 TEST(Device, FormatsAreThoseOfTheTextureLibrary) {

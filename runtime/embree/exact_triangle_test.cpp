@@ -9,12 +9,15 @@
 #include <random>
 #include <vector>
 
+#include "runtime/embree/testing/closed_mesh.h"
+
 namespace kaamos::embree {
 namespace {
 
-using Point = std::array<float, 3>;
+using testing::closed_mesh;
+using testing::Point;
+using testing::Triangle;
 __extension__ using Int128 = __int128;
-using Triangle = std::array<Point, 3>;
 
 ExactRay ray_from(const Point& origin, const Point& towards) {
   double o[3];
@@ -35,32 +38,6 @@ int hits_in_front(const ExactRay& ray, const std::vector<Triangle>& mesh) {
   return static_cast<int>(std::count_if(mesh.begin(), mesh.end(), [&](const Triangle& triangle) {
     return hits(ray, triangle, hit) && hit.t > 0;
   }));
-}
-
-// Eight faces around the origin, each divided n * n, on a bumpy sphere: an open box is no test of
-// vertices with many triangles, which this has at its corners and everywhere else.
-std::vector<Triangle> closed_mesh(int n, float scale) {
-  const auto on_sphere = [&](float x, float y, float z) {
-    const float length = std::sqrt(x * x + y * y + z * z) * (1 + 0.1f * std::sin(9 * x + 5 * y));
-    return Point{scale * (x / length), scale * (y / length), scale * (z / length)};
-  };
-  std::vector<Triangle> mesh;
-  for (int face = 0; face < 8; ++face) {
-    const float sx = (face & 1) != 0 ? -1.0f : 1.0f;
-    const float sy = (face & 2) != 0 ? -1.0f : 1.0f;
-    const float sz = (face & 4) != 0 ? -1.0f : 1.0f;
-    const auto at = [&](int i, int j) {
-      const auto fraction = [&](int k) { return static_cast<float>(k) / static_cast<float>(n); };
-      return on_sphere(sx * fraction(i), sy * fraction(j), sz * fraction(n - i - j));
-    };
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; i + j < n; ++j) {
-        mesh.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
-        if (i + j + 1 < n) mesh.push_back({at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-      }
-    }
-  }
-  return mesh;
 }
 
 TEST(ExactTriangle, DifferenceOfProductsHasTheExactSign) {

@@ -76,6 +76,12 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
+  if (state.top_level->exact_frame() != nullptr) {
+    search.opaque = triangle_of(ray_hit.hit, state.committed_t, index, ray_hit.hit.geomID,
+                                state.exact->hit_kind == kHitKindTriangleFrontFace);
+    search.has_opaque = true;
+    return;
+  }
   alignas(16) float direction[4];
   _mm_store_ps(direction, to_object_vector(instance, _mm_load_ps(&ray_hit.ray.dir_x)));
   const bool front =
@@ -110,7 +116,12 @@ void search(Worker& worker, RayQuery& query) {
   const ObjectRay world = {without_fourth_lane(_mm_load_ps(state.ray.origin)),
                            without_fourth_lane(_mm_load_ps(state.ray.direction))};
   RTCRayHit ray_hit;
-  begin_embree_ray(state, world, ray_hit.ray);
+  ExactState exact;
+  if (scene.exact_frame() == nullptr) {
+    begin_embree_ray(state, world, ray_hit.ray);
+  } else if (!begin_exact_ray(state, exact, ray_hit.ray)) {
+    return;
+  }
   if (search.any) {
     shim::occluded(scene.scene(), state.query, &ray_hit.ray);
   } else {

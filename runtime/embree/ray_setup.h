@@ -89,4 +89,25 @@ inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCR
   ray.flags = 0;
 }
 
+// False: it passes all instances at a distance.
+inline bool begin_exact_ray(RayState& state, ExactState& exact, RTCRay& ray) {
+  state.exact = &exact;
+  for (int i = 0; i < 3; ++i) {
+    exact.world.origin[i] = state.ray.origin[i];
+    exact.world.direction[i] = state.ray.direction[i];
+  }
+  EmbreeRay& local = exact.in_top_level;
+  if (!local.set(exact.world, *state.top_level->exact_frame())) return false;
+  exact.hit_opaque = false;
+  const float t_near = local.near_of(state.t_min);
+  _mm_store_ps(&ray.org_x, _mm_setr_ps(local.origin[0], local.origin[1], local.origin[2], t_near));
+  _mm_store_ps(&ray.dir_x,
+               _mm_setr_ps(local.direction[0], local.direction[1], local.direction[2], 0));
+  ray.tfar = local.far_of(state.t_max);
+  ray.mask = kAllClasses;
+  ray.id = 0;
+  ray.flags = 0;
+  return true;
+}
+
 }  // namespace kaamos::embree

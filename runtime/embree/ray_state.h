@@ -62,6 +62,8 @@ struct RayState {
   // alone. A triangle at the same t is outside the open interval. [DXR: Ray extents]
   float committed_t;
 
+  ExactState* exact;  // in exact precision only
+
   uint32_t procedural_hit_kind;
   alignas(16) uint8_t procedural_attributes[kMaxAttributeBytes];
 };

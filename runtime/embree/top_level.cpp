@@ -58,6 +58,51 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   bottom_levels_.push_back(instance.bottom_level);
 }
 
+// World bounds in double, and then relative to the frame of all of them.
+void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
+                                   std::vector<RTCBounds>& bounds) {
+  struct Box {
+    double lower[3];
+    double upper[3];
+  };
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Box all = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  std::vector<Box> boxes(instances.size());
+  exact_instances_.resize(instances.size());
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].bottom_level == nullptr) continue;
+    const auto& level = static_cast<const BottomLevel&>(*instances[i].bottom_level);
+    const float* matrix = &instances[i].desc.Transform[0][0];
+    invert_in_double(matrix, exact_instances_[i].world_to_object);
+    exact_instances_[i].frame = level.procedural() ? nullptr : &level.exact_frame();
+    const runtime::Bounds object = level.object_bounds();
+    for (int row = 0; row < 3; ++row) {
+      double& low = boxes[i].lower[row];
+      double& high = boxes[i].upper[row];
+      low = high = matrix[4 * row + 3];
+      for (int column = 0; column < 3; ++column) {
+        const double a = static_cast<double>(matrix[4 * row + column]) * object.lower[column];
+        const double b = static_cast<double>(matrix[4 * row + column]) * object.upper[column];
+        low += std::min(a, b);
+        high += std::max(a, b);
+      }
+      if (level.procedural()) {  // traced in float, and widened for that
+        low = instances[i].bounds.lower[row];
+        high = instances[i].bounds.upper[row];
+      }
+      all.lower[row] = std::min(all.lower[row], low);
+      all.upper[row] = std::max(all.upper[row], high);
+    }
+  }
+  exact_ = true;
+  frame_ = ExactFrame::of(all.lower, all.upper);
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (instances[i].bottom_level != nullptr) {
+      bounds[i] = frame_.padded(boxes[i].lower, boxes[i].upper);
+    }
+  }
+}
+
 rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     const BuildContext& context, std::span<const runtime::Instance> instances) {
   std::shared_ptr<TopLevel> level(new TopLevel);
@@ -73,6 +118,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
+  if (context.exact) level->add_exact_instances(instances, bounds);
 
   rtcGetDeviceError(context.device);  // forgets what an earlier build left
   level->scene_ = rtcNewScene(context.device);
@@ -83,8 +129,10 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<uint32_t>(bounds.size()));
     rtcSetGeometryUserData(geometry, bounds.data());  // needed until the commit only
     rtcSetGeometryBoundsFunction(geometry, bounds_of_instance, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, intersect_instance);
-    rtcSetGeometryOccludedFunction(geometry, occlude_instance);
+    rtcSetGeometryIntersectFunction(geometry,
+                                    context.exact ? intersect_exact_instance : intersect_instance);
+    rtcSetGeometryOccludedFunction(geometry,
+                                   context.exact ? occlude_exact_instance : occlude_instance);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFu);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(level->scene_, geometry, 0);

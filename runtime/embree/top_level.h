@@ -39,13 +39,21 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const InstanceDetail& detail(uint32_t index) const { return details_[index]; }
+  // In exact precision: where Embree's coordinates are, and the instances; else null.
+  const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
+  const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }
 
  private:
   TopLevel() = default;
+  void add_exact_instances(std::span<const runtime::Instance> instances,
+                           std::vector<RTCBounds>& bounds);
   void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
 
   RTCScene scene_ = nullptr;
   bool has_procedurals_ = false;
+  bool exact_ = false;
+  ExactFrame frame_;
+  std::vector<ExactInstance> exact_instances_;
   std::vector<InstanceNode> nodes_;
   std::vector<InstanceDetail> details_;
   std::vector<std::shared_ptr<const runtime::BottomLevelBase>>

@@ -33,12 +33,15 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   ++state.worker->counters.closest_hit_calls;
 
   // A search that was ended early has lost its t in Embree's ray.
-  const float t = state.ended ? state.committed_t : ray_hit.ray.tfar;
+  const bool exact = state.top_level->exact_frame() != nullptr;
+  const float t = state.ended || exact ? state.committed_t : ray_hit.ray.tfar;
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
   if (!instance.procedural) {
-    if (shader.reads_hit_kind) hit_kind = committed_hit_kind(instance, ray_hit);
+    if (shader.reads_hit_kind) {
+      hit_kind = exact ? state.exact->hit_kind : committed_hit_kind(instance, ray_hit);
+    }
     barycentrics[0] = ray_hit.hit.u;
     barycentrics[1] = ray_hit.hit.v;
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
@@ -93,7 +96,12 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
 
   RTCRayHit ray_hit;
-  begin_embree_ray(state, world, ray_hit.ray);
+  ExactState exact;
+  if (top_level->exact_frame() == nullptr) {
+    begin_embree_ray(state, world, ray_hit.ray);
+  } else if (!begin_exact_ray(state, exact, ray_hit.ray)) {
+    return run_miss(state);
+  }
   if (asks_visibility(state)) {
     ++worker.counters.visibility_rays;
     shim::occluded(top_level->scene(), state.query, &ray_hit.ray);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
+#include <string_view>
 
 namespace kaamos::embree::testing {
 namespace {
@@ -45,6 +47,13 @@ struct Job {
 template <typename Function>
 shader::AnyFn erase(Function function) {
   return reinterpret_cast<shader::AnyFn>(function);
+}
+
+rtapi::TraversalPrecision precision_of_environment() {
+  const char* value = std::getenv("KAAMOS_TEST_PRECISION");
+  const std::string_view name = value != nullptr ? value : "robust";
+  if (name == "fast") return rtapi::TraversalPrecision::kFast;
+  return name == "exact" ? rtapi::TraversalPrecision::kExact : rtapi::TraversalPrecision::kRobust;
 }
 
 }  // namespace
@@ -209,11 +218,14 @@ void trace_ray(shader::Invocation& invocation, const Ray& ray, void* payload) {
                                            direction_t_max(ray.ray));
 }
 
-Harness::Harness(uint32_t threads) {
+Harness::Harness(uint32_t threads) : Harness(threads, precision_of_environment()) {}
+
+Harness::Harness(uint32_t threads, rtapi::TraversalPrecision precision) {
   context_.addresses = &addresses_;
   context_.message = [this](const rtapi::Message& message) { messages.push_back(message); };
   rtapi::DeviceDesc desc;
   desc.Threads = threads;
+  desc.Precision = precision;
   auto device = backend_factory().create(desc, context_);
   if (device) {
     device_ = std::move(*device);

@@ -129,7 +129,9 @@ void trace_ray(shader::Invocation& invocation, const Ray& ray, void* payload);
 
 class Harness {
  public:
+  // In the precision that KAAMOS_TEST_PRECISION names (fast, robust, exact), robust without it.
   explicit Harness(uint32_t threads = 1);
+  Harness(uint32_t threads, rtapi::TraversalPrecision precision);
   ~Harness();
 
   runtime::BackendDevice& device() { return *device_; }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// TraversalPrecision::kExact: what is kept of bottom and top levels, and of a ray. Triangles are
+// user geometry of Embree, which only finds the candidates: their boxes are relative to the middle
+// of the level and padded by what float costs there, and the ray that Embree gets starts close to
+// the level, so that the pad holds wherever the ray comes from. exact_triangle.h decides, in double
+// and on the positions as they were given.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "runtime/embree/embree_shim.h"
+#include "runtime/embree/exact_triangle.h"
+
+namespace kaamos::embree {
+
+// Where Embree's coordinates of a level have their origin, and how large they are.
+struct ExactFrame {
+  double center[3] = {0, 0, 0};
+  double radius = 0;  // of the box: no |coordinate - center| is larger
+
+  // Covers what float arithmetic does to rays and boxes within a few radii: about 30 of these ulp.
+  double pad() const { return radius * 0x1p-18; }
+  // `bounds`, 6 doubles: lower and upper. All infinite the wrong way round: nothing is inside.
+  static ExactFrame of(const double lower[3], const double upper[3]);
+  // A box in Embree's coordinates, padded.
+  RTCBounds padded(const double lower[3], const double upper[3]) const;
+};
+
+// Own copies of the inputs of a triangle geometry.
+struct ExactTriangles {
+  const ExactFrame* frame = nullptr;
+  std::vector<float> vertices;
+  std::vector<uint32_t> indices;
+
+  const float* corner(uint32_t primitive, int k) const {
+    return &vertices[3 * uint64_t{indices[3 * uint64_t{primitive} + k]}];
+  }
+  // False for triangles that are never hit: degenerate, not finite or past the range of Embree;
+  // else its bounds.
+  bool bounds(uint32_t primitive, double lower[3], double upper[3]) const;
+};
+
+// Of each instance, for rays.
+struct ExactInstance {
+  double world_to_object[12];  // 3x4, row-major: the inverse of the float matrix, in double
+  const ExactFrame* frame;     // of the bottom level; null: not of triangles
+};
+
+struct RayInDouble {
+  double origin[3];
+  double direction[3];
+};
+
+RayInDouble to_object_space(const ExactInstance& instance, const RayInDouble& world);
+// The inverse of a matrix that runtime::invert_transform took.
+void invert_in_double(const float matrix[12], double inverse[12]);
+
+// A ray as Embree gets it in a frame: from a start nearer to it, with a direction of length
+// about 1.
+struct EmbreeRay {
+  double start_t;   // t of the start
+  double per_unit;  // Embree's t for one of t
+  float origin[3];
+  float direction[3];
+
+  // False: it passes the frame at a distance, or is none.
+  bool set(const RayInDouble& ray, const ExactFrame& frame);
+  // Embree's t, rounded outwards: culling by it never takes away what is inside the interval.
+  float near_of(float t) const;
+  float far_of(float t) const;
+};
+
+// The part of a ray's state that only exact traversals have.
+struct ExactState {
+  RayInDouble world;
+  EmbreeRay in_top_level;
+  EmbreeRay in_bottom_level;
+  ExactRay object;  // of the instance that is being traversed, from the start nearer to it
+  double object_start_t;
+  // The committed triangle, if the last commit was one; committed_t of the ray's state is its t.
+  uint32_t hit_kind;
+  uint32_t instance;
+  uint32_t geometry;
+  uint32_t primitive;
+  bool hit_opaque;  // no any-hit shader was asked
+};
+
+// Callbacks. [exact_traverse.cpp]
+void bounds_of_exact_triangle(const RTCBoundsFunctionArguments* arguments);
+void intersect_exact_triangle(const RTCIntersectFunctionNArguments* arguments);
+void occlude_exact_triangle(const RTCOccludedFunctionNArguments* arguments);
+void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments);
+void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments);
+
+}  // namespace kaamos::embree

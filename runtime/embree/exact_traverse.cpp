@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+//
+// Traversal at TraversalPrecision::kExact: the callbacks of instances and of triangles. The order
+// of the tests is DXR's, as in any_hit.cpp.
+#include <tuple>
+
+#include "runtime/embree/any_hit.h"
+#include "runtime/embree/exact.h"
+#include "runtime/embree/inline_query.h"
+
+namespace kaamos::embree {
+namespace {
+
+// A triangle whose box the ray met.
+struct TriangleOffer {
+  RayState& state;
+  const GeometryInfo& geometry;
+  uint32_t primitive;
+  float barycentrics[2];
+
+  bool is_culled(uint32_t hit_kind) const {
+    if ((state.instance->flags & kInstanceTriangleCullDisable) != 0) return false;
+    const uint32_t culled_by = hit_kind == kHitKindTriangleBackFace ? kRayCullBackFacingTriangles
+                                                                    : kRayCullFrontFacingTriangles;
+    return (state.ray_flags & culled_by) != 0;
+  }
+
+  // Of opaque triangles at one t the first by instance, geometry and primitive is the hit, in
+  // whatever order they are met. A triangle that an any-hit shader accepted stays, as one that is
+  // met after it is outside the open interval. [DXR: Ray extents]
+  bool wins_tie(bool opaque) const {
+    const ExactState& exact = *state.exact;
+    if (!opaque || !exact.hit_opaque) return false;
+    const auto index = static_cast<uint32_t>(state.instance - state.top_level->nodes());
+    return std::tie(index, geometry.index, primitive) <
+           std::tie(exact.instance, exact.geometry, exact.primitive);
+  }
+
+  void commit(float t, uint32_t hit_kind, bool opaque, bool end_search) const {
+    ExactState& exact = *state.exact;
+    state.committed_t = t;
+    state.ended = end_search || (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0;
+    exact.hit_kind = hit_kind;
+    exact.instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
+    exact.geometry = geometry.index;
+    exact.primitive = primitive;
+    exact.hit_opaque = opaque;
+  }
+
+  // Of an inline query: it visits all of its candidates, and keeps the nearest ones itself.
+  bool take_for_query(float t, uint32_t hit_kind, bool opaque) const {
+    if (t == state.committed_t && !wins_tie(opaque)) return false;
+    QuerySearch& search = *state.search;
+    const auto instance = static_cast<uint32_t>(state.instance - state.top_level->nodes());
+    const shader::RayQueryFound found = {t,
+                                         instance,
+                                         geometry.index,
+                                         primitive,
+                                         {barycentrics[0], barycentrics[1]},
+                                         false,
+                                         true,
+                                         hit_kind == kHitKindTriangleFrontFace};
+    if (!opaque) return search.offer(found), false;
+    commit(t, hit_kind, true, search.any);
+    if (search.any) {
+      search.opaque = found;
+      search.has_opaque = true;
+    }
+    return true;
+  }
+
+  bool accept() {
+    const ExactTriangles& triangles = *geometry.exact;
+    ExactHit hit;
+    if (state.ended ||
+        !intersect(state.exact->object, triangles.corner(primitive, 0),
+                   triangles.corner(primitive, 1), triangles.corner(primitive, 2), hit)) {
+      return false;
+    }
+    const auto t = static_cast<float>(state.exact->object_start_t + hit.t);
+    if (!(t > state.t_min && t < state.t_max && t <= state.committed_t)) return false;
+    const bool flipped = (state.instance->flags & kInstanceTriangleFrontCounterclockwise) != 0;
+    const uint32_t hit_kind =
+        hit.clockwise != flipped ? kHitKindTriangleFrontFace : kHitKindTriangleBackFace;
+    if (is_culled(hit_kind)) return false;
+    barycentrics[0] = static_cast<float>(hit.u);
+    barycentrics[1] = static_cast<float>(hit.v);
+    clamp_barycentrics(barycentrics[0], barycentrics[1]);
+
+    bool opaque = is_opaque(state, geometry.opaque);
+    if (state.search != nullptr) return take_for_query(t, hit_kind, opaque);
+    ShaderRecord record;
+    if (!opaque) {
+      record = hit_record(state, *state.instance, geometry.index);
+      // Without an any-hit shader the geometry is opaque. [DXR: TraceRay control flow, note 3]
+      opaque = record.target->any_hit == nullptr;
+    }
+    if (t == state.committed_t && !wins_tie(opaque)) return false;
+    if (opaque) return commit(t, hit_kind, true, false), true;
+    const Candidate candidate = {t, hit_kind, geometry.index, primitive, barycentrics};
+    const auto result = run_any_hit(state, record, candidate);
+    if (result == shader::AnyHitResult::kIgnore) return false;
+    commit(t, hit_kind, false, result == shader::AnyHitResult::kAcceptAndEndSearch);
+    return true;
+  }
+};
+
+// Gives Embree the ray as the bottom level takes it. False: it cannot hit anything there.
+bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray) {
+  ExactState& exact = *state.exact;
+  RayInDouble object = to_object_space(instance, exact.world);
+  EmbreeRay& local = exact.in_bottom_level;
+  if (!local.set(object, *instance.frame)) return false;
+  if (local.start_t != 0) {
+    for (int i = 0; i < 3; ++i) object.origin[i] += local.start_t * object.direction[i];
+  }
+  exact.object = ExactRay(object.origin, object.direction);
+  exact.object_start_t = local.start_t;
+  const float t_near = local.near_of(state.t_min);
+  const float t_far = local.far_of(std::min(state.t_max, state.committed_t));
+  _mm_store_ps(&ray.org_x, _mm_setr_ps(local.origin[0], local.origin[1], local.origin[2], t_near));
+  _mm_store_ps(&ray.dir_x, _mm_setr_ps(local.direction[0], local.direction[1], local.direction[2],
+                                       0));  // time
+  ray.tfar = t_far;
+  return t_near <= t_far;
+}
+
+// Boxes have no exact form: intersection shaders get the ray that they get in every precision.
+bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
+  const ObjectRay object = to_object_space(node, without_fourth_lane(_mm_load_ps(state.ray.origin)),
+                                           without_fourth_lane(_mm_load_ps(state.ray.direction)));
+  if (!is_traceable(object)) return false;
+  _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_min));
+  _mm_store_ps(&ray.dir_x, object.direction);
+  ray.tfar = committed ? state.committed_t : state.t_max;
+  return true;
+}
+
+// As visit_instance of traverse.cpp.
+template <typename HitHere, typename Trace>
+void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
+                    Trace trace) {
+  if (state.ended) return;
+  const InstanceNode& node = state.top_level->nodes()[index];
+  if ((node.mask & state.inclusion_mask) == 0) return;
+  const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
+  if (classes == 0) return;
+
+  const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
+  const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
+  const float t_far = ray.tfar;
+  const bool entered = node.procedural
+                           ? enter_boxes(state, node, committed, ray)
+                           : enter_triangles(state, state.top_level->exact_instance(index), ray);
+  if (entered) {
+    ray.mask = classes;
+    state.instance = &node;
+    shim::set_instance(state.query, index);
+    trace(node.scene);
+    ray.mask = kAllClasses;
+    shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
+  }
+  _mm_store_ps(&ray.org_x, origin);
+  _mm_store_ps(&ray.dir_x, direction);
+  if (entered && ray.tfar < 0) return;  // the search is over
+  const bool hit = entered && hit_here();
+  if (hit && node.procedural) state.exact->hit_opaque = false;
+  ray.tfar = hit ? state.exact->in_top_level.far_of(state.committed_t) : t_far;
+}
+
+}  // namespace
+
+void bounds_of_exact_triangle(const RTCBoundsFunctionArguments* arguments) {
+  const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+  double lower[3];
+  double upper[3];
+  if (info.exact->bounds(arguments->primID, lower, upper)) {
+    *arguments->bounds_o = info.exact->frame->padded(lower, upper);
+    return;
+  }
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  *arguments->bounds_o = {kInfinity,  kInfinity,  kInfinity,  0,
+                          -kInfinity, -kInfinity, -kInfinity, 0};
+}
+
+void intersect_exact_triangle(const RTCIntersectFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  TriangleOffer offer = {
+      state, *static_cast<const GeometryInfo*>(arguments->geometryUserPtr), arguments->primID, {}};
+  const bool hit = offer.accept();
+  shim::set_hit(arguments, hit);
+  if (!hit) return;
+  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  ray_hit->ray.tfar =
+      state.ended ? shim::kEndedSearch : state.exact->in_bottom_level.far_of(state.committed_t);
+  ray_hit->hit.u = offer.barycentrics[0];
+  ray_hit->hit.v = offer.barycentrics[1];
+  ray_hit->hit.primID = offer.primitive;
+  ray_hit->hit.geomID = offer.geometry.index;
+  ray_hit->hit.instID[0] = state.exact->instance;
+}
+
+void occlude_exact_triangle(const RTCOccludedFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  TriangleOffer offer = {
+      state, *static_cast<const GeometryInfo*>(arguments->geometryUserPtr), arguments->primID, {}};
+  const bool hit = offer.accept();
+  shim::set_hit(arguments, hit);
+  if (hit) reinterpret_cast<RTCRay*>(arguments->ray)->tfar = shim::kEndedSearch;
+}
+
+void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  RTCHit& hit = ray_hit->hit;
+  const uint32_t index = arguments->primID;
+  // Each instance is visited once, so that its index is new in the hit.
+  const auto hit_here = [&] { return hit.instID[0] == index; };
+  visit_instance(state, index, ray_hit->ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
+                 [&](RTCScene scene) { shim::intersect(scene, state.query, ray_hit); });
+  shim::set_hit(arguments, hit_here());
+}
+
+void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments) {
+  RayState& state = ray_state_of(arguments->context);
+  auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
+  const auto hit_here = [&] { return ray->tfar < 0; };
+  visit_instance(state, arguments->primID, *ray, false, hit_here,
+                 [&](RTCScene scene) { shim::occluded(scene, state.query, ray); });
+  shim::set_hit(arguments, hit_here());
+}
+
+}  // namespace kaamos::embree
