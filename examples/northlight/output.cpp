@@ -107,6 +107,7 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
   nlohmann::ordered_json json;
   json["scene"] = scene.name;
   json["backend"] = renderer.device_info().Backend;
+  json["precision"] = options.precision;
   json["device"] = renderer.device_info().Name;
   json["width"] = options.width;
   json["height"] = options.height;

@@ -45,6 +45,8 @@ rtapi::Result<std::unique_ptr<Renderer>> Renderer::create(
   rtapi::DeviceDesc desc;
   desc.Backend = options.backend;
   desc.Threads = options.threads;
+  if (options.precision == "fast") desc.Precision = rtapi::TraversalPrecision::kFast;
+  if (options.precision == "exact") desc.Precision = rtapi::TraversalPrecision::kExact;
   desc.CollectStatistics = true;
   desc.OnMessage = [message = std::move(message)](const rtapi::Message& m) { message(m.Text); };
   const auto device = rtapi::CreateDevice(desc);

@@ -4,6 +4,7 @@
 // found the same.
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "fixtures.h"
 
@@ -112,6 +113,29 @@ Case same_tlas_case(RaySet set) {
           }};
 }
 
+// Exact precision over robust, both through DispatchRays.
+template <typename T>
+Line compare_precisions(const std::string& name, Fixtures& f, const Measure& measure,
+                        Program program, RaySet set) {
+  DxrDispatch robust(f.dxr_scene(false), program, f.rays(set));
+  bool read = false;  // by the run that warms up
+  return compare<T>(name, f, measure, f.exact_scene(), program, set,
+                    [&](const RayGrid&, std::vector<T>& out) {
+                      robust.run();
+                      if (!std::exchange(read, true)) out = robust.results<T>();
+                    });
+}
+
+Case exact_case(RaySet set) {
+  const std::string name = std::string("exact/embree/") + name_of(set);
+  return {name, [=](Fixtures& f, const Measure& measure) {
+            if (is_visibility(set)) {
+              return compare_precisions<uint32_t>(name, f, measure, Program::kVisible, set);
+            }
+            return compare_precisions<ClosestResult>(name, f, measure, Program::kClosest, set);
+          }};
+}
+
 Line alpha_sun(Fixtures& f, const Measure& measure) {
   const EmbreeScene& embree = f.embree_scene(true);
   return compare<uint32_t>(
@@ -134,6 +158,7 @@ std::vector<Case> dispatch_cases() {
   cases.push_back({"dispatch/embree/alpha-sun", alpha_sun});
   cases.push_back({"dispatch/embree/shaded", shaded});
   for (RaySet set : kRaySets) cases.push_back(same_tlas_case(set));
+  for (RaySet set : kRaySets) cases.push_back(exact_case(set));
   return cases;
 }
 

@@ -18,10 +18,11 @@ Buffer default_buffer(const Device& device, uint64_t bytes, const char* name) {
   return device.CreateBuffer(desc).value();
 }
 
-Device make_device(uint32_t threads, const std::string& backend) {
+Device make_device(uint32_t threads, const std::string& backend, TraversalPrecision precision) {
   DeviceDesc desc;
   desc.Backend = backend;
   desc.Threads = threads;
+  desc.Precision = precision;
   return CreateDevice(desc).value();
 }
 
@@ -48,9 +49,9 @@ void build_structure(const Device& device, CommandQueue& queue,
 }
 
 DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
-                   const std::string& backend)
+                   const std::string& backend, TraversalPrecision precision)
     : data_(data),
-      device_(make_device(threads, backend)),
+      device_(make_device(threads, backend, precision)),
       queue_(device_.CreateCommandQueue().value()) {
   meshes_.resize(data.meshes.size());
   for (size_t i = 0; i < meshes_.size(); ++i) build_mesh(data.meshes[i], alpha_tested, meshes_[i]);

@@ -26,7 +26,8 @@ class DxrScene {
  public:
   // `alpha_tested`: plants are not opaque; else everything is.
   DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
-           const std::string& backend = "embree");
+           const std::string& backend = "embree",
+           rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust);
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }

@@ -47,6 +47,14 @@ DxrScene& Fixtures::dxr_scene(bool alpha_tested) {
 
 Fixtures::~Fixtures() = default;
 
+DxrScene& Fixtures::exact_scene() {
+  if (!exact_) {
+    exact_ = std::make_unique<DxrScene>(scene(), threads(), false, "embree",
+                                        rtapi::TraversalPrecision::kExact);
+  }
+  return *exact_;
+}
+
 DxrScene& Fixtures::vulkan_scene() {
   if (!vulkan_) vulkan_ = std::make_unique<DxrScene>(scene(), threads(), false, "vulkan");
   return *vulkan_;

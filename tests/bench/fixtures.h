@@ -30,6 +30,7 @@ class Fixtures {
   const RayGrid& rays(RaySet set);
   const EmbreeScene& embree_scene(bool alpha_tested);
   DxrScene& dxr_scene(bool alpha_tested);
+  DxrScene& exact_scene();  // in exact precision, everything opaque
   const OwnTopLevel& own_top_level();
   DxrScene& vulkan_scene();  // everything opaque
   bool has_vulkan_scene() const { return vulkan_ != nullptr; }
@@ -41,6 +42,7 @@ class Fixtures {
   std::optional<SceneData> scene_;
   std::unique_ptr<EmbreeScene> embree_[2];
   std::unique_ptr<DxrScene> dxr_[2];
+  std::unique_ptr<DxrScene> exact_;
   std::unique_ptr<OwnTopLevel> own_;
   std::unique_ptr<DxrScene> vulkan_;
   std::unique_ptr<HandVulkan> hand_;
