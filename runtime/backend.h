@@ -22,6 +22,10 @@
 #include "runtime/commands.h"
 #include "runtime/linked_pipeline.h"
 
+namespace kaamos::checks {
+class Reporter;  // runtime/checks/report.h
+}
+
 namespace kaamos::runtime {
 
 // Linear memory. Zero at first; freed with the object.
@@ -108,10 +112,26 @@ class BackendDevice {
   virtual void reset_statistics() {}
 };
 
-// What a backend gets from rtapi; both outlive it.
+// Checked mode's layer, told of each command by the backend that executes it: what a command reads
+// from GPU memory is only then what it will read.
+class CommandObserver {
+ public:
+  virtual ~CommandObserver() = default;
+  // `label` says which command of the list it is: "DispatchRays, command 3 in \"shadows\"". All
+  // work before is done, if needs_memory().
+  virtual void before(const Command& command, const std::string& label) = 0;
+  virtual void after(const Command& command, bool succeeded) = 0;
+  // Whether before() or after() reads GPU memory for this command.
+  virtual bool needs_memory(const Command& command) const = 0;
+};
+
+// What a backend gets from rtapi; all of it outlives the backend.
 struct Context {
   const AddressMap* addresses = nullptr;
   std::function<void(const rtapi::Message&)> message;  // never empty; any thread
+  // Both null unless DeviceDesc::Checked.
+  CommandObserver* observer = nullptr;
+  checks::Reporter* reporter = nullptr;
 };
 
 struct BackendFactory {

@@ -15,12 +15,15 @@
 #include <kaamos/shader/abi.h>
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
+#include <rtapi/root_signature.h>
 
 namespace kaamos::runtime {
 
 class BackendBuffer;
 class BackendTexture;
 class BackendPipeline;
+struct LinkedPipeline;
+struct LinkedCompute;
 
 // 64 DWORDs of arguments take at most 64 * 8 bytes here, as tables are 8-byte handles. Always whole
 // and zero where nothing was set, so that a shader of another root signature reads no wild memory.
@@ -36,6 +39,7 @@ struct DispatchState {
   // The heaps set on the list; [begin, end) of shader::Dispatch. Null: none set.
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
+  rtapi::RootSignature root_signature;  // the one set; may be empty
 };
 
 struct DispatchRaysCommand {
@@ -43,12 +47,14 @@ struct DispatchRaysCommand {
   DispatchState state;
   rtapi::DispatchRaysDesc desc;
   uint64_t pipeline_stack_bytes = 0;  // at record time [DXR: SetPipelineStackSize]
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;  // what `pipeline` was made of
 };
 
 struct DispatchCommand {
   std::shared_ptr<BackendPipeline> pipeline;
   DispatchState state;
   uint32_t groups[3] = {0, 0, 0};
+  std::shared_ptr<const LinkedCompute> linked = nullptr;
 };
 
 struct BuildCommand {
@@ -135,5 +141,8 @@ using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, BuildCommand, EmitPostbuildInfoCommand,
                  CopyAccelerationStructureCommand, CopyBufferCommand, CopyTextureCommand,
                  ClearUavCommand, BarrierCommand, EventCommand>;
+
+// What the application called, for messages: "DispatchRays".
+const char* command_name(const Command& command);
 
 }  // namespace kaamos::runtime

@@ -32,6 +32,7 @@ runtime::DispatchState CommandListImpl::Snapshot() {
   state.root_arguments = arguments;
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
+  state.root_signature = root_signature;
   return state;
 }
 
@@ -309,7 +310,7 @@ void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
   }
   if (Status s = CheckDispatchRays(*impl_->device, desc); !s.ok()) return impl_->Fail(s.error());
   impl_->Record(runtime::DispatchRaysCommand{pipeline.pipeline, impl_->Snapshot(), desc,
-                                             pipeline.stack_bytes.load()});
+                                             pipeline.stack_bytes.load(), pipeline.linked});
 }
 
 void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
@@ -332,6 +333,7 @@ void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
   }
   runtime::DispatchCommand command;
   command.pipeline = pipeline.pipeline;
+  command.linked = pipeline.linked;
   command.state = impl_->Snapshot();
   command.groups[0] = x;
   command.groups[1] = y;

@@ -147,6 +147,12 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   impl->context.message = [raw = impl.get()](const Message& message) {
     if (raw->desc.OnMessage) raw->desc.OnMessage(message);
   };
+  if (desc.Checked) {
+    impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
+    impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter);
+    impl->context.reporter = impl->reporter.get();
+    impl->context.observer = impl->checks.get();
+  }
   auto backend = (*it)->create(desc, impl->context);
   if (!backend.ok()) return backend.error();
   impl->backend = std::move(*backend);

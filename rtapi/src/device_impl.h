@@ -14,6 +14,8 @@
 
 #include "rtapi/src/error_table.h"
 #include "runtime/backend.h"
+#include "runtime/checks/layer.h"
+#include "runtime/checks/report.h"
 
 namespace rtapi::detail {
 
@@ -33,6 +35,9 @@ struct DeviceImpl {
   DeviceDesc desc;
   runtime::AddressMap addresses;
   runtime::Context context;
+  // Checked mode; null without.
+  std::unique_ptr<kaamos::checks::Reporter> reporter;
+  std::unique_ptr<kaamos::checks::Layer> checks;
   std::unique_ptr<runtime::BackendDevice> backend;
 
   // One execution at a time, whatever the queue: dispatches and builds use every core already.

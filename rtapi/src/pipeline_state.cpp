@@ -85,6 +85,7 @@ Result<PipelineState> Device::CreateComputePipelineState(
   impl->name = desc.Name.empty() ? linked->shader.name : desc.Name;
   impl->root_signature = desc.pRootSignature;
   impl->pipeline = std::move(*pipeline);
+  impl->linked = std::move(linked);
   return PipelineState(std::move(impl));
 }
 

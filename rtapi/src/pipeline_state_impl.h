@@ -15,6 +15,7 @@ struct PipelineStateImpl {
   std::string name;
   RootSignature root_signature;
   std::shared_ptr<runtime::BackendPipeline> pipeline;
+  std::shared_ptr<const runtime::LinkedCompute> linked;
 };
 
 }  // namespace rtapi::detail

@@ -44,13 +44,13 @@ class Executor {
   }
 
   void next() { ++index_; }
-
- private:
   std::string label(const char* what) const {
     std::string text = std::string(what) + ", command " + std::to_string(index_);
     if (!events_.empty()) text += " in \"" + events_.back() + "\"";
     return text;
   }
+
+ private:
   rtapi::Status finish(DispatchResult result);
 
   Device& device_;
@@ -121,8 +121,14 @@ rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
 
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Executor executor(*this);
+  runtime::CommandObserver* observer = context_.observer;
   for (const runtime::Command& command : commands) {
-    if (auto s = std::visit(executor, command); !s) return s;
+    if (observer != nullptr) {
+      observer->before(command, executor.label(runtime::command_name(command)));
+    }
+    auto s = std::visit(executor, command);
+    if (observer != nullptr) observer->after(command, s.ok());
+    if (!s) return s;
     executor.next();
   }
   return {};

@@ -62,6 +62,9 @@ class Device final : public runtime::BackendDevice {
   // KA0959 for what the validation layers said since the last time.
   rtapi::Status validation_status();
 
+  // Tells checked mode's layer of the command; ready when memory is as the command will find it.
+  rtapi::Status observe(const runtime::Command& command, const std::string& label);
+
   runtime::Context context_;
   // In the order in which they need each other.
   std::shared_ptr<Gpu> gpu_;

@@ -58,13 +58,13 @@ class Executor {
   }
 
   void next() { ++index_; }
-
- private:
   std::string label(const char* what) const {
     std::string text = std::string(what) + ", command " + std::to_string(index_);
     if (!events_.empty()) text += " in \"" + events_.back() + "\"";
     return text;
   }
+
+ private:
   rtapi::Status finish(DispatchResult result) {
     for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
     device_.add(result.statistics);
@@ -104,10 +104,23 @@ rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
 
 }  // namespace
 
+rtapi::Status Device::observe(const runtime::Command& command, const std::string& label) {
+  runtime::CommandObserver* observer = context_.observer;
+  if (observer == nullptr) return {};
+  if (observer->needs_memory(command)) {
+    if (auto s = stream_->flush(); !s) return s;
+  }
+  observer->before(command, label);
+  return {};
+}
+
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Executor executor(*this);
   for (const runtime::Command& command : commands) {
-    if (auto s = std::visit(executor, command); !s) {
+    auto s = observe(command, executor.label(runtime::command_name(command)));
+    if (s) s = std::visit(executor, command);
+    if (context_.observer != nullptr) context_.observer->after(command, s.ok());
+    if (!s) {
       // What was recorded before holds objects that may go now.
       if (auto rest = stream_->flush(); !rest) return rest;
       return s;

@@ -51,6 +51,10 @@ struct DeviceDesc {
   TraversalPrecision Precision = TraversalPrecision::kRobust;
   RaytracingTier Tier = RaytracingTier::kTier1_1;  // 1.0 refuses what 1.1 brought
   bool CollectStatistics = false;                  // counts rays; costs some speed
+  // Checked mode: says through OnMessage (ids KA0400-0499, rtapi/errors.md) what plain DXR leaves
+  // undefined: records outside a table or of another state object, missing barriers, structures
+  // that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
+  bool Checked = false;
   // Called on any thread for what cannot be returned to a caller: errors met while a list executes,
   // why the device was removed. Must not call into the library.
   std::function<void(const Message&)> OnMessage = {};

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/checks/names.h"
+
+#include <cstdio>
+
+namespace kaamos::checks {
+namespace {
+
+const char* register_letter(shader::RegisterClass register_class) {
+  switch (register_class) {
+    case shader::RegisterClass::kShaderResource:
+      return "t";
+    case shader::RegisterClass::kUnorderedAccess:
+      return "u";
+    case shader::RegisterClass::kConstantBuffer:
+      return "b";
+    case shader::RegisterClass::kSampler:
+      return "s";
+  }
+  return "?";
+}
+
+// The record of a table that holds `address`, if one does.
+bool find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, uint64_t address,
+                 uint64_t& index) {
+  if (table.StartAddress == 0 || address < table.StartAddress) return false;
+  const uint64_t offset = address - table.StartAddress;
+  if (offset >= table.SizeInBytes) return false;
+  index = table.StrideInBytes == 0 ? 0 : offset / table.StrideInBytes;
+  return true;
+}
+
+}  // namespace
+
+std::string quoted(const std::string& name) {
+  return "\"" + name + "\"";
+}
+
+std::string hex(uint64_t value) {
+  char text[24];
+  std::snprintf(text, sizeof text, "0x%llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+std::string buffer_name(const runtime::Allocation& allocation) {
+  return (allocation.name.empty() ? std::string("an unnamed buffer")
+                                  : "buffer " + quoted(allocation.name)) +
+         " (" + std::to_string(allocation.size_bytes) + " bytes)";
+}
+
+std::string address_name(const runtime::AddressMap& addresses, uint64_t address) {
+  if (address == 0) return "address 0";
+  const auto allocation = addresses.find(address);
+  if (!allocation) return "address " + hex(address) + ", which is in no live buffer";
+  return "byte " + std::to_string(address - allocation->address) + " of " +
+         buffer_name(*allocation);
+}
+
+std::string range_name(const runtime::AddressMap& addresses, uint64_t address,
+                       uint64_t size_bytes) {
+  const auto allocation = addresses.find(address);
+  if (!allocation) {
+    return std::to_string(size_bytes) + " bytes at address " + hex(address) +
+           ", which is in no live buffer";
+  }
+  const uint64_t first = address - allocation->address;
+  return "bytes " + std::to_string(first) + ".." + std::to_string(first + size_bytes) + " of " +
+         buffer_name(*allocation);
+}
+
+const char* stage_name(shader::Stage stage) {
+  switch (stage) {
+    case shader::Stage::kCompute:
+      return "compute";
+    case shader::Stage::kLibrary:
+      return "library";
+    case shader::Stage::kRayGeneration:
+      return "ray generation";
+    case shader::Stage::kIntersection:
+      return "intersection";
+    case shader::Stage::kAnyHit:
+      return "any-hit";
+    case shader::Stage::kClosestHit:
+      return "closest-hit";
+    case shader::Stage::kMiss:
+      return "miss";
+    case shader::Stage::kCallable:
+      return "callable";
+  }
+  return "unknown";
+}
+
+const char* record_kind_name(runtime::RecordKind kind) {
+  switch (kind) {
+    case runtime::RecordKind::kRayGeneration:
+      return "ray generation";
+    case runtime::RecordKind::kMiss:
+      return "miss";
+    case runtime::RecordKind::kCallable:
+      return "callable";
+    case runtime::RecordKind::kHitGroup:
+      return "hit group";
+  }
+  return "unknown";
+}
+
+std::string record_name(const rtapi::DispatchRaysDesc& desc, uint64_t address) {
+  const auto& first = desc.RayGenerationShaderRecord;
+  if (address >= first.StartAddress && address - first.StartAddress < first.SizeInBytes) {
+    return "ray generation record";
+  }
+  uint64_t index = 0;
+  if (find_record(desc.HitGroupTable, address, index)) {
+    return "hit group table record " + std::to_string(index);
+  }
+  if (find_record(desc.MissShaderTable, address, index)) {
+    return "miss table record " + std::to_string(index);
+  }
+  if (find_record(desc.CallableShaderTable, address, index)) {
+    return "callable table record " + std::to_string(index);
+  }
+  return "";
+}
+
+std::string binding_name(const shader::BindingDesc& binding) {
+  std::string text =
+      register_letter(binding.register_class) + std::to_string(binding.register_index);
+  if (binding.space != 0) text += ", space " + std::to_string(binding.space);
+  return text + " " + quoted(binding.name);
+}
+
+std::string argument_name(const runtime::LinkedShader& shader, bool local,
+                          uint32_t argument_offset) {
+  std::string text;
+  for (uint32_t i = 0; i < shader.slots.size(); ++i) {
+    const shader::BindingSlot& slot = shader.slots[i];
+    if (slot.source == shader::SlotSource::kUnbound ||
+        slot.source == shader::SlotSource::kStaticSampler || slot.local != local ||
+        slot.argument_offset != argument_offset) {
+      continue;
+    }
+    text += (text.empty() ? "" : " and ") + binding_name(shader.library->bindings[i]);
+  }
+  return text;
+}
+
+std::string pixel_name(const uint32_t index[3], uint32_t depth) {
+  std::string text = "pixel (" + std::to_string(index[0]) + "," + std::to_string(index[1]);
+  if (depth > 1) text += "," + std::to_string(index[2]);
+  return text + ")";
+}
+
+}  // namespace kaamos::checks

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// How messages of checked mode call things.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <rtapi/raytracing.h>
+
+#include "runtime/address_map.h"
+#include "runtime/linked_pipeline.h"
+
+namespace kaamos::checks {
+
+std::string quoted(const std::string& name);
+std::string hex(uint64_t value);
+// "buffer \"sofa.vb\" (416 bytes)", "an unnamed buffer (416 bytes)".
+std::string buffer_name(const runtime::Allocation& allocation);
+// "byte 416 of buffer \"sofa.vb\" (416 bytes)"; "address 0x1f, which is in no live buffer".
+std::string address_name(const runtime::AddressMap& addresses, uint64_t address);
+// "bytes 416..432 of buffer \"sofa.vb\" (416 bytes)". The end may lie behind the buffer's.
+std::string range_name(const runtime::AddressMap& addresses, uint64_t address, uint64_t size_bytes);
+
+const char* stage_name(shader::Stage stage);             // "any-hit"
+const char* record_kind_name(runtime::RecordKind kind);  // "ray generation", "hit group"
+
+// Which record of a dispatch an address lies in: "hit group table record 7"; "ray generation
+// record"; "" in none.
+std::string record_name(const rtapi::DispatchRaysDesc& desc, uint64_t address);
+// What a shader declares: "t1 \"vertices\"", "b0, space 1 \"material\"".
+std::string binding_name(const shader::BindingDesc& binding);
+// The same for the binding of `shader` that the argument at this byte feeds, tables with all that
+// they feed; "" if there is none.
+std::string argument_name(const runtime::LinkedShader& shader, bool local,
+                          uint32_t argument_offset);
+// "pixel (812,440)", with a third index only where the dispatch has a depth.
+std::string pixel_name(const uint32_t index[3], uint32_t depth);
+
+}  // namespace kaamos::checks
