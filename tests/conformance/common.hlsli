@@ -11,7 +11,7 @@ struct Ray {
   uint contribution;
   uint multiplier;
   uint miss;
-  uint3 unused;
+  uint3 extra;
 };
 
 // What became of a ray. `end`: 0 no shader ran after traversal, 1 closest hit, 2 miss.

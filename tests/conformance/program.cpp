@@ -93,7 +93,7 @@ DispatchRaysDesc Program::tables() {
 }
 
 std::vector<uint32_t> Program::run(const DispatchRaysDesc& dispatch) {
-  const Buffer words = context_->zeros(kWordBytes);
+  const Buffer words = context_->zeros(word_bytes);
   CommandList list = context_->device().CreateCommandList().value();
   list.SetComputeRootSignature(global);
   list.SetPipelineState1(pipeline);

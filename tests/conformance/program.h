@@ -33,7 +33,7 @@ struct Ray {
   uint32_t contribution = 0;
   uint32_t multiplier = 0;
   uint32_t miss = 0;
-  uint32_t unused[3] = {};
+  uint32_t extra[3] = {};  // what a test's own shaders take
 };
 enum End : uint32_t { kNothingRan, kClosestHitRan, kMissRan };
 struct Seen {
@@ -56,7 +56,8 @@ struct Seen {
 static_assert(sizeof(Ray) == 64 && sizeof(Seen) == 64);
 Ray ray_at(float x, float y = 0.2f);
 
-// Bytes of the buffer behind u0, and the word in it that counts intersection shaders.
+// Bytes of the buffer behind u0 unless a test wants more, and the word in it that counts
+// intersection shaders.
 inline constexpr uint32_t kWordBytes = 65536;
 inline constexpr uint32_t kIntersectionWord = 32768 / 4;
 
@@ -98,8 +99,9 @@ class Program {
   rtapi::StateObjectDesc desc;
   rtapi::StateObject pipeline;
   rtapi::RootSignature global;
-  rtapi::Buffer scene;  // behind t0
-  rtapi::Buffer rays;   // behind t1
+  rtapi::Buffer scene;               // behind t0
+  rtapi::Buffer rays;                // behind t1
+  uint64_t word_bytes = kWordBytes;  // of u0
   // Further root arguments and descriptor heaps.
   std::function<void(rtapi::CommandList&)> bind = {};
   std::vector<rtapi::ShaderTable> shader_tables;  // ray generation, miss, hit, callable

@@ -66,8 +66,8 @@ RuleResult result_without_run(const Rule& rule) {
 
 std::vector<RuleTest> all_tests() {
   std::vector<RuleTest> out;
-  for (const auto& section :
-       {sbt_tests(), root_tests(), flg_tests(), trv_tests(), sv_tests(), pay_tests()}) {
+  for (const auto& section : {sbt_tests(), root_tests(), flg_tests(), trv_tests(),
+                              trv_random_tests(), sv_tests(), pay_tests()}) {
     out.insert(out.end(), section.begin(), section.end());
   }
   return out;
@@ -120,14 +120,14 @@ std::vector<RuleResult> run_rules(const Target& target, const std::string& devic
                                   const std::string& filter,
                                   void (*on_result)(const RuleResult& result)) {
   const std::vector<RuleTest> tests = all_tests();
-  std::map<const char*, std::string> done;  // by RuleTest::rules: one test may cover several rules
+  std::map<void (*)(Context&), std::string> done;  // one test may cover several rules
   std::vector<RuleResult> out;
   for (const Rule& rule : all_rules()) {
     if (std::string_view(rule.id).substr(0, filter.size()) != filter) continue;
     RuleResult result = result_without_run(rule);
     for (const RuleTest& test : tests) {
       if (!test_covers(test, rule.id)) continue;
-      const auto [entry, first] = done.try_emplace(test.rules);
+      const auto [entry, first] = done.try_emplace(test.run);
       if (first) entry->second = run_apart(test, target);
       if (result.outcome != Outcome::kFailed) result.outcome = Outcome::kPassed;
       if (!entry->second.empty()) result.outcome = Outcome::kFailed;

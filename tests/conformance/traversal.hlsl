@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Any-hit shaders that keep a log and decide by a number of the ray; intersection shaders that
+// report spheres, or what a script says.
+#include "standard.hlsl"
+
+// One any-hit invocation: who, packed as pack() does, and RayTCurrent().
+static const uint kEventsPerRay = 48;
+static const uint kEvents = 65536;  // byte offset in `words`
+
+enum Mode : uint {
+  kIgnoreAll,
+  kAcceptAll,
+  kAcceptSome,  // by hash
+  kEndSome,     // accept, ignore, or accept and end
+};
+
+struct Box {
+  float3 lower;
+  float3 upper;
+};
+StructuredBuffer<Box> boxes : register(t2);
+
+uint pack(uint kind) {
+  return InstanceIndex() << 24 | GeometryIndex() << 20 | PrimitiveIndex() << 8 | kind;
+}
+
+uint decide(uint mode, uint seed, uint who) {
+  uint h = seed ^ (who * 0x9E3779B1u);
+  h ^= h >> 15;
+  h *= 0x2C1B3C6Du;
+  h ^= h >> 12;
+  h *= 0x297A2D39u;
+  h ^= h >> 15;
+  if (mode == kIgnoreAll) return 0;
+  if (mode == kAcceptAll) return 1;
+  return h % (mode == kAcceptSome ? 2 : 3);  // ignore, accept, end
+}
+
+uint log(inout Seen seen) {
+  const uint ray = DispatchRaysIndex().x;
+  const uint who = pack(HitKind());
+  if (seen.anyHits < kEventsPerRay) {
+    words.Store2(kEvents + 8 * (ray * kEventsPerRay + seen.anyHits),
+                 uint2(who, asuint(RayTCurrent())));
+  }
+  noteCandidate(seen);
+  return decide(rays[ray].extra.x, rays[ray].extra.y, who);
+}
+
+[shader("anyhit")]
+void Walk(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  const uint decision = log(seen);
+  if (decision == 0) IgnoreHit();
+  if (decision == 2) AcceptHitAndEndSearch();
+}
+
+[shader("anyhit")]
+void BoxWalk(inout Seen seen, BoxAttributes attributes) {
+  const uint decision = log(seen);
+  if (decision == 0) IgnoreHit();
+  if (decision == 2) AcceptHitAndEndSearch();
+}
+
+void report(float t, uint kind) {
+  BoxAttributes attributes;
+  attributes.record = PrimitiveIndex() << 8 | kind;
+  attributes.t = t;
+  ReportHit(t, kind, attributes);
+}
+
+// The sphere that the box holds, where the ray enters it (kind 1) and where it leaves it (kind 2);
+// odd primitives report in the other order. The record says where its geometry's boxes begin.
+[shader("intersection")]
+void Sphere() {
+  const Box box = boxes[reportedKind + PrimitiveIndex()];
+  const float3 extent = 0.5 * (box.upper - box.lower);
+  const float radius = min(extent.x, min(extent.y, extent.z));
+  const float3 d = ObjectRayDirection();
+  const float3 toCentre = 0.5 * (box.lower + box.upper) - ObjectRayOrigin();
+  const float along = dot(toCentre, d) / dot(d, d);
+  const float3 aside = toCentre - along * d;
+  const float rest = radius * radius - dot(aside, aside);
+  if (rest < 0) return;
+  const float reach = sqrt(rest / dot(d, d));
+  if (PrimitiveIndex() % 2 == 0) {
+    report(along - reach, 1);
+    report(along + reach, 2);
+  } else {
+    report(along + reach, 2);
+    report(along - reach, 1);
+  }
+}
