@@ -115,6 +115,7 @@ std::vector<RuleTest> root_tests();
 std::vector<RuleTest> flg_tests();
 std::vector<RuleTest> trv_tests();
 std::vector<RuleTest> trv_random_tests();
+std::vector<RuleTest> trv_report_tests();
 std::vector<RuleTest> sv_tests();
 std::vector<RuleTest> pay_tests();
 

@@ -6,6 +6,9 @@
 // One any-hit invocation: who, packed as pack() does, and RayTCurrent().
 static const uint kEventsPerRay = 48;
 static const uint kEvents = 65536;  // byte offset in `words`
+// Bytes in `words`: how often any-hit shaders of a ray overlapped, or ran after its closest hit.
+static const uint kFaults = 32772;
+static const uint kGuards = 40960;  // a word of each ray, set while an any-hit shader runs
 
 enum Mode : uint {
   kIgnoreAll,
@@ -43,8 +46,12 @@ uint log(inout Seen seen) {
     words.Store2(kEvents + 8 * (ray * kEventsPerRay + seen.anyHits),
                  uint2(who, asuint(RayTCurrent())));
   }
+  if (words.Load(kGuards + 4 * ray) != 0 || seen.end != 0) words.InterlockedAdd(kFaults, 1u);
+  words.Store(kGuards + 4 * ray, 1);
   noteCandidate(seen);
-  return decide(rays[ray].extra.x, rays[ray].extra.y, who);
+  const uint decision = decide(rays[ray].extra.x, rays[ray].extra.y, who);
+  words.Store(kGuards + 4 * ray, 0);
+  return decision;
 }
 
 [shader("anyhit")]
@@ -88,5 +95,49 @@ void Sphere() {
   } else {
     report(along + reach, 2);
     report(along - reach, 1);
+  }
+}
+
+// What Script reports: its ray's extra.x is the first, extra.y their number.
+struct Report {
+  float t;
+  uint kind;
+  uint value;     // goes through the attributes
+  uint decision;  // as of decide()
+};
+StructuredBuffer<Report> script : register(t3);
+
+// Of each report {RayTCurrent() before, 1 if accepted or 2, RayTCurrent() after, RayTMin()}; words
+// of a report that did not return stay 0. Of each ray a word that says that Script came to its end.
+static const uint kScriptEnds = 49152;
+
+[shader("intersection")]
+void Script() {
+  const uint ray = DispatchRaysIndex().x;
+  const uint first = rays[ray].extra.x;
+  for (uint i = 0; i < rays[ray].extra.y; ++i) {
+    const Report report = script[first + i];
+    const uint at = kEvents + 16 * (first + i);
+    BoxAttributes attributes;
+    attributes.record = report.value;
+    attributes.t = asfloat(report.decision);
+    words.Store(at, asuint(RayTCurrent()));
+    const bool accepted = ReportHit(report.t, report.kind, attributes);
+    words.Store3(at + 4, uint3(accepted ? 1 : 2, asuint(RayTCurrent()), asuint(RayTMin())));
+  }
+  words.Store(kScriptEnds + 4 * ray, 1);
+}
+
+[shader("anyhit")]
+void ScriptAny(inout Seen seen, BoxAttributes attributes) {
+  noteCandidate(seen);
+  const uint decision = asuint(attributes.t);
+  if (decision == 0) {
+    IgnoreHit();
+    seen.anyHits += 1000;  // must not run
+  }
+  if (decision == 2) {
+    AcceptHitAndEndSearch();
+    seen.anyHits += 1000;
   }
 }

@@ -27,6 +27,7 @@ Coverage walk_and_judge(Context& t, const Options& options) {
   Walker walker(t);
   walker.build(scene);
   const Coverage out = judge(t, scene, rays, walker.walk(rays));
+  t.equal("any-hit shaders beside another of their ray, or after its end", walker.faults(), 0u);
   t.holds("rounding cannot turn most rays", 10 * out.certain > 6 * out.rays);
   return out;
 }
@@ -91,9 +92,10 @@ void intervals(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> trv_random_tests() {
-  return {{"TRV-01, TRV-02, TRV-11, TRV-15, TRV-31, SV-07, SV-08", every_primitive_once},
-          {"TRV-05, TRV-20, TRV-21, TRV-22, TRV-28, TRV-45", some_are_accepted},
-          {"TRV-23, TRV-25, FLG-32, FLG-33, FLG-35", some_end_the_search},
+  return {{"TRV-01, TRV-02, TRV-11, TRV-15, TRV-24, TRV-25, TRV-31, SV-07, SV-08",
+           every_primitive_once},
+          {"TRV-05, TRV-20, TRV-21, TRV-22, TRV-26, TRV-28, TRV-45", some_are_accepted},
+          {"TRV-23, TRV-24, TRV-25, TRV-26, TRV-45, FLG-32, FLG-33, FLG-35", some_end_the_search},
           {"FLG-12, FLG-16, FLG-21, FLG-22, FLG-23, FLG-24, FLG-25, FLG-26, FLG-30",
            opacity_culling_and_masks},
           {"TRV-03, TRV-04", intervals}};

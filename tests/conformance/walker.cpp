@@ -12,7 +12,9 @@ using namespace rtapi;
 
 namespace {
 
-constexpr uint64_t kEventsAt = 65536;  // traversal.hlsl's kEvents
+// Of traversal.hlsl.
+constexpr uint64_t kEventsAt = 65536;
+constexpr size_t kFaultWord = 32772 / 4;
 
 using Matrix = std::vector<float>;  // 3x4, row-major
 
@@ -158,13 +160,16 @@ std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count,
 }
 
 Walker::Walker(Context& t)
-    : Standard(t, kaamos_shaders_traversal(), {"Walk", "BoxWalk", "Sphere"},
-               (std::string(kGlobalSignature) + ", SRV(t2)").c_str()),
+    : Standard(t, kaamos_shaders_traversal(), {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny"},
+               (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3)").c_str()),
       context_(&t) {
   group("WalkTriangle", "Closest", "Walk");
   group("WalkSphere", "BoxClosest", "BoxWalk", "Sphere");
   group("PlainSphere", "BoxClosest", "", "Sphere");
-  local(kRecordSignature, {"WalkTriangle", "WalkSphere", "PlainSphere"});
+  group("WalkScript", "BoxClosest", "ScriptAny", "Script");
+  group("PlainScript", "BoxClosest", "", "Script");
+  local(kRecordSignature,
+        {"WalkTriangle", "WalkSphere", "PlainSphere", "WalkScript", "PlainScript"});
 }
 
 void Walker::build(const Scene& description) {
@@ -206,6 +211,7 @@ std::vector<Walked> Walker::walk(const std::vector<Ray>& list) {
   word_bytes = kEventsAt + list.size() * kEventsPerRay * sizeof(Event);
   const auto words = run(static_cast<uint32_t>(list.size()));
   const auto seen = seen_of(words, list.size());
+  faults_ = words[kFaultWord];
   std::vector<Walked> out;
   for (size_t i = 0; i < list.size(); ++i) {
     out.push_back({seen[i], {}});

@@ -51,8 +51,11 @@ class Walker : public Standard {
   explicit Walker(Context& t);
   void build(const Scene& description);
   std::vector<Walked> walk(const std::vector<Ray>& rays);
+  // In the last walk: any-hit shaders that ran beside another of their ray, or after its end.
+  uint32_t faults() const { return faults_; }
 
  private:
+  uint32_t faults_ = 0;
   Context* context_;
 };
 
