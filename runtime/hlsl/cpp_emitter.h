@@ -24,6 +24,8 @@
 
 namespace kaamos::hlsl {
 
+struct ReachedCalls;
+
 class CppEmitter {
  public:
   CppEmitter(const ir::Module& module, const EmitCppOptions& options);
@@ -87,6 +89,7 @@ class CppEmitter {
   void emit_entry(size_t index);
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);
+  void emit_calls(size_t index, const ReachedCalls& calls);
   void emit_tables();
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   std::string entry_arguments(const ir::EntryPoint& entry);

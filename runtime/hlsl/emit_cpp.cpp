@@ -7,6 +7,7 @@
 
 #include "runtime/hlsl/cpp_emitter.h"
 #include "runtime/hlsl/ir_visit.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -334,6 +335,20 @@ void CppEmitter::emit_entry(size_t index) {
   close("}");
 }
 
+void CppEmitter::emit_calls(size_t index, const ReachedCalls& calls) {
+  const auto number = [](uint32_t n) { return std::to_string(n) + "u"; };
+  std::string traces;
+  for (const shader::TraceCall& t : calls.traces) {
+    traces += "{" + number(t.known) + ", " + number(t.binding) + ", " + number(t.ray_flags) + ", " +
+              number(t.mask) + ", " + number(t.ray_contribution) + ", " + number(t.multiplier) +
+              ", " + number(t.miss_index) + ", " + number(t.line) + ", " + quote(t.file) + "}, ";
+  }
+  line("static const ks::TraceCall traces_" + std::to_string(index) + "[] = {" + traces + "{}};");
+  std::string callables;
+  for (const uint32_t n : calls.callables) callables += number(n) + ", ";
+  line("static const uint32_t callables_" + std::to_string(index) + "[] = {" + callables + "0u};");
+}
+
 void CppEmitter::emit_tables() {
   const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
   open("static const ks::BindingDesc bindings[] = {");
@@ -360,6 +375,11 @@ void CppEmitter::emit_tables() {
     }
     out_ += "};\n";
   }
+  std::vector<ReachedCalls> calls;
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    calls.push_back(collect_calls(module_, module_.entry_points[i]));
+    emit_calls(i, calls.back());
+  }
   open("static const ks::ExportDesc exports[] = {");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
     const EntryPoint& e = module_.entry_points[i];
@@ -379,8 +399,9 @@ void CppEmitter::emit_tables() {
          number(callable ? e.payload_bytes : 0) + ", " + number(stack_[e.function]) + ", " +
          number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) +
          (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
-                                    : "") +
-         "},");
+                                    : ", nullptr, 0u") +
+         ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
+         number(calls[i].callables.size()) + "},");
   }
   for (const LibraryFunction& f : module_.library_functions) {
     line("{" + quote(f.name) + ", " + quote(f.mangled) +

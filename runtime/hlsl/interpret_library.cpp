@@ -6,6 +6,7 @@
 #include <deque>
 
 #include "runtime/hlsl/interpret_closure.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -18,6 +19,7 @@ struct InterpretedLibrary::Tables {
   std::vector<shader::ExportDesc> exports;
   std::vector<shader::SubobjectDesc> subobjects;
   std::deque<shader::ComputeDesc> compute;
+  std::deque<ReachedCalls> calls;
   shader::LibraryDesc library = {};
 };
 
@@ -165,6 +167,11 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
       desc.spirv = spirv[i].data();
       desc.spirv_words = static_cast<uint32_t>(spirv[i].size());
     }
+    const ReachedCalls& calls = tables.calls.emplace_back(collect_calls(m, *code.entry));
+    desc.trace_calls = calls.traces.data();
+    desc.trace_call_count = static_cast<uint32_t>(calls.traces.size());
+    desc.callable_indices = calls.callables.data();
+    desc.callable_index_count = static_cast<uint32_t>(calls.callables.size());
     tables.exports.push_back(desc);
     tables.closures.push_back(std::move(closure));
   }

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 3;
+inline constexpr uint32_t kAbiVersion = 4;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -352,6 +352,28 @@ struct ComputeDesc {
   ComputeThreadFn thread;  // null where group is set
 };
 
+inline constexpr uint32_t kUnknownIndex = 0xFFFFFFFFu;
+
+// One TraceRay that an export can reach, with what is constant of it; the rest is 0.
+enum TraceCallBits : uint32_t {
+  kKnowsRayFlags = 1,
+  kKnowsMask = 2,
+  kKnowsRayContribution = 4,
+  kKnowsMultiplier = 8,
+  kKnowsMissIndex = 16,
+};
+struct TraceCall {
+  uint32_t known;    // TraceCallBits
+  uint32_t binding;  // of the acceleration structure, or kUnknownIndex
+  uint32_t ray_flags;
+  uint32_t mask;
+  uint32_t ray_contribution;
+  uint32_t multiplier;
+  uint32_t miss_index;
+  uint32_t line;  // where it stands in the HLSL source
+  const char* file;
+};
+
 struct ExportDesc {
   const char* name;          // as written
   const char* mangled_name;  // as DXC mangles it
@@ -370,6 +392,11 @@ struct ExportDesc {
   // The same shader for Vulkan (spirv_interface.h); null in a library built without it.
   const uint32_t* spirv = nullptr;
   uint32_t spirv_words = 0;
+  // For checked mode.
+  const TraceCall* trace_calls = nullptr;
+  uint32_t trace_call_count = 0;
+  const uint32_t* callable_indices = nullptr;  // of CallShader; kUnknownIndex: not constant
+  uint32_t callable_index_count = 0;
 };
 
 // Subobjects written in HLSL. Which members count depends on type (numbers of

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// Which TraceRay and CallShader an entry point can reach, with what is constant of them: known to
+// checked mode, which then knows what records of the shader tables a dispatch can reach.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kaamos/shader/abi.h"
+#include "runtime/hlsl/ir.h"
+
+namespace kaamos::hlsl {
+
+struct ReachedCalls {
+  std::vector<shader::TraceCall> traces;
+  std::vector<uint32_t> callables;  // shader indices; shader::kUnknownIndex
+};
+
+// Equal ones stand once. File names point into the module.
+ReachedCalls collect_calls(const ir::Module& module, const ir::EntryPoint& entry);
+
+}  // namespace kaamos::hlsl
