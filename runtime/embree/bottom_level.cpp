@@ -138,7 +138,6 @@ rtapi::Status BottomLevel::create_scene(const BuildContext& context) {
   rtcGetDeviceError(context.device);  // forgets what an earlier build left
   scene_ = rtcNewScene(context.device);
   if (scene_ == nullptr) return embree_status(context.device, "new scene");
-  rtcSetSceneFlags(scene_, scene_flags(flags_, context.robust));
   rtcSetSceneBuildQuality(scene_, scene_quality(flags_));
   return {};
 }
@@ -158,11 +157,7 @@ rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
     if (context.exact) {
       GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
       const auto* built = indices_of != nullptr ? indices_of->geometries_[i]->exact.get() : nullptr;
-      if (auto s = add_exact_triangles(context, desc.Triangles, user,
-                                       built != nullptr ? &built->indices : nullptr);
-          !s) {
-        return s;
-      }
+      add_exact_triangles(desc.Triangles, user, built != nullptr ? &built->indices : nullptr);
       continue;
     }
     const uint32_t* indices = nullptr;
@@ -211,11 +206,9 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
   return embree_status(context.device, "triangles");
 }
 
-rtapi::Status BottomLevel::add_exact_triangles(const BuildContext& context,
-                                               const rtapi::RaytracingGeometryTrianglesDesc& desc,
-                                               GeometryInfo* user,
-                                               const std::vector<uint32_t>* indices) {
-  if (user->primitives == 0 || user->vertices == 0) return {};
+void BottomLevel::add_exact_triangles(const rtapi::RaytracingGeometryTrianglesDesc& desc,
+                                      GeometryInfo* user, const std::vector<uint32_t>* indices) {
+  if (user->primitives == 0 || user->vertices == 0) return;
   user->exact = std::make_unique<ExactTriangles>();
   user->exact->frame = &exact_frame_;
   user->exact->vertices.resize(3 * uint64_t{user->vertices});
@@ -226,44 +219,48 @@ rtapi::Status BottomLevel::add_exact_triangles(const BuildContext& context,
     user->exact->indices.resize(3 * uint64_t{user->primitives});
     out_of_range_triangles_ += runtime::decode_indices(desc, user->exact->indices.data());
   }
-  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
-  if (geometry == nullptr) return embree_status(context.device, "new geometry");
-  rtcSetGeometryUserPrimitiveCount(geometry, user->primitives);
-  rtcSetGeometryUserData(geometry, user);
-  rtcSetGeometryBoundsFunction(geometry, bounds_of_exact_triangle, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, intersect_exact_triangle);
-  rtcSetGeometryOccludedFunction(geometry, occlude_exact_triangle);
-  rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
-  rtcSetGeometryMask(geometry, class_of(*user));
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, user->index);
-  rtcReleaseGeometry(geometry);
-  return embree_status(context.device, "triangles");
 }
 
-// The frame of the triangles that can be hit, and the bounds of the level: those of Embree's scene
+// Packs, their geometries, the frame of all, and the bounds of the level: those of Embree's scene
 // are relative to the frame.
-void BottomLevel::measure_exact_triangles() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  double lower[3] = {kInfinity, kInfinity, kInfinity};
-  double upper[3] = {-kInfinity, -kInfinity, -kInfinity};
+rtapi::Status BottomLevel::pack_exact_triangles(const BuildContext& context) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low[3] = {kInfinity, kInfinity, kInfinity};
+  float high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  const RTCBuildQuality quality = geometry_quality(flags_);
+  for (const auto& info : geometries_) {
+    if (info->exact != nullptr) info->exact->pack(context.device, quality, low, high);
+  }
+  if (auto s = embree_status(context.device, "packs"); !s) return s;
+  empty_ = low[0] > high[0];
+  bounds_ = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
+  const double lower[3] = {low[0], low[1], low[2]};
+  const double upper[3] = {high[0], high[1], high[2]};
+  exact_frame_ = ExactFrame::of(lower, upper);
   for (const auto& info : geometries_) {
     if (info->exact == nullptr) continue;
-    for (uint32_t i = 0; i < info->primitives; ++i) {
-      double low[3];
-      double high[3];
-      if (!info->exact->bounds(i, low, high)) continue;
-      for (int k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], low[k]);
-        upper[k] = std::max(upper[k], high[k]);
-      }
-    }
+    if (std::exchange(info->exact->attached, false)) rtcDetachGeometry(scene_, info->index);
+    if (auto s = attach_packs(context, *info); !s) return s;
   }
-  exact_frame_ = ExactFrame::of(lower, upper);
-  empty_ = lower[0] > upper[0];
-  const auto narrow = [](double value) { return static_cast<float>(value); };  // it was a float
-  bounds_ = {narrow(lower[0]), narrow(lower[1]), narrow(lower[2]), 0,
-             narrow(upper[0]), narrow(upper[1]), narrow(upper[2]), 0};
+  return {};
+}
+
+rtapi::Status BottomLevel::attach_packs(const BuildContext& context, GeometryInfo& info) {
+  if (info.exact->packs.empty()) return {};
+  RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
+  if (geometry == nullptr) return embree_status(context.device, "new geometry");
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<uint32_t>(info.exact->packs.size()));
+  rtcSetGeometryUserData(geometry, &info);
+  rtcSetGeometryBoundsFunction(geometry, bounds_of_exact_pack, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_exact_pack);
+  rtcSetGeometryOccludedFunction(geometry, occlude_exact_pack);
+  rtcSetGeometryBuildQuality(geometry, geometry_quality(flags_));
+  rtcSetGeometryMask(geometry, class_of(info));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, info.index);
+  info.exact->attached = true;
+  rtcReleaseGeometry(geometry);
+  return embree_status(context.device, "triangles");
 }
 
 rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
@@ -289,7 +286,11 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
 
 rtapi::Status BottomLevel::commit(const BuildContext& context) {
   const bool own_bounds = context.exact && !procedural_;
-  if (own_bounds) measure_exact_triangles();
+  if (own_bounds) {
+    if (auto s = pack_exact_triangles(context); !s) return s;
+  }
+  // Packs have boxes with room enough for the faster traversal.
+  rtcSetSceneFlags(scene_, scene_flags(flags_, context.robust && !own_bounds));
   rtcCommitScene(scene_);
   if (auto s = embree_status(context.device, "commit"); !s) return s;
   if (own_bounds) return {};
@@ -317,13 +318,14 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     GeometryInfo& info = *geometries_[i];
     if (info.primitives == 0 || (!procedural_ && info.vertices == 0)) continue;
+    if (info.exact != nullptr) {
+      // Packed anew: degenerate triangles may come and go.
+      runtime::decode_vertices(geometries[i].Triangles, info.exact->vertices.data());
+      continue;
+    }
     RTCGeometry geometry = rtcGetGeometry(scene_, i);
     RTCBuildQuality quality = RTC_BUILD_QUALITY_REFIT;
-    if (info.exact != nullptr) {
-      runtime::decode_vertices(geometries[i].Triangles, info.exact->vertices.data());
-      // Degenerate triangles may come and go: they were no part of the tree.
-      quality = geometry_quality(flags_);
-    } else if (info.type == RaytracingGeometryType::kTriangles) {
+    if (info.type == RaytracingGeometryType::kTriangles) {
       auto* vertices =
           static_cast<float*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
       const uint64_t count = 3 * uint64_t{info.vertices};

@@ -67,9 +67,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   rtapi::Status add_triangles(const BuildContext& context,
                               const rtapi::RaytracingGeometryTrianglesDesc& desc,
                               std::unique_ptr<GeometryInfo> info, const uint32_t* indices);
-  rtapi::Status add_exact_triangles(const BuildContext& context,
-                                    const rtapi::RaytracingGeometryTrianglesDesc& desc,
-                                    GeometryInfo* user, const std::vector<uint32_t>* indices);
+  void add_exact_triangles(const rtapi::RaytracingGeometryTrianglesDesc& desc, GeometryInfo* user,
+                           const std::vector<uint32_t>* indices);
   rtapi::Status add_boxes(const BuildContext& context,
                           const rtapi::RaytracingGeometryAabbsDesc& desc,
                           std::unique_ptr<GeometryInfo> info);
@@ -77,7 +76,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
                                std::span<const rtapi::RaytracingGeometryDesc> geometries,
                                const BottomLevel* indices_of);
   rtapi::Status commit(const BuildContext& context);
-  void measure_exact_triangles();
+  rtapi::Status pack_exact_triangles(const BuildContext& context);
+  rtapi::Status attach_packs(const BuildContext& context, GeometryInfo& info);
 
   RTCScene scene_ = nullptr;
   BuildFlags flags_ = BuildFlags::kNone;

@@ -46,7 +46,7 @@ RTCBounds ExactFrame::padded(const double lower[3], const double upper[3]) const
   return {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
 }
 
-bool ExactTriangles::bounds(uint32_t primitive, double lower[3], double upper[3]) const {
+bool ExactTriangles::bounds(uint32_t primitive, float lower[3], float upper[3]) const {
   const float* a = corner(primitive, 0);
   const float* b = corner(primitive, 1);
   const float* c = corner(primitive, 2);
@@ -59,6 +59,23 @@ bool ExactTriangles::bounds(uint32_t primitive, double lower[3], double upper[3]
     upper[i] = std::max({a[i], b[i], c[i]});
   }
   return inside && !is_degenerate(a, b, c);
+}
+
+void ExactTriangles::pack(RTCDevice device, RTCBuildQuality quality, float lower[3],
+                          float upper[3]) {
+  std::vector<PackInput> inputs;
+  inputs.reserve(indices.size() / 3);
+  for (uint32_t i = 0; i < indices.size() / 3; ++i) {
+    PackInput in;
+    in.primitive = i;
+    if (!bounds(i, in.lower, in.upper)) continue;
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], in.lower[k]);
+      upper[k] = std::max(upper[k], in.upper[k]);
+    }
+    inputs.push_back(in);
+  }
+  packs = build_packs(device, inputs, quality, vertices.data(), indices.data());
 }
 
 RayInDouble to_object_space(const ExactInstance& instance, const RayInDouble& world) {

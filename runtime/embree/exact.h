@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "runtime/embree/embree_shim.h"
-#include "runtime/embree/exact_triangle.h"
+#include "runtime/embree/exact_pack.h"
 
 namespace kaamos::embree {
 
@@ -21,8 +21,10 @@ struct ExactFrame {
   double center[3] = {0, 0, 0};
   double radius = 0;  // of the box: no |coordinate - center| is larger
 
-  // Covers what float arithmetic does to rays and boxes within a few radii: about 30 of these ulp.
-  double pad() const { return radius * 0x1p-18; }
+  // Covers what float arithmetic does to rays and boxes within 4 radii, in traversals that are not
+  // robust: 2^-22 of 8 radii for the reciprocals of the direction, 2^-23 of 4 for the products with
+  // the origin, and half of that again for the rounding of the ray.
+  double pad() const { return radius * 0x1p-17; }
   // `bounds`, 6 doubles: lower and upper. All infinite the wrong way round: nothing is inside.
   static ExactFrame of(const double lower[3], const double upper[3]);
   // A box in Embree's coordinates, padded.
@@ -34,13 +36,17 @@ struct ExactTriangles {
   const ExactFrame* frame = nullptr;
   std::vector<float> vertices;
   std::vector<uint32_t> indices;
+  std::vector<TrianglePack> packs;  // of those that can be hit
+  bool attached = false;            // Embree's scene has them
 
   const float* corner(uint32_t primitive, int k) const {
     return &vertices[3 * uint64_t{indices[3 * uint64_t{primitive} + k]}];
   }
   // False for triangles that are never hit: degenerate, not finite or past the range of Embree;
   // else its bounds.
-  bool bounds(uint32_t primitive, double lower[3], double upper[3]) const;
+  bool bounds(uint32_t primitive, float lower[3], float upper[3]) const;
+  // Makes the packs. `lower` and `upper` grow by the bounds of all triangles in them.
+  void pack(RTCDevice device, RTCBuildQuality quality, float lower[3], float upper[3]);
 };
 
 // Of each instance, for rays.
@@ -78,6 +84,7 @@ struct ExactState {
   RayInDouble world;
   EmbreeRay in_top_level;
   EmbreeRay in_bottom_level;
+  PackFilter filter;
   ExactRay object;  // of the instance that is being traversed, from the start nearer to it
   double object_start_t;
   // The committed triangle, if the last commit was one; committed_t of the ray's state is its t.
@@ -89,9 +96,9 @@ struct ExactState {
 };
 
 // Callbacks. [exact_traverse.cpp]
-void bounds_of_exact_triangle(const RTCBoundsFunctionArguments* arguments);
-void intersect_exact_triangle(const RTCIntersectFunctionNArguments* arguments);
-void occlude_exact_triangle(const RTCOccludedFunctionNArguments* arguments);
+void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments);
+void intersect_exact_pack(const RTCIntersectFunctionNArguments* arguments);
+void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments);
 void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments);
 void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments);
 

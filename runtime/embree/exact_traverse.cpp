@@ -2,6 +2,8 @@
 //
 // Traversal at TraversalPrecision::kExact: the callbacks of instances and of triangles. The order
 // of the tests is DXR's, as in any_hit.cpp.
+#include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "runtime/embree/any_hit.h"
@@ -11,10 +13,12 @@
 namespace kaamos::embree {
 namespace {
 
-// A triangle whose box the ray met.
-struct TriangleOffer {
+// A pack whose box the ray met; `primitive` and `barycentrics` are of the triangle in turn, and at
+// the end of the one that was accepted last.
+struct PackOffer {
   RayState& state;
   const GeometryInfo& geometry;
+  const TrianglePack& pack;
   uint32_t primitive;
   float barycentrics[2];
 
@@ -69,14 +73,32 @@ struct TriangleOffer {
     return true;
   }
 
-  bool accept() {
-    const ExactTriangles& triangles = *geometry.exact;
-    ExactHit hit;
-    if (state.ended ||
-        !intersect(state.exact->object, triangles.corner(primitive, 0),
-                   triangles.corner(primitive, 1), triangles.corner(primitive, 2), hit)) {
-      return false;
+  bool accept_any() {
+    uint32_t open = state.exact->filter(state.exact->object, pack);
+    bool accepted = false;
+    uint32_t last = 0;
+    float weights[2];
+    for (; open != 0 && !state.ended; open &= open - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(open));
+      if (!accept(lane)) continue;
+      accepted = true;
+      last = primitive;
+      std::copy(barycentrics, barycentrics + 2, weights);
     }
+    if (!accepted) return false;
+    primitive = last;
+    std::copy(weights, weights + 2, barycentrics);
+    return true;
+  }
+
+  bool accept(uint32_t lane) {
+    float a[3], b[3], c[3];
+    pack.corner_of(lane, 0, a);
+    pack.corner_of(lane, 1, b);
+    pack.corner_of(lane, 2, c);
+    ExactHit hit;
+    if (!intersect(state.exact->object, a, b, c, hit)) return false;
+    primitive = pack.primitives[lane];
     const auto t = static_cast<float>(state.exact->object_start_t + hit.t);
     if (!(t > state.t_min && t < state.t_max && t <= state.committed_t)) return false;
     const bool flipped = (state.instance->flags & kInstanceTriangleFrontCounterclockwise) != 0;
@@ -170,24 +192,27 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed
 
 }  // namespace
 
-void bounds_of_exact_triangle(const RTCBoundsFunctionArguments* arguments) {
+void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments) {
   const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+  const TrianglePack& pack = info.exact->packs[arguments->primID];
   double lower[3];
   double upper[3];
-  if (info.exact->bounds(arguments->primID, lower, upper)) {
-    *arguments->bounds_o = info.exact->frame->padded(lower, upper);
-    return;
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis] = upper[axis] = pack.corners[0][axis][0];
+    for (const auto& corner : pack.corners) {
+      const auto [low, high] = std::minmax_element(corner[axis], corner[axis] + pack.count);
+      lower[axis] = std::min(lower[axis], double{*low});
+      upper[axis] = std::max(upper[axis], double{*high});
+    }
   }
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  *arguments->bounds_o = {kInfinity,  kInfinity,  kInfinity,  0,
-                          -kInfinity, -kInfinity, -kInfinity, 0};
+  *arguments->bounds_o = info.exact->frame->padded(lower, upper);
 }
 
-void intersect_exact_triangle(const RTCIntersectFunctionNArguments* arguments) {
+void intersect_exact_pack(const RTCIntersectFunctionNArguments* arguments) {
   RayState& state = ray_state_of(arguments->context);
-  TriangleOffer offer = {
-      state, *static_cast<const GeometryInfo*>(arguments->geometryUserPtr), arguments->primID, {}};
-  const bool hit = offer.accept();
+  const auto& geometry = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+  PackOffer offer = {state, geometry, geometry.exact->packs[arguments->primID], 0, {}};
+  const bool hit = !state.ended && offer.accept_any();
   shim::set_hit(arguments, hit);
   if (!hit) return;
   auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
@@ -200,11 +225,11 @@ void intersect_exact_triangle(const RTCIntersectFunctionNArguments* arguments) {
   ray_hit->hit.instID[0] = state.exact->instance;
 }
 
-void occlude_exact_triangle(const RTCOccludedFunctionNArguments* arguments) {
+void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments) {
   RayState& state = ray_state_of(arguments->context);
-  TriangleOffer offer = {
-      state, *static_cast<const GeometryInfo*>(arguments->geometryUserPtr), arguments->primID, {}};
-  const bool hit = offer.accept();
+  const auto& geometry = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+  PackOffer offer = {state, geometry, geometry.exact->packs[arguments->primID], 0, {}};
+  const bool hit = !state.ended && offer.accept_any();
   shim::set_hit(arguments, hit);
   if (hit) reinterpret_cast<RTCRay*>(arguments->ray)->tfar = shim::kEndedSearch;
 }

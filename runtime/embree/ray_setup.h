@@ -98,6 +98,7 @@ inline bool begin_exact_ray(RayState& state, ExactState& exact, RTCRay& ray) {
   }
   EmbreeRay& local = exact.in_top_level;
   if (!local.set(exact.world, *state.top_level->exact_frame())) return false;
+  exact.filter = state.top_level->pack_filter();
   exact.hit_opaque = false;
   const float t_near = local.near_of(state.t_min);
   _mm_store_ps(&ray.org_x, _mm_setr_ps(local.origin[0], local.origin[1], local.origin[2], t_near));

@@ -95,6 +95,7 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
     }
   }
   exact_ = true;
+  pack_filter_ = fastest_pack_filter();
   frame_ = ExactFrame::of(all.lower, all.upper);
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level != nullptr) {
@@ -124,7 +125,8 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   level->scene_ = rtcNewScene(context.device);
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
   if (level->scene_ != nullptr && geometry != nullptr) {
-    rtcSetSceneFlags(level->scene_, context.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneFlags(level->scene_, context.robust && !context.exact ? RTC_SCENE_FLAG_ROBUST
+                                                                     : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(level->scene_, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<uint32_t>(bounds.size()));
     rtcSetGeometryUserData(geometry, bounds.data());  // needed until the commit only

@@ -41,6 +41,7 @@ class TopLevel final : public runtime::TopLevelBase {
   const InstanceDetail& detail(uint32_t index) const { return details_[index]; }
   // In exact precision: where Embree's coordinates are, and the instances; else null.
   const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
+  PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }
 
  private:
@@ -53,6 +54,7 @@ class TopLevel final : public runtime::TopLevelBase {
   bool has_procedurals_ = false;
   bool exact_ = false;
   ExactFrame frame_;
+  PackFilter pack_filter_ = nullptr;
   std::vector<ExactInstance> exact_instances_;
   std::vector<InstanceNode> nodes_;
   std::vector<InstanceDetail> details_;
