@@ -36,7 +36,7 @@ class RulesHold : public testing::Test {
     const std::string device = rtapi::CreateDevice(desc).value().GetInfo().Name;
     const std::string first =
         std::string(test_.rules).substr(0, std::string(test_.rules).find(','));
-    if (const Deviation* known = find_deviation(first, target_.backend, device)) {
+    if (const Deviation* known = find_deviation(first, target_.name(), device)) {
       GTEST_SKIP() << "known deviation: " << known->reason;
     }
     ADD_FAILURE() << test_.rules << "\n" << failures;
@@ -53,11 +53,13 @@ std::string test_name(std::string rules) {
 }
 
 const bool kRegistered = [] {
-  for (const char* backend : {"embree", "vulkan"}) {
+  Target exact;
+  exact.precision = rtapi::TraversalPrecision::kExact;
+  Target vulkan;
+  vulkan.backend = "vulkan";
+  for (const Target& target : {Target(), exact, vulkan}) {
     for (const RuleTest& test : all_tests()) {
-      Target target;
-      target.backend = backend;
-      testing::RegisterTest((std::string("Conformance_") + backend).c_str(),
+      testing::RegisterTest(test_name("Conformance_" + target.name()).c_str(),
                             test_name(test.rules).c_str(), nullptr, nullptr, __FILE__, __LINE__,
                             [=]() -> RulesHold* { return new RulesHold(test, target); });
     }
@@ -67,6 +69,10 @@ const bool kRegistered = [] {
 
 TEST(ConformanceList, EveryTestNamesRulesOfTheList) {
   EXPECT_TRUE(kRegistered);
+  std::set<std::string> names;  // of ctest's tests
+  for (const RuleTest& test : all_tests()) {
+    EXPECT_TRUE(names.insert(test.rules).second) << "two tests of " << test.rules;
+  }
   for (const RuleTest& test : all_tests()) {
     std::string rules = test.rules;
     for (size_t at = 0; at < rules.size();) {

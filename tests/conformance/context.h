@@ -116,6 +116,7 @@ std::vector<RuleTest> flg_tests();
 std::vector<RuleTest> trv_tests();
 std::vector<RuleTest> trv_random_tests();
 std::vector<RuleTest> trv_report_tests();
+std::vector<RuleTest> trv_edge_tests();
 std::vector<RuleTest> sv_tests();
 std::vector<RuleTest> pay_tests();
 

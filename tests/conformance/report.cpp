@@ -36,9 +36,10 @@ std::string line_of(const RuleResult& result) {
     out += std::string(" (") + result.rule->partly + ")";
   }
   std::istringstream detail(result.detail);
+  int lines = 0;
   for (std::string line; std::getline(detail, line);) {
-    const bool first = detail.tellg() == std::streampos(-1) || out.find('\n') == std::string::npos;
-    if (result.outcome == Outcome::kKnownDeviation && !first) break;  // JSON has what was found
+    // The reason, and of what was found the first line; JSON has the rest.
+    if (result.outcome == Outcome::kKnownDeviation && ++lines > 2) break;
     out += result.outcome == Outcome::kNotApplicable ? ": " + line : "\n    " + line;
   }
   return out;

@@ -25,14 +25,14 @@ struct Rule {
 std::span<const Rule> all_rules();
 const Rule* find_rule(std::string_view id);
 
-// A rule that a backend is known to break, and why.
+// A rule that a target is known to break, and why.
 struct Deviation {
   const char* rule;
-  const char* backend;
+  const char* target;  // Target::name()
   const char* driver;  // a part of the device's name; "" for every one
   const char* reason;
 };
-const Deviation* find_deviation(std::string_view rule, std::string_view backend,
+const Deviation* find_deviation(std::string_view rule, std::string_view target,
                                 std::string_view device_name);
 
 }  // namespace kaamos::conformance

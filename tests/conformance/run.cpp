@@ -66,8 +66,9 @@ RuleResult result_without_run(const Rule& rule) {
 
 std::vector<RuleTest> all_tests() {
   std::vector<RuleTest> out;
-  for (const auto& section : {sbt_tests(), root_tests(), flg_tests(), trv_tests(),
-                              trv_random_tests(), trv_report_tests(), sv_tests(), pay_tests()}) {
+  for (const auto& section :
+       {sbt_tests(), root_tests(), flg_tests(), trv_tests(), trv_random_tests(), trv_report_tests(),
+        trv_edge_tests(), sv_tests(), pay_tests()}) {
     out.insert(out.end(), section.begin(), section.end());
   }
   return out;
@@ -134,7 +135,7 @@ std::vector<RuleResult> run_rules(const Target& target, const std::string& devic
       result.detail += entry->second;
     }
     if (result.outcome == Outcome::kFailed) {
-      if (const Deviation* known = find_deviation(rule.id, target.backend, device_name)) {
+      if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {
         result.outcome = Outcome::kKnownDeviation;
         result.detail = std::string(known->reason) + "\n" + result.detail;
       }

@@ -141,3 +141,14 @@ void ScriptAny(inout Seen seen, BoxAttributes attributes) {
     seen.anyHits += 1000;
   }
 }
+
+// How many any-hit shaders ran, in a word of each ray from kEvents on.
+[shader("raygeneration")]
+void CountCandidates() {
+  const uint i = DispatchRaysIndex().x;
+  const Ray ray = rays[i];
+  Seen seen = nothingSeen();
+  TraceRay(scene, ray.flags, ray.mask, ray.contribution, ray.multiplier, ray.miss, describe(ray),
+           seen);
+  words.Store(kEvents + 4 * i, seen.anyHits);
+}

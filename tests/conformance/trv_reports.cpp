@@ -273,7 +273,7 @@ std::vector<RuleTest> trv_report_tests() {
           {"TRV-35", reports_out_of_the_interval},
           {"TRV-37, TRV-38", many_reports},
           {"TRV-07", the_last_of_equal_reports},
-          {"TRV-07", the_last_of_equal_boxes},
+          {"TRV-05, TRV-07", the_last_of_equal_boxes},
           {"TRV-23, TRV-36, TRV-39", an_ended_search_ends_the_shader},
           {"TRV-40", hit_kinds_up_to_127},
           {"TRV-28, TRV-43", a_rejected_report_leaves_the_attributes},

@@ -160,7 +160,8 @@ std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count,
 }
 
 Walker::Walker(Context& t)
-    : Standard(t, kaamos_shaders_traversal(), {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny"},
+    : Standard(t, kaamos_shaders_traversal(),
+               {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates"},
                (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3)").c_str()),
       context_(&t) {
   group("WalkTriangle", "Closest", "Walk");
@@ -204,6 +205,16 @@ void Walker::build(const Scene& description) {
   bind = [all_boxes](CommandList& list) {
     list.SetComputeRootShaderResourceView(3, all_boxes.GetGPUVirtualAddress());
   };
+}
+
+std::vector<uint32_t> Walker::count(const std::vector<Ray>& list) {
+  create();
+  if (shader_tables[0].record_count() == 0) raygen("CountCandidates");
+  prepare(list);
+  word_bytes = kEventsAt + list.size() * 4;
+  const auto words = run(static_cast<uint32_t>(list.size()));
+  const auto first = words.begin() + static_cast<std::ptrdiff_t>(kEventsAt / 4);
+  return {first, first + static_cast<std::ptrdiff_t>(list.size())};
 }
 
 std::vector<Walked> Walker::walk(const std::vector<Ray>& list) {

@@ -51,6 +51,8 @@ class Walker : public Standard {
   explicit Walker(Context& t);
   void build(const Scene& description);
   std::vector<Walked> walk(const std::vector<Ray>& rays);
+  // How many any-hit shaders ran for each ray, in a scene whose record 0 is "Ignored".
+  std::vector<uint32_t> count(const std::vector<Ray>& rays);
   // In the last walk: any-hit shaders that ran beside another of their ray, or after its end.
   uint32_t faults() const { return faults_; }
 
