@@ -47,13 +47,16 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   return descs;
 }
 
+constexpr char kMissing[] =
+    "no bottom level stands at its address; it is inactive. Was it built, and not overwritten or "
+    "freed since?";
+
 // Why an instance is inactive; null: it is active, or plainly inactive.
 const char* activate(const StructureMap& structures, Instance& instance) {
   if (instance.desc.AccelerationStructure == 0) return nullptr;
   const auto structure = structures.find(instance.desc.AccelerationStructure);
   if (structure == nullptr || structure->bottom_level == nullptr) {
-    return "no bottom level stands at its address; it is inactive. Was it built, and not "
-           "overwritten or freed since?";
+    return kMissing;
   }
   if (structure->bottom_level->empty()) return nullptr;
   const float* matrix = &instance.desc.Transform[0][0];
@@ -73,17 +76,33 @@ rtapi::Result<std::vector<Instance>> read_instances(const StructureEnvironment& 
                                                     const BuildCommand& command) {
   auto descs = read_descs(*environment.context.addresses, command);
   if (!descs) return descs.error();
-  std::vector<Instance> instances(descs->size());
+  return activate_instances(environment, command.dest, *descs, InstanceNotes::kAll);
+}
+
+std::vector<Instance> activate_instances(const StructureEnvironment& environment,
+                                         uint64_t top_level,
+                                         std::span<const rtapi::RaytracingInstanceDesc> descs,
+                                         InstanceNotes notes) {
+  std::vector<Instance> instances(descs.size());
   constexpr uint32_t kMostNotes = 8;
-  uint32_t notes = 0;
+  uint32_t written = 0;
   for (uint32_t i = 0; i < instances.size(); ++i) {
-    instances[i].desc = (*descs)[i];
+    instances[i].desc = descs[i];
     const char* note = activate(environment.structures, instances[i]);
-    if (note == nullptr || notes++ >= kMostNotes) continue;
-    environment.warn("KA0797", "top level " + at(command.dest) + ", instance " + std::to_string(i) +
+    if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
+    if (written++ >= kMostNotes) continue;
+    environment.warn("KA0797", "top level " + at(top_level) + ", instance " + std::to_string(i) +
                                    ": " + note + ".");
   }
   return instances;
+}
+
+std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> records_of(
+    std::span<const Instance> instances) {
+  auto records = std::make_shared<std::vector<rtapi::RaytracingInstanceDesc>>();
+  records->reserve(instances.size());
+  for (const Instance& instance : instances) records->push_back(instance.desc);
+  return records;
 }
 
 bool invert_transform(const float matrix[12], float inverse[12]) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,20 @@ struct Instance {
 // living allocations.
 rtapi::Result<std::vector<Instance>> read_instances(const StructureEnvironment& environment,
                                                     const BuildCommand& command);
+
+// Deserialization of a top level may come before that of its bottom levels: those are inactive
+// without a message then.
+enum class InstanceNotes { kAll, kMissingMayCome };
+
+// The same from records that were read already; `top_level` is the address for messages.
+std::vector<Instance> activate_instances(const StructureEnvironment& environment,
+                                         uint64_t top_level,
+                                         std::span<const rtapi::RaytracingInstanceDesc> descs,
+                                         InstanceNotes notes);
+
+// The records of the instances, for AccelerationStructure::instances.
+std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> records_of(
+    std::span<const Instance> instances);
 
 // world_to_object of a 3x4 row-major matrix, inverted in double; false if singular, or if it or the
 // inverse is not finite in float.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/build_inputs.h"
+#include "runtime/serialized_structure.h"
 
 namespace kaamos::runtime {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using rtapi::HasAny;
 using Type = rtapi::RaytracingAccelerationStructureType;
 using InfoType = rtapi::RaytracingAccelerationStructurePostbuildInfoType;
-using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
 
 constexpr uint64_t kHeaderBytes = 256;
 
@@ -35,16 +35,6 @@ std::string at(uint64_t address) {
 
 rtapi::Error build_error(const char* id, const std::string& what) {
   return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
-}
-
-rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes) {
-  const uint64_t available = addresses.bytes_from(address);
-  if (bytes <= available) return {};
-  return build_error("KA0795", "acceleration structure does not fit: " + std::to_string(bytes) +
-                                   " bytes " + at(address) + ", its buffer has " +
-                                   std::to_string(available) +
-                                   " from there. Size it by "
-                                   "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
 
 // The structure to update, or why it cannot be.
@@ -90,11 +80,14 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
     case InfoType::kCurrentSize:
       values[0] = structure.size_bytes;
       break;
-    default:
-      environment.warn("KA0799", "postbuild info type " +
-                                     std::to_string(static_cast<uint32_t>(type)) +
-                                     " is not supported on the " + environment.backend_name +
-                                     " backend and gives 0.");
+    case InfoType::kSerialization: {
+      const SerializedSize size = serialized_size(structure);
+      values[0] = size.bytes;
+      values[1] = size.pointers;
+      break;
+    }
+    case InfoType::kToolsVisualization:
+      values[0] = decoded_size(structure);
       break;
   }
   if (!environment.context.addresses->contains(address, bytes)) {
@@ -119,6 +112,20 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
 }
 
 }  // namespace
+
+rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes) {
+  const uint64_t available = addresses.bytes_from(address);
+  if (bytes <= available) return {};
+  return build_error("KA0795", "acceleration structure does not fit: " + std::to_string(bytes) +
+                                   " bytes " + at(address) + ", its buffer has " +
+                                   std::to_string(available) +
+                                   " from there. Size it by "
+                                   "GetRaytracingAccelerationStructurePrebuildInfo.");
+}
+
+uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes) {
+  return std::min(size_bytes, round_up(kHeaderBytes + held_bytes));
+}
 
 void StructureEnvironment::warn(const char* id, const std::string& text) const {
   context.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
@@ -173,10 +180,12 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
                 .ResultDataMaxSizeInBytes;
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (auto s = guarded(build_level, source.get(), structure); !s) return s;
-  structure.compacted_bytes =
-      source != nullptr
-          ? source->compacted_bytes
-          : std::min(structure.size_bytes, round_up(kHeaderBytes + structure.compacted_bytes));
+  structure.compacted_bytes = source != nullptr
+                                  ? source->compacted_bytes
+                                  : compacted_size(structure.size_bytes, structure.compacted_bytes);
+  if (command.type == Type::kTopLevel && structure.instances == nullptr) {
+    structure.instances = std::make_shared<const std::vector<rtapi::RaytracingInstanceDesc>>();
+  }
   environment.structures.place(structure);
   for (const auto& info : command.postbuild_infos) {
     uint64_t bytes = 0;
@@ -184,42 +193,6 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
       return s;
     }
   }
-  return {};
-}
-
-rtapi::Status copy_structure(const StructureEnvironment& environment,
-                             const CopyAccelerationStructureCommand& command) {
-  const auto source = environment.structures.find(command.source);
-  if (source == nullptr) {
-    return build_error("KA0796",
-                       "copy of what is no acceleration structure, " + at(command.source) + ".");
-  }
-  if (command.mode != CopyMode::kClone && command.mode != CopyMode::kCompact) {
-    environment.warn("KA0799", "acceleration structure copy mode " +
-                                   std::to_string(static_cast<uint32_t>(command.mode)) +
-                                   " is not supported on the " + environment.backend_name +
-                                   " backend; nothing was copied.");
-    return {};
-  }
-  AccelerationStructure result = *source;
-  result.address = command.dest;
-  result.host = environment.context.addresses->host(command.dest);
-  if (command.mode == CopyMode::kCompact) {
-    if (!HasAny(source->flags, BuildFlags::kAllowCompaction)) {
-      return build_error("KA0796",
-                         "compaction of an acceleration structure that was built without "
-                         "ALLOW_COMPACTION, " +
-                             at(command.source) + ".");
-    }
-    result.size_bytes = source->compacted_bytes;
-  }
-  if (auto s = check_destination(*environment.context.addresses, command.dest, result.size_bytes);
-      !s) {
-    return s;
-  }
-  // Both refer to the same immutable tree; an update in place of one of them makes a tree of its
-  // own first.
-  environment.structures.place(std::move(result));
   return {};
 }
 

@@ -42,12 +42,15 @@ using BuildLevel = std::function<rtapi::Status(const AccelerationStructure* sour
 // update of what cannot be updated; KA0795: destination too small.
 rtapi::Status build_structure(const StructureEnvironment& environment, const BuildCommand& command,
                               const BuildLevel& build_level);
-rtapi::Status copy_structure(const StructureEnvironment& environment,
-                             const CopyAccelerationStructureCommand& command);
 rtapi::Status emit_postbuild_info(
     const StructureEnvironment& environment,
     const rtapi::RaytracingAccelerationStructurePostbuildInfoDesc& desc,
     std::span<const uint64_t> sources);
+
+// KA0795 if `bytes` reach past the buffer at `address`.
+rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes);
+// COMPACTED_SIZE of what holds so many bytes.
+uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes);
 
 // KA0794: more primitives than DXR allows in a geometry.
 rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, uint32_t index);

@@ -10,6 +10,7 @@
 
 #include "runtime/build_inputs.h"
 #include "runtime/instances.h"
+#include "runtime/structure_copies.h"
 
 namespace kaamos::runtime {
 namespace {
@@ -20,6 +21,8 @@ using InfoType = rtapi::RaytracingAccelerationStructurePostbuildInfoType;
 struct Level final : BottomLevelBase {
   bool empty() const override { return false; }
   Bounds object_bounds() const override { return {{-1, -1, -1}, {1, 1, 1}}; }
+  std::vector<GeometryShape> geometry_shapes() const override { return {}; }
+  GeometryContents geometry_contents(uint32_t) const override { return {}; }
 };
 struct Top final : TopLevelBase {};
 
@@ -73,7 +76,7 @@ TEST_F(FarDevice, HeadersAndInfosAreWrittenWhereTheHostSeesThem) {
   CopyAccelerationStructureCommand copy;
   copy.source = command.dest;
   copy.dest = kAddress + 2048;
-  ASSERT_TRUE(copy_structure(environment(), copy));
+  ASSERT_TRUE(copy_structure(environment(), copy, {}));
   bytes_[1024] ^= 1;  // ends the first, not the second
   EXPECT_EQ(map_.find(kAddress + 1024), nullptr);
   EXPECT_NE(map_.find(kAddress + 2048), nullptr);

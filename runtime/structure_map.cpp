@@ -49,6 +49,7 @@ void StructureMap::place(AccelerationStructure structure) {
   const Header header = {kMagic, next_id_++};
   std::memcpy(structure.host, &header, sizeof(header));
   if (structure.bottom_level) ++owners_[structure.bottom_level.get()];
+  if (structure.missing_bottom_levels != 0) ++incomplete_;
   structures_[address] = {header.id,
                           std::make_shared<const AccelerationStructure>(std::move(structure))};
 }
@@ -69,6 +70,7 @@ void StructureMap::evict_locked(uint64_t address, uint64_t size_bytes) {
       const auto owner = owners_.find(level);
       if (--owner->second == 0) owners_.erase(owner);
     }
+    if (it->second.structure->missing_bottom_levels != 0) --incomplete_;
     it = structures_.erase(it);
   }
 }
@@ -99,6 +101,14 @@ std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::top_leve
       continue;
     found.push_back(placed.structure);
   }
+  return found;
+}
+
+std::vector<std::shared_ptr<const AccelerationStructure>> StructureMap::incomplete_top_levels()
+    const {
+  if (incomplete_ == 0) return {};
+  auto found = top_levels();
+  std::erase_if(found, [](const auto& level) { return level->missing_bottom_levels == 0; });
   return found;
 }
 

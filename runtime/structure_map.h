@@ -6,10 +6,12 @@
 // consists of belongs to the backend. [DXR: Data rules]
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <shared_mutex>
+#include <span>
 #include <vector>
 
 #include <rtapi/raytracing.h>
@@ -37,12 +39,22 @@ struct GeometryShape {
 };
 GeometryShape shape_of(const rtapi::RaytracingGeometryDesc& desc, uint32_t index);
 
+// A geometry as its build decoded it; the arrays belong to the bottom level, and are those of the
+// last update. What serialization and tools are made from.
+struct GeometryContents {
+  std::span<const float> xyz;         // transformed; empty if no triangle can be hit
+  std::span<const uint32_t> indices;  // of every triangle; empty: 0, 1, 2, ...
+  std::span<const rtapi::RaytracingAabb> boxes;
+};
+
 // What every backend knows of its bottom levels.
 struct BottomLevelBase {
   virtual ~BottomLevelBase() = default;
   // Without an active primitive: a degenerate instance. [DXR: Degenerate primitives and instances]
   virtual bool empty() const = 0;
   virtual Bounds object_bounds() const = 0;  // not of empty ones
+  virtual std::vector<GeometryShape> geometry_shapes() const = 0;
+  virtual GeometryContents geometry_contents(uint32_t geometry) const = 0;
 };
 struct TopLevelBase {
   virtual ~TopLevelBase() = default;
@@ -58,6 +70,12 @@ struct AccelerationStructure {
   std::shared_ptr<BottomLevelBase> bottom_level;
   std::shared_ptr<const TopLevelBase> top_level;
   uint32_t instance_count = 0;  // top levels: NumDescs
+  // Of top levels, as the build read them: trees keep neither the addresses nor what is inactive,
+  // which serialization and tools give back. 64 bytes an instance, shared by clones.
+  std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> instances;
+  // Deserialized top levels: instances whose bottom level did not stand at its address yet.
+  uint32_t missing_bottom_levels = 0;
+  bool missing_reported = false;
 };
 
 class StructureMap {
@@ -73,6 +91,8 @@ class StructureMap {
   bool is_shared(const BottomLevelBase* level) const;
   // Every top level whose bytes are untouched.
   std::vector<std::shared_ptr<const AccelerationStructure>> top_levels() const;
+  // Those of them with missing bottom levels; costs next to nothing while there is none.
+  std::vector<std::shared_ptr<const AccelerationStructure>> incomplete_top_levels() const;
 
  private:
   struct Placed {
@@ -85,6 +105,7 @@ class StructureMap {
   std::map<uint64_t, Placed> structures_;
   std::map<const BottomLevelBase*, uint32_t> owners_;
   uint64_t next_id_ = 1;
+  std::atomic<uint32_t> incomplete_ = 0;
 };
 
 }  // namespace kaamos::runtime

@@ -7,6 +7,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/command_list_impl.h"
+#include "runtime/serialized_identifier.h"
 
 namespace rtapi {
 
@@ -324,6 +325,27 @@ Status CheckBuildAddresses(const DeviceImpl& device,
   return top ? CheckInstanceMemory(device, inputs) : Status();
 }
 
+Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                           bool written, std::string_view what) {
+  if (address % kRaytracingAccelerationStructureByteAlignment != 0) {
+    return MakeError(Id::kAccelerationStructureAlignment, what, " is ",
+                     device.DescribeAddress(address), "; it must be a multiple of 256");
+  }
+  const auto allocation = device.addresses.find(address);
+  if (allocation && allocation->acceleration_structure) {
+    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
+                     Named("buffer", allocation->name),
+                     ", which holds acceleration structures; serialized and decoded data lie in "
+                     "plain buffers");
+  }
+  if (allocation && written && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
+                     Named("buffer", allocation->name),
+                     ", which was created without kAllowUnorderedAccess");
+  }
+  return CheckLive(device, address, bytes, std::string(what));
+}
+
 Status CheckPostbuildInfo(const DeviceImpl& device,
                           const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
                           size_t count) {
@@ -348,6 +370,12 @@ Status CheckPostbuildInfo(const DeviceImpl& device,
 }  // namespace detail
 
 using namespace detail;
+
+DriverMatchingIdentifierStatus Device::CheckDriverMatchingIdentifier(
+    SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const {
+  if (!impl_) return DriverMatchingIdentifierStatus::kUnrecognized;
+  return runtime::check_identifier(type, identifier);
+}
 
 Result<RaytracingAccelerationStructurePrebuildInfo>
 Device::GetRaytracingAccelerationStructurePrebuildInfo(

@@ -3,6 +3,7 @@
 
 #include "rtapi/testing/expect_error.h"
 #include "rtapi/testing/null_backend.h"
+#include "runtime/serialized_identifier.h"
 
 namespace rtapi {
 namespace {
@@ -321,9 +322,49 @@ TEST_F(BuildTest, AS_70_Copies) {
   EXPECT_ERROR(copy(source, 0, Mode::kClone), "KA0711", "source");
   EXPECT_ERROR(copy(source, 0x100000, Mode::kClone), "KA0712");
   EXPECT_ERROR(copy(source + 1024, source, static_cast<Mode>(9)), "KA0716", "undefined");
-  const Status serialize = copy(source + 1024, source, Mode::kSerialize);
-  EXPECT_ERROR(serialize, "KA0716", "not supported");
-  EXPECT_EQ(serialize.error().code, ErrorCode::kUnsupported);
+}
+
+TEST_F(BuildTest, AS_24_SerializedAndDecodedDataLieInPlainBuffers) {
+  using Mode = RaytracingAccelerationStructureCopyMode;
+  const uint64_t structure = structure_.GetGPUVirtualAddress();
+  const uint64_t plain = scratch_.GetGPUVirtualAddress();
+  const Buffer upload = device_.CreateBuffer({4096, HeapType::kUpload}).value();
+  auto copy = [&](uint64_t dest, uint64_t from, Mode mode) {
+    auto list = device_.CreateCommandList().value();
+    list.CopyRaytracingAccelerationStructure(dest, from, mode);
+    return list.Close();
+  };
+  for (const Mode mode : {Mode::kSerialize, Mode::kVisualizationDecodeForTools}) {
+    EXPECT_OK(copy(plain, structure, mode));
+    EXPECT_ERROR(copy(structure + 1024, structure, mode), "KA0713", "plain");
+    EXPECT_ERROR(copy(upload.GetGPUVirtualAddress(), structure, mode), "KA0713",
+                 "kAllowUnorderedAccess");
+    EXPECT_ERROR(copy(plain + 128, structure, mode), "KA0711", "dest");
+    EXPECT_ERROR(copy(plain, plain, mode), "KA0713", "source");
+    EXPECT_ERROR(copy(0x100000, structure, mode), "KA0712", "dest");
+  }
+  EXPECT_OK(copy(structure, plain, Mode::kDeserialize));
+  EXPECT_OK(copy(structure, upload.GetGPUVirtualAddress(), Mode::kDeserialize));
+  EXPECT_ERROR(copy(plain, plain, Mode::kDeserialize), "KA0713", "dest");
+  EXPECT_ERROR(copy(structure, structure + 1024, Mode::kDeserialize), "KA0713", "source");
+  EXPECT_ERROR(copy(structure, plain + 8, Mode::kDeserialize), "KA0711", "source");
+}
+
+TEST_F(BuildTest, AS_75_IdentifiersOfSerializedData) {
+  using MatchStatus = DriverMatchingIdentifierStatus;
+  constexpr auto kType = SerializedDataType::kRaytracingAccelerationStructure;
+  const auto own = kaamos::runtime::serialized_identifier();
+  EXPECT_EQ(device_.CheckDriverMatchingIdentifier(kType, own), MatchStatus::kCompatibleWithDevice);
+  EXPECT_EQ(device_.CheckDriverMatchingIdentifier(static_cast<SerializedDataType>(1), own),
+            MatchStatus::kUnsupportedType);
+  auto* bytes = reinterpret_cast<const uint8_t*>(&own);
+  for (size_t i = 0; i < sizeof(own); ++i) {
+    auto changed = own;
+    reinterpret_cast<uint8_t*>(&changed)[i] = static_cast<uint8_t>(bytes[i] ^ 0x10);
+    EXPECT_EQ(device_.CheckDriverMatchingIdentifier(kType, changed),
+              i < sizeof(Guid) ? MatchStatus::kUnrecognized : MatchStatus::kIncompatibleVersion);
+  }
+  EXPECT_EQ(Device().CheckDriverMatchingIdentifier(kType, own), MatchStatus::kUnrecognized);
 }
 
 }  // namespace

@@ -62,5 +62,8 @@ Status CheckPostbuildInfo(const DeviceImpl& device,
 // 256-aligned, inside a buffer that was created for acceleration structures.
 Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address,
                              std::string_view what);
+// 256-aligned, `bytes` inside a plain buffer, which a shader may write if `written`.
+Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
+                           bool written, std::string_view what);
 
 }  // namespace rtapi::detail

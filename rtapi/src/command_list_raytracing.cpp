@@ -67,20 +67,21 @@ void CommandList::CopyRaytracingAccelerationStructure(
   using Mode = RaytracingAccelerationStructureCopyMode;
   if (!impl_ || !impl_->CheckOpen("CopyRaytracingAccelerationStructure")) return;
   const DeviceImpl& device = *impl_->device;
-  if (mode != Mode::kClone && mode != Mode::kCompact) {
-    Error error = MakeError(Id::kAccelerationStructureCopy, "mode ", static_cast<uint32_t>(mode),
-                            mode <= Mode::kDeserialize ? " is not supported yet; kClone (0) and "
-                                                         "kCompact (1) are"
-                                                       : " is undefined");
-    if (mode <= Mode::kDeserialize) error.code = ErrorCode::kUnsupported;
-    return impl_->Fail(std::move(error));
+  if (mode > Mode::kDeserialize) {
+    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
+                                 static_cast<uint32_t>(mode), " is undefined; defined are 0 to 4"));
   }
-  if (Status s = CheckStructureAddress(device, source, "source"); !s.ok()) {
-    return impl_->Fail(s.error());
+  const bool writes_bytes = mode == Mode::kSerialize || mode == Mode::kVisualizationDecodeForTools;
+  Status s = mode == Mode::kDeserialize
+                 ? CheckStructureBytes(device, source,
+                                       sizeof(SerializedRaytracingAccelerationStructureHeader),
+                                       false, "source")
+                 : CheckStructureAddress(device, source, "source");
+  if (s.ok()) {
+    s = writes_bytes ? CheckStructureBytes(device, dest, 8, true, "dest")
+                     : CheckStructureAddress(device, dest, "dest");
   }
-  if (Status s = CheckStructureAddress(device, dest, "dest"); !s.ok()) {
-    return impl_->Fail(s.error());
-  }
+  if (!s.ok()) return impl_->Fail(s.error());
   if (source == dest) {
     return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "source and dest are both ",
                                  device.DescribeAddress(dest), "; they must not overlap"));

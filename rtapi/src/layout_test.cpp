@@ -607,6 +607,46 @@ SAME_SIZE(RaytracingAccelerationStructurePostbuildInfoCurrentSizeDesc,
 SAME_OFFSET(RaytracingAccelerationStructurePostbuildInfoCurrentSizeDesc,
             D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_CURRENT_SIZE_DESC,
             CurrentSizeInBytes);
+SAME_SIZE(Guid, GUID);
+SAME_OFFSET(Guid, GUID, Data1);
+SAME_OFFSET(Guid, GUID, Data2);
+SAME_OFFSET(Guid, GUID, Data3);
+SAME_OFFSET(Guid, GUID, Data4);
+SAME_SIZE(SerializedDataDriverMatchingIdentifier, D3D12_SERIALIZED_DATA_DRIVER_MATCHING_IDENTIFIER);
+SAME_OFFSET(SerializedDataDriverMatchingIdentifier,
+            D3D12_SERIALIZED_DATA_DRIVER_MATCHING_IDENTIFIER, DriverOpaqueGUID);
+SAME_OFFSET(SerializedDataDriverMatchingIdentifier,
+            D3D12_SERIALIZED_DATA_DRIVER_MATCHING_IDENTIFIER, DriverOpaqueVersioningData);
+SAME_SIZE(SerializedRaytracingAccelerationStructureHeader,
+          D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER);
+SAME_OFFSET(SerializedRaytracingAccelerationStructureHeader,
+            D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER, DriverMatchingIdentifier);
+SAME_OFFSET(SerializedRaytracingAccelerationStructureHeader,
+            D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER,
+            SerializedSizeInBytesIncludingHeader);
+SAME_OFFSET(SerializedRaytracingAccelerationStructureHeader,
+            D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER, DeserializedSizeInBytes);
+SAME_OFFSET(SerializedRaytracingAccelerationStructureHeader,
+            D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER,
+            NumBottomLevelAccelerationStructurePointersAfterHeader);
+SAME_SIZE(BuildRaytracingAccelerationStructureToolsVisualizationHeader,
+          D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER);
+SAME_OFFSET(BuildRaytracingAccelerationStructureToolsVisualizationHeader,
+            D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER, Type);
+SAME_OFFSET(BuildRaytracingAccelerationStructureToolsVisualizationHeader,
+            D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER, NumDescs);
+SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kCompatibleWithDevice,
+           D3D12_DRIVER_MATCHING_IDENTIFIER_COMPATIBLE_WITH_DEVICE);
+SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kUnsupportedType,
+           D3D12_DRIVER_MATCHING_IDENTIFIER_UNSUPPORTED_TYPE);
+SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kUnrecognized,
+           D3D12_DRIVER_MATCHING_IDENTIFIER_UNRECOGNIZED);
+SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kIncompatibleVersion,
+           D3D12_DRIVER_MATCHING_IDENTIFIER_INCOMPATIBLE_VERSION);
+SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kIncompatibleType,
+           D3D12_DRIVER_MATCHING_IDENTIFIER_INCOMPATIBLE_TYPE);
+SAME_VALUE(rtapi::SerializedDataType::kRaytracingAccelerationStructure,
+           D3D12_SERIALIZED_DATA_RAYTRACING_ACCELERATION_STRUCTURE);
 SAME_SIZE(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC);
 SAME_OFFSET(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC, RayGenerationShaderRecord);
 SAME_OFFSET(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC, MissShaderTable);

@@ -8,6 +8,7 @@
 #include "runtime/embree/parallel.h"
 #include "runtime/instances.h"
 #include "runtime/structure_commands.h"
+#include "runtime/structure_copies.h"
 
 namespace kaamos::embree {
 namespace {
@@ -21,6 +22,7 @@ rtapi::Status build_top_level(Device& device, const runtime::BuildCommand& comma
   auto level = TopLevel::build(device.build_context(), *instances);
   if (!level) return level.error();
   structure.top_level = *level;
+  structure.instances = runtime::records_of(*instances);
   return {};
 }
 
@@ -48,20 +50,58 @@ rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& co
   return {};
 }
 
+// Runs `build` on the device's threads; what Embree took is the structure's size.
+template <typename Build>
+rtapi::Status measured(Device& device, AccelerationStructure& result, Build&& build) {
+  const int64_t before = device.embree_bytes();
+  rtapi::Status status;
+  run_in_arena(device.arena(), [&] { status = build(); });
+  result.compacted_bytes =
+      static_cast<uint64_t>(std::max<int64_t>(device.embree_bytes() - before, 0));
+  return status;
+}
+
+runtime::RebuildLevel rebuild_level(Device& device) {
+  runtime::RebuildLevel rebuild;
+  rebuild.bottom_level = [&device](std::span<const rtapi::RaytracingGeometryDesc> geometries,
+                                   std::span<const runtime::GeometryShape> shapes,
+                                   AccelerationStructure& result) {
+    return measured(device, result, [&]() -> rtapi::Status {
+      auto level = BottomLevel::build(device.build_context(), geometries, result.flags, shapes);
+      if (!level) return level.error();
+      result.bottom_level = *level;
+      return {};
+    });
+  };
+  rebuild.top_level = [&device](const std::vector<runtime::Instance>& instances,
+                                AccelerationStructure& result) {
+    return measured(device, result, [&]() -> rtapi::Status {
+      auto level = TopLevel::build(device.build_context(), instances);
+      if (!level) return level.error();
+      result.top_level = *level;
+      return {};
+    });
+  };
+  return rebuild;
+}
+
 }  // namespace
+
+rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureCommand& command) {
+  return runtime::copy_structure(device.structure_environment(), command, rebuild_level(device));
+}
+
+rtapi::Status complete_top_levels(Device& device) {
+  return runtime::complete_top_levels(device.structure_environment(), rebuild_level(device));
+}
 
 rtapi::Status build(Device& device, const runtime::BuildCommand& command) {
   const auto build_level = [&](const AccelerationStructure* source, AccelerationStructure& result) {
-    const int64_t before = device.embree_bytes();
-    rtapi::Status status;
-    run_in_arena(device.arena(), [&] {
-      status = command.type == rtapi::RaytracingAccelerationStructureType::kTopLevel
-                   ? build_top_level(device, command, result)
-                   : build_bottom_level(device, command, source, result);
+    return measured(device, result, [&] {
+      return command.type == rtapi::RaytracingAccelerationStructureType::kTopLevel
+                 ? build_top_level(device, command, result)
+                 : build_bottom_level(device, command, source, result);
     });
-    result.compacted_bytes =
-        static_cast<uint64_t>(std::max<int64_t>(device.embree_bytes() - before, 0));
-    return status;
   };
   return runtime::build_structure(device.structure_environment(), command, build_level);
 }

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "runtime/embree/testing/harness.h"
 #include "runtime/instances.h"
+#include "runtime/serialized_structure.h"
 
 namespace kaamos::embree {
 namespace {
@@ -286,6 +289,149 @@ TEST(As72, CompactionNeedsItsFlag) {
   copy.mode = CopyMode::kClone;
   copy.source = h.buffer(4096)->address();
   EXPECT_FALSE(h.execute(copy).ok());
+}
+
+void add_triangle(GeometryInput& input, float z, float x) {
+  for (auto vertex : triangle_at(z).vertices) {
+    vertex.x += x;
+    input.vertices.push_back(vertex);
+  }
+}
+
+TEST(As73And74, DeserializedStructuresTraceAndUpdateAlike) {
+  Harness h;
+  h.use_standard_pipeline();
+  for (const Flags flags : {Flags::kNone, Flags::kAllowUpdate, Flags::kPreferFastBuild}) {
+    GeometryInput input = triangle_at(3);
+    add_triangle(input, 5, 10);
+    input.indices = {3, 4, 5, 0, 1, 2};
+    const auto command = h.bottom_level_command({input, GeometryInput{}}, flags);
+    ASSERT_TRUE(h.execute(command).ok());
+    const auto bytes = h.buffer(info_of(h, command.dest, InfoType::kSerialization));
+    runtime::CopyAccelerationStructureCommand copy;
+    copy.source = command.dest;
+    copy.dest = bytes->address();
+    copy.mode = CopyMode::kSerialize;
+    ASSERT_TRUE(h.execute(copy).ok());
+    copy.source = copy.dest;
+    copy.dest = h.buffer(1 << 16)->address();
+    copy.mode = CopyMode::kDeserialize;
+    ASSERT_TRUE(h.execute(copy).ok());
+    EXPECT_EQ(depth_of(h, copy.dest), 3.0f);
+    EXPECT_EQ(info_of(h, copy.dest, InfoType::kCurrentSize),
+              info_of(h, command.dest, InfoType::kCurrentSize));
+    if (flags != Flags::kAllowUpdate) continue;
+    auto moved = input;
+    for (auto& vertex : moved.vertices) vertex.z += 4;
+    auto update = h.bottom_level_command({moved, GeometryInput{}}, flags | Flags::kPerformUpdate);
+    update.source = update.dest = copy.dest;
+    ASSERT_TRUE(h.execute(update).ok());
+    EXPECT_EQ(depth_of(h, copy.dest), 7.0f);
+    EXPECT_EQ(depth_of(h, command.dest), 3.0f);
+  }
+}
+
+TEST(As32, ATopLevelMayComeBeforeItsBottomLevels) {
+  Harness h;
+  h.use_standard_pipeline();
+  const uint64_t level = h.bottom_level({triangle_at(3)});
+  const uint64_t top = h.top_level({instance_of(0), instance_of(level)});
+  const auto save = [&](uint64_t source) {
+    runtime::CopyAccelerationStructureCommand copy;
+    copy.source = source;
+    copy.dest = h.buffer(4096)->address();
+    copy.mode = CopyMode::kSerialize;
+    EXPECT_TRUE(h.execute(copy).ok());
+    return copy.dest;
+  };
+  const uint64_t level_bytes = save(level);
+  const uint64_t top_bytes = save(top);
+  runtime::CopyAccelerationStructureCommand copy;
+  copy.mode = CopyMode::kDeserialize;
+  copy.source = top_bytes;
+  const uint64_t new_level = h.buffer(1 << 16)->address();
+  const uint64_t new_top = h.buffer(1 << 16)->address();
+  std::memcpy(h.addresses().host(top_bytes) + 56, &new_level, 8);
+  copy.dest = new_top;
+  ASSERT_TRUE(h.execute(copy).ok());
+  EXPECT_TRUE(h.messages.empty());
+  EXPECT_EQ(h.trace(ray_along_z(new_top)).end, End::kMiss);
+  EXPECT_EQ(h.trace(ray_along_z(new_top)).end, End::kMiss);
+  ASSERT_EQ(h.messages.size(), 1u);
+  EXPECT_EQ(h.messages[0].Id, "KA0797");
+  copy.source = level_bytes;
+  copy.dest = new_level;
+  ASSERT_TRUE(h.execute(copy).ok());
+  const auto payload = h.trace(ray_along_z(new_top));
+  EXPECT_EQ(payload.end, End::kClosestHit);
+  EXPECT_EQ(payload.values.instance_index, 1u);
+  const uint64_t nowhere = 0x1000;
+  std::memcpy(h.addresses().host(top_bytes) + 56, &nowhere, 8);
+  copy.source = top_bytes;
+  copy.dest = new_top;
+  const auto status = h.execute(copy);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().id, "KA0789");
+  EXPECT_NE(status.error().message.find("instance 1"), std::string::npos);
+}
+
+TEST(As73, TooSmallADestinationIsAnError) {
+  Harness h;
+  runtime::CopyAccelerationStructureCommand copy;
+  copy.source = h.bottom_level({triangle_at(3)});
+  copy.dest = h.buffer(64)->address();
+  for (const CopyMode mode : {CopyMode::kSerialize, CopyMode::kVisualizationDecodeForTools}) {
+    copy.mode = mode;
+    const auto status = h.execute(copy);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().id, "KA0795");
+  }
+}
+
+// What passes the checks of the form is built, whatever its numbers are; the rest is an error.
+TEST(As74, SealedDamageIsAnErrorOrBuilds) {
+  Harness h;
+  h.use_standard_pipeline();
+  std::mt19937 random(9);
+  GeometryInput input = triangle_at(3);
+  add_triangle(input, 5, 10);
+  input.indices = {0, 1, 2, 3, 4, 5};
+  const uint64_t level = h.bottom_level({input, triangle_at(4)});
+  const uint64_t boxes = h.bottom_level({testing::box_at(4)});
+  const uint64_t top = h.top_level({instance_of(level), instance_of(0), instance_of(boxes)});
+  const auto dest = h.buffer(65536);
+  uint32_t built = 0;
+  for (const uint64_t source : {level, boxes, top}) {
+    runtime::CopyAccelerationStructureCommand copy;
+    const auto saved = h.buffer(8192);
+    copy.source = source;
+    copy.dest = saved->address();
+    copy.mode = CopyMode::kSerialize;
+    ASSERT_TRUE(h.execute(copy));
+    rtapi::SerializedRaytracingAccelerationStructureHeader header;
+    std::memcpy(&header, saved->host(), sizeof(header));
+    const auto size = static_cast<size_t>(header.SerializedSizeInBytesIncludingHeader);
+    const std::vector<uint8_t> bytes(saved->host(), saved->host() + size);
+    copy.source = saved->address();
+    copy.dest = dest->address();
+    copy.mode = CopyMode::kDeserialize;
+    for (int round = 0; round < 200; ++round) {
+      std::memcpy(saved->host(), bytes.data(), size);
+      for (uint32_t n = round == 0 ? 0 : 1 + random() % 3; n > 0; --n) {
+        saved->host()[56 + random() % (size - 56)] ^= static_cast<uint8_t>(1u << random() % 8);
+      }
+      runtime::seal_serialized(std::span(saved->host(), size));
+      const auto status = h.execute(copy);
+      if (!status) {
+        EXPECT_EQ(status.error().id.substr(0, 4), "KA07") << status.error().message;
+        continue;
+      }
+      ++built;
+      const uint64_t scene = source == top ? copy.dest : h.top_level({instance_of(copy.dest)});
+      h.trace(ray_along_z(scene));
+    }
+  }
+  EXPECT_GT(built, 100u);
 }
 
 TEST(As41, SizesGrowWithEveryCount) {

@@ -115,12 +115,15 @@ BottomLevel::~BottomLevel() {
 
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
     const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries,
-    BuildFlags flags) {
+    BuildFlags flags, std::span<const runtime::GeometryShape> shapes) {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags;
   if (auto s = level->create_scene(context); !s) return s.error();
   if (auto s = level->add_geometries(context, geometries, nullptr); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    static_cast<runtime::GeometryShape&>(*level->geometries_[i]) = shapes[i];
+  }
   return level;
 }
 
@@ -307,9 +310,32 @@ runtime::Bounds BottomLevel::object_bounds() const {
 
 rtapi::Status BottomLevel::check_update(std::span<const RaytracingGeometryDesc> geometries,
                                         BuildFlags flags) const {
-  std::vector<runtime::GeometryShape> built;
-  for (const auto& info : geometries_) built.push_back(*info);
-  return runtime::check_update(built, flags_, geometries, flags);
+  return runtime::check_update(geometry_shapes(), flags_, geometries, flags);
+}
+
+std::vector<runtime::GeometryShape> BottomLevel::geometry_shapes() const {
+  std::vector<runtime::GeometryShape> shapes;
+  shapes.reserve(geometries_.size());
+  for (const auto& info : geometries_) shapes.push_back(*info);
+  return shapes;
+}
+
+runtime::GeometryContents BottomLevel::geometry_contents(uint32_t geometry) const {
+  const GeometryInfo& info = *geometries_[geometry];
+  runtime::GeometryContents contents;
+  contents.boxes = info.boxes;
+  if (info.type != RaytracingGeometryType::kTriangles || info.primitives == 0 ||
+      info.vertices == 0) {
+    return contents;
+  }
+  RTCGeometry handle = rtcGetGeometry(scene_, geometry);
+  contents.xyz = {
+      static_cast<const float*>(rtcGetGeometryBufferData(handle, RTC_BUFFER_TYPE_VERTEX, 0)),
+      3 * size_t{info.vertices}};
+  contents.indices = {
+      static_cast<const uint32_t*>(rtcGetGeometryBufferData(handle, RTC_BUFFER_TYPE_INDEX, 0)),
+      3 * size_t{info.primitives}};
+  return contents;
 }
 
 rtapi::Status BottomLevel::update(const BuildContext& context,

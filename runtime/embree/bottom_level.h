@@ -33,10 +33,11 @@ struct GeometryInfo : runtime::GeometryShape {
 
 class BottomLevel final : public runtime::BottomLevelBase {
  public:
-  // The inputs passed check_inputs. Errors: KA0792 Embree ran out of memory or refused.
+  // The inputs passed check_inputs. With `shapes`, of a deserialized structure, they are what
+  // updates are held against. Errors: KA0792 Embree ran out of memory or refused.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      BuildFlags flags);
+      BuildFlags flags, std::span<const runtime::GeometryShape> shapes = {});
   ~BottomLevel() override;
   BottomLevel(const BottomLevel&) = delete;
   BottomLevel& operator=(const BottomLevel&) = delete;
@@ -57,6 +58,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
   const ExactFrame& exact_frame() const { return exact_frame_; }
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
+  std::vector<runtime::GeometryShape> geometry_shapes() const override;
+  // Embree's own buffers: serialization costs no memory here.
+  runtime::GeometryContents geometry_contents(uint32_t geometry) const override;
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
   uint64_t out_of_range_triangles() const { return out_of_range_triangles_; }

@@ -17,9 +17,11 @@ class Executor {
   explicit Executor(Device& device) : device_(device) {}
 
   rtapi::Status operator()(const runtime::DispatchRaysCommand& command) {
+    if (auto s = complete_top_levels(device_); !s) return s;
     return finish(dispatch_rays(device_.dispatch_environment(), command, label("DispatchRays")));
   }
   rtapi::Status operator()(const runtime::DispatchCommand& command) {
+    if (auto s = complete_top_levels(device_); !s) return s;
     return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
   }
   rtapi::Status operator()(const runtime::BuildCommand& command) { return build(device_, command); }
@@ -28,7 +30,7 @@ class Executor {
                                         command.sources);
   }
   rtapi::Status operator()(const runtime::CopyAccelerationStructureCommand& command) {
-    return runtime::copy_structure(device_.structure_environment(), command);
+    return copy(device_, command);
   }
   rtapi::Status operator()(const runtime::CopyBufferCommand& command);
   rtapi::Status operator()(const runtime::CopyTextureCommand& command);

@@ -9,6 +9,7 @@
 #include "runtime/build_inputs.h"
 #include "runtime/instances.h"
 #include "runtime/structure_commands.h"
+#include "runtime/structure_copies.h"
 #include "runtime/vulkan/instance_table.h"
 #include "runtime/vulkan/top_level.h"
 
@@ -53,6 +54,7 @@ class Structures final : public AccelerationStructures {
   rtapi::Status build_bottom_level(const runtime::BuildCommand& command,
                                    const AccelerationStructure* source,
                                    AccelerationStructure& result);
+  runtime::RebuildLevel rebuild_level();
   rtapi::Status write_table();
 
   std::shared_ptr<Gpu> gpu_;
@@ -97,6 +99,7 @@ rtapi::Status Structures::build_top_level(const runtime::BuildCommand& command,
   if (!level) return level.error();
   result.compacted_bytes = (*level)->held_bytes();
   result.top_level = std::move(*level);
+  result.instances = runtime::records_of(*instances);
   return {};
 }
 
@@ -130,7 +133,29 @@ rtapi::Status Structures::build_bottom_level(const runtime::BuildCommand& comman
 rtapi::Status Structures::copy(CommandStream& stream,
                                const runtime::CopyAccelerationStructureCommand& command) {
   if (auto s = stream.flush(); !s) return s;
-  return runtime::copy_structure(environment(), command);
+  return runtime::copy_structure(environment(), command, rebuild_level());
+}
+
+runtime::RebuildLevel Structures::rebuild_level() {
+  runtime::RebuildLevel rebuild;
+  rebuild.bottom_level = [this](std::span<const rtapi::RaytracingGeometryDesc> geometries,
+                                std::span<const runtime::GeometryShape> shapes,
+                                AccelerationStructure& result) -> rtapi::Status {
+    auto level = BottomLevel::build(gpu_, geometries, result.flags, nullptr, shapes);
+    if (!level) return level.error();
+    result.compacted_bytes = (*level)->held_bytes();
+    result.bottom_level = std::move(*level);
+    return {};
+  };
+  rebuild.top_level = [this](const std::vector<runtime::Instance>& instances,
+                             AccelerationStructure& result) -> rtapi::Status {
+    auto level = TopLevel::build(gpu_, *instances_, instances, result.flags);
+    if (!level) return level.error();
+    result.compacted_bytes = (*level)->held_bytes();
+    result.top_level = std::move(*level);
+    return {};
+  };
+  return rebuild;
 }
 
 rtapi::Status Structures::emit(CommandStream& stream,
@@ -140,6 +165,7 @@ rtapi::Status Structures::emit(CommandStream& stream,
 }
 
 rtapi::Result<SceneTables> Structures::tables() {
+  if (auto s = runtime::complete_top_levels(environment(), rebuild_level()); !s) return s.error();
   auto top_levels = map_->top_levels();
   if (top_levels != listed_) {
     listed_ = std::move(top_levels);

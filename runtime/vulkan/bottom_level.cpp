@@ -50,6 +50,7 @@ class BottomLevelBuilder {
   rtapi::Status copy_inputs();
   StructureGeometry describe(size_t g) const;
   rtapi::Status build();
+  void keep_inputs();
 
   std::shared_ptr<Gpu> gpu_;
   std::span<const RaytracingGeometryDesc> geometries_;
@@ -85,8 +86,8 @@ void BottomLevelBuilder::decode_triangles(size_t g, Decoded& out) {
   if (primitives == 0 || desc.VertexCount == 0) return;
   out.xyz.resize(3 * uint64_t{desc.VertexCount});
   runtime::decode_vertices(desc, out.xyz.data());
-  if (update_of_ != nullptr) {
-    out.indices = update_of_->indices_[g];
+  if (update_of_ != nullptr && desc.IndexFormat != rtapi::Format::kUnknown) {
+    out.indices = update_of_->inputs_[g].indices;
     return;
   }
   out.indices.resize(3 * primitives);
@@ -180,21 +181,34 @@ rtapi::Status BottomLevelBuilder::build() {
   }
   level_.empty_ = list_.empty();
   level_.bounds_ = list_.bounds();
-  if (rtapi::HasAny(level_.flags_, runtime::BuildFlags::kAllowUpdate)) {
-    for (Decoded& d : decoded_) level_.indices_.push_back(std::move(d.indices));
-  }
+  keep_inputs();
   return {};
+}
+
+void BottomLevelBuilder::keep_inputs() {
+  for (size_t g = 0; g < geometries_.size(); ++g) {
+    BottomLevel::Inputs& kept = level_.inputs_.emplace_back();
+    kept.xyz = std::move(decoded_[g].xyz);
+    kept.boxes = std::move(decoded_[g].boxes);
+    if (!procedural(g) && geometries_[g].Triangles.IndexFormat != rtapi::Format::kUnknown) {
+      kept.indices = std::move(decoded_[g].indices);
+    }
+    level_.held_bytes_ += kept.xyz.size() * sizeof(float) + kept.indices.size() * sizeof(uint32_t) +
+                          kept.boxes.size() * sizeof(rtapi::RaytracingAabb);
+  }
 }
 
 rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
     const std::shared_ptr<Gpu>& gpu, std::span<const RaytracingGeometryDesc> geometries,
-    runtime::BuildFlags flags, const BottomLevel* update_of) {
+    runtime::BuildFlags flags, const BottomLevel* update_of,
+    std::span<const runtime::GeometryShape> shapes) {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags & ~runtime::BuildFlags::kPerformUpdate;
   for (uint32_t g = 0; g < geometries.size(); ++g) {
     level->shapes_.push_back(runtime::shape_of(geometries[g], g));
   }
   if (auto s = BottomLevelBuilder(gpu, geometries, update_of, *level).run(); !s) return s.error();
+  if (!shapes.empty()) level->shapes_.assign(shapes.begin(), shapes.end());
   return level;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A bottom level: one of Vulkan's over own copies of its inputs, which go when it is built.
+// A bottom level: one of Vulkan's, with a copy of its decoded inputs on the host.
 #pragma once
 
 #include <cstdint>
@@ -19,14 +19,21 @@ namespace kaamos::vulkan {
 class BottomLevel final : public runtime::BottomLevelBase {
  public:
   // `geometries` passed check_inputs, and have the addresses of the host. With `update_of` the
-  // indices are those of its build. [DXR: Acceleration structure update constraints] Errors: KA0794
-  // too many primitives or geometries, KA0990 no memory.
+  // indices are those of its build. [DXR: Acceleration structure update constraints] With `shapes`,
+  // of a deserialized structure, they are what updates are held against. Errors: KA0794 too many
+  // primitives or geometries, KA0990 no memory.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const std::shared_ptr<Gpu>& gpu, std::span<const rtapi::RaytracingGeometryDesc> geometries,
-      runtime::BuildFlags flags, const BottomLevel* update_of = nullptr);
+      runtime::BuildFlags flags, const BottomLevel* update_of = nullptr,
+      std::span<const runtime::GeometryShape> shapes = {});
 
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override { return bounds_; }
+  std::vector<runtime::GeometryShape> geometry_shapes() const override { return shapes_; }
+  runtime::GeometryContents geometry_contents(uint32_t geometry) const override {
+    const Inputs& inputs = inputs_[geometry];
+    return {inputs.xyz, inputs.indices, inputs.boxes};
+  }
 
   uint64_t address() const { return structure_->address(); }
   uint64_t primitive_remap() const { return remap_; }  // spirv::InstanceEntry::primitive_remap
@@ -48,7 +55,16 @@ class BottomLevel final : public runtime::BottomLevelBase {
   runtime::Bounds bounds_;
   runtime::BuildFlags flags_ = runtime::BuildFlags::kNone;
   std::vector<runtime::GeometryShape> shapes_;
-  std::vector<std::vector<uint32_t>> indices_;  // with kAllowUpdate, of triangle geometries
+  // A driver's tree is opaque and cannot be decoded, and DXR does not tell before a build whether
+  // it will be serialized: so this is kept of every bottom level. It takes 12 bytes a vertex, 12 a
+  // triangle where they are indexed, 24 a box, beside the 104 of lavapipe's tree for each. Updates
+  // take the indices from it, too.
+  struct Inputs {
+    std::vector<float> xyz;
+    std::vector<uint32_t> indices;  // none: 0, 1, 2, ...
+    std::vector<rtapi::RaytracingAabb> boxes;
+  };
+  std::vector<Inputs> inputs_;  // of each geometry
 };
 
 }  // namespace kaamos::vulkan

@@ -141,6 +141,11 @@ class Device {
   GetRaytracingAccelerationStructurePrebuildInfo(
       const BuildRaytracingAccelerationStructureInputs& inputs) const;
 
+  // Whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this identifier,
+  // which its header begins with. An empty handle recognizes none.
+  DriverMatchingIdentifierStatus CheckDriverMatchingIdentifier(
+      SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const;
+
   // Work
   Result<CommandList> CreateCommandList() const;
   Result<CommandQueue> CreateCommandQueue() const;

@@ -175,6 +175,49 @@ enum class RaytracingAccelerationStructureCopyMode : uint32_t {
   kDeserialize = 4,
 };
 
+enum class SerializedDataType : uint32_t { kRaytracingAccelerationStructure = 0 };
+
+// What Device::CheckDriverMatchingIdentifier says of serialized data.
+enum class DriverMatchingIdentifierStatus : uint32_t {
+  kCompatibleWithDevice = 0,
+  kUnsupportedType = 1,
+  kUnrecognized = 2,         // another driver's
+  kIncompatibleVersion = 3,  // of another version of this library
+  kIncompatibleType = 4,
+};
+
+struct Guid {
+  uint32_t Data1 = 0;
+  uint16_t Data2 = 0;
+  uint16_t Data3 = 0;
+  uint8_t Data4[8] = {};
+
+  bool operator==(const Guid&) const = default;
+};
+
+// Opaque. Every backend writes the same one: what one wrote the others read.
+struct SerializedDataDriverMatchingIdentifier {
+  Guid DriverOpaqueGUID = {};
+  uint8_t DriverOpaqueVersioningData[16] = {};
+};
+
+// What kSerialize writes begins with it; then come as many 8-byte addresses of bottom levels, which
+// the application replaces by those of their copies before kDeserialize.
+// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
+struct SerializedRaytracingAccelerationStructureHeader {
+  SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};
+  uint64_t SerializedSizeInBytesIncludingHeader = 0;
+  uint64_t DeserializedSizeInBytes = 0;
+  uint64_t NumBottomLevelAccelerationStructurePointersAfterHeader = 0;
+};
+
+// What kVisualizationDecodeForTools writes begins with it; then come NumDescs instance or geometry
+// descs without a gap, then what their addresses name.
+struct BuildRaytracingAccelerationStructureToolsVisualizationHeader {
+  RaytracingAccelerationStructureType Type = RaytracingAccelerationStructureType::kTopLevel;
+  uint32_t NumDescs = 0;
+};
+
 // [DXR: D3D12_DISPATCH_RAYS_DESC]. Starts are multiples of 64, strides of 32 up to 4096.
 struct DispatchRaysDesc {
   GpuVirtualAddressRange RayGenerationShaderRecord = {};
@@ -187,6 +230,7 @@ struct DispatchRaysDesc {
 };
 
 static_assert(sizeof(RaytracingInstanceDesc) == 64 && sizeof(RaytracingGeometryDesc) == 56 &&
-              sizeof(DispatchRaysDesc) == 104);
+              sizeof(DispatchRaysDesc) == 104 &&
+              sizeof(SerializedRaytracingAccelerationStructureHeader) == 56);
 
 }  // namespace rtapi
