@@ -24,6 +24,11 @@ std::string at(uint64_t address) {
   return "at address " + std::to_string(address);
 }
 
+rtapi::Error out_of_memory(const std::string& what) {
+  return {"KA0990", rtapi::ErrorCode::kOutOfMemory,
+          "KA0990 out of memory: " + what + " could not be allocated."};
+}
+
 // Bytes of the host for serialize and tools.
 rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment,
                                          const CopyAccelerationStructureCommand& command,
@@ -160,9 +165,7 @@ rtapi::Status copy_structure(const StructureEnvironment& environment,
   try {
     return copy(environment, command, rebuild);
   } catch (const std::bad_alloc&) {
-    return rtapi::Error{"KA0990", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0990 out of memory: a copy of the acceleration structure " +
-                            at(command.source) + " could not be allocated."};
+    return out_of_memory("a copy of the acceleration structure " + at(command.source));
   }
 }
 
@@ -175,7 +178,11 @@ rtapi::Status complete_top_levels(const StructureEnvironment& environment,
     result.missing_reported = true;
     const auto notes =
         placed->missing_reported ? InstanceNotes::kMissingMayCome : InstanceNotes::kAll;
-    if (auto s = build_top_level(environment, rebuild, notes, result); !s) return s;
+    try {
+      if (auto s = build_top_level(environment, rebuild, notes, result); !s) return s;
+    } catch (const std::bad_alloc&) {
+      return out_of_memory("the deserialized top level " + at(placed->address));
+    }
     result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
     environment.structures.place(std::move(result));
   }
