@@ -221,7 +221,7 @@ TEST(As64And65, ATopLevelUpdateRedefinesEverything) {
 }
 
 uint64_t info_of(Harness& h, uint64_t structure, InfoType type) {
-  const auto out = h.buffer(8);
+  const auto out = h.buffer(16);
   runtime::EmitPostbuildInfoCommand command;
   command.desc = {out->address(), type};
   command.sources = {structure};

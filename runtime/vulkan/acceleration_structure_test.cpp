@@ -296,8 +296,9 @@ TEST(VulkanScene, SealedDamageIsAnErrorOrBuilds) {
         continue;
       }
       ++built;
-      const uint64_t scene = source == top ? copy.dest : h.top_level({instance_of(copy.dest)});
-      caster.cast_along_z(scene);
+      if (round == 0 && source == level) {
+        EXPECT_NEAR(caster.cast_along_z(h.top_level({instance_of(copy.dest)})).t, 3, 1e-4);
+      }
     }
   }
   EXPECT_GT(built, 100u);
