@@ -147,15 +147,22 @@ void RayCaster::create_pipeline() {
   const auto& limits = gpu.properties().ray_tracing;
   record_bytes_ = std::max(limits.shaderGroupBaseAlignment, limits.shaderGroupHandleSize);
   const uint32_t handle = limits.shaderGroupHandleSize;
-  std::vector<uint8_t> handles(4 * handle);
+  handles_.resize(4 * handle);
   ASSERT_EQ(gpu.vk().vkGetRayTracingShaderGroupHandlesKHR(gpu.device(), pipeline_, 0, 4,
-                                                          handles.size(), handles.data()),
+                                                          handles_.size(), handles_.data()),
             VK_SUCCESS);
-  auto table = gpu.create_buffer(4 * record_bytes_, "shader table");
+}
+
+// The driver reads whatever hit record the scene names: null records stand up to the last of them.
+void RayCaster::provide_table(uint64_t hit_records) {
+  const uint64_t records = 2 + std::max<uint64_t>(hit_records, 2);
+  if (table_ != nullptr && table_->size_bytes() >= records * record_bytes_) return;
+  auto table = scene_.gpu().create_buffer(records * record_bytes_, "shader table");
   ASSERT_TRUE(table);
   table_ = std::move(*table);
-  for (uint32_t i = 0; i < 4; ++i) {
-    std::memcpy(table_->host() + i * record_bytes_, &handles[i * handle], handle);
+  const size_t handle = handles_.size() / 4;
+  for (size_t i = 0; i < 4; ++i) {
+    std::memcpy(table_->host() + i * record_bytes_, &handles_[i * handle], handle);
   }
 }
 
@@ -163,6 +170,8 @@ std::vector<CastHit> RayCaster::cast(uint64_t top_level, const std::vector<CastR
   Gpu& gpu = scene_.gpu();
   auto tables = scene_.structures().tables();
   EXPECT_TRUE(tables);
+  const uint64_t hit_records = tables->max_hit_record + 1;
+  provide_table(hit_records);
   auto out = scene_.buffer(rays.size() * sizeof(CastHit));
   const Parameters parameters = {
       top_level,          scene_.upload(rays),     out->address(),        tables->instances,
@@ -173,7 +182,7 @@ std::vector<CastHit> RayCaster::cast(uint64_t top_level, const std::vector<CastR
   };
   const auto ray_generation = region(0, 1);
   const auto miss = region(1, 1);
-  const auto hit = region(2, 2);
+  const auto hit = region(2, hit_records);
   const VkStridedDeviceAddressRegionKHR callable = {};
   const auto start = std::chrono::steady_clock::now();
   const auto status = gpu.run(

@@ -48,11 +48,13 @@ class RayCaster {
 
  private:
   void create_pipeline();
+  void provide_table(uint64_t hit_records);
 
   SceneHarness& scene_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
   std::vector<VkShaderModule> modules_;
+  std::vector<uint8_t> handles_;  // of four groups
   std::unique_ptr<GpuBuffer> table_;
   uint64_t record_bytes_ = 0;
   double last_ms_ = 0;
