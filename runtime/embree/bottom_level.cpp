@@ -328,6 +328,11 @@ runtime::GeometryContents BottomLevel::geometry_contents(uint32_t geometry) cons
       info.vertices == 0) {
     return contents;
   }
+  if (info.exact != nullptr) {
+    contents.xyz = info.exact->vertices;
+    contents.indices = info.exact->indices;
+    return contents;
+  }
   RTCGeometry handle = rtcGetGeometry(scene_, geometry);
   contents.xyz = {
       static_cast<const float*>(rtcGetGeometryBufferData(handle, RTC_BUFFER_TYPE_VERTEX, 0)),

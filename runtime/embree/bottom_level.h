@@ -59,7 +59,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
   std::vector<runtime::GeometryShape> geometry_shapes() const override;
-  // Embree's own buffers: serialization costs no memory here.
+  // The buffers that are traced: serialization costs no memory here.
   runtime::GeometryContents geometry_contents(uint32_t geometry) const override;
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
