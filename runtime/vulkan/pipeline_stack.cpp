@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/pipeline_stack.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 
 namespace kaamos::vulkan {
@@ -52,11 +54,21 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
   return static_cast<uint32_t>(std::min<uint64_t>(total, UINT32_MAX));
 }
 
-uint32_t nested_payload_limit(uint32_t payload_bytes) {
-  constexpr uint64_t kStackBytes = 6u << 20;  // the rest is for all else
+uint32_t nested_payload_limit(uint32_t payload_bytes, uint64_t stack_bytes) {
   constexpr uint64_t kLanes = 8;
   constexpr uint64_t kHeaderBytes = 16;
-  return static_cast<uint32_t>(kStackBytes / (2 * kLanes * (payload_bytes + kHeaderBytes)));
+  const uint64_t for_payloads = stack_bytes / 4 * 3;  // the rest is for all else
+  return static_cast<uint32_t>(for_payloads / (2 * kLanes * (payload_bytes + kHeaderBytes)));
+}
+
+uint64_t default_thread_stack_bytes() {
+  constexpr uint64_t kUsual = 8u << 20;
+  pthread_attr_t attributes;
+  if (pthread_getattr_default_np(&attributes) != 0) return kUsual;
+  size_t bytes = 0;
+  const bool known = pthread_attr_getstacksize(&attributes, &bytes) == 0;
+  pthread_attr_destroy(&attributes);
+  return known ? bytes : kUsual;
 }
 
 uint32_t largest_payload(const runtime::LinkedPipeline& pipeline) {

@@ -22,9 +22,11 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               uint32_t trace_depth, uint32_t callable_depth);
 
 // Traces that lavapipe can nest with a payload of so many bytes (PAYLOAD). It keeps the payloads of
-// all 8 lanes on a thread's stack of 8 MiB, and for each level both the shader's own and the one
-// that travels.
-uint32_t nested_payload_limit(uint32_t payload_bytes);
+// all 8 lanes on its thread's stack, and for each level both the shader's own and the one that
+// travels.
+uint32_t nested_payload_limit(uint32_t payload_bytes, uint64_t stack_bytes);
+// What a thread gets that nobody gave a size: as a process's limit says, 8 MiB as a rule.
+uint64_t default_thread_stack_bytes();
 // The largest payload that a shader of the pipeline takes, as it is stored.
 uint32_t largest_payload(const runtime::LinkedPipeline& pipeline);
 

@@ -124,7 +124,9 @@ rtapi::Status RaytracingPipeline::start() {
   max_trace_depth_ =
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
   if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
-    max_trace_depth_ = std::min(max_trace_depth_, nested_payload_limit(largest_payload(*linked_)));
+    max_trace_depth_ =
+        std::min(max_trace_depth_,
+                 nested_payload_limit(largest_payload(*linked_), default_thread_stack_bytes()));
   }
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
   StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth, layout_->collect_statistics()});

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// Workarounds that change no pixel, with and without: B11 (which thread works) and PAYLOAD (whether
+// the process lives). The others' tests compare pixels: runtime/vulkan/README.md says where.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "tests/vulkan/support.h"
+
+namespace kaamos::test {
+namespace {
+
+struct Outcome {
+  int status = 0;  // as a shell has it: 128 + signal
+  std::string line;
+};
+
+// `before`: shell commands. The probe does not dump its core, and its validation layers are off:
+// they have stacks and threads of their own.
+Outcome probe(const std::string& what, const std::string& before) {
+  const std::string command = "bash -c 'unset KAAMOS_VULKAN_VALIDATION; ulimit -c 0; " + before +
+                              KAAMOS_BINARY_DIR "/bin/workaround_probe " + what +
+                              " 2>&1; exit $?' 2>/dev/null";
+  Outcome outcome;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return outcome;
+  char text[1024];
+  while (std::fgets(text, sizeof(text), pipe) != nullptr) outcome.line += text;
+  outcome.status = WEXITSTATUS(pclose(pipe));
+  return outcome;
+}
+
+double busiest_share(const std::string& before) {
+  const Outcome outcome = probe("balance", before);
+  EXPECT_EQ(outcome.status, 0) << outcome.line;
+  return std::atof(outcome.line.c_str());
+}
+
+// Work in one half of the picture is worth little to a thread that has the other half.
+TEST(VulkanWorkarounds, RowsAreSharedEvenly) {
+  KAAMOS_NEED_VULKAN();
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two processors";
+  const double with = busiest_share("");
+  const double without = busiest_share("export KAAMOS_VULKAN_DISABLE_WORKAROUNDS=B11; ");
+  EXPECT_GT(without, 1.5 * with);
+}
+
+// The driver's threads get the stack that a process's limit says: with 1 MiB, 31 traces with 4 KiB
+// are as much too deep as with 64 KiB on the usual 8 MiB, which the driver compiles for minutes.
+constexpr char kSmallStacks[] = "ulimit -s 1024; ";
+
+TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepRemoveTheDevice) {
+  KAAMOS_NEED_VULKAN();
+  const Outcome with = probe("payload", kSmallStacks);
+  EXPECT_EQ(with.status, 0);
+  EXPECT_NE(with.line.find("KA0890"), std::string::npos) << with.line;
+  EXPECT_NE(with.line.find("a depth of 11 "), std::string::npos) << with.line;
+}
+
+TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepEndTheProcessOtherwise) {
+  KAAMOS_NEED_VULKAN();
+  const Outcome without = probe(
+      "payload", std::string("export KAAMOS_VULKAN_DISABLE_WORKAROUNDS=PAYLOAD; ") + kSmallStacks);
+  EXPECT_GE(without.status, 128) << without.line;
+}
+
+TEST(VulkanWorkarounds, UsualStacksAreLargeEnough) {
+  KAAMOS_NEED_VULKAN();
+  const Outcome outcome = probe("payload", "ulimit -s 8192; ");
+  EXPECT_EQ(outcome.line, "finished: 38\n");
+}
+
+// Without a limit threads get 2 MiB.
+TEST(VulkanWorkarounds, StacksWithoutALimitAreSmaller) {
+  KAAMOS_NEED_VULKAN();
+  const Outcome outcome = probe("payload", "ulimit -s unlimited; ");
+  EXPECT_EQ(outcome.status, 0) << outcome.line;
+  EXPECT_NE(outcome.line.find("a depth of 23 "), std::string::npos) << outcome.line;
+}
+
+}  // namespace
+}  // namespace kaamos::test
