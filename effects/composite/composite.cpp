@@ -11,15 +11,10 @@ rtapi::Result<rtapi::ShaderLibrary> composite_library() {
 
 rtapi::Result<CompositePass> CompositePass::create(const rtapi::Device& device, const Frame& frame,
                                                    const rtapi::ShaderLibrary& library) {
-  rtapi::ComputePipelineStateDesc desc;
-  desc.pRootSignature = frame.root_signature();
-  desc.CS = library;
-  desc.EntryPoint = "Composite";
-  desc.Name = "composite";
-  const auto pipeline = device.CreateComputePipelineState(desc);
-  if (!pipeline) return pipeline.error();
+  const auto created = ComputePass::create(device, frame, library, "Composite");
+  if (!created) return created.error();
   CompositePass pass;
-  pass.pipeline_ = *pipeline;
+  pass.pass_ = *created;
   return pass;
 }
 
@@ -28,10 +23,7 @@ void CompositePass::dispatch(rtapi::CommandList& list, const Frame& frame,
   PassConstants pass;
   pass.first_sample = constants.ao_samples;
   pass.sample_count = constants.sun_samples;
-  frame.bind(list, pass);
-  list.SetPipelineState(pipeline_);
-  list.Dispatch((frame.width() + 7) / 8, (frame.height() + 7) / 8, 1);
-  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  pass_.dispatch(list, frame, pass, {}, frame.width(), frame.height());
 }
 
 }  // namespace kaamos::effects

@@ -2,7 +2,7 @@
 // The frame's radiance from the G-buffer and the effects, by a compute shader.
 #pragma once
 
-#include "effects/frame/frame.h"
+#include "effects/frame/compute_pass.h"
 
 namespace kaamos::effects {
 
@@ -23,7 +23,7 @@ class CompositePass {
                 const CompositeConstants& constants) const;
 
  private:
-  rtapi::PipelineState pipeline_;
+  ComputePass pass_;
 };
 
 }  // namespace kaamos::effects

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "effects/frame/frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <span>
 
 #include "effects/common/blue_noise.h"
-#include "effects/frame/texel.h"
+#include "effects/frame/picture.h"
+#include "effects/lights/light_constants.h"
 
 namespace kaamos::effects {
 
@@ -32,10 +34,11 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"ambient occlusion sum", Format::kR32Float},
     {"sun visibility sum", Format::kR32Float},
     {"radiance", Format::kR32G32B32A32Float},
+    {"motion", Format::kR32G32B32A32Float},
 };
 
-// Descriptors of the view heap: t0..t2, then u0.., then the scene's textures.
-constexpr std::uint32_t kFirstPicture = 3;
+// Descriptors of the view heap: t0..t3, then u0.., then the scene's textures, then the passes' own.
+constexpr std::uint32_t kFirstPicture = 4;
 constexpr std::uint32_t kFirstSceneTexture = kFirstPicture + kFrameTextureCount;
 
 TextureAddressMode address_mode(Wrap wrap) {
@@ -60,13 +63,23 @@ rtapi::Filter filter(const Sampler& sampler) {
 
 }  // namespace
 
-FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc) {
+FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
+                               const FrameTime& time) {
   FrameConstants c = {};
   const double half_height = std::tan(camera.vertical_fov / 2);
   const double aspect = static_cast<double>(desc.width) / desc.height;
-  c.camera_right = glm::vec3(glm::dvec3(camera.camera_to_world[0]) * half_height * aspect);
-  c.camera_up = glm::vec3(glm::dvec3(camera.camera_to_world[1]) * half_height);
-  c.camera_forward = glm::vec3(camera.forward());
+  const auto set_axes = [&](const Camera& of, glm::vec3& right, glm::vec3& up, glm::vec3& forward) {
+    const double half = std::tan(of.vertical_fov / 2);
+    right = glm::vec3(glm::dvec3(of.camera_to_world[0]) * half * aspect);
+    up = glm::vec3(glm::dvec3(of.camera_to_world[1]) * half);
+    forward = glm::vec3(of.forward());
+  };
+  set_axes(camera, c.camera_right, c.camera_up, c.camera_forward);
+  set_axes(time.previous_camera, c.previous_right, c.previous_up, c.previous_forward);
+  c.camera_motion = glm::vec3(camera.position() - time.previous_camera.position());
+  c.frame_index = time.index;
+  c.jitter = time.jitter;
+  c.previous_jitter = time.previous_jitter;
   c.near_plane = static_cast<float>(camera.near_plane);
   c.pixel_angle = static_cast<float>(2 * half_height / desc.height);
   c.seed = desc.seed;
@@ -95,6 +108,13 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
                                                      .RegisterSpace = 1}}));
   global.Parameters.push_back(RootParameter::Cbv(0));
   global.Parameters.push_back(RootParameter::Constants32(sizeof(PassConstants) / 4, 1));
+  global.Parameters.push_back(RootParameter::Table({{.RangeType = DescriptorRangeType::kSrv,
+                                                     .NumDescriptors = kPassShaderResources,
+                                                     .RegisterSpace = 3},
+                                                    {.RangeType = DescriptorRangeType::kUav,
+                                                     .NumDescriptors = kPassUnorderedAccess,
+                                                     .RegisterSpace = 3}}));
+  global.Parameters.push_back(RootParameter::Constants32(kPassWords, 0, 3));
   const auto created = device.CreateRootSignature(global);
   if (!created) return created.error();
   root_signature_ = *created;
@@ -112,23 +132,35 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
 
 rtapi::Status Frame::create_textures(const Device& device) {
   for (const TextureInfo& info : kTextures) {
-    TextureDesc desc;
-    desc.Width = desc_.width;
-    desc.Height = desc_.height;
-    desc.Format = info.format;
-    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-    desc.InitialState = ResourceStates::kUnorderedAccess;
-    desc.Name = info.name;
-    const auto created = device.CreateTexture(desc);
+    const auto created = create_picture(device, info.name, info.format);
     if (!created) return created.error();
     textures_.push_back(*created);
   }
   return {};
 }
 
+rtapi::Result<Texture> Frame::create_picture(const Device& device, std::string name,
+                                             Format format) const {
+  return effects::create_picture(device, std::move(name), format, desc_.width, desc_.height);
+}
+
+rtapi::Result<PassViews> Frame::create_pass_views(const Device& device) const {
+  if (*pass_views_ == desc_.max_pass_views) {
+    return Error{"", ErrorCode::kFailed,
+                 "the frame has room for " + std::to_string(desc_.max_pass_views) +
+                     " passes with views of their own and one more was asked for; raise "
+                     "FrameDesc::max_pass_views"};
+  }
+  const std::uint32_t first =
+      views_.GetDesc().NumDescriptors - kPassViews * (desc_.max_pass_views - *pass_views_);
+  ++*pass_views_;
+  return PassViews(device, views_, first);
+}
+
 rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   DescriptorHeapDesc heap;
-  heap.NumDescriptors = kFirstSceneTexture + static_cast<std::uint32_t>(gpu.textures.size());
+  heap.NumDescriptors = kFirstSceneTexture + static_cast<std::uint32_t>(gpu.textures.size()) +
+                        desc_.max_pass_views * kPassViews;
   heap.Flags = DescriptorHeapFlags::kShaderVisible;
   heap.Name = "views";
   const auto created = device.CreateDescriptorHeap(heap);
@@ -152,6 +184,7 @@ rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   };
   if (const auto s = structured(gpu.materials, sizeof(MaterialConstants), 1); !s) return s;
   if (const auto s = structured(blue_noise_, sizeof(glm::vec2), 2); !s) return s;
+  if (const auto s = write_lights_view(device); !s) return s;
   for (std::uint32_t i = 0; i < kFrameTextureCount; ++i) {
     const auto handle = views_.GetCPUDescriptorHandle(kFirstPicture + i);
     if (const auto s = device.CreateUnorderedAccessView(textures_[i], handle); !s) return s;
@@ -190,14 +223,11 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
                                    const FrameDesc& desc) {
   Frame frame;
   frame.desc_ = desc;
-  // Constant buffers are read in whole 256-byte blocks. [D3D12: constant buffer placement]
-  std::vector<std::byte> constants(256);
-  const FrameConstants values = frame_constants(scene, camera, desc);
-  std::memcpy(constants.data(), &values, sizeof values);
-  auto buffer = CreateUploadBuffer(device, constants, "frame constants");
-  if (!buffer) return buffer.error();
-  frame.constants_ = *buffer;
-  buffer = CreateUploadBuffer(device, blue_noise_tile(), "blue noise");
+  frame.pass_views_ = std::make_shared<std::uint32_t>(0);
+  if (const auto s = frame.set_camera(device, scene, camera, {.previous_camera = camera}); !s) {
+    return s.error();
+  }
+  const auto buffer = CreateUploadBuffer(device, blue_noise_tile(), "blue noise");
   if (!buffer) return buffer.error();
   frame.blue_noise_ = *buffer;
   if (const auto s = frame.create_root_signatures(device); !s) return s.error();
@@ -207,13 +237,43 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
   return frame;
 }
 
-void Frame::bind(CommandList& list, const PassConstants& constants) const {
+rtapi::Status Frame::set_camera(const Device& device, const Scene& scene, const Camera& camera,
+                                const FrameTime& time) {
+  std::vector<LightConstants> lights = light_constants(scene, camera.position());
+  // Constant buffers are read in whole 256-byte blocks. [D3D12: constant buffer placement]
+  std::vector<std::byte> constants(256);
+  FrameConstants values = frame_constants(scene, camera, desc_, time);
+  values.light_count = static_cast<std::uint32_t>(lights.size());
+  std::memcpy(constants.data(), &values, sizeof values);
+  auto buffer = CreateUploadBuffer(device, constants, "frame constants");
+  if (!buffer) return buffer.error();
+  constants_ = *buffer;
+  lights.resize(std::max<std::size_t>(lights.size(), 1));
+  buffer = CreateUploadBuffer(device, lights, "lights");
+  if (!buffer) return buffer.error();
+  lights_ = *buffer;
+  return views_ ? write_lights_view(device) : rtapi::Status();
+}
+
+rtapi::Status Frame::write_lights_view(const Device& device) const {
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Buffer.StructureByteStride = sizeof(LightConstants);
+  view.Buffer.NumElements = static_cast<std::uint32_t>(lights_.size() / sizeof(LightConstants));
+  return device.CreateShaderResourceView(lights_, view, views_.GetCPUDescriptorHandle(3));
+}
+
+void Frame::bind(CommandList& list, const PassConstants& constants,
+                 const PassArguments& arguments) const {
   list.SetDescriptorHeaps({views_, samplers_});
   list.SetComputeRootSignature(root_signature_);
   list.SetComputeRootDescriptorTable(kRootViews, views_.GetGPUDescriptorHandleForHeapStart());
   list.SetComputeRootDescriptorTable(kRootSamplers, samplers_.GetGPUDescriptorHandleForHeapStart());
   list.SetComputeRootConstantBufferView(kRootFrame, constants_.GetGPUVirtualAddress());
   list.SetComputeRoot32BitConstants(kRootPass, constants);
+  if (arguments.views == nullptr) return;
+  list.SetComputeRootDescriptorTable(kRootPassViews, arguments.views->table());
+  list.SetComputeRoot32BitConstants(kRootPassWords, arguments.words);
 }
 
 void Frame::clear(CommandList& list, FrameTexture texture) const {
@@ -226,9 +286,7 @@ void Frame::clear(CommandList& list, FrameTexture texture) const {
 
 rtapi::Result<FloatImage> Frame::read(const Device& device, CommandQueue& queue,
                                       FrameTexture texture) const {
-  const auto bytes = ReadbackTexture(device, queue, textures_[texture], 0);
-  if (!bytes) return bytes.error();
-  return decode_texels(kTextures[texture].format, desc_.width, desc_.height, *bytes);
+  return read_picture(device, queue, textures_[texture]);
 }
 
 }  // namespace kaamos::effects

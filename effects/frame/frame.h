@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "effects/frame/pass_views.h"
 #include "effects/image/image.h"
 #include "effects/scene/gpu_scene.h"
 #include "effects/scene/scene.h"
@@ -26,15 +28,25 @@ struct FrameConstants {
   glm::vec3 direction_to_sun;
   float tan_sun_radius;
   glm::vec3 sun_irradiance;
-  float padding0;
+  std::uint32_t light_count;
   glm::vec3 sky_zenith;
-  float padding1;
+  std::uint32_t frame_index;
   glm::vec3 sky_horizon;
-  float padding2;
+  float padding0;
   glm::vec3 sky_ground;
+  float padding1;
+  glm::vec3 previous_right;
+  float padding2;
+  glm::vec3 previous_up;
   float padding3;
+  glm::vec3 previous_forward;
+  float padding4;
+  glm::vec3 camera_motion;
+  float padding5;
+  glm::vec2 jitter;
+  glm::vec2 previous_jitter;
 };
-static_assert(sizeof(FrameConstants) == 128);
+static_assert(sizeof(FrameConstants) == 208);
 
 /// Mirrors PassConstants of frame.hlsli.
 struct PassConstants {
@@ -58,15 +70,18 @@ enum FrameTexture : std::uint32_t {
   kAmbientOcclusionSum,
   kSunVisibilitySum,
   kRadiance,
+  kMotion,
   kFrameTextureCount
 };
 
 /// Parameters of the global root signature.
 enum FrameRootParameter : std::uint32_t {
-  kRootViews,     ///< table: the scene, materials, blue noise, pictures, textures
-  kRootSamplers,  ///< table: the scene's samplers
-  kRootFrame,     ///< CBV b0
-  kRootPass,      ///< constants b1
+  kRootViews,      ///< table: the scene, materials, blue noise, pictures, textures
+  kRootSamplers,   ///< table: the scene's samplers
+  kRootFrame,      ///< CBV b0
+  kRootPass,       ///< constants b1
+  kRootPassViews,  ///< table: space3, of the pass alone
+  kRootPassWords,  ///< constants b0, space3
 };
 
 /// What a frame looks like besides the scene.
@@ -76,6 +91,16 @@ struct FrameDesc {
   std::uint32_t seed = 0;
   /// Radians; replaces the scene's. Negative: the scene's own.
   float sun_angular_radius = -1.0f;
+  /// How many passes of a frame's life may have views of their own.
+  std::uint32_t max_pass_views = 64;
+};
+
+/// What a frame of a sequence has that the first does not.
+struct FrameTime {
+  std::uint32_t index = 0;
+  Camera previous_camera;
+  glm::vec2 jitter{0.0f};  ///< pixels, of the primary rays
+  glm::vec2 previous_jitter{0.0f};
 };
 
 /// Resources of one frame. Shared by its passes; a copy refers to the same pictures.
@@ -91,14 +116,24 @@ class Frame {
   std::uint32_t width() const { return desc_.width; }
   std::uint32_t height() const { return desc_.height; }
 
+  /// Goes on to the next frame of a sequence, which the next dispatches render: another camera, and
+  /// so other constants and lights. The top level must be relative to that camera by then.
+  rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
+                           const FrameTime& time);
+  /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
+  rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
+  /// A picture of the frame's size.
+  rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
+                                               rtapi::Format format) const;
+
   /// Sets heaps, root signature and root arguments of a dispatch.
-  void bind(rtapi::CommandList& list, const PassConstants& constants) const;
+  void bind(rtapi::CommandList& list, const PassConstants& constants,
+            const PassArguments& arguments = {}) const;
   /// Writes zero to a picture of floats.
   void clear(rtapi::CommandList& list, FrameTexture texture) const;
   const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
 
-  /// A picture as floats: 1, 2 or 4 channels as its format has; kIds as whole
-  /// numbers, exact up to 2^24.
+  /// [read_picture]
   rtapi::Result<FloatImage> read(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                  FrameTexture texture) const;
 
@@ -106,6 +141,7 @@ class Frame {
   rtapi::Status create_root_signatures(const rtapi::Device& device);
   rtapi::Status create_textures(const rtapi::Device& device);
   rtapi::Status create_views(const rtapi::Device& device, const GpuScene& gpu);
+  rtapi::Status write_lights_view(const rtapi::Device& device) const;
   rtapi::Status create_samplers(const rtapi::Device& device, const Scene& scene);
 
   FrameDesc desc_;
@@ -115,10 +151,13 @@ class Frame {
   rtapi::DescriptorHeap samplers_;
   rtapi::Buffer constants_;
   rtapi::Buffer blue_noise_;
+  rtapi::Buffer lights_;
+  std::shared_ptr<std::uint32_t> pass_views_;  // in use; copies of a frame share its heap
   std::vector<rtapi::Texture> textures_;
 };
 
-/// The constants of a camera, sun and sky. `aspect` is width over height.
-FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc);
+/// The constants of a camera, sun and sky.
+FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
+                               const FrameTime& time);
 
 }  // namespace kaamos::effects

@@ -37,7 +37,7 @@ rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& fr
   }
   state.Add(library);
   state.Add(RaytracingShaderConfig{desc.payload_bytes, 8});
-  state.Add(RaytracingPipelineConfig{1});
+  state.Add(RaytracingPipelineConfig{desc.max_recursion_depth});
   state.Add(GlobalRootSignature{frame.root_signature()});
   state.Associate(state.Add(LocalRootSignature{frame.local_root_signature()}), groups);
   return device.CreateStateObject(state);
@@ -91,12 +91,18 @@ rtapi::Result<RayPass> RayPass::create(const Device& device, const Frame& frame,
 }
 
 void RayPass::dispatch(CommandList& list, const Frame& frame, const PassConstants& constants,
-                       std::uint32_t row_count) const {
-  frame.bind(list, constants);
+                       std::uint32_t row_count, const PassArguments& arguments) const {
+  dispatch_grid(list, frame, constants, frame.width(), row_count, arguments);
+}
+
+void RayPass::dispatch_grid(CommandList& list, const Frame& frame, const PassConstants& constants,
+                            std::uint32_t width, std::uint32_t height,
+                            const PassArguments& arguments) const {
+  frame.bind(list, constants, arguments);
   list.SetPipelineState1(pipeline_);
   DispatchRaysDesc desc = dispatch_;
-  desc.Width = frame.width();
-  desc.Height = row_count;
+  desc.Width = width;
+  desc.Height = height;
   list.DispatchRays(desc);
   list.ResourceBarrier(ResourceBarrier::Uav());
 }

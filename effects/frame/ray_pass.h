@@ -29,6 +29,7 @@ struct RayPassDesc {
   std::array<std::string, kRayTypeCount> miss;
   std::array<HitShaders, kRayTypeCount> hit;
   std::uint32_t payload_bytes = 4;
+  std::uint32_t max_recursion_depth = 1;
 };
 
 class RayPass {
@@ -38,7 +39,11 @@ class RayPass {
   /// Records a dispatch over `row_count` rows of the picture from constants.first_row on, and the
   /// barrier behind it.
   void dispatch(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
-                std::uint32_t row_count) const;
+                std::uint32_t row_count, const PassArguments& arguments = {}) const;
+  /// The same over another grid than the frame's: half resolution, texels of an atlas, cells.
+  void dispatch_grid(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
+                     std::uint32_t width, std::uint32_t height,
+                     const PassArguments& arguments) const;
 
  private:
   rtapi::StateObject pipeline_;

@@ -7,6 +7,7 @@
 
 #include "encoding.hlsli"
 #include "geometry.hlsli"
+#include "lights.hlsli"
 #include "material.hlsli"
 
 // World space here is relative to the camera: the camera stands at the origin.
@@ -20,13 +21,24 @@ struct FrameConstants {
   float3 direction_to_sun;  // unit
   float tan_sun_radius;
   float3 sun_irradiance;
-  float padding0;
+  uint light_count;
   float3 sky_zenith;
-  float padding1;
+  uint frame_index;
   float3 sky_horizon;
-  float padding2;
+  float padding0;
   float3 sky_ground;
+  float padding1;
+  // The camera of the frame before, as above; the same camera in the first frame.
+  float3 previous_right;
+  float padding2;
+  float3 previous_up;
   float padding3;
+  float3 previous_forward;
+  float padding4;
+  float3 camera_motion;  // metres, from the camera before to this one
+  float padding5;
+  float2 jitter;           // pixels, of the primary rays
+  float2 previous_jitter;  // of the frame before
 };
 
 // Root constants of a dispatch.
@@ -42,6 +54,7 @@ ConstantBuffer<PassConstants> pass_constants : register(b1);
 RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<MaterialConstants> materials : register(t1);
 StructuredBuffer<float2> blue_noise : register(t2);
+StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
 Texture2D<float4> textures[] : register(t0, space1);
 SamplerState samplers[] : register(s0, space1);
 
@@ -63,6 +76,10 @@ RWTexture2D<float> ambient_occlusion_sum : register(u9);
 RWTexture2D<float> sun_visibility_sum : register(u10);
 RWTexture2D<float4> radiance : register(u11);
 
+// Where the pixel's surface was one frame ago: picture widths and heights from here, and the change
+// of its view depth in metres. Without jitter.
+RWTexture2D<float4> g_motion : register(u12);
+
 // Hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
 ByteAddressBuffer vertices : register(t0, space2);
 ByteAddressBuffer indices : register(t1, space2);
@@ -79,6 +96,8 @@ static const uint kMaskSolid = 0xFD;
 // Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
 static const uint kAmbientOcclusionPair = 0;
 static const uint kSunPair = 1;
+
+// Registers of space3 are a pass's own. [effects/frame/pass_views.h]
 
 // The pixel of this invocation.
 uint2 FramePixel() {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// One compute pipeline over a frame, a thread for each pixel of a picture.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <string>
+
+#include "effects/frame/frame.h"
+#include "effects/frame/pass_views.h"
+
+namespace kaamos::effects {
+
+class ComputePass {
+ public:
+  /// `entry_point`: [numthreads(8, 8, 1)].
+  static rtapi::Result<ComputePass> create(const rtapi::Device& device, const Frame& frame,
+                                           const rtapi::ShaderLibrary& library,
+                                           std::string entry_point);
+  /// Records a dispatch that covers width x height threads, and the barrier behind it.
+  void dispatch(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
+                const PassArguments& arguments, std::uint32_t width, std::uint32_t height) const;
+
+ private:
+  rtapi::PipelineState pipeline_;
+};
+
+}  // namespace kaamos::effects

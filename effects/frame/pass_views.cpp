@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "effects/frame/pass_views.h"
+
+namespace kaamos::effects {
+
+rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Texture& texture) {
+  return device_.CreateShaderResourceView(texture, heap_.GetCPUDescriptorHandle(first_ + t));
+}
+
+rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Buffer& buffer,
+                                             std::uint32_t stride) {
+  rtapi::ShaderResourceViewDesc view;
+  view.ViewDimension = rtapi::SrvDimension::kBuffer;
+  view.Buffer.StructureByteStride = stride;
+  view.Buffer.NumElements = static_cast<std::uint32_t>(buffer.size() / stride);
+  return device_.CreateShaderResourceView(buffer, view, heap_.GetCPUDescriptorHandle(first_ + t));
+}
+
+rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Texture& texture) {
+  return device_.CreateUnorderedAccessView(
+      texture, heap_.GetCPUDescriptorHandle(first_ + kPassShaderResources + u));
+}
+
+rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Buffer& buffer,
+                                              std::uint32_t stride) {
+  rtapi::UnorderedAccessViewDesc view;
+  view.ViewDimension = rtapi::UavDimension::kBuffer;
+  view.Buffer.StructureByteStride = stride;
+  view.Buffer.NumElements = static_cast<std::uint32_t>(buffer.size() / stride);
+  return device_.CreateUnorderedAccessView(
+      buffer, view, heap_.GetCPUDescriptorHandle(first_ + kPassShaderResources + u));
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "effects/frame/picture.h"
+
+#include "effects/frame/texel.h"
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
+                                             rtapi::Format format, std::uint32_t width,
+                                             std::uint32_t height) {
+  rtapi::TextureDesc desc;
+  desc.Width = width;
+  desc.Height = height;
+  desc.Format = format;
+  desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  desc.Name = std::move(name);
+  return device.CreateTexture(desc);
+}
+
+rtapi::Result<FloatImage> read_picture(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                       const rtapi::Texture& picture) {
+  const auto bytes = rtapi::ReadbackTexture(device, queue, picture, 0);
+  if (!bytes) return bytes.error();
+  const rtapi::TextureDesc& desc = picture.GetDesc();
+  return decode_texels(desc.Format, static_cast<std::uint32_t>(desc.Width), desc.Height, *bytes);
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// A picture that passes write and read: a texture in unordered-access state for good, so that no
+// pass needs a transition, only the UAV barrier behind the one that wrote it.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <string>
+
+#include "effects/image/image.h"
+
+namespace kaamos::effects {
+
+/// `format`: one that decode_texels knows. Zero at first.
+rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
+                                             rtapi::Format format, std::uint32_t width,
+                                             std::uint32_t height);
+
+/// A picture as floats: 1, 2 or 4 channels as its format has; integers are exact up to 2^24.
+rtapi::Result<FloatImage> read_picture(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                       const rtapi::Texture& picture);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Local lights as shaders read them. [Northlight deck: Lighting Data]
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// Mirrors LightConstants of effects/shaders/lights.hlsli. Positions are relative to the camera.
+struct LightConstants {
+  glm::vec3 position;
+  float range;          ///< metres; beyond it the light is black. Never 0 or infinite here
+  glm::vec3 intensity;  ///< candela by colour
+  float radius;         ///< of the sphere that soft shadows sample, metres
+  glm::vec3 direction;  ///< the way a spot shines, unit
+  float spot_scale;     ///< cone falloff = saturate(cos * scale + offset)^2; 0 for a point light
+  float spot_offset;    ///< 1 for a point light
+  std::uint32_t is_spot;
+  std::uint32_t padding[2];
+};
+static_assert(sizeof(LightConstants) == 64);
+
+/// Illuminance, in lux, that a light without a range of its own is cut off at.
+inline constexpr float kCutOffIlluminance = 1e-3f;
+
+/// The point and spot lights of a scene, in its order; directional ones are left out.
+std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3& origin);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// The one material model of every hit: Lambert and GGX. [Northlight deck: unified simplified PBR]
+// Vectors are unit and point away from the surface. [effects-spec B0.4]
+#ifndef KAAMOS_BRDF_HLSLI
+#define KAAMOS_BRDF_HLSLI
+
+static const float kBrdfPi = 3.14159265f;
+// Below this roughness a surface is a mirror: GGX's peak would leave the range of floats.
+static const float kMirrorRoughness = 0.03f;
+
+struct Brdf {
+  float3 diffuse;  // albedo of the diffuse part
+  float3 f0;       // reflectance at normal incidence
+  float alpha;     // GGX: roughness squared
+};
+
+Brdf MakeBrdf(float3 base_color, float metallic, float roughness) {
+  Brdf result;
+  result.diffuse = base_color * (1.0f - metallic);
+  result.f0 = lerp(float3(0.04f, 0.04f, 0.04f), base_color, metallic);
+  const float clamped = clamp(roughness, kMirrorRoughness, 1.0f);
+  result.alpha = clamped * clamped;
+  return result;
+}
+
+// [Schlick 1994]
+float3 FresnelSchlick(float3 f0, float cosine) {
+  const float m = saturate(1.0f - cosine);
+  const float m2 = m * m;
+  return f0 + (float3(1.0f, 1.0f, 1.0f) - f0) * (m2 * m2 * m);
+}
+
+// Smith's Lambda for GGX.
+float GgxLambda(float alpha, float cosine) {
+  const float c2 = max(cosine * cosine, 1e-8f);
+  return 0.5f * (-1.0f + sqrt(1.0f + alpha * alpha * max(0.0f, 1.0f - c2) / c2));
+}
+
+float GgxDensity(float alpha, float cosine_half) {
+  const float a2 = alpha * alpha;
+  const float d = cosine_half * cosine_half * (a2 - 1.0f) + 1.0f;
+  return a2 / (kBrdfPi * d * d);
+}
+
+// Reflectance times cosine: what a surface with this normal sends towards `view` of irradiance 1
+// that arrives, on a surface that faces it, from `light`.
+float3 EvaluateBrdf(Brdf brdf, float3 normal, float3 view, float3 light) {
+  const float n_l = dot(normal, light);
+  const float n_v = max(dot(normal, view), 1e-4f);
+  if (!(n_l > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
+  const float3 half_vector = normalize(view + light);
+  const float3 fresnel = FresnelSchlick(brdf.f0, dot(view, half_vector));
+  const float visibility =
+      1.0f / ((1.0f + GgxLambda(brdf.alpha, n_v) + GgxLambda(brdf.alpha, n_l)) * 4.0f * n_v * n_l);
+  const float3 specular =
+      fresnel * (GgxDensity(brdf.alpha, saturate(dot(normal, half_vector))) * visibility);
+  return (brdf.diffuse * (1.0f / kBrdfPi) + specular) * n_l;
+}
+
+#endif

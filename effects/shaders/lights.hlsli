@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Local lights: what arrives at a point, without shadows. The layout is that of
+// effects/lights/light_constants.h.
+#ifndef KAAMOS_LIGHTS_HLSLI
+#define KAAMOS_LIGHTS_HLSLI
+
+struct LightConstants {
+  float3 position;  // relative to the camera
+  float range;      // metres
+  float3 intensity;
+  float radius;
+  float3 direction;
+  float spot_scale;
+  float spot_offset;
+  uint is_spot;
+  uint2 padding;
+};
+
+struct LightSample {
+  float3 direction;    // towards the light, unit
+  float distance;      // metres, to its centre
+  float3 irradiance;   // on a surface that faces the light
+};
+
+// Inverse square law, cut off at the range smoothly. A point inside the light's sphere sees it from
+// its surface. [KHR_lights_punctual; effects-spec B1.3]
+LightSample SampleLight(LightConstants light, float3 position) {
+  const float3 to_light = light.position - position;
+  const float distance_squared = dot(to_light, to_light);
+  LightSample result;
+  result.distance = sqrt(distance_squared);
+  result.direction = distance_squared > 0.0f ? to_light / result.distance : -light.direction;
+  const float ratio = result.distance / light.range;
+  const float ratio_squared = ratio * ratio;
+  const float window = saturate(1.0f - ratio_squared * ratio_squared);
+  const float cone =
+      saturate(dot(-result.direction, light.direction) * light.spot_scale + light.spot_offset);
+  const float floor_squared = max(light.radius * light.radius, 1e-8f);
+  result.irradiance =
+      light.intensity * (window * window * cone * cone / max(distance_squared, floor_squared));
+  return result;
+}
+
+#endif

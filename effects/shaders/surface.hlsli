@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// What a closest-hit shader knows of the surface that was hit: G-buffer, reflections and indirect
+// light all read it here.
+#ifndef KAAMOS_SURFACE_HLSLI
+#define KAAMOS_SURFACE_HLSLI
+
+#include "frame.hlsli"
+
+struct Surface {
+  float3 position;        // relative to the camera
+  float offset;           // a ray starts that far from it, along `normal`, so as not to meet it again
+  float3 normal;          // of the triangle, towards where the ray came from
+  float3 shading_normal;  // towards there too
+  float3 base_color;      // linear
+  float opacity;
+  float3 emissive;
+  float roughness;
+  float metallic;
+  bool back_face;  // the ray came from behind
+};
+
+// A texture of the material, or 1 where it has none. `lod` is that of a texture of one texel.
+float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float lod) {
+  if (!HasTexture(material, slot)) {
+    return float4(1, 1, 1, 1);
+  }
+  const uint image = material.image[slot];
+  const uint sampler_id = material.sampler_id[slot];
+  uint width, height, mips;
+  textures[NonUniformResourceIndex(image)].GetDimensions(0, width, height, mips);
+  return textures[NonUniformResourceIndex(image)].SampleLevel(
+      samplers[NonUniformResourceIndex(sampler_id)], MaterialUv(material, slot, uv),
+      max(lod + 0.5 * log2(float(width) * float(height)), 0.0));
+}
+
+// Level of detail for a texture of one texel: how large the cone is on the surface, `width` metres
+// across, against how much of the texture the triangle spreads over its area. [Akenine-Moller et al.
+// 2019, ray cones]
+float RayConeLod(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2, float facing,
+                 float width) {
+  const float3x3 to_world = (float3x3)ObjectToWorld3x4();
+  const float world_area = length(cross(mul(to_world, p1 - p0), mul(to_world, p2 - p0)));
+  const float2 a = uv1 - uv0;
+  const float2 b = uv2 - uv0;
+  const float uv_area = abs(a.x * b.y - a.y * b.x);
+  return 0.5 * log2(max(uv_area, 1e-20) / max(world_area, 1e-20)) +
+         log2(max(width, 1e-20) / max(facing, 0.05));
+}
+
+// `cone_width`: of the ray's cone at the hit, metres; 0 reads level 0. [Northlight deck: texture LOD]
+Surface LoadSurface(float2 barycentrics, float cone_width) {
+  const HitConstants layout = hit_constants;
+  const MaterialConstants material = materials[layout.material_id];
+  const uint3 corners = LoadTriangle(indices, layout.index_size_bytes, PrimitiveIndex());
+  const float3 p0 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.x);
+  const float3 p1 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.y);
+  const float3 p2 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.z);
+  const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.x);
+  const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.y);
+  const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.z);
+  const float2 uv = Interpolate(uv0, uv1, uv2, barycentrics);
+  const SpawnPoint spawn =
+      MakeSpawnPoint(p0, p1, p2, barycentrics, ObjectToWorld3x4(), WorldToObject3x4());
+
+  // Everything is seen from the side that the ray comes from.
+  const float3 direction = normalize(WorldRayDirection());
+  const float side = dot(direction, spawn.normal) <= 0.0 ? 1.0 : -1.0;
+  Surface surface;
+  surface.position = spawn.position;
+  surface.offset = spawn.offset;
+  surface.normal = side * spawn.normal;
+  surface.back_face = side < 0.0;
+  const float lod = RayConeLod(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)),
+                               cone_width);
+
+  float3 shading_normal =
+      NormalToWorld(LoadNormal(vertices, layout, corners, barycentrics), WorldToObject3x4());
+  if (HasTexture(material, kNormalTexture)) {
+    const float4 tangent = LoadTangent(vertices, layout, corners, barycentrics);
+    const float3 world_tangent = normalize(mul((float3x3)ObjectToWorld3x4(), tangent.xyz));
+    shading_normal =
+        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, uv, lod).xyz,
+                           material.normal_scale, shading_normal, world_tangent, tangent.w);
+  }
+  shading_normal *= dot(shading_normal, spawn.normal) * side >= 0.0 ? 1.0 : -1.0;
+  // A shading normal that looks away from where the ray came from lights nothing that is seen.
+  surface.shading_normal = dot(shading_normal, direction) < 0.0 ? shading_normal : surface.normal;
+
+  const float4 base_color =
+      material.base_color * SampleMaterial(material, kBaseColorTexture, uv, lod);
+  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, uv, lod);
+  surface.base_color = base_color.rgb;
+  surface.opacity = base_color.a;
+  surface.emissive =
+      material.emissive * SampleMaterial(material, kEmissiveTexture, uv, lod).rgb;
+  surface.roughness = material.roughness * metallic_roughness.g;
+  surface.metallic = material.metallic * metallic_roughness.b;
+  return surface;
+}
+
+// Where a ray towards `direction` starts: on that side of the surface.
+float3 SurfaceOrigin(Surface surface, float3 direction) {
+  const float side = dot(surface.normal, direction) >= 0.0 ? 1.0 : -1.0;
+  return surface.position + surface.normal * (side * surface.offset);
+}
+
+#endif
