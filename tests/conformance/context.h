@@ -114,6 +114,8 @@ std::vector<RuleTest> sbt_tests();
 std::vector<RuleTest> root_tests();
 std::vector<RuleTest> flg_tests();
 std::vector<RuleTest> trv_tests();
+std::vector<RuleTest> trv_any_hit_tests();
+std::vector<RuleTest> trv_inactive_tests();
 std::vector<RuleTest> trv_random_tests();
 std::vector<RuleTest> trv_report_tests();
 std::vector<RuleTest> trv_edge_tests();

@@ -147,6 +147,7 @@ std::string judge_end(const Case& each, Coverage& coverage) {
   const Seen& seen = each.walked.seen;
   const auto possible = possible_hits(each);
   if (possible.empty()) {
+    if (seen.closest_hits > 0) return "a closest-hit shader ran, nothing being hit";
     return seen.end == kMissRan ? "" : "end is " + std::to_string(seen.end) + ", expected a miss";
   }
   ++coverage.hits;

@@ -152,3 +152,77 @@ void CountCandidates() {
            seen);
   words.Store(kEvents + 4 * i, seen.anyHits);
 }
+
+// Accepts what another instance (mask 2) hides from the light in +x, asked by an inline query.
+[shader("anyhit")]
+void Shadowed(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  const float before = RayTCurrent();
+  RayDesc ray;
+  ray.Origin = WorldRayOrigin() + before * WorldRayDirection();
+  ray.TMin = 0.01;
+  ray.Direction = float3(1, 0, 0);
+  ray.TMax = 1000;
+  RayQuery<RAY_FLAG_FORCE_OPAQUE> query;
+  query.TraceRayInline(scene, RAY_FLAG_NONE, 2, ray);
+  query.Proceed();
+  noteCandidate(seen);
+  if (RayTCurrent() != before || WorldRayDirection().z != 1) words.InterlockedAdd(kFaults, 1u);
+  if (query.CommittedStatus() != COMMITTED_TRIANGLE_HIT) IgnoreHit();
+}
+
+// Four traces with one payload, then four calls; what else is alive stays.
+struct Sum {
+  uint value;
+};
+
+[shader("raygeneration")]
+void Straight() {
+  Seen seen = nothingSeen();
+  const Seen untouched = seen;
+  uint local = 5;
+  for (uint i = 0; i < 4; ++i) {
+    TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
+    local = local * 3 + seen.closestHits;
+  }
+  Sum sums[2] = {{1}, {1000}};
+  for (uint k = 0; k < 4; ++k) CallShader(0, sums[k % 2]);
+  words.Store4(0, uint4(seen.closestHits, untouched.closestHits, local, sums[0].value));
+  words.Store(16, sums[1].value);
+}
+
+[shader("callable")]
+void AddTen(inout Sum sum) {
+  sum.value += 10;
+}
+
+globallycoherent RWByteAddressBuffer board : register(u1);
+
+// A word from the caller to the callee, and one back.
+[shader("raygeneration")]
+void WriteBoard() {
+  const uint at = 16 * DispatchRaysIndex().x;
+  board.Store(at, 41 + at);
+  DeviceMemoryBarrier();
+  Seen seen = nothingSeen();
+  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
+  words.Store2(8 * DispatchRaysIndex().x, uint2(seen.record, board.Load(at + 4)));
+}
+
+[shader("closesthit")]
+void AnswerBoard(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  const uint at = 16 * DispatchRaysIndex().x;
+  seen.record = board.Load(at);
+  board.Store(at + 4, 77 + at);
+  DeviceMemoryBarrier();
+}
+
+// What the query sees of the scene, and what TraceRay does.
+[shader("raygeneration")]
+void QueryAndTrace() {
+  RayQuery<RAY_FLAG_FORCE_OPAQUE> query;
+  query.TraceRayInline(scene, RAY_FLAG_NONE, 0xFF, describe(rays[0]));
+  query.Proceed();
+  Seen seen = nothingSeen();
+  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
+  words.Store3(0, uint3(query.CommittedStatus(), asuint(query.CommittedRayT()), seen.end));
+}

@@ -161,16 +161,19 @@ std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count,
 
 Walker::Walker(Context& t)
     : Standard(t, kaamos_shaders_traversal(),
-               {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates"},
-               (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3)").c_str()),
+               {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates", "Shadowed",
+                "Straight", "AddTen", "WriteBoard", "AnswerBoard", "QueryAndTrace"},
+               (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3), UAV(u1)").c_str()),
       context_(&t) {
   group("WalkTriangle", "Closest", "Walk");
   group("WalkSphere", "BoxClosest", "BoxWalk", "Sphere");
   group("PlainSphere", "BoxClosest", "", "Sphere");
   group("WalkScript", "BoxClosest", "ScriptAny", "Script");
   group("PlainScript", "BoxClosest", "", "Script");
-  local(kRecordSignature,
-        {"WalkTriangle", "WalkSphere", "PlainSphere", "WalkScript", "PlainScript"});
+  group("ShadowedTriangle", "Closest", "Shadowed");
+  group("Board", "AnswerBoard");
+  local(kRecordSignature, {"ShadowedTriangle", "Board", "WalkTriangle", "WalkSphere", "PlainSphere",
+                           "WalkScript", "PlainScript"});
 }
 
 void Walker::build(const Scene& description) {
