@@ -113,6 +113,7 @@ struct RuleTest {
 std::vector<RuleTest> sbt_tests();
 std::vector<RuleTest> root_tests();
 std::vector<RuleTest> flg_tests();
+std::vector<RuleTest> flg_legality_tests();
 std::vector<RuleTest> trv_tests();
 std::vector<RuleTest> trv_any_hit_tests();
 std::vector<RuleTest> trv_inactive_tests();

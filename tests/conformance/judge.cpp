@@ -175,15 +175,20 @@ std::string judge_end(const Case& each, Coverage& coverage) {
 
 }  // namespace
 
+std::string judge_ray(const Scene& scene, const Ray& ray, const Walked& walked,
+                      Coverage& coverage) {
+  ++coverage.rays;
+  const Case each(scene, ray, walked);
+  const std::string failure = judge_events(each, coverage);
+  return failure.empty() ? judge_end(each, coverage) : failure;
+}
+
 Coverage judge(Context& t, const Scene& scene, const std::vector<Ray>& rays,
                const std::vector<Walked>& walked) {
   Coverage out;
   uint32_t wrong = 0;
   for (size_t i = 0; i < rays.size(); ++i) {
-    ++out.rays;
-    const Case each(scene, rays[i], walked[i]);
-    std::string failure = judge_events(each, out);
-    if (failure.empty()) failure = judge_end(each, out);
+    const std::string failure = judge_ray(scene, rays[i], walked[i], out);
     if (!failure.empty() && ++wrong <= 5) {
       t.fail("ray " + std::to_string(i) + " (flags " + std::to_string(rays[i].flags) +
              "): " + failure);

@@ -19,6 +19,9 @@ struct Coverage {
   uint32_t required_events = 0;
 };
 
+// What differs from the reference for one ray, or nothing.
+std::string judge_ray(const Scene& scene, const Ray& ray, const Walked& walked, Coverage& coverage);
+
 // Compares each ray with the reference: the any-hit shaders that ran, in the order in which they
 // did, and what ended it. Fails the rule with the first few rays that differ.
 Coverage judge(Context& t, const Scene& scene, const std::vector<Ray>& rays,

@@ -70,14 +70,15 @@ Rules rules_of(const Geometry& geometry, uint32_t instance_flags, uint32_t ray_f
   Rules out;
   out.opaque = (static_cast<uint32_t>(geometry.flags) &
                 static_cast<uint32_t>(RaytracingGeometryFlags::kOpaque)) != 0;
-  if ((instance_flags & 4) != 0) out.opaque = true;
+  // FORCE_NON_OPAQUE and FORCE_OPAQUE may not stand together; of ours the latter counts.
   if ((instance_flags & 8) != 0) out.opaque = false;
+  if ((instance_flags & 4) != 0) out.opaque = true;
   const bool triangles = geometry.boxes.empty();
   out.skipped = (out.opaque && (ray_flags & 0x40) != 0) ||
                 (!out.opaque && (ray_flags & 0x80) != 0) ||
                 (triangles && (ray_flags & 0x100) != 0) || (!triangles && (ray_flags & 0x200) != 0);
-  if ((ray_flags & 0x1) != 0) out.opaque = true;
   if ((ray_flags & 0x2) != 0) out.opaque = false;
+  if ((ray_flags & 0x1) != 0) out.opaque = true;
   out.front_counterclockwise = (instance_flags & 2) != 0;
   const bool culls = (instance_flags & 1) == 0;
   out.cull_back = culls && (ray_flags & 0x10) != 0;

@@ -226,3 +226,14 @@ void QueryAndTrace() {
   TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
   words.Store3(0, uint3(query.CommittedStatus(), asuint(query.CommittedRayT()), seen.end));
 }
+
+[shader("raygeneration")]
+void QueryWithSkip() {
+  RayQuery<RAY_FLAG_FORCE_OPAQUE | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER> fixed;
+  fixed.TraceRayInline(scene, RAY_FLAG_NONE, 0xFF, describe(rays[0]));
+  fixed.Proceed();
+  RayQuery<RAY_FLAG_FORCE_OPAQUE> dynamic;
+  dynamic.TraceRayInline(scene, RAY_FLAG_SKIP_CLOSEST_HIT_SHADER, 0xFF, describe(rays[0]));
+  dynamic.Proceed();
+  words.Store2(0, uint2(fixed.CommittedStatus(), dynamic.CommittedStatus()));
+}

@@ -160,10 +160,11 @@ std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count,
 }
 
 Walker::Walker(Context& t)
-    : Standard(t, kaamos_shaders_traversal(),
-               {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates", "Shadowed",
-                "Straight", "AddTen", "WriteBoard", "AnswerBoard", "QueryAndTrace"},
-               (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3), UAV(u1)").c_str()),
+    : Standard(
+          t, kaamos_shaders_traversal(),
+          {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates", "Shadowed",
+           "Straight", "AddTen", "WriteBoard", "AnswerBoard", "QueryAndTrace", "QueryWithSkip"},
+          (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3), UAV(u1)").c_str()),
       context_(&t) {
   group("WalkTriangle", "Closest", "Walk");
   group("WalkSphere", "BoxClosest", "BoxWalk", "Sphere");
