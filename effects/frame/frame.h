@@ -92,7 +92,7 @@ struct FrameDesc {
   /// Radians; replaces the scene's. Negative: the scene's own.
   float sun_angular_radius = -1.0f;
   /// How many passes of a frame's life may have views of their own.
-  std::uint32_t max_pass_views = 64;
+  std::uint32_t max_pass_views = 256;
 };
 
 /// What a frame of a sequence has that the first does not.
