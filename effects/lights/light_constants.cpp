@@ -15,6 +15,7 @@ void set_cone(LightConstants& out, const Light& light) {
   out.spot_scale = 1.0f / std::max(1e-3f, inner - outer);
   out.spot_offset = -outer * out.spot_scale;
   out.is_spot = 1;
+  out.cos_outer = std::max(outer, 0.05f);  // flat maps do not reach a half space
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct LightConstants {
   float spot_scale;     ///< cone falloff = saturate(cos * scale + offset)^2; 0 for a point light
   float spot_offset;    ///< 1 for a point light
   std::uint32_t is_spot;
-  std::uint32_t padding[2];
+  float cos_outer;  ///< of a spot's cone, at least 0.05; its shadow map ends there
+  std::uint32_t padding;
 };
 static_assert(sizeof(LightConstants) == 64);
 

@@ -13,7 +13,8 @@ struct LightConstants {
   float spot_scale;
   float spot_offset;
   uint is_spot;
-  uint2 padding;
+  float cos_outer;  // of a spot's cone; its map ends there
+  uint padding;
 };
 
 struct LightSample {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "effects/lights/lighting.h"
+
+#include <shaders/lighting.h>
+
+#include <algorithm>
+#include <string>
+
+#include "effects/frame/picture.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+constexpr std::uint32_t kMaxLights = kShadowTilesPerRow * 128;
+
+rtapi::Result<rtapi::Buffer> create_words(const rtapi::Device& device, std::uint64_t count,
+                                          const char* name) {
+  rtapi::BufferDesc desc;
+  desc.SizeInBytes = count * 4;
+  desc.Flags = rtapi::ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = rtapi::ResourceStates::kUnorderedAccess;
+  desc.Name = name;
+  return device.CreateBuffer(desc);
+}
+
+RayPassDesc shadow_map_pass(const rtapi::ShaderLibrary& library) {
+  RayPassDesc desc;
+  desc.name = "shadow maps";
+  desc.library = library;
+  desc.ray_generation = "ShadowAtlasRayGen";
+  desc.miss[kRayTypeSurface] = "ShadowAtlasMiss";
+  desc.hit[kRayTypeSurface] = {"ShadowAtlasAnyHit", "ShadowAtlasClosestHit"};
+  return desc;
+}
+
+}  // namespace
+
+rtapi::Result<rtapi::ShaderLibrary> lighting_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_lighting());
+}
+
+rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Frame& frame,
+                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
+                                         std::uint32_t light_count) {
+  if (light_count > kMaxLights) {
+    return rtapi::Error{"", rtapi::ErrorCode::kInvalidArgument,
+                        "the scene has " + std::to_string(light_count) +
+                            " local lights and the atlas of shadow maps has room for " +
+                            std::to_string(kMaxLights) + "; leave some out"};
+  }
+  Lighting out;
+  out.light_count_ = light_count;
+  const std::uint32_t columns = std::clamp<std::uint32_t>(light_count, 1, kShadowTilesPerRow);
+  const std::uint32_t rows =
+      std::max<std::uint32_t>((light_count + kShadowTilesPerRow - 1) / kShadowTilesPerRow, 1);
+  const auto atlas = create_picture(device, "shadow atlas", rtapi::Format::kR32Float,
+                                    columns * kShadowTile, rows * kShadowTile);
+  if (!atlas) return atlas.error();
+  out.atlas_ = *atlas;
+  const auto counts = create_words(device, kClusterCount, "cluster counts");
+  if (!counts) return counts.error();
+  out.counts_ = *counts;
+  const auto indices =
+      create_words(device, std::uint64_t{kClusterCount} * kClusterCapacity, "cluster lights");
+  if (!indices) return indices.error();
+  out.indices_ = *indices;
+  const auto views = frame.create_pass_views(device);
+  if (!views) return views.error();
+  out.views_ = *views;
+  if (const auto s = out.bind(out.views_); !s) return s.error();
+  const auto clusters = ComputePass::create(device, frame, library, "BuildClusters");
+  if (!clusters) return clusters.error();
+  out.clusters_ = *clusters;
+  const auto maps = RayPass::create(device, frame, scene, shadow_map_pass(library));
+  if (!maps) return maps.error();
+  out.shadow_maps_ = *maps;
+  return out;
+}
+
+void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
+  constexpr std::uint32_t kGrid = 64;  // squared, the number of clusters
+  static_assert(kGrid * kGrid == kClusterCount);
+  clusters_.dispatch(list, frame, {}, PassArguments(views_), kGrid, kGrid);
+  if (light_count_ == 0) return;
+  const rtapi::TextureDesc& atlas = atlas_.GetDesc();
+  shadow_maps_.dispatch_grid(list, frame, {}, static_cast<std::uint32_t>(atlas.Width), atlas.Height,
+                             PassArguments(views_));
+}
+
+rtapi::Status Lighting::bind(PassViews& views) const {
+  if (const auto s = views.set_unordered_access(16, atlas_); !s) return s;
+  if (const auto s = views.set_unordered_access(17, counts_, 4); !s) return s;
+  return views.set_unordered_access(18, indices_, 4);
+}
+
+}  // namespace kaamos::effects

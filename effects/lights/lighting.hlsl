@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Makes what hit_lighting.hlsli reads: the lists of lights by cluster, and the lights' shadow maps,
+// rendered by rays from the lights through the scene that everything else sees.
+#include "alpha_test.hlsli"
+#include "hit_lighting.hlsli"
+
+// Squared distance from a box to a point; 0 inside.
+float DistanceSquared(float3 low, float3 high, float3 p) {
+  const float3 d = max(max(low - p, p - high), float3(0, 0, 0));
+  return dot(d, d);
+}
+
+// One thread per cluster. Lights stand in ascending order, so that a sum over a cluster adds up in
+// the order of a sum over all. A spot is kept by the sphere of its range: lossless, and never by more
+// than its cone's share.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void BuildClusters(uint3 id : SV_DispatchThreadID) {
+  const uint cluster = id.y * 64 + id.x;
+  const int3 cell = int3(cluster % kClusterCells, cluster / kClusterCells % kClusterCells,
+                         cluster / (kClusterCells * kClusterCells));
+  const float3 low = float3(ClusterLow(cell.x), ClusterLow(cell.y), ClusterLow(cell.z));
+  const float3 high = float3(ClusterHigh(cell.x), ClusterHigh(cell.y), ClusterHigh(cell.z));
+  uint count = 0;
+  for (uint i = 0; i < frame.light_count; ++i) {
+    const LightConstants light = lights[i];
+    // Rounding of positions and bounds: a little more than the range.
+    const float range = light.range * 1.0001 + 1e-4 * length(light.position);
+    if (DistanceSquared(low, high, ClusterSpace(light.position)) > range * range) continue;
+    if (count < kClusterCapacity) cluster_lights[cluster * kClusterCapacity + count] = i;
+    ++count;
+  }
+  cluster_counts[cluster] = count > kClusterCapacity ? kClusterOverflow : count;
+}
+
+struct DistancePayload {
+  float distance;
+};
+
+[shader("miss")]
+void ShadowAtlasMiss(inout DistancePayload payload) {
+  payload.distance = 1e30;
+}
+
+[shader("anyhit")]
+void ShadowAtlasAnyHit(inout DistancePayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void ShadowAtlasClosestHit(inout DistancePayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  payload.distance = RayTCurrent();
+}
+
+[shader("raygeneration")]
+void ShadowAtlasRayGen() {
+  const uint2 texel = uint2(DispatchRaysIndex().x, DispatchRaysIndex().y + pass_constants.first_row);
+  const uint id = texel.y / kShadowTile * kShadowTilesPerRow + texel.x / kShadowTile;
+  if (id >= frame.light_count) return;
+  const LightConstants light = lights[id];
+  const float2 uv = (float2(texel % kShadowTile) + 0.5) / float(kShadowTile);
+  RayDesc ray;
+  ray.Origin = light.position;
+  ray.Direction = ShadowMapDirection(light, uv);
+  // What lies in the light's own sphere is the lamp itself.
+  ray.TMin = min(light.radius, light.range);
+  ray.TMax = light.range;
+  DistancePayload payload;
+  payload.distance = 1e30;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+           payload);
+  shadow_atlas[texel] = payload.distance;
+}

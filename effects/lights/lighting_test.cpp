@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+// Local lights: no light is lost by the clusters, shadow maps and contact shadows agree with where
+// shadows are.
+#include "effects/lights/lighting.h"
+
+#include <gtest/gtest.h>
+#include <rtapi/upload.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/direct/direct.h"
+#include "effects/frame/picture.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/lights/light_constants.h"
+#include "effects/scene/oracle_scenes.h"
+
+namespace kaamos::effects {
+namespace {
+
+constexpr std::uint32_t kWidth = 48, kHeight = 32;
+
+// A scene's G-buffer and its local lights.
+struct Stage {
+  explicit Stage(Scene given) : scene(std::move(given)) {
+    device = rtapi::CreateDevice().value();
+    queue = device.CreateCommandQueue().value();
+    const Camera& camera = scene.cameras.front();
+    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
+    FrameDesc desc;
+    desc.width = kWidth;
+    desc.height = kHeight;
+    frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+    lights = light_constants(scene, camera.position());
+    lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
+                                static_cast<std::uint32_t>(lights.size()))
+                   .value();
+    direct = DirectLighting::create(device, frame, lighting, direct_library().value()).value();
+    const RayPass gbuffer =
+        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
+    rtapi::CommandList list = device.CreateCommandList().value();
+    gbuffer.dispatch(list, frame, {}, kHeight);
+    lighting.update(list, frame);
+    queue.ExecuteAndWait(list).value();
+  }
+
+  FloatImage light(bool leave_out_strongest = false) {
+    rtapi::CommandList list = device.CreateCommandList().value();
+    direct.dispatch(list, frame, leave_out_strongest);
+    queue.ExecuteAndWait(list).value();
+    return read_picture(device, queue, direct.direct()).value();
+  }
+
+  // Samples of the visibility of the strongest point light, mean.
+  FloatImage contact(float length, std::uint32_t samples) {
+    const rtapi::Texture picture =
+        frame.create_picture(device, "contact", rtapi::Format::kR32G32B32A32Float).value();
+    PassViews views = frame.create_pass_views(device).value();
+    views.set_unordered_access(0, direct.strongest()).value();
+    views.set_unordered_access(1, picture).value();
+    const RayPass pass =
+        RayPass::create(device, frame, gpu, contact_shadow_pass(contact_shadow_library().value()))
+            .value();
+    PassConstants constants;
+    constants.sample_count = samples;
+    rtapi::CommandList list = device.CreateCommandList().value();
+    direct.dispatch(list, frame, true);
+    pass.dispatch(list, frame, constants, kHeight,
+                  PassArguments(views, ContactShadowConstants{length}));
+    queue.ExecuteAndWait(list).value();
+    FloatImage image = read_picture(device, queue, picture).value();
+    for (float& value : image.values) value /= static_cast<float>(samples);
+    return image;
+  }
+
+  Scene scene;
+  rtapi::Device device;
+  rtapi::CommandQueue queue;
+  GpuScene gpu;
+  Frame frame;
+  std::vector<LightConstants> lights;
+  Lighting lighting;
+  DirectLighting direct;
+};
+
+Light point_light(const glm::dvec3& position, float range) {
+  Light light;
+  light.position = position;
+  light.range = range;
+  light.intensity = 5.0f;
+  light.radius = 0.0f;
+  return light;
+}
+
+Scene scene_of_many_lights(int count, double extent) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> place(-extent, extent), height(0.2, 4.0);
+  std::uniform_real_distribution<float> range(0.5f, 6.0f);
+  for (int i = 0; i < count; ++i) {
+    Light light = point_light({place(random), height(random), place(random)}, range(random));
+    if (i % 3 == 0) {
+      light.type = LightType::kSpot;
+      light.direction = glm::normalize(glm::vec3(place(random), -extent, place(random)));
+    }
+    scene.lights.push_back(light);
+  }
+  return scene;
+}
+
+// The C++ twin of ClusterOf.
+std::uint32_t cluster_of(const FrameConstants& frame, const glm::vec3& position) {
+  const glm::vec3 axes[3] = {glm::normalize(frame.camera_right), glm::normalize(frame.camera_up),
+                             frame.camera_forward};
+  std::uint32_t index = 0;
+  for (int axis = 2; axis >= 0; --axis) {
+    const float x = glm::dot(position, axes[axis]);
+    const int cell = std::min(static_cast<int>(std::log2(1 + std::abs(x) / 0.5f)),
+                              static_cast<int>(kClusterCells) / 2 - 1);
+    const int coordinate = static_cast<int>(kClusterCells) / 2 + (x < 0 ? -1 - cell : cell);
+    index = index * kClusterCells + static_cast<std::uint32_t>(coordinate);
+  }
+  return index;
+}
+
+// Points anywhere about the camera, behind it too: each light in whose range one lies is in its
+// list.
+TEST(Clusters, NoLightIsLost) {
+  Stage stage(scene_of_many_lights(100, 30));
+  std::vector<std::byte> bytes =
+      rtapi::ReadbackBuffer(stage.device, stage.queue, stage.lighting.cluster_counts()).value();
+  std::vector<std::uint32_t> counts(kClusterCount);
+  std::memcpy(counts.data(), bytes.data(), bytes.size());
+  bytes = rtapi::ReadbackBuffer(stage.device, stage.queue, stage.lighting.cluster_lights()).value();
+  std::vector<std::uint32_t> indices(kClusterCount * kClusterCapacity);
+  std::memcpy(indices.data(), bytes.data(), bytes.size());
+  FrameDesc desc;
+  desc.width = kWidth;
+  desc.height = kHeight;
+  const Camera& camera = stage.scene.cameras.front();
+  const FrameConstants constants =
+      frame_constants(stage.scene, camera, desc, {.previous_camera = camera});
+  std::mt19937 random(23);
+  std::uniform_real_distribution<float> place(-40, 40);
+  std::uint64_t in_range = 0, listed = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const glm::vec3 p(place(random), place(random), place(random));
+    const std::uint32_t cluster = cluster_of(constants, p);
+    ASSERT_LE(counts[cluster], kClusterCapacity);
+    const auto begin = indices.begin() + cluster * kClusterCapacity;
+    listed += counts[cluster];
+    for (std::uint32_t light = 0; light < stage.lights.size(); ++light) {
+      if (glm::length(stage.lights[light].position - p) >= stage.lights[light].range) continue;
+      ++in_range;
+      ASSERT_TRUE(std::binary_search(begin, begin + counts[cluster], light))
+          << "light " << light << " at " << p.x << "," << p.y << "," << p.z;
+    }
+  }
+  EXPECT_GT(in_range, 500u);
+  EXPECT_LT(listed, 20'000u * 100 / 4);  // and they do leave most out
+}
+
+// The same bits as the loop over all lights, which an overflow of every cluster means.
+TEST(Clusters, GiveTheSumOverAllLights) {
+  Stage stage(scene_of_many_lights(100, 8));
+  const FloatImage clustered = stage.light();
+  const rtapi::Buffer overflow =
+      rtapi::CreateUploadBuffer(stage.device,
+                                std::vector<std::uint32_t>(kClusterCount, kClusterOverflow))
+          .value();
+  rtapi::CommandList list = stage.device.CreateCommandList().value();
+  const rtapi::Buffer& counts = stage.lighting.cluster_counts();
+  list.ResourceBarrier(rtapi::ResourceBarrier::Transition(
+      counts, rtapi::ResourceStates::kUnorderedAccess, rtapi::ResourceStates::kCopyDest));
+  list.CopyBufferRegion(counts, 0, overflow, 0, kClusterCount * 4);
+  list.ResourceBarrier(rtapi::ResourceBarrier::Transition(counts, rtapi::ResourceStates::kCopyDest,
+                                                          rtapi::ResourceStates::kUnorderedAccess));
+  stage.queue.ExecuteAndWait(list).value();
+  const FloatImage all = stage.light();
+  double brightest = 0;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    ASSERT_EQ(clustered.values[i], all.values[i]) << i;
+    brightest = std::max(brightest, static_cast<double>(all.values[i]));
+  }
+  EXPECT_GT(brightest, 0.1);
+}
+
+TEST(Clusters, ThatOverflowLoseNothing) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  for (int i = 0; i < 200; ++i) scene.lights.push_back(point_light({0.01 * i, 3, 0}, 8));
+  Stage stage(scene);
+  Scene one = make_sphere_oracle(1.0, 1.5);
+  one.lights.push_back(point_light({1, 3, 0}, 8));
+  one.lights.back().intensity *= 200;
+  Stage together(one);
+  const FloatImage many = stage.light(), single = together.light();
+  double sum = 0, expected = 0;
+  for (std::size_t i = 0; i < many.values.size(); i += 4) {
+    sum += many.values[i];
+    expected += single.values[i];
+  }
+  EXPECT_NEAR(sum / expected, 1, 0.05);  // they lie along two metres
+}
+
+// A lamp over a sphere over a plane: the shadow on the plane is a disk of known radius.
+Scene lamp_over_sphere() {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  scene.lights.push_back(point_light({0, 5, 0}, 50));
+  return scene;
+}
+
+// Where the plane is lit: tan of the cone that touches the sphere, times the lamp's height.
+double shadow_radius() {
+  const double distance = 5 - 1.5;
+  return 5 * 1.0 / std::sqrt(distance * distance - 1.0);
+}
+
+TEST(ShadowMaps, DarkenTheDiskUnderTheSphere) {
+  Stage stage(lamp_over_sphere());
+  const FloatImage image = stage.light();
+  const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
+  const FloatImage ids = stage.frame.read(stage.device, stage.queue, kIds).value();
+  const glm::dvec3 eye = stage.scene.cameras.front().position();
+  int dark = 0, lit = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      if (ids.at(x, y, 0) == 0) continue;
+      const glm::dvec3 p =
+          eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
+      if (std::abs(p.y) > 1e-3) continue;  // the sphere itself
+      const double r = std::hypot(p.x, p.z);
+      // A texel of the map is 0.2 m wide down there.
+      if (r < shadow_radius() - 0.5) {
+        EXPECT_EQ(image.at(x, y), 0) << r;
+        ++dark;
+      } else if (r > shadow_radius() + 0.5 && r < 8) {
+        EXPECT_GT(image.at(x, y), 0) << r;
+        ++lit;
+      }
+    }
+  }
+  EXPECT_GT(dark, 5);
+  EXPECT_GT(lit, 50);
+}
+
+TEST(ContactShadows, OfNoLengthAreNone) {
+  Stage stage(lamp_over_sphere());
+  const FloatImage image = stage.contact(0.0f, 4);
+  const FloatImage ids = stage.frame.read(stage.device, stage.queue, kIds).value();
+  const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      if (ids.at(x, y, 0) != 1.0f) continue;  // the plane
+      ASSERT_EQ(image.at(x, y, 0), 1.0f);
+    }
+  }
+}
+
+// Rays as long as the way to the lamp: the exact hard shadow of a lamp without size.
+TEST(ContactShadows, AtFullLengthAreTheShadow) {
+  Stage stage(lamp_over_sphere());
+  const FloatImage image = stage.contact(1e3f, 1);
+  const FloatImage ids = stage.frame.read(stage.device, stage.queue, kIds).value();
+  const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
+  const glm::dvec3 eye = stage.scene.cameras.front().position();
+  int wrong = 0, dark = 0, count = 0;
+  for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t x = 0; x < kWidth; ++x) {
+      if (ids.at(x, y, 0) != 1.0f) continue;
+      const double r = std::hypot(eye.x + position.at(x, y, 0), eye.z + position.at(x, y, 2));
+      if (std::abs(r - shadow_radius()) < 0.02) continue;  // the sphere is made of triangles
+      ++count;
+      const bool expected_dark = r < shadow_radius();
+      dark += expected_dark;
+      wrong += (image.at(x, y, 0) == 0.0f) != expected_dark;
+    }
+  }
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(dark, 5);
+  EXPECT_GT(count, 200);
+}
+
+// A lamp of 0.5 m: behind the sphere's edge its visible part falls from 1 to 0.
+TEST(ContactShadows, AreSoftByTheLightsRadius) {
+  Scene scene = lamp_over_sphere();
+  scene.lights.front().radius = 0.5f;
+  Stage stage(scene);
+  const FloatImage image = stage.contact(1e3f, 64);
+  int partial = 0;
+  for (std::size_t i = 0; i < image.values.size(); i += 4) {
+    partial += image.values[i] > 0.05f && image.values[i] < 0.95f;
+  }
+  EXPECT_GT(partial, 20);
+}
+
+TEST(ContactShadows, StrongestLightsAreNamedByKind) {
+  Scene scene = lamp_over_sphere();
+  Light spot = point_light({2, 4, 0}, 50);
+  spot.type = LightType::kSpot;
+  spot.outer_cone_angle = 1.2f;
+  scene.lights.push_back(spot);
+  Stage stage(scene);
+  stage.light(true);
+  const FloatImage strongest =
+      read_picture(stage.device, stage.queue, stage.direct.strongest()).value();
+  int both = 0;
+  for (std::size_t i = 0; i < strongest.values.size(); i += 2) {
+    both += strongest.values[i] == 0.0f && strongest.values[i + 1] == 1.0f;
+    ASSERT_TRUE(strongest.values[i] == 0.0f || strongest.values[i] == 0xFFFFFF);
+    ASSERT_TRUE(strongest.values[i + 1] == 1.0f || strongest.values[i + 1] == 0xFFFFFF);
+  }
+  EXPECT_GT(both, 100);
+}
+
+}  // namespace
+}  // namespace kaamos::effects

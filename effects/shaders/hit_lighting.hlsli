@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Local lights at any point of the scene, on the picture or off it: found through a grid of clusters
+// about the camera, shadowed by maps in an atlas. Every pass that shades hits includes this.
+// [Northlight deck: Light Culling, Lighting Data; effects-spec B1.3]
+#ifndef KAAMOS_HIT_LIGHTING_HLSLI
+#define KAAMOS_HIT_LIGHTING_HLSLI
+
+#include "brdf.hlsli"
+#include "encoding.hlsli"
+#include "frame.hlsli"
+
+// effects/lights/lighting.h binds these for a pass, and holds the same numbers.
+RWTexture2D<float> shadow_atlas : register(u16, space3);  // metres from the light; infinite: nothing
+RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
+RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
+
+static const uint kClusterCells = 16;        // per axis
+static const uint kClusterCapacity = 128;    // lights of a cluster
+static const float kClusterInnerSize = 0.5;  // metres, of the cells about the camera
+// A cluster with more lights than it can hold: all lights of the scene are looked at, none is lost.
+static const uint kClusterOverflow = 0xFFFFFFFF;
+
+static const uint kShadowTile = 128;         // texels, of a light's map
+static const uint kShadowTilesPerRow = 32;
+
+// Cells grow with the distance from the camera; the outermost reach to infinity, so that every point
+// lies in one, also behind the camera: rays hit what the camera does not see.
+int ClusterCoordinate(float x) {
+  const float scaled = log2(1.0 + abs(x) / kClusterInnerSize);
+  const int cell = min(int(scaled), int(kClusterCells) / 2 - 1);
+  return int(kClusterCells) / 2 + (x < 0.0 ? -1 - cell : cell);
+}
+
+// The sides of a cell along an axis: coordinate c holds ClusterLow(c) <= x <= ClusterHigh(c).
+float ClusterDistance(int cells) { return (exp2(float(cells)) - 1.0) * kClusterInnerSize; }
+
+float ClusterLow(int coordinate) {
+  const int half_cells = int(kClusterCells) / 2;
+  if (coordinate == 0) return -1e30;
+  return coordinate < half_cells ? -ClusterDistance(half_cells - coordinate)
+                                 : ClusterDistance(coordinate - half_cells);
+}
+
+float ClusterHigh(int coordinate) {
+  const int half_cells = int(kClusterCells) / 2;
+  if (coordinate == int(kClusterCells) - 1) return 1e30;
+  return coordinate < half_cells ? -ClusterDistance(half_cells - 1 - coordinate)
+                                 : ClusterDistance(coordinate + 1 - half_cells);
+}
+
+// The grid's axes are the camera's.
+float3 ClusterSpace(float3 position) {
+  return float3(dot(position, normalize(frame.camera_right)), dot(position, normalize(frame.camera_up)),
+                dot(position, frame.camera_forward));
+}
+
+uint ClusterOf(float3 position) {
+  const float3 p = ClusterSpace(position);
+  return (uint(ClusterCoordinate(p.z)) * kClusterCells + uint(ClusterCoordinate(p.y))) *
+             kClusterCells + uint(ClusterCoordinate(p.x));
+}
+
+float RadianceLuminance(float3 radiance) {
+  return dot(radiance, float3(0.2126, 0.7152, 0.0722));
+}
+
+// Some unit vector at right angles to `n`, the same for the same n. [Duff et al. 2017]
+float3 ToWorldAxis(float3 n) {
+  const float s = n.z >= 0.0 ? 1.0 : -1.0;
+  const float a = -1.0 / (s + n.z);
+  return float3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
+}
+
+// Where a direction from a light stands in its map, 0..1: spots see their cone, points everything.
+float2 ShadowMapUv(LightConstants light, float3 direction) {
+  if (light.is_spot == 0) {
+    return OctahedralEncode(direction) * 0.5 + 0.5;
+  }
+  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
+  const float3 x = ToWorldAxis(light.direction);
+  const float3 y = cross(light.direction, x);
+  const float along = max(dot(direction, light.direction), 1e-6);
+  return float2(dot(direction, x), dot(direction, y)) / (along * tangent) * 0.5 + 0.5;
+}
+
+// The direction of a point of a light's map: the inverse.
+float3 ShadowMapDirection(LightConstants light, float2 uv) {
+  if (light.is_spot == 0) {
+    return OctahedralDecode(uv * 2.0 - 1.0);
+  }
+  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
+  const float3 x = ToWorldAxis(light.direction);
+  const float3 y = cross(light.direction, x);
+  const float2 p = (uv * 2.0 - 1.0) * tangent;
+  return normalize(light.direction + p.x * x + p.y * y);
+}
+
+uint2 ShadowTileOrigin(uint light) {
+  return uint2(light % kShadowTilesPerRow, light / kShadowTilesPerRow) * kShadowTile;
+}
+
+// Angle that a texel of a light's map covers, radians.
+float ShadowTexelAngle(LightConstants light) {
+  // An octahedral map covers 4 pi with its texels; the mean is good to a factor of two.
+  if (light.is_spot == 0) return sqrt(4.0 * kBrdfPi) / float(kShadowTile);
+  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
+  return 2.0 * tangent / float(kShadowTile);
+}
+
+// Visibility of a light by its map, four texels weighted. The point moves along its normal by what a
+// texel covers there: a texel cannot tell heights apart that are closer. [effects-spec B2.1]
+float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3 normal) {
+  const float distance = length(position - light.position);
+  const float texel = distance * ShadowTexelAngle(light);
+  const float3 moved = position + normal * (1.5 * texel);
+  const float3 from_light = moved - light.position;
+  const float receiver = length(from_light);
+  if (!(receiver > 0.0)) return 1.0;
+  const float2 at = ShadowMapUv(light, from_light / receiver) * float(kShadowTile) - 0.5;
+  const int2 corner = int2(floor(at));
+  const float2 part = at - floor(at);
+  const uint2 origin = ShadowTileOrigin(id);
+  float visible = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    const int2 offset = int2(i & 1, i >> 1);
+    const int2 texel_at = clamp(corner + offset, int2(0, 0), int2(kShadowTile - 1, kShadowTile - 1));
+    const float occluder = shadow_atlas[origin + uint2(texel_at)];
+    const float weight = (offset.x == 1 ? part.x : 1.0 - part.x) *
+                         (offset.y == 1 ? part.y : 1.0 - part.y);
+    visible += receiver <= occluder + 0.5 * texel ? weight : 0.0;
+  }
+  return visible;
+}
+
+// What one light sends by a surface towards `view`, without shadow.
+float3 LightRadiance(LightConstants light, Brdf brdf, float3 position, float3 normal, float3 view) {
+  const LightSample s = SampleLight(light, position);
+  return s.irradiance * EvaluateBrdf(brdf, normal, view, s.direction);
+}
+
+float3 ShadowedLightRadiance(uint id, Brdf brdf, float3 position, float3 geometric_normal,
+                             float3 normal, float3 view) {
+  const LightConstants light = lights[id];
+  const float3 radiance = LightRadiance(light, brdf, position, normal, view);
+  if (!(RadianceLuminance(radiance) > 0.0)) return float3(0, 0, 0);
+  return radiance * ShadowMapVisibility(id, light, position, geometric_normal);
+}
+
+// How many lights a loop over a cluster's lights visits; ClusterLight names them.
+uint ClusterLightCount(uint cluster) {
+  const uint count = cluster_counts[cluster];
+  return count == kClusterOverflow ? frame.light_count : count;
+}
+
+uint ClusterLight(uint cluster, uint index) {
+  return cluster_counts[cluster] == kClusterOverflow
+             ? index
+             : cluster_lights[cluster * kClusterCapacity + index];
+}
+
+// All local lights at a point, with their shadow maps.
+float3 LocalLights(Brdf brdf, float3 position, float3 geometric_normal, float3 normal, float3 view) {
+  const uint cluster = ClusterOf(position);
+  const uint count = ClusterLightCount(cluster);
+  float3 sum = float3(0, 0, 0);
+  for (uint i = 0; i < count; ++i) {
+    sum += ShadowedLightRadiance(ClusterLight(cluster, i), brdf, position, geometric_normal, normal,
+                                 view);
+  }
+  return sum;
+}
+
+#endif
