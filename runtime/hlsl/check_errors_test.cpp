@@ -137,7 +137,10 @@ const std::vector<Case>& cases() {
       {"IntrinsicArgument", Id::kIntrinsicArgument, kernel("float x = determinant(@1.0);")},
       {"AtomicOnFloat", Id::kAtomicType, kernel("InterlockedAdd(@g, 1);", "groupshared float g;")},
       {"AtomicOnLocal", Id::kAtomicTarget, kernel("int x = 0;\nInterlockedAdd(@x, 1);")},
-      {"WaveIntrinsic", Id::kUnsupported, kernel("uint x = @WaveGetLaneIndex();")},
+      {"WaveInCompute", Id::kStage, kernel("uint x = @WaveGetLaneIndex();")},
+      {"WaveIntrinsic", Id::kUnsupported,
+       kernel("uint x = @WaveMultiPrefixSum(1u, uint4(1, 0, 0, 0));")},
+      {"WaveOfBits", Id::kIntrinsicArgument, kernel("float x = WaveActiveBitOr(@1.0);")},
       {"MethodWithoutObject", Id::kMethodWithoutObject,
        kernel("S::@f();", "struct S { void f() {} };")},
       // Templates

@@ -249,6 +249,8 @@ class Checker {
   Value call_mul(std::vector<Value>& arguments, SourceLocation location);
   Value call_select(std::vector<Value>& arguments, SourceLocation location);
   Value call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location);
+  std::optional<Value> call_wave(std::string_view name, std::vector<Value>& arguments,
+                                 SourceLocation location);
   Value call_with_outputs(std::string_view name, std::vector<Value>& arguments,
                           SourceLocation location);
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,

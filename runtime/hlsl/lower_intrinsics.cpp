@@ -104,6 +104,7 @@ std::optional<Value> Checker::call_builtin(const NamePart& part, std::vector<Val
       return call_interlocked(*rule, arguments, location);
     }
   }
+  if (const auto wave = call_wave(name, arguments, location)) return wave;
   const std::string_view family = unsupported_function(name);
   if (!family.empty()) {
     report(CheckId::kUnsupported, location,

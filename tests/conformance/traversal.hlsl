@@ -237,3 +237,39 @@ void QueryWithSkip() {
   dynamic.Proceed();
   words.Store2(0, uint2(fixed.CommittedStatus(), dynamic.CommittedStatus()));
 }
+
+// Bits of what does not hold of this thread's wave.
+uint waveFaults(uint x) {
+  const uint lane = WaveGetLaneIndex();
+  const uint4 ballot = WaveActiveBallot(true);
+  uint faults = 0;
+  if (lane >= WaveGetLaneCount()) faults |= 1;
+  if (WaveActiveSum(1u) != WaveActiveCountBits(true)) faults |= 2;
+  if ((ballot[lane / 32] >> (lane % 32) & 1) == 0) faults |= 4;
+  if (WavePrefixCountBits(true) >= WaveActiveCountBits(true)) faults |= 8;
+  if (WaveReadLaneAt(x, lane) != x) faults |= 16;
+  if (WaveActiveMin(x) > x || WaveActiveMax(x) < x) faults |= 32;
+  if (!WaveActiveAnyTrue(true) || WaveActiveAllTrue(false)) faults |= 64;
+  if (WaveIsFirstLane() != (WavePrefixSum(1u) == 0)) faults |= 128;
+  if (any(WaveActiveSum(float2(0, 0)) != 0) || WavePrefixProduct(1.0) != 1) faults |= 256;
+  if (!all(WaveActiveAllEqual(int3(7, 8, 9)))) faults |= 512;
+  if (WaveIsFirstLane() && WaveReadLaneFirst(x) != x) faults |= 1024;
+  if ((WaveActiveBitOr(x) & x) != x || (WaveActiveBitAnd(x) & ~x) != 0) faults |= 2048;
+  return faults;
+}
+
+// Before and after a trace, where waves may be packed anew.
+[shader("raygeneration")]
+void Waves() {
+  const uint x = DispatchRaysIndex().x;
+  uint faults = waveFaults(x);
+  Seen seen = nothingSeen();
+  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
+  faults |= waveFaults(x) | seen.record;
+  words.Store2(8 * x, uint2(faults, WaveGetLaneCount()));
+}
+
+[shader("closesthit")]
+void WavesInHit(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
+  seen.record = waveFaults(DispatchRaysIndex().x);
+}

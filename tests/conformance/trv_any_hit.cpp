@@ -127,6 +127,24 @@ void no_derivatives_no_group_sync(Context& t) {
   }
 }
 
+// What holds for waves of any size; here each thread is one.
+void waves(Context& t) {
+  Walker walker(t);
+  walker.record("WavesOfHit");
+  walker.raygen("Waves");
+  walker.scene = t.scene({triangle(5)});
+  walker.prepare({Ray{}});
+  const auto words = walker.run(37);
+  for (uint32_t i = 0; i < 37; ++i) {
+    t.equal("what does not hold in thread " + std::to_string(i), words[2 * i], 0u);
+    t.holds("the count of lanes is one of DXR's", words[2 * i + 1] >= 1 && words[2 * i + 1] <= 128);
+  }
+  for (const char* stage : kRayStages) {
+    t.accepted(std::string("WaveActiveSum() in ") + stage,
+               compile(shader_of(stage, "words.Store(0, WaveActiveSum(7u));")));
+  }
+}
+
 // The policy of normal mode for rays that DXR leaves undefined: nothing is hit, nothing hangs.
 void odd_rays(Context& t) {
   Standard program(t);
@@ -232,6 +250,7 @@ std::vector<RuleTest> trv_any_hit_tests() {
           {"TRV-31", long_triangles_show_once},
           {"TRV-47", callees_complete_first},
           {"TRV-48", coherent_writes_are_seen},
+          {"TRV-49", waves},
           {"TRV-50", no_derivatives_no_group_sync}};
 }
 

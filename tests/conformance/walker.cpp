@@ -160,11 +160,11 @@ std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count,
 }
 
 Walker::Walker(Context& t)
-    : Standard(
-          t, kaamos_shaders_traversal(),
-          {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates", "Shadowed",
-           "Straight", "AddTen", "WriteBoard", "AnswerBoard", "QueryAndTrace", "QueryWithSkip"},
-          (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3), UAV(u1)").c_str()),
+    : Standard(t, kaamos_shaders_traversal(),
+               {"Walk", "BoxWalk", "Sphere", "Script", "ScriptAny", "CountCandidates", "Shadowed",
+                "Straight", "AddTen", "WriteBoard", "AnswerBoard", "QueryAndTrace", "QueryWithSkip",
+                "Waves", "WavesInHit"},
+               (std::string(kGlobalSignature) + ", SRV(t2), SRV(t3), UAV(u1)").c_str()),
       context_(&t) {
   group("WalkTriangle", "Closest", "Walk");
   group("WalkSphere", "BoxClosest", "BoxWalk", "Sphere");
@@ -173,8 +173,9 @@ Walker::Walker(Context& t)
   group("PlainScript", "BoxClosest", "", "Script");
   group("ShadowedTriangle", "Closest", "Shadowed");
   group("Board", "AnswerBoard");
-  local(kRecordSignature, {"ShadowedTriangle", "Board", "WalkTriangle", "WalkSphere", "PlainSphere",
-                           "WalkScript", "PlainScript"});
+  group("WavesOfHit", "WavesInHit");
+  local(kRecordSignature, {"ShadowedTriangle", "Board", "WavesOfHit", "WalkTriangle", "WalkSphere",
+                           "PlainSphere", "WalkScript", "PlainScript"});
 }
 
 void Walker::build(const Scene& description) {
