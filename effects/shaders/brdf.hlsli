@@ -57,4 +57,36 @@ float3 EvaluateBrdf(Brdf brdf, float3 normal, float3 view, float3 light) {
   return (brdf.diffuse * (1.0f / kBrdfPi) + specular) * n_l;
 }
 
+// A half vector with the density that GGX's facets have as seen from `view`, all about +Z.
+// [Dupuy & Benyoub 2023, spherical caps]
+float3 SampleGgxHalfVector(float2 u, float3 view, float alpha) {
+  const float3 w = normalize(float3(alpha * view.x, alpha * view.y, view.z));
+  const float phi = 2.0f * kBrdfPi * u.x;
+  const float z = (1.0f - u.y) * (1.0f + w.z) - w.z;
+  const float s = sqrt(saturate(1.0f - z * z));
+  const float3 h = float3(s * cos(phi), s * sin(phi), z) + w;
+  return normalize(float3(alpha * h.x, alpha * h.y, max(h.z, 0.0f)));
+}
+
+// Reflectance over density of a direction that was mirrored at such a half vector: F G2 / G1. At
+// most 1. Zero under the surface: that light is lost, not drawn anew. [effects-spec B0.4]
+float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float cosine_half_view) {
+  if (!(cosine_light > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
+  const float view = GgxLambda(brdf.alpha, cosine_view);
+  const float light = GgxLambda(brdf.alpha, cosine_light);
+  return FresnelSchlick(brdf.f0, cosine_half_view) * ((1.0f + view) / (1.0f + view + light));
+}
+
+// Reflectance of the specular part under light from everywhere, about: what a signal is divided by
+// before a filter and multiplied with behind it, so that only its ratio to the truth matters little.
+// [Karis 2014, after Lazarov 2013]
+float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
+  const float4 c0 = float4(-1.0f, -0.0275f, -0.572f, 0.022f);
+  const float4 c1 = float4(1.0f, 0.0425f, 1.04f, -0.04f);
+  const float4 r = roughness * c0 + c1;
+  const float a = min(r.x * r.x, exp2(-9.28f * saturate(cosine_view))) * r.x + r.y;
+  return max(f0 * (-1.04f * a + r.z) + float3(1.0f, 1.0f, 1.0f) * (1.04f * a + r.w),
+             float3(0.001f, 0.001f, 0.001f));
+}
+
 #endif

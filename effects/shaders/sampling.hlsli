@@ -88,6 +88,15 @@ float3 ToWorld(float3 local, float3 n) {
   return t * local.x + v * local.y + n * local.z;
 }
 
+// The inverse of ToWorld.
+float3 ToLocal(float3 world, float3 n) {
+  const float s = n.z >= 0.0f ? 1.0f : -1.0f;
+  const float a = -1.0f / (s + n.z);
+  const float b = n.x * n.y * a;
+  return float3(dot(world, float3(1.0f + s * n.x * n.x * a, s * b, -s * n.x)),
+                dot(world, float3(b, s + n.y * n.y * a, -n.y)), dot(world, n));
+}
+
 // Direction to a point of the sun's disk.
 float3 SampleSun(float2 u, float3 direction_to_sun, float tan_angular_radius) {
   return normalize(ToWorld(float3(SampleDisk(u) * tan_angular_radius, 1.0f), direction_to_sun));

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "effects/reflections/reflections.h"
+
+#include <shaders/reflections.h>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> reflections_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_reflections());
+}
+
+RayPassDesc reflections_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "reflections";
+  desc.library = std::move(library);
+  desc.ray_generation = "ReflectionRayGen";
+  desc.miss[kRayTypeSurface] = "ReflectionMiss";
+  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
+  desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};
+  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  desc.payload_bytes = 16;
+  desc.max_recursion_depth = 2;  // the sun's ray at a hit
+  return desc;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Opaque reflections. [effects-spec B4.10]
+#pragma once
+
+#include "effects/frame/ray_pass.h"
+
+namespace kaamos::effects {
+
+/// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: radiance over the
+/// specular albedo of brdf.hlsli, and the rays' length. Lighting::bind is needed too.
+RayPassDesc reflections_pass(rtapi::ShaderLibrary library);
+rtapi::Result<rtapi::ShaderLibrary> reflections_library();
+
+/// Constants b0, space3. The lengths are Control's.
+struct ReflectionConstants {
+  float longest = 200.0f;      ///< metres, of the rays of a mirror
+  float shortest = 3.0f;       ///< metres, at roughness 1
+  float length_jitter = 0.2f;  ///< part of the length that varies
+  float firefly_limit = 0.0f;  ///< luminance that a sample is clamped to; 0: none
+  std::uint32_t sun_at_hits = 1;
+  std::uint32_t single_length = 0;  ///< 1: `longest` at every roughness
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Opaque reflections: one ray per sample in a direction that GGX's facets as seen by the camera
+// choose, shaded where it hits. [effects-spec B4.10; Control]
+#include "hit_shading.hlsli"
+#include "sampling.hlsli"
+
+// Sums over the samples: radiance over the specular albedo, and the ray's length (0: no ray).
+RWTexture2D<float4> reflection : register(u0, space3);
+
+struct ReflectionConstants {
+  float longest;        // metres, of a mirror's rays
+  float shortest;       // metres, of a rough surface's
+  float length_jitter;  // part of the length that varies from ray to ray
+  float firefly_limit;  // luminance that a sample is clamped to; 0: none
+  uint sun_at_hits;     // 1: a shadow ray per hit
+  uint single_length;   // 1: `longest` for all, for reference
+};
+ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
+
+static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
+
+struct ReflectionPayload {
+  float3 radiance;
+  float distance;  // of the hit, metres; negative: none
+};
+
+[shader("miss")]
+void ReflectionMiss(inout ReflectionPayload payload) {
+  payload.radiance = SkyTowards(WorldRayDirection());
+  payload.distance = -1.0;
+}
+
+[shader("anyhit")]
+void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent() * frame.pixel_angle);
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0);
+  payload.distance = RayTCurrent();
+}
+
+// Rough surfaces see far things as a blur that the fallback gives too. [Control: 200 m to 3 m]
+float ReflectionLength(float roughness, float u) {
+  if (constants.single_length != 0) return constants.longest;
+  const float length = constants.longest * pow(constants.shortest / constants.longest, saturate(roughness));
+  return length * (1.0 - constants.length_jitter * u);
+}
+
+[shader("raygeneration")]
+void ReflectionRayGen() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) return;
+  const float4 position = g_position[pixel];
+  const float3 normal = OctahedralDecode(g_normal[pixel]);
+  const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
+  const float3 view = normalize(-position.xyz);
+  const float roughness = g_material[pixel].x;
+  const Brdf brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
+  const float cosine_view = max(dot(shading_normal, view), 1e-4);
+  const float3 albedo = SpecularAlbedo(brdf.f0, roughness, cosine_view);
+  const float3 local_view = ToLocal(view, shading_normal);
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
+  const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, frame.seed)];
+
+  float4 sum = float4(0, 0, 0, 0);
+  for (uint i = 0; i < pass_constants.sample_count; ++i) {
+    const uint index = pass_constants.first_sample + i;
+    const float2 u = PixelSample(tile, index, kReflectionPair, frame.seed);
+    const float3 half_vector = roughness <= kMirrorRoughness
+                                   ? float3(0, 0, 1)
+                                   : SampleGgxHalfVector(u, local_view, brdf.alpha);
+    const float3 local_light = reflect(-local_view, half_vector);
+    const float3 weight = GgxSampleWeight(brdf, cosine_view, local_light.z, dot(local_view, half_vector));
+    const float3 direction = ToWorld(local_light, shading_normal);
+    // Under the surface, the true one or the bent one: no light comes from there.
+    if (!(local_light.z > 0.0) || !(dot(direction, normal) > 0.0)) continue;
+    const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, frame.seed);
+    RayDesc ray;
+    ray.Origin = position.xyz + normal * position.w;
+    ray.TMin = 0.0;
+    ray.Direction = direction;
+    ray.TMax = ReflectionLength(roughness, v.x);
+    ReflectionPayload payload;
+    payload.radiance = float3(0, 0, 0);
+    payload.distance = -1.0;
+    TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+             payload);
+    float3 sample = payload.radiance * weight / albedo;
+    const float luminance = RadianceLuminance(sample);
+    if (constants.firefly_limit > 0.0 && luminance > constants.firefly_limit) {
+      sample *= constants.firefly_limit / luminance;
+    }
+    sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
+  }
+  reflection[pixel] += sum;
+}

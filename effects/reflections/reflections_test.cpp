@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Reflections against answers that are known.
+#include "effects/reflections/reflections.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "effects/frame/picture.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/lights/lighting.h"
+#include "effects/scene/oracle_scenes.h"
+
+namespace kaamos::effects {
+namespace {
+
+constexpr std::uint32_t kSize = 16;
+
+// A plane alone, of metal that reflects everything, under a sky of 1 everywhere; the camera looks
+// at it at `angle` from its normal, through a narrow field so that every pixel has that angle.
+Scene furnace(double angle, float alpha) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  scene.instances.resize(1);
+  for (Material& material : scene.materials) {
+    material.constants.base_color = glm::vec4(1);
+    material.constants.metallic = 1;
+    material.constants.roughness = std::sqrt(alpha);
+  }
+  scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(1.0f);
+  scene.sun.reset();
+  scene.lights.clear();
+  Camera& camera = scene.cameras.front();
+  camera.camera_to_world =
+      look_at(glm::dvec3(5 * std::sin(angle), 5 * std::cos(angle), 0), glm::dvec3(0));
+  camera.vertical_fov = 0.002;
+  return scene;
+}
+
+struct Reflected {
+  FloatImage sum;  // over the samples
+  FloatImage position, ids;
+};
+
+Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionConstants& constants) {
+  const rtapi::Device device = rtapi::CreateDevice().value();
+  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
+  const Camera& camera = scene.cameras.front();
+  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
+  FrameDesc desc;
+  desc.width = kSize;
+  desc.height = kSize;
+  const Frame frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+  const Lighting lighting =
+      Lighting::create(device, frame, gpu, lighting_library().value(), 0).value();
+  const rtapi::Texture picture =
+      frame.create_picture(device, "reflection", rtapi::Format::kR32G32B32A32Float).value();
+  PassViews views = frame.create_pass_views(device).value();
+  views.set_unordered_access(0, picture).value();
+  lighting.bind(views).value();
+  const RayPass gbuffer =
+      RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
+  const RayPass pass =
+      RayPass::create(device, frame, gpu, reflections_pass(reflections_library().value())).value();
+  rtapi::CommandList list = device.CreateCommandList().value();
+  gbuffer.dispatch(list, frame, {}, kSize);
+  lighting.update(list, frame);
+  PassConstants pass_constants;
+  pass_constants.sample_count = samples;
+  pass.dispatch(list, frame, pass_constants, kSize, PassArguments(views, constants));
+  queue.ExecuteAndWait(list).value();
+  Reflected out;
+  out.sum = read_picture(device, queue, picture).value();
+  out.position = frame.read(device, queue, kPosition).value();
+  out.ids = frame.read(device, queue, kIds).value();
+  return out;
+}
+
+// SpecularAlbedo of brdf.hlsli for f0 = 1: what the picture was divided by.
+double albedo_of_white(double roughness, double cosine) {
+  const double r[4] = {1 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness,
+                       -0.04 + 0.022 * roughness};
+  const double a = std::min(r[0] * r[0], std::exp2(-9.28 * cosine)) * r[0] + r[1];
+  return (-1.04 * a + r[2]) + (1.04 * a + r[3]);
+}
+
+// Single scattering loses light that facets send on to other facets: known from quadrature.
+// [effects-spec B0.4]
+TEST(Reflections, WhiteFurnace) {
+  struct {
+    float alpha;
+    double degrees, expected;
+  } const rows[] = {{0.1f, 80, 0.8955},
+                    {0.5f, 0, 0.6878},
+                    {0.5f, 30, 0.6831},
+                    {1.0f, 85, 0.7801},
+                    {1.0f, 0, 0.3069}};
+  for (const auto& row : rows) {
+    const double angle = row.degrees * 3.14159265358979 / 180;
+    const std::uint32_t samples = 1024;
+    const Reflected result = reflect(furnace(angle, row.alpha), samples, {});
+    double sum = 0;
+    for (std::size_t i = 0; i < result.sum.values.size(); i += 4) sum += result.sum.values[i];
+    const double mean = sum / (kSize * kSize * samples) *
+                        albedo_of_white(std::sqrt(static_cast<double>(row.alpha)), std::cos(angle));
+    EXPECT_NEAR(mean, row.expected, 0.005 * row.expected + 0.001)
+        << "alpha " << row.alpha << " at " << row.degrees << " degrees";
+  }
+}
+
+// A mirror under a sphere: the length of each ray is that of the exact reflection.
+TEST(Reflections, MirrorsHitWhereTheyMust) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  for (Material& material : scene.materials) material.constants.roughness = 0;
+  const Reflected result = reflect(scene, 1, {});
+  const glm::dvec3 eye = scene.cameras.front().position();
+  int hits = 0;
+  for (std::uint32_t y = 0; y < kSize; ++y) {
+    for (std::uint32_t x = 0; x < kSize; ++x) {
+      if (result.ids.at(x, y, 0) != 1.0f) continue;  // the plane
+      const glm::dvec3 from_eye(result.position.at(x, y, 0), result.position.at(x, y, 1),
+                                result.position.at(x, y, 2));
+      const glm::dvec3 p = eye + from_eye;
+      glm::dvec3 direction = glm::normalize(from_eye);
+      direction.y = -direction.y;
+      const glm::dvec3 to_center = glm::dvec3(0, 1.5, 0) - p;
+      const double along = glm::dot(to_center, direction);
+      const double aside = glm::length(to_center - along * direction);
+      if (std::abs(aside - 1) < 0.02) continue;  // a sphere of triangles
+      const double expected = aside < 1 ? along - std::sqrt(1 - aside * aside) : 200;
+      ASSERT_NEAR(result.sum.at(x, y, 3), expected, aside < 1 ? 0.05 : 45) << x << "," << y;
+      hits += aside < 1;
+    }
+  }
+  EXPECT_GT(hits, 3);
+}
+
+// The clamp takes energy and nothing else; the picture says how much.
+TEST(Reflections, TheFireflyLimitOnlyDarkens) {
+  Scene scene = furnace(0.5, 0.5f);
+  scene.sky.zenith = glm::vec3(8.0f);
+  ReflectionConstants clamped;
+  clamped.firefly_limit = 2;
+  const Reflected free = reflect(scene, 16, {}), limited = reflect(scene, 16, clamped);
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < free.sum.values.size(); i += 4) {
+    ASSERT_LE(limited.sum.values[i], free.sum.values[i] * 1.0001f);
+    before += free.sum.values[i];
+    after += limited.sum.values[i];
+  }
+  EXPECT_LT(after / before, 0.7);
+  EXPECT_GT(after, 0);
+}
+
+}  // namespace
+}  // namespace kaamos::effects
