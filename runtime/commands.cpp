@@ -7,6 +7,7 @@ namespace {
 struct NameOf {
   const char* operator()(const DispatchRaysCommand&) const { return "DispatchRays"; }
   const char* operator()(const DispatchCommand&) const { return "Dispatch"; }
+  const char* operator()(const ExecuteIndirectCommand&) const { return "ExecuteIndirect"; }
   const char* operator()(const BuildCommand&) const {
     return "BuildRaytracingAccelerationStructure";
   }

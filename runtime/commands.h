@@ -57,6 +57,39 @@ struct DispatchCommand {
   std::shared_ptr<const LinkedCompute> linked = nullptr;
 };
 
+// Where a command signature's arguments stand and go: offsets in bytes, in a command of the
+// argument buffer and in RootArguments.
+struct IndirectArgument {
+  uint32_t source_offset = 0;
+  uint32_t dest_offset = 0;
+  uint32_t size_bytes = 0;
+  uint32_t root_parameter = 0;  // for messages
+  uint32_t view_alignment = 0;  // of addresses; 0: constants
+};
+struct IndirectLayout {
+  std::vector<IndirectArgument> root_arguments;
+  bool dispatch_rays = false;    // a DispatchRaysDesc, else three group counts
+  uint32_t dispatch_offset = 0;  // of them in a command
+  uint32_t packed_bytes = 0;     // of all arguments of a command
+  uint32_t stride_bytes = 0;
+};
+
+// Dispatches whose arguments are read when the command executes: runtime/indirect.h makes plain
+// dispatches of it. max_count commands lie inside `arguments`, a count inside `count`.
+struct ExecuteIndirectCommand {
+  std::shared_ptr<const IndirectLayout> layout;
+  uint32_t max_count = 0;
+  std::shared_ptr<BackendBuffer> arguments;
+  uint64_t arguments_offset = 0;
+  std::shared_ptr<BackendBuffer> count;  // null: max_count of them
+  uint64_t count_offset = 0;
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  uint64_t pipeline_stack_bytes = 0;                              // of ray tracing pipelines
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;         // of ray tracing pipelines
+  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // of compute pipelines
+};
+
 struct BuildCommand {
   uint64_t dest = 0;
   uint64_t source = 0;  // 0 unless flags hold kPerformUpdate
@@ -138,9 +171,9 @@ struct EventCommand {
 };
 
 using Command =
-    std::variant<DispatchRaysCommand, DispatchCommand, BuildCommand, EmitPostbuildInfoCommand,
-                 CopyAccelerationStructureCommand, CopyBufferCommand, CopyTextureCommand,
-                 ClearUavCommand, BarrierCommand, EventCommand>;
+    std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
+                 EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, CopyBufferCommand,
+                 CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand>;
 
 // What the application called, for messages: "DispatchRays".
 const char* command_name(const Command& command);

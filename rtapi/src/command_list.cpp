@@ -11,6 +11,7 @@
 #include "rtapi/src/pipeline_state_impl.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_impl.h"
+#include "runtime/dispatch_checks.h"
 
 namespace rtapi {
 
@@ -27,6 +28,11 @@ runtime::RootArguments& CommandListImpl::WritableArguments() {
   return *arguments;
 }
 
+void CommandListImpl::ClearArgument(uint32_t offset_bytes, uint32_t size_bytes) {
+  if (uint64_t{offset_bytes} + size_bytes > runtime::kRootArgumentBytes) return;
+  std::memset(WritableArguments().bytes.data() + offset_bytes, 0, size_bytes);
+}
+
 runtime::DispatchState CommandListImpl::Snapshot() {
   runtime::DispatchState state;
   state.root_arguments = arguments;
@@ -34,6 +40,43 @@ runtime::DispatchState CommandListImpl::Snapshot() {
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
   state.root_signature = root_signature;
   return state;
+}
+
+const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
+  if (!raytracing_pipeline) {
+    Fail(MakeError(Id::kPipelineNotSet, call,
+                   " without a ray tracing pipeline; call SetPipelineState1 first"));
+    return nullptr;
+  }
+  const StateObjectImpl& pipeline = *raytracing_pipeline.impl();
+  // Some ray generation shader must go with the signature that is set; which one runs stands in
+  // GPU memory.
+  const auto& globals = pipeline.global_root_signatures;
+  const bool fits =
+      globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
+        return !g || SameDefinition(g, root_signature);
+      });
+  if (fits) return &pipeline;
+  Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
+                 root_signature ? "the compute root signature that is set"
+                                : "no compute root signature is set; it",
+                 " is that of no ray generation shader of the pipeline. Call "
+                 "SetComputeRootSignature with the state object's global root signature"));
+  return nullptr;
+}
+
+const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
+  if (!compute_pipeline) {
+    Fail(MakeError(Id::kPipelineNotSet, call,
+                   " without a compute pipeline; call SetPipelineState first"));
+    return nullptr;
+  }
+  const PipelineStateImpl& pipeline = *compute_pipeline.impl();
+  if (SameDefinition(pipeline.root_signature, root_signature)) return &pipeline;
+  Fail(MakeError(Id::kPipelineRootSignature, call, ": the compute root signature ",
+                 root_signature ? "that is set" : "is not set; it", " is not that of pipeline ",
+                 Quoted(pipeline.name)));
+  return nullptr;
 }
 
 namespace {
@@ -82,51 +125,19 @@ void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootPa
   WriteArgument(*list, index, 0, &address, sizeof address);
 }
 
-bool SameGlobal(const RootSignature& a, const RootSignature& b) {
-  return SameDefinition(a, b);
-}
-
-Status CheckTable(const DeviceImpl& device, const GpuVirtualAddressRangeAndStride& table,
-                  const char* name) {
-  if (table.StartAddress % kRaytracingShaderTableByteAlignment != 0) {
-    return MakeError(Id::kShaderTableLayout, name, " starts at ",
-                     device.DescribeAddress(table.StartAddress), "; it must be a multiple of 64");
+// The error of a rule that the host's arguments break.
+Status CheckRules(const runtime::DispatchProblem& problem) {
+  switch (problem.fault) {
+    case runtime::DispatchFault::kNone:
+      return {};
+    case runtime::DispatchFault::kTableLayout:
+      return MakeError(Id::kShaderTableLayout, problem.text);
+    case runtime::DispatchFault::kTableMemory:
+      return MakeError(Id::kShaderTableMemory, problem.text);
+    case runtime::DispatchFault::kTooLarge:
+      break;
   }
-  if (table.StrideInBytes % kRaytracingShaderRecordByteAlignment != 0 ||
-      table.StrideInBytes > kRaytracingMaxShaderRecordStride) {
-    return MakeError(Id::kShaderTableLayout, name, " has a stride of ", table.StrideInBytes,
-                     " bytes; allowed are multiples of 32 up to 4096");
-  }
-  if (table.StartAddress != 0 && table.SizeInBytes != 0 &&
-      !device.addresses.contains(table.StartAddress, table.SizeInBytes)) {
-    return MakeError(Id::kShaderTableMemory, name, ": ", table.SizeInBytes, " bytes at ",
-                     device.DescribeAddress(table.StartAddress), " do not lie in one live buffer");
-  }
-  return {};
-}
-
-Status CheckDispatchRays(const DeviceImpl& device, const DispatchRaysDesc& desc) {
-  const auto& raygen = desc.RayGenerationShaderRecord;
-  if (raygen.StartAddress == 0 || raygen.SizeInBytes < kShaderIdentifierSizeInBytes) {
-    return MakeError(Id::kShaderTableLayout, "RayGenerationShaderRecord has ", raygen.SizeInBytes,
-                     " bytes at ", device.DescribeAddress(raygen.StartAddress),
-                     "; a record has at least 32 bytes");
-  }
-  const std::pair<const char*, GpuVirtualAddressRangeAndStride> tables[] = {
-      {"RayGenerationShaderRecord", {raygen.StartAddress, raygen.SizeInBytes, 0}},
-      {"MissShaderTable", desc.MissShaderTable},
-      {"HitGroupTable", desc.HitGroupTable},
-      {"CallableShaderTable", desc.CallableShaderTable}};
-  for (const auto& [name, table] : tables) {
-    if (Status s = CheckTable(device, table, name); !s.ok()) return s;
-  }
-  // 2^30 threads in all; the first two factors cannot overflow 64 bits.
-  const uint64_t plane = uint64_t{desc.Width} * desc.Height;
-  if (desc.Depth != 0 && plane > kRaytracingMaxRayGenerationShaderThreads / desc.Depth) {
-    return MakeError(Id::kDispatchTooLarge, "DispatchRays of ", desc.Width, "x", desc.Height, "x",
-                     desc.Depth, "; allowed are 2^30 threads");
-  }
-  return {};
+  return MakeError(Id::kDispatchTooLarge, problem.text);
 }
 
 }  // namespace
@@ -200,7 +211,7 @@ void CommandList::SetComputeRootSignature(const RootSignature& signature) {
                                  "SetComputeRootSignature takes a global root signature; local "
                                  "arguments stand in shader records"));
   }
-  if (impl_->root_signature && SameGlobal(impl_->root_signature, signature)) return;
+  if (impl_->root_signature && SameDefinition(impl_->root_signature, signature)) return;
   impl_->root_signature = signature;
   impl_->arguments = std::make_shared<runtime::RootArguments>();
 }
@@ -287,57 +298,30 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
 
 void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
   if (!impl_ || !impl_->CheckOpen("DispatchRays")) return;
-  if (!impl_->raytracing_pipeline) {
-    return impl_->Fail(MakeError(Id::kPipelineNotSet,
-                                 "DispatchRays without a ray tracing "
-                                 "pipeline; call SetPipelineState1 first"));
+  const StateObjectImpl* pipeline = impl_->RaysPipeline("DispatchRays");
+  if (!pipeline) return;
+  if (Status s = CheckRules(runtime::check_dispatch_rays(impl_->device->addresses, desc));
+      !s.ok()) {
+    return impl_->Fail(s.error());
   }
-  StateObjectImpl& pipeline = *impl_->raytracing_pipeline.impl();
-  // Some ray generation shader must go with the signature that is set; which one runs stands in
-  // GPU memory.
-  const auto& globals = pipeline.global_root_signatures;
-  const bool fits =
-      globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
-        return !g || SameGlobal(g, impl_->root_signature);
-      });
-  if (!fits) {
-    return impl_->Fail(MakeError(
-        Id::kPipelineRootSignature, "DispatchRays: ",
-        impl_->root_signature ? "the compute root signature that is set"
-                              : "no compute root signature is set; it",
-        " is that of no ray generation shader of the pipeline. Call SetComputeRootSignature with "
-        "the state object's global root signature"));
-  }
-  if (Status s = CheckDispatchRays(*impl_->device, desc); !s.ok()) return impl_->Fail(s.error());
-  impl_->Record(runtime::DispatchRaysCommand{pipeline.pipeline, impl_->Snapshot(), desc,
-                                             pipeline.stack_bytes.load(), pipeline.linked});
+  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline, impl_->Snapshot(), desc,
+                                             pipeline->stack_bytes.load(), pipeline->linked});
 }
 
 void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
   if (!impl_ || !impl_->CheckOpen("Dispatch")) return;
-  if (!impl_->compute_pipeline) {
-    return impl_->Fail(MakeError(Id::kPipelineNotSet,
-                                 "Dispatch without a compute pipeline; call SetPipelineState "
-                                 "first"));
-  }
-  const PipelineStateImpl& pipeline = *impl_->compute_pipeline.impl();
-  if (!SameGlobal(pipeline.root_signature, impl_->root_signature)) {
-    return impl_->Fail(MakeError(Id::kPipelineRootSignature,
-                                 "Dispatch: the compute root signature ",
-                                 impl_->root_signature ? "that is set" : "is not set; it",
-                                 " is not that of pipeline ", Quoted(pipeline.name)));
-  }
-  if (std::max({x, y, z}) > kCsDispatchMaxThreadGroupsPerDimension) {
-    return impl_->Fail(MakeError(Id::kDispatchTooLarge, "Dispatch of ", x, "x", y, "x", z,
-                                 " groups; allowed are 65535 each"));
-  }
+  const PipelineStateImpl* pipeline = impl_->ComputePipeline("Dispatch");
+  if (!pipeline) return;
   runtime::DispatchCommand command;
-  command.pipeline = pipeline.pipeline;
-  command.linked = pipeline.linked;
-  command.state = impl_->Snapshot();
   command.groups[0] = x;
   command.groups[1] = y;
   command.groups[2] = z;
+  if (Status s = CheckRules(runtime::check_dispatch(command.groups)); !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  command.pipeline = pipeline->pipeline;
+  command.linked = pipeline->linked;
+  command.state = impl_->Snapshot();
   impl_->Record(std::move(command));
 }
 

@@ -15,6 +15,9 @@ namespace rtapi::detail {
 
 using CommandVector = std::vector<runtime::Command>;
 
+struct StateObjectImpl;
+struct PipelineStateImpl;
+
 struct CommandListImpl {
   std::shared_ptr<DeviceImpl> device;
   bool open = true;
@@ -37,7 +40,11 @@ struct CommandListImpl {
   bool CheckOpen(const char* call);
   // Ready to be written: no recorded dispatch shares it.
   runtime::RootArguments& WritableArguments();
+  void ClearArgument(uint32_t offset_bytes, uint32_t size_bytes);
   runtime::DispatchState Snapshot();
+  // The pipeline that is set and fits the root signature that is set; null with an error kept.
+  const StateObjectImpl* RaysPipeline(const char* call);
+  const PipelineStateImpl* ComputePipeline(const char* call);
 
   // In place: gcc 12 takes the members of a temporary variant for uninitialised at -O3.
   template <class T>

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rtapi/src/device_impl.h"
+#include "runtime/dispatch_checks.h"
 
 namespace rtapi {
 
@@ -78,11 +79,7 @@ ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {
 }
 
 std::string DeviceImpl::DescribeAddress(GpuVirtualAddress address) const {
-  if (address == 0) return "address 0";
-  auto allocation = addresses.find(address);
-  if (!allocation) return Text("address ", Hex(address), ", which is in no live buffer");
-  return Text("byte ", address - allocation->address, " of ", Named("buffer", allocation->name),
-              " (", allocation->size_bytes, " bytes)");
+  return runtime::describe_address(addresses, address);
 }
 
 std::string Named(const char* kind, const std::string& name) {

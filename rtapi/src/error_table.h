@@ -55,6 +55,8 @@ enum class Id : uint16_t {
   kComputeEntryPoint = 537,
   kLibrarySubobject = 538,
   kConfigFlags = 539,
+  kCommandSignature = 540,
+  kCommandSignatureTier = 541,
   // Root signatures and descriptors
   kRootSignatureTooLarge = 600,
   kLocalRootSignatureTooLarge = 601,
@@ -115,6 +117,7 @@ enum class Id : uint16_t {
   kShaderTableLayout = 813,
   kDispatchTooLarge = 814,
   kShaderTableMemory = 815,
+  kIndirectArguments = 816,
   kCopyRange = 817,
   kCopyOverlap = 818,
   kCopyFormat = 819,

@@ -647,6 +647,36 @@ SAME_VALUE(rtapi::DriverMatchingIdentifierStatus::kIncompatibleType,
            D3D12_DRIVER_MATCHING_IDENTIFIER_INCOMPATIBLE_TYPE);
 SAME_VALUE(rtapi::SerializedDataType::kRaytracingAccelerationStructure,
            D3D12_SERIALIZED_DATA_RAYTRACING_ACCELERATION_STRUCTURE);
+// Command signatures
+SAME_VALUE(rtapi::IndirectArgumentType::kDraw, D3D12_INDIRECT_ARGUMENT_TYPE_DRAW);
+SAME_VALUE(rtapi::IndirectArgumentType::kDrawIndexed, D3D12_INDIRECT_ARGUMENT_TYPE_DRAW_INDEXED);
+SAME_VALUE(rtapi::IndirectArgumentType::kDispatch, D3D12_INDIRECT_ARGUMENT_TYPE_DISPATCH);
+SAME_VALUE(rtapi::IndirectArgumentType::kVertexBufferView,
+           D3D12_INDIRECT_ARGUMENT_TYPE_VERTEX_BUFFER_VIEW);
+SAME_VALUE(rtapi::IndirectArgumentType::kIndexBufferView,
+           D3D12_INDIRECT_ARGUMENT_TYPE_INDEX_BUFFER_VIEW);
+SAME_VALUE(rtapi::IndirectArgumentType::kConstant, D3D12_INDIRECT_ARGUMENT_TYPE_CONSTANT);
+SAME_VALUE(rtapi::IndirectArgumentType::kConstantBufferView,
+           D3D12_INDIRECT_ARGUMENT_TYPE_CONSTANT_BUFFER_VIEW);
+SAME_VALUE(rtapi::IndirectArgumentType::kShaderResourceView,
+           D3D12_INDIRECT_ARGUMENT_TYPE_SHADER_RESOURCE_VIEW);
+SAME_VALUE(rtapi::IndirectArgumentType::kUnorderedAccessView,
+           D3D12_INDIRECT_ARGUMENT_TYPE_UNORDERED_ACCESS_VIEW);
+SAME_VALUE(rtapi::IndirectArgumentType::kDispatchRays, D3D12_INDIRECT_ARGUMENT_TYPE_DISPATCH_RAYS);
+SAME_VALUE(rtapi::IndirectArgumentType::kDispatchMesh, D3D12_INDIRECT_ARGUMENT_TYPE_DISPATCH_MESH);
+SAME_SIZE(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, Type);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, Constant);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, Constant.DestOffsetIn32BitValues);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, Constant.Num32BitValuesToSet);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, VertexBuffer);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, ConstantBufferView);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, ShaderResourceView);
+SAME_OFFSET(IndirectArgumentDesc, D3D12_INDIRECT_ARGUMENT_DESC, UnorderedAccessView);
+SAME_SIZE(DispatchArguments, D3D12_DISPATCH_ARGUMENTS);
+SAME_OFFSET(DispatchArguments, D3D12_DISPATCH_ARGUMENTS, ThreadGroupCountX);
+SAME_OFFSET(DispatchArguments, D3D12_DISPATCH_ARGUMENTS, ThreadGroupCountY);
+SAME_OFFSET(DispatchArguments, D3D12_DISPATCH_ARGUMENTS, ThreadGroupCountZ);
 SAME_SIZE(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC);
 SAME_OFFSET(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC, RayGenerationShaderRecord);
 SAME_OFFSET(DispatchRaysDesc, D3D12_DISPATCH_RAYS_DESC, MissShaderTable);

@@ -200,7 +200,24 @@ TEST_F(RandomCallsTest, CommandLists) {
   for (int i = 0; i < 6000; ++i) {
     CommandList list = device_.CreateCommandList().value();
     for (uint64_t call = Below(3); call < 3; ++call) {
-      switch (Below(14)) {
+      switch (Below(15)) {
+        case 13: {
+          std::vector<IndirectArgumentDesc> arguments(Below(4));
+          for (auto& a : arguments) {
+            a.Type = Enum<IndirectArgumentType>(11);
+            a.Constant = {static_cast<uint32_t>(Below(5)), static_cast<uint32_t>(Below(4)),
+                          static_cast<uint32_t>(Below(4))};
+          }
+          arguments.push_back({.Type = IndirectArgumentType::kDispatchRays});
+          auto made = device_.CreateCommandSignature({Coin() ? 256 : Number32(), arguments},
+                                                     Pick(signatures));
+          list.SetComputeRootSignature(signatures[2]);
+          list.SetPipelineState1(pipeline);
+          list.ExecuteIndirect(made.ok() ? *made : CommandSignature(),
+                               static_cast<uint32_t>(Coin() ? Below(9) : Number()), Pick(buffers_),
+                               Coin() ? 0 : Number(), Pick(buffers_), Coin() ? 8 : Number());
+          break;
+        }
         case 0:
           list.SetComputeRootSignature(Pick(signatures));
           list.SetComputeRootShaderResourceView(static_cast<uint32_t>(Below(5)), Address());

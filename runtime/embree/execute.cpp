@@ -3,11 +3,14 @@
 // The command stream, one command after another: nothing overlaps, so barriers have nothing to do.
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/device.h"
 #include "runtime/embree/texture.h"
+#include "runtime/indirect.h"
 
 namespace kaamos::embree {
 namespace {
@@ -24,6 +27,7 @@ class Executor {
     if (auto s = complete_top_levels(device_); !s) return s;
     return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
   }
+  rtapi::Status operator()(const runtime::ExecuteIndirectCommand& command);
   rtapi::Status operator()(const runtime::BuildCommand& command) { return build(device_, command); }
   rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
     return runtime::emit_postbuild_info(device_.structure_environment(), command.desc,
@@ -45,18 +49,22 @@ class Executor {
     return {};
   }
 
+  // With checked mode's layer around it.
+  rtapi::Status run(const runtime::Command& command);
   void next() { ++index_; }
-  std::string label(const char* what) const {
-    std::string text = std::string(what) + ", command " + std::to_string(index_);
-    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
-    return text;
-  }
 
  private:
+  std::string label(const char* what) const {
+    std::string text =
+        std::string(indirect_ ? "ExecuteIndirect" : what) + ", command " + std::to_string(index_);
+    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
+    return indirect_ ? runtime::indirect_label(what, *indirect_, text) : text;
+  }
   rtapi::Status finish(DispatchResult result);
 
   Device& device_;
   size_t index_ = 0;
+  std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
 };
 
@@ -64,6 +72,25 @@ rtapi::Status Executor::finish(DispatchResult result) {
   device_.add_counters(result.counters);
   for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
   return std::move(result.status);
+}
+
+rtapi::Status Executor::run(const runtime::Command& command) {
+  runtime::CommandObserver* observer = device_.context().observer;
+  if (observer != nullptr) observer->before(command, label(runtime::command_name(command)));
+  auto status = std::visit(*this, command);
+  if (observer != nullptr) observer->after(command, status.ok());
+  return status;
+}
+
+rtapi::Status Executor::operator()(const runtime::ExecuteIndirectCommand& command) {
+  const std::string name = label("ExecuteIndirect");
+  const auto run_one = [&](const runtime::Command& dispatch, uint32_t index) {
+    indirect_ = index;
+    auto status = run(dispatch);
+    indirect_.reset();
+    return status;
+  };
+  return runtime::execute_indirect(*device_.context().addresses, command, name, run_one);
 }
 
 rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
@@ -123,14 +150,8 @@ rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
 
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Executor executor(*this);
-  runtime::CommandObserver* observer = context_.observer;
   for (const runtime::Command& command : commands) {
-    if (observer != nullptr) {
-      observer->before(command, executor.label(runtime::command_name(command)));
-    }
-    auto s = std::visit(executor, command);
-    if (observer != nullptr) observer->after(command, s.ok());
-    if (!s) return s;
+    if (auto s = executor.run(command); !s) return s;
     executor.next();
   }
   return {};

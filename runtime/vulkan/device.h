@@ -46,6 +46,7 @@ class Device final : public runtime::BackendDevice {
   void reset_statistics() override;
 
   // What the commands' code needs; see execute.cpp.
+  const runtime::Context& context() const { return context_; }
   Gpu& gpu() { return *gpu_; }
   CommandStream& stream() { return *stream_; }
   AccelerationStructures& structures() { return *structures_; }
@@ -55,15 +56,14 @@ class Device final : public runtime::BackendDevice {
   }
   void add(const rtapi::RaytracingStatistics& statistics);
   void warn(const char* id, const std::string& text) const;
+  // Tells checked mode's layer of the command; ready when memory is as the command will find it.
+  rtapi::Status observe(const runtime::Command& command, const std::string& label);
 
  private:
   explicit Device(const runtime::Context& context) : context_(context) {}
   rtapi::Status start(const rtapi::DeviceDesc& desc);
   // KA0959 for what the validation layers said since the last time.
   rtapi::Status validation_status();
-
-  // Tells checked mode's layer of the command; ready when memory is as the command will find it.
-  rtapi::Status observe(const runtime::Command& command, const std::string& label);
 
   runtime::Context context_;
   // In the order in which they need each other.

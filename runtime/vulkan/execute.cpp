@@ -3,8 +3,11 @@
 // The command stream, in order. Copies, clears and barriers are recorded; what the host takes part
 // in (tables, builds) submits all before it.
 #include <cstring>
+#include <optional>
 #include <string>
+#include <variant>
 
+#include "runtime/indirect.h"
 #include "runtime/vulkan/device.h"
 
 namespace kaamos::vulkan {
@@ -20,6 +23,7 @@ class Executor {
   rtapi::Status operator()(const runtime::DispatchCommand& command) {
     return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
   }
+  rtapi::Status operator()(const runtime::ExecuteIndirectCommand& command);
   rtapi::Status operator()(const runtime::BuildCommand& command) {
     return device_.structures().build(device_.stream(), command);
   }
@@ -57,14 +61,17 @@ class Executor {
     return {};
   }
 
+  // With checked mode's layer around it.
+  rtapi::Status run(const runtime::Command& command);
   void next() { ++index_; }
-  std::string label(const char* what) const {
-    std::string text = std::string(what) + ", command " + std::to_string(index_);
-    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
-    return text;
-  }
 
  private:
+  std::string label(const char* what) const {
+    std::string text =
+        std::string(indirect_ ? "ExecuteIndirect" : what) + ", command " + std::to_string(index_);
+    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
+    return indirect_ ? runtime::indirect_label(what, *indirect_, text) : text;
+  }
   rtapi::Status finish(DispatchResult result) {
     for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
     device_.add(result.statistics);
@@ -73,8 +80,29 @@ class Executor {
 
   Device& device_;
   size_t index_ = 0;
+  std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
 };
+
+rtapi::Status Executor::run(const runtime::Command& command) {
+  auto status = device_.observe(command, label(runtime::command_name(command)));
+  if (status) status = std::visit(*this, command);
+  if (auto* observer = device_.context().observer) observer->after(command, status.ok());
+  return status;
+}
+
+rtapi::Status Executor::operator()(const runtime::ExecuteIndirectCommand& command) {
+  // Commands before it may write the arguments.
+  if (auto s = device_.stream().flush(); !s) return s;
+  const std::string name = label("ExecuteIndirect");
+  const auto run_one = [&](const runtime::Command& dispatch, uint32_t index) {
+    indirect_ = index;
+    auto status = run(dispatch);
+    indirect_.reset();
+    return status;
+  };
+  return runtime::execute_indirect(*device_.context().addresses, command, name, run_one);
+}
 
 rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
   if (command.size_bytes == 0) return {};
@@ -117,9 +145,7 @@ rtapi::Status Device::observe(const runtime::Command& command, const std::string
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Executor executor(*this);
   for (const runtime::Command& command : commands) {
-    auto s = observe(command, executor.label(runtime::command_name(command)));
-    if (s) s = std::visit(executor, command);
-    if (context_.observer != nullptr) context_.observer->after(command, s.ok());
+    auto s = executor.run(command);
     if (!s) {
       // What was recorded before holds objects that may go now.
       if (auto rest = stream_->flush(); !rest) return rest;

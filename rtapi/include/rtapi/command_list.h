@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
 #include <rtapi/pipeline_state.h>
 #include <rtapi/raytracing.h>
@@ -73,6 +74,14 @@ class CommandList {
   void SetPipelineState1(const StateObject& pipeline);
   void DispatchRays(const DispatchRaysDesc& desc);
   void Dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z);
+  // Up to `max_command_count` dispatches whose arguments stand in `argument_buffer` when the list
+  // executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4;
+  // max_command_count commands lie inside the buffer. The pipeline and all other root arguments are
+  // those of the list; what the signature sets is 0 afterwards. Bad arguments (a table outside
+  // every buffer, more than 2^30 threads) remove the device: KA0898. [D3D12: Indirect drawing]
+  void ExecuteIndirect(const CommandSignature& signature, uint32_t max_command_count,
+                       const Buffer& argument_buffer, uint64_t argument_buffer_offset_bytes,
+                       const Buffer& count_buffer = {}, uint64_t count_buffer_offset_bytes = 0);
 
   void BuildRaytracingAccelerationStructure(
       const BuildRaytracingAccelerationStructureDesc& desc,

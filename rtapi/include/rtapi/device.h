@@ -11,6 +11,7 @@
 
 #include <rtapi/command_list.h>
 #include <rtapi/command_queue.h>
+#include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
 #include <rtapi/pipeline_state.h>
 #include <rtapi/raytracing.h>
@@ -134,6 +135,10 @@ class Device {
   Result<StateObject> AddToStateObject(const StateObjectDesc& addition,
                                        const StateObject& parent) const;
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
+  // `root_signature`: needed if an argument sets a root argument, else ignored. Errors: KA0540 an
+  // argument or the stride, KA0541 kDispatchRays on a device of tier 1.0.
+  Result<CommandSignature> CreateCommandSignature(const CommandSignatureDesc& desc,
+                                                  const RootSignature& root_signature = {}) const;
 
   // Sizes that suffice for this build and for every smaller one alike. Geometry descs are read,
   // GPU memory is not: addresses are only tested for 0.

@@ -3,18 +3,19 @@
 // All of the API. Runtime compilation of HLSL stands apart: <rtapi/shader_compiler.h>.
 #pragma once
 
-#include <rtapi/command_list.h>    // IWYU pragma: export
-#include <rtapi/command_queue.h>   // IWYU pragma: export
-#include <rtapi/descriptor.h>      // IWYU pragma: export
-#include <rtapi/device.h>          // IWYU pragma: export
-#include <rtapi/format.h>          // IWYU pragma: export
-#include <rtapi/pipeline_state.h>  // IWYU pragma: export
-#include <rtapi/raytracing.h>      // IWYU pragma: export
-#include <rtapi/resource.h>        // IWYU pragma: export
-#include <rtapi/result.h>          // IWYU pragma: export
-#include <rtapi/root_signature.h>  // IWYU pragma: export
-#include <rtapi/shader_library.h>  // IWYU pragma: export
-#include <rtapi/shader_table.h>    // IWYU pragma: export
-#include <rtapi/state_object.h>    // IWYU pragma: export
-#include <rtapi/types.h>           // IWYU pragma: export
-#include <rtapi/upload.h>          // IWYU pragma: export
+#include <rtapi/command_list.h>       // IWYU pragma: export
+#include <rtapi/command_queue.h>      // IWYU pragma: export
+#include <rtapi/command_signature.h>  // IWYU pragma: export
+#include <rtapi/descriptor.h>         // IWYU pragma: export
+#include <rtapi/device.h>             // IWYU pragma: export
+#include <rtapi/format.h>             // IWYU pragma: export
+#include <rtapi/pipeline_state.h>     // IWYU pragma: export
+#include <rtapi/raytracing.h>         // IWYU pragma: export
+#include <rtapi/resource.h>           // IWYU pragma: export
+#include <rtapi/result.h>             // IWYU pragma: export
+#include <rtapi/root_signature.h>     // IWYU pragma: export
+#include <rtapi/shader_library.h>     // IWYU pragma: export
+#include <rtapi/shader_table.h>       // IWYU pragma: export
+#include <rtapi/state_object.h>       // IWYU pragma: export
+#include <rtapi/types.h>              // IWYU pragma: export
+#include <rtapi/upload.h>             // IWYU pragma: export

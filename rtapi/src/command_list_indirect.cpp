@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/command_list.h>
+
+#include "rtapi/src/command_list_impl.h"
+#include "rtapi/src/command_signature_impl.h"
+#include "rtapi/src/pipeline_state_impl.h"
+#include "rtapi/src/root_signature_impl.h"
+#include "rtapi/src/state_object_impl.h"
+
+namespace rtapi {
+
+using namespace detail;
+
+namespace {
+
+// `bytes` from `offset`, which is a multiple of 4, lie in the buffer.
+Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer, uint64_t offset,
+                  uint64_t bytes, const char* what) {
+  if (Status s = CheckHandle(device, buffer, Text("ExecuteIndirect: the ", what)); !s.ok()) {
+    return s;
+  }
+  const BufferDesc& desc = buffer.GetDesc();
+  if (offset % 4 != 0) {
+    return MakeError(Id::kIndirectArguments, "the offset into the ", what, " is ", offset,
+                     "; it must be a multiple of 4");
+  }
+  if (offset > desc.SizeInBytes || bytes > desc.SizeInBytes - offset) {
+    return MakeError(Id::kIndirectArguments, "the ", what, " needs bytes ", offset, "..",
+                     offset + bytes, " of ", Named("buffer", desc.Name), ", which has ",
+                     desc.SizeInBytes, ". Are max_command_count and the offset right?");
+  }
+  return {};
+}
+
+Status CheckBuffers(const CommandListImpl& list, const CommandSignatureImpl& signature,
+                    uint32_t max_count, const Buffer& arguments, uint64_t arguments_offset,
+                    const Buffer& count, uint64_t count_offset) {
+  // The last command may end where its arguments do.
+  const uint64_t bytes = max_count == 0 ? 0
+                                        : uint64_t{max_count - 1} * signature.layout->stride_bytes +
+                                              signature.layout->packed_bytes;
+  if (Status s = CheckRange(list.device, arguments, arguments_offset, bytes, "argument buffer");
+      !s.ok()) {
+    return s;
+  }
+  if (!count) return {};
+  return CheckRange(list.device, count, count_offset, sizeof(uint32_t), "count buffer");
+}
+
+}  // namespace
+
+void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t max_count,
+                                  const Buffer& arguments, uint64_t arguments_offset,
+                                  const Buffer& count, uint64_t count_offset) {
+  if (!impl_ || !impl_->CheckOpen("ExecuteIndirect")) return;
+  if (Status s = CheckHandle(impl_->device, signature, "ExecuteIndirect: the command signature");
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  const CommandSignatureImpl& given = *signature.impl();
+  if (given.root_signature && !SameDefinition(given.root_signature, impl_->root_signature)) {
+    return impl_->Fail(MakeError(
+        Id::kIndirectArguments, Named("command signature", given.desc.Name),
+        " sets arguments of another root signature than the one that is set on the list"));
+  }
+  runtime::ExecuteIndirectCommand command;
+  if (given.layout->dispatch_rays) {
+    const StateObjectImpl* pipeline = impl_->RaysPipeline("ExecuteIndirect");
+    if (!pipeline) return;
+    command.pipeline = pipeline->pipeline;
+    command.linked = pipeline->linked;
+    command.pipeline_stack_bytes = pipeline->stack_bytes.load();
+  } else {
+    const PipelineStateImpl* pipeline = impl_->ComputePipeline("ExecuteIndirect");
+    if (!pipeline) return;
+    command.pipeline = pipeline->pipeline;
+    command.linked_compute = pipeline->linked;
+  }
+  if (Status s =
+          CheckBuffers(*impl_, given, max_count, arguments, arguments_offset, count, count_offset);
+      !s.ok()) {
+    return impl_->Fail(s.error());
+  }
+  command.layout = given.layout;
+  command.max_count = max_count;
+  command.arguments = arguments.impl()->memory;
+  command.arguments_offset = arguments_offset;
+  if (count) command.count = count.impl()->memory;
+  command.count_offset = count_offset;
+  command.state = impl_->Snapshot();
+  impl_->Record(std::move(command));
+  // What the signature sets is known afterwards: zero and null. [D3D12: Indirect drawing]
+  for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
+    impl_->ClearArgument(argument.dest_offset, argument.size_bytes);
+  }
+}
+
+}  // namespace rtapi
