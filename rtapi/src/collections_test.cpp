@@ -72,6 +72,10 @@ TEST_F(StateObjectTest, SO_26_UnresolvedCollectionIsCompletedByThePipeline) {
   ASSERT_TRUE(c.ok()) << MessageOf(c);
   EXPECT_EQ(c->GetShaderIdentifier("M"), nullptr);
   EXPECT_EQ(c->GetShaderIdentifier("group"), nullptr);
+  StateObjectDesc no_config{.Type = kCollection};
+  no_config.Add(DxilLibraryDesc{library_, {{"Miss"}}});
+  no_config.Add(StateObjectConfig{kUnresolved});
+  EXPECT_EQ(Make(no_config).value().GetShaderIdentifier("Miss"), nullptr);
 
   StateObjectDesc desc = Base();
   desc.Add(ExistingCollectionDesc::Of(*c));
@@ -226,6 +230,10 @@ TEST_F(AddToStateObjectTest, SO_63_NewEntryNamesOnly) {
   StateObjectDesc desc = Addition();
   std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"Miss", "Miss2"}};
   EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0535", "\"Miss\"");
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]) = {library_, {{"Hit"}}};
+  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0535", "\"Hit\"");
+  std::get<DxilLibraryDesc>(desc.Subobjects[0]).Exports = {{"Hit2", "Hit"}, {"helper"}};
+  EXPECT_OK(device_.AddToStateObject(desc, parent_));
 }
 
 TEST_F(AddToStateObjectTest, SO_64_65_67_ChildHasBothAndTheParentsIdentifiersAndStack) {

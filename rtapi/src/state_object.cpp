@@ -2,6 +2,9 @@
 #include <rtapi/device.h>
 #include <rtapi/state_object.h>
 
+#include <set>
+#include <string_view>
+
 #include "rtapi/src/state_object_impl.h"
 
 namespace rtapi {
@@ -97,6 +100,24 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
   return {};
 }
 
+// Entry points and hit groups have names of their own; functions that are none may come again.
+Status CheckAddedNames(const StateObjectImpl& added, const StateObjectImpl& parent) {
+  const auto counts = [](const Subject& s) {
+    return !s.hidden && (s.is_group() || s.code->stage != shader::Stage::kLibrary);
+  };
+  std::set<std::string_view> taken;
+  for (const SubjectPtr& s : parent.subjects) {
+    if (counts(*s)) taken.insert(s->name);
+  }
+  for (const SubjectPtr& s : added.subjects) {
+    if (!counts(*s) || taken.count(s->name) == 0) continue;
+    return MakeError(Id::kAdditionDuplicate, Quoted(s->name),
+                     " is an export of the parent already; rename it, or leave it out of the "
+                     "export list");
+  }
+  return {};
+}
+
 Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
   if (!HasAny(added.flags, StateObjectFlags::kAllowStateObjectAdditions)) {
     return MakeError(Id::kAdditionNotAllowed,
@@ -114,13 +135,7 @@ Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
                      "; the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes, ", ",
                      p.max_recursion_depth);
   }
-  for (const auto& record : a.records) {
-    if (parent.FindRecord(record->name)) {
-      return MakeError(Id::kAdditionDuplicate, Quoted(record->name),
-                       " is an export of the parent already; rename it");
-    }
-  }
-  return {};
+  return CheckAddedNames(added, parent);
 }
 
 }  // namespace

@@ -275,6 +275,10 @@ class Linker {
   Status AddRecord(Subject& s) {
     auto effective = GetEffective(s);
     if (!effective.ok()) return effective.error();
+    // Without a config it is unresolved, and has no identifier. [DXR: GetShaderIdentifier]
+    for (Category c : {Category::kShaderConfig, Category::kPipelineConfig}) {
+      if (!(*effective)[static_cast<size_t>(c)]) return MissingConfig(s, c);
+    }
     auto record = std::make_unique<LinkedRecord>();
     record->name = s.name;
     if (s.is_group()) {

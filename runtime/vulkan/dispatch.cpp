@@ -58,6 +58,7 @@ class RaysDispatch {
   rtapi::Status find_tables();
   rtapi::Status find_table(TableIndex index, const char* name, runtime::RecordKind kind,
                            uint64_t address, uint64_t size_bytes, uint64_t stride_bytes);
+  rtapi::Status check_stack() const;
   rtapi::Status place_tables(uint64_t start, uint64_t max_hit_record);
   void write_table(const Table& table);
   void warn_of_structure();
@@ -110,6 +111,22 @@ rtapi::Status RaysDispatch::find_tables() {
   if (s) s = find(kCallable, "callable", runtime::RecordKind::kCallable, desc.CallableShaderTable);
   if (s) s = find(kHitGroup, "hit group", runtime::RecordKind::kHitGroup, desc.HitGroupTable);
   return s;
+}
+
+// Vulkan has no stack of the application's choosing. What the ray generation shader takes is known
+// before anything runs; deeper calls end at kMaxCallableDepth.
+rtapi::Status RaysDispatch::check_stack() const {
+  const uint8_t* identifier = tables_[kRayGeneration].source.host;
+  const auto* record = pipeline_.linked().identifiers.find(identifier);
+  if (command_.pipeline_stack_bytes == 0 || record == nullptr || record->shader == nullptr ||
+      record->shader->stack_bytes <= command_.pipeline_stack_bytes) {
+    return {};
+  }
+  return rtapi::Error{"KA0891", rtapi::ErrorCode::kDeviceRemoved,
+                      "KA0891 the shader stack is used up: \"" + record->name + "\" takes " +
+                          std::to_string(record->shader->stack_bytes) +
+                          " bytes, SetPipelineStackSize gave " +
+                          std::to_string(command_.pipeline_stack_bytes) + " (" + label_ + ")."};
 }
 
 // A driver reads the hit record of an index that it computes itself: null records must stand up to
@@ -204,6 +221,7 @@ rtapi::Status RaysDispatch::execute() {
                                    [](uint8_t byte) { return byte == 0; });
   // A NULL ray generation shader runs nothing.
   if (nothing || pipeline_.handle() == VK_NULL_HANDLE) return {};
+  if (auto s = check_stack(); !s) return s;
   DispatchBlock block = dispatch_block(command_.state, *scene);
   block.miss_count = tables_[kMiss].limit();
   block.callable_count = tables_[kCallable].limit();

@@ -92,7 +92,8 @@ class ComputePipeline final : public runtime::BackendPipeline {
   VkPipeline handle_ = VK_NULL_HANDLE;
 };
 
-// Levels of callable shaders that call each other: what lavapipe was found to bear.
-inline constexpr uint32_t kMaxCallableDepth = 31;
+// Levels of callable shaders that call each other: what lavapipe was found to bear. DXR bounds them
+// by the stack alone. [DXR: Ray recursion limit]
+inline constexpr uint32_t kMaxCallableDepth = 63;
 
 }  // namespace kaamos::vulkan

@@ -39,12 +39,18 @@ RaytracingInstanceDesc instance(const Buffer& bottom_level, float x, uint32_t co
   return out;
 }
 
-Context::Context(const Target& target) : target_(target) {
-  DeviceDesc desc;
-  desc.Backend = target.backend;
-  desc.Precision = target.precision;
+Context::Context(const DeviceDesc& desc, const Target& target) : target_(target) {
   device_ = CreateDevice(desc).value();
   queue_ = device_.CreateCommandQueue().value();
+}
+
+Context::Context(const Target& target) : Context(target.device_desc(), target) {}
+
+DeviceDesc Target::device_desc() const {
+  DeviceDesc desc;
+  desc.Backend = backend;
+  desc.Precision = precision;
+  return desc;
 }
 
 void Context::close(const std::string& what, float found, float expected, float tolerance) {

@@ -18,6 +18,7 @@ struct Target {
   std::string backend = "embree";
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;
   std::string name() const;  // "embree/robust", "vulkan"
+  rtapi::DeviceDesc device_desc() const;
 };
 
 // One geometry: triangles of nine floats each, or boxes.
@@ -38,6 +39,8 @@ class Context {
  public:
   // Errors here and below leave as rtapi::ResultError and fail the rule.
   explicit Context(const Target& target);
+  // On a device with further options; `desc` has the target's backend.
+  Context(const rtapi::DeviceDesc& desc, const Target& target);
 
   const Target& target() const { return target_; }
   const rtapi::Device& device() const { return device_; }
@@ -122,5 +125,9 @@ std::vector<RuleTest> trv_report_tests();
 std::vector<RuleTest> trv_edge_tests();
 std::vector<RuleTest> sv_tests();
 std::vector<RuleTest> pay_tests();
+std::vector<RuleTest> so_tests();
+std::vector<RuleTest> so_collection_tests();
+std::vector<RuleTest> so_object_tests();
+std::vector<RuleTest> dsp_tests();
 
 }  // namespace kaamos::conformance

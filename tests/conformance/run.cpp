@@ -72,7 +72,8 @@ std::vector<RuleTest> all_tests() {
   for (const auto& section :
        {sbt_tests(), root_tests(), flg_tests(), flg_legality_tests(), trv_tests(),
         trv_any_hit_tests(), trv_inactive_tests(), trv_random_tests(), trv_report_tests(),
-        trv_edge_tests(), sv_tests(), pay_tests()}) {
+        trv_edge_tests(), sv_tests(), pay_tests(), so_tests(), so_collection_tests(),
+        so_object_tests(), dsp_tests()}) {
     out.insert(out.end(), section.begin(), section.end());
   }
   return out;
