@@ -123,13 +123,15 @@ rtapi::Status RaytracingPipeline::start() {
   Gpu& gpu = layout_->gpu();
   max_trace_depth_ =
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
+  uint32_t max_callable_depth = kMaxCallableDepth;
   if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
-    max_trace_depth_ =
-        std::min(max_trace_depth_,
-                 nested_payload_limit(largest_payload(*linked_), default_thread_stack_bytes()));
+    const uint32_t limit =
+        nested_payload_limit(largest_payload(*linked_), default_thread_stack_bytes());
+    max_trace_depth_ = std::min(max_trace_depth_, limit);
+    max_callable_depth = std::min(max_callable_depth, limit);
   }
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
-  StageList stages(gpu, {max_trace_depth_, kMaxCallableDepth, layout_->collect_statistics()});
+  StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics()});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
   Groups groups;
   bool runs = false;
@@ -157,7 +159,7 @@ rtapi::Status RaytracingPipeline::start() {
   if (r != VK_SUCCESS) return gpu.error(r, "ray tracing pipeline \"" + linked_->name + "\"");
   if (own_stack) {
     stack_bytes_ = pipeline_stack_bytes(gpu, handle_, groups.infos, groups.records,
-                                        max_trace_depth_, kMaxCallableDepth);
+                                        max_trace_depth_, max_callable_depth);
   }
   return read_handles(groups.records);
 }

@@ -84,6 +84,21 @@ TEST_P(Commands, Dispatch) {
   EXPECT_EQ(compute("ThroughGroupMemory"), numbers(7, ~0u));
 }
 
+TEST_P(Commands, ExecuteIndirect) {
+  CommandSignatureDesc desc;
+  desc.ByteStride = sizeof(DispatchArguments);
+  desc.ArgumentDescs = {{.Type = IndirectArgumentType::kDispatch}};
+  const auto signature = device_.CreateCommandSignature(desc);
+  KAAMOS_SUPPORTED(signature);
+  CommandList list = device_.CreateCommandList().value();
+  bind(list);
+  list.SetPipelineState(
+      device_.CreateComputePipelineState({root_, library(), "Atomically", ""}).value());
+  list.ExecuteIndirect(*signature, 2, upload({3, 1, 1, 1, 2, 1}), 0);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  EXPECT_EQ(read(out_)[0], 5 * 28u);
+}
+
 TEST_P(Commands, RootConstants) {
   EXPECT_EQ(compute("FromRootConstants"), numbers(2, 3));
 }
