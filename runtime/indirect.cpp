@@ -2,6 +2,7 @@
 #include "runtime/indirect.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "runtime/backend.h"
@@ -29,6 +30,7 @@ class Reader {
            uint64_t{index} * layout_.stride_bytes;
   }
   uint32_t count() const;
+  bool launches_nothing(uint32_t index) const;
   rtapi::Result<DispatchState> state(uint32_t index) const;
   rtapi::Result<Command> dispatch(uint32_t index) const;
   rtapi::Error problem(uint32_t index, const std::string& text) const;
@@ -52,6 +54,15 @@ uint32_t Reader::count() const {
   uint32_t count;
   std::memcpy(&count, command_.count->host() + command_.count_offset, sizeof(count));
   return std::min(count, command_.max_count);
+}
+
+// Then nothing else of the command counts: a shader that drops a dispatch may write zeros alone.
+bool Reader::launches_nothing(uint32_t index) const {
+  const uint8_t* source = arguments(index) + layout_.dispatch_offset;
+  if (layout_.dispatch_rays) source += offsetof(rtapi::DispatchRaysDesc, Width);
+  uint32_t size[3];
+  std::memcpy(size, source, sizeof(size));
+  return size[0] == 0 || size[1] == 0 || size[2] == 0;
 }
 
 rtapi::Result<DispatchState> Reader::state(uint32_t index) const {
@@ -112,6 +123,7 @@ rtapi::Status Reader::run(const RunIndirect& run) {
   }
   const uint32_t commands = count();
   for (uint32_t i = 0; i < commands; ++i) {
+    if (launches_nothing(i)) continue;
     auto each = dispatch(i);
     if (!each) return each.error();
     if (auto s = run(*each, i); !s) return s;

@@ -18,9 +18,9 @@ namespace kaamos::runtime {
 // Runs a DispatchRaysCommand or DispatchCommand; `index` counts within the ExecuteIndirect.
 using RunIndirect = std::function<rtapi::Status(const Command& dispatch, uint32_t index)>;
 
-// Everything that may write the buffers is done. Runs the commands in order; those of a zero
-// dimension, too, which do nothing. Error KA0898, which removes the device: arguments that break a
-// rule. `label` names the command.
+// Everything that may write the buffers is done. Runs the commands in order, without those of a
+// zero dimension. Error KA0898, which removes the device: arguments that break a rule. `label`
+// names the command.
 rtapi::Status execute_indirect(const AddressMap& addresses, const ExecuteIndirectCommand& command,
                                const std::string& label, const RunIndirect& run);
 

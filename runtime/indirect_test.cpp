@@ -65,10 +65,11 @@ class Indirect : public ::testing::Test {
   }
   rtapi::Status run() {
     ran_.clear();
+    indices_.clear();
     command_.layout = std::make_shared<IndirectLayout>(layout_);
     return execute_indirect(addresses_, command_, "ExecuteIndirect, command 7",
                             [&](const Command& dispatch, uint32_t index) {
-                              EXPECT_EQ(index, ran_.size());
+                              indices_.push_back(index);
                               ran_.push_back(dispatch);
                               return result_;
                             });
@@ -95,12 +96,14 @@ class Indirect : public ::testing::Test {
   IndirectLayout layout_;
   ExecuteIndirectCommand command_;
   std::vector<Command> ran_;
+  std::vector<uint32_t> indices_;
   rtapi::Status result_;
 };
 
 TEST_F(Indirect, EachCommandHasItsArguments) {
   ASSERT_TRUE(run());
   ASSERT_EQ(ran_.size(), 3u);
+  EXPECT_EQ(indices_, (std::vector<uint32_t>{0, 1, 2}));
   for (uint32_t i = 0; i < 3; ++i) {
     const auto& each = std::get<DispatchRaysCommand>(ran_[i]);
     EXPECT_EQ(each.desc.Width, i + 1);
@@ -157,8 +160,18 @@ TEST_F(Indirect, GroupsHaveALimit) {
   const rtapi::Status status = run();
   ASSERT_FALSE(status.ok());
   EXPECT_TRUE(says(status.error().message, "65535"));
-  ASSERT_EQ(ran_.size(), 2u);
-  EXPECT_EQ(std::get<DispatchCommand>(ran_[1]).groups[2], 3u);
+  ASSERT_EQ(indices_, std::vector<uint32_t>{1});  // the first launches nothing
+  EXPECT_EQ(std::get<DispatchCommand>(ran_[0]).groups[2], 3u);
+}
+
+TEST_F(Indirect, ZeroesLaunchNothing) {
+  set(0, 0, 0, {});
+  auto desc = rays(5);
+  desc.Height = 0;
+  desc.HitGroupTable = {0xDEAD, 1, 1};
+  set(1, 0, 0xDEAD, desc);
+  ASSERT_TRUE(run());
+  EXPECT_EQ(indices_, std::vector<uint32_t>{2});
 }
 
 TEST_F(Indirect, AnErrorEndsTheCommand) {

@@ -218,4 +218,23 @@ Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignat
   return {};
 }
 
+Status CheckTier(const DeviceImpl& device, const shader::ExportDesc& code,
+                 const std::string& where) {
+  if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
+  if ((code.flags & shader::kExportUsesRayQuery) != 0) {
+    return MakeError(Id::kShaderTier, where,
+                     " uses RayQuery; the device was created with tier 1.0");
+  }
+  constexpr uint32_t kSkipFlags = 0x300;
+  for (uint32_t i = 0; i < code.trace_call_count; ++i) {
+    const shader::TraceCall& call = code.trace_calls[i];
+    if ((call.known & shader::kKnowsRayFlags) == 0 || (call.ray_flags & kSkipFlags) == 0) continue;
+    return MakeError(Id::kShaderTier, where, " calls TraceRay with ray flags ", Hex(call.ray_flags),
+                     " (", call.file ? call.file : "", ":", call.line,
+                     "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES are of "
+                     "tier 1.1, the device was created with tier 1.0");
+  }
+  return {};
+}
+
 }  // namespace rtapi::detail

@@ -12,6 +12,8 @@
 
 namespace rtapi::detail {
 
+struct DeviceImpl;
+
 // One slot per binding of the library; those that the export does not reach stay unbound. Either
 // signature may be empty. `where` names the export in messages. [DXR: D3D12_LOCAL_ROOT_SIGNATURE]
 Result<std::vector<kaamos::shader::BindingSlot>> ResolveBindings(
@@ -21,5 +23,10 @@ Result<std::vector<kaamos::shader::BindingSlot>> ResolveBindings(
 // Registers that both define; ok if either is empty.
 Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,
                                    const std::string& where);
+
+// Inline ray tracing and the SKIP ray flags, as far as they are constants, need a device of
+// tier 1.1.
+Status CheckTier(const DeviceImpl& device, const kaamos::shader::ExportDesc& code,
+                 const std::string& where);
 
 }  // namespace rtapi::detail

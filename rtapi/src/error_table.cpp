@@ -83,6 +83,7 @@ constexpr ErrorEntry kTable[] = {
      "DSP-09, ERR-30"},
     {Id::kCommandSignatureTier, ErrorCode::kUnsupported, "indirect DispatchRays needs tier 1.1",
      "DSP-09"},
+    {Id::kShaderTier, ErrorCode::kUnsupported, "shader needs tier 1.1", "FLG-05"},
     {Id::kRootSignatureTooLarge, ErrorCode::kInvalidArgument, "root signature too large",
      "D3D12: root signature limits"},
     {Id::kLocalRootSignatureTooLarge, ErrorCode::kInvalidArgument, "local root signature too large",

@@ -57,6 +57,7 @@ enum class Id : uint16_t {
   kConfigFlags = 539,
   kCommandSignature = 540,
   kCommandSignatureTier = 541,
+  kShaderTier = 542,
   // Root signatures and descriptors
   kRootSignatureTooLarge = 600,
   kLocalRootSignatureTooLarge = 601,

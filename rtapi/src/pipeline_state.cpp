@@ -65,9 +65,10 @@ Result<PipelineState> Device::CreateComputePipelineState(
   auto kernel = FindKernel(desc);
   if (!kernel.ok()) return kernel.error();
   if (Status s = CheckThreadGroup(**kernel); !s.ok()) return s.error();
+  const std::string where = Text("compute shader ", Quoted((*kernel)->name));
+  if (Status s = CheckTier(*impl_, **kernel, where); !s.ok()) return s.error();
   const auto& table = *desc.CS.impl()->desc;
-  auto slots = ResolveBindings(table, **kernel, desc.pRootSignature, RootSignature(),
-                               Text("compute shader ", Quoted((*kernel)->name)));
+  auto slots = ResolveBindings(table, **kernel, desc.pRootSignature, RootSignature(), where);
   if (!slots.ok()) return slots.error();
   auto linked = std::make_shared<runtime::LinkedCompute>();
   linked->shader.name = (*kernel)->name;

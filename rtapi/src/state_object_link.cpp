@@ -360,6 +360,7 @@ class Linker {
     const auto key = std::make_tuple(s.code, global.impl().get(), local.impl().get());
     if (auto it = cache_.find(key); it != cache_.end()) return it->second;
     if (Status st = CheckRootSignaturesDisjoint(global, local, where); !st.ok()) return st.error();
+    if (Status st = CheckTier(*parts_.device, *s.code, where); !st.ok()) return st.error();
     const auto& library = *s.library.impl()->desc;
     auto slots = ResolveBindings(library, *s.code, global, local, where);
     if (!slots.ok()) return slots.error();

@@ -231,6 +231,31 @@ TEST_F(StateObjectTest, SO_23_PipelineConfig1NeedsTier11) {
   EXPECT_ERROR(old.CreateStateObject(desc), "KA0520", "tier 1.0");
 }
 
+TEST_F(StateObjectTest, FLG_05_ShadersOfTier11) {
+  Device old = CreateNullDevice({.Tier = RaytracingTier::kTier1_0});
+  LibraryBuilder b;
+  auto& export_desc = b.Export("Skips", Stage::kRayGeneration);
+  shader::TraceCall call = {};
+  call.known = shader::kKnowsMask;
+  call.ray_flags = 0x100;
+  export_desc.trace_calls = &call;
+  export_desc.trace_call_count = 1;
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{b.Build()});
+  desc.Add(RaytracingShaderConfig{});
+  desc.Add(RaytracingPipelineConfig{});
+  EXPECT_OK(old.CreateStateObject(desc));  // not known
+  call.known = shader::kKnowsRayFlags;
+  EXPECT_ERROR(old.CreateStateObject(desc), "KA0542", "\"Skips\"", "0x100");
+  call.ray_flags = 0x4;
+  EXPECT_OK(old.CreateStateObject(desc));
+  LibraryBuilder queries;
+  queries.Export("Query", Stage::kCompute).flags = shader::kExportUsesRayQuery;
+  EXPECT_ERROR(old.CreateComputePipelineState(
+                   {.pRootSignature = old.CreateRootSignature("").value(), .CS = queries.Build()}),
+               "KA0542", "RayQuery");
+}
+
 TEST_F(StateObjectTest, SO_23_PipelineFlags) {
   StateObjectDesc desc = Base();
   desc.Subobjects[2] = RaytracingPipelineConfig1{1, static_cast<RaytracingPipelineFlags>(0x300)};

@@ -71,6 +71,14 @@ uint64_t default_thread_stack_bytes() {
   return known ? bytes : kUsual;
 }
 
+uint32_t largest_callable_data(const runtime::LinkedPipeline& pipeline) {
+  uint32_t largest = 0;
+  for (const auto& shader : pipeline.shaders) {
+    largest = std::max(largest, shader->code->callable_data_bytes);
+  }
+  return largest;
+}
+
 uint32_t largest_payload(const runtime::LinkedPipeline& pipeline) {
   uint32_t largest = 0;
   for (const auto& shader : pipeline.shaders) {

@@ -29,5 +29,7 @@ uint32_t nested_payload_limit(uint32_t payload_bytes, uint64_t stack_bytes);
 uint64_t default_thread_stack_bytes();
 // The largest payload that a shader of the pipeline takes, as it is stored.
 uint32_t largest_payload(const runtime::LinkedPipeline& pipeline);
+// The largest parameter of a callable shader of the pipeline.
+uint32_t largest_callable_data(const runtime::LinkedPipeline& pipeline);
 
 }  // namespace kaamos::vulkan

@@ -125,10 +125,11 @@ rtapi::Status RaytracingPipeline::start() {
       std::min(linked_->max_recursion_depth, gpu.properties().ray_tracing.maxRayRecursionDepth);
   uint32_t max_callable_depth = kMaxCallableDepth;
   if (gpu.workarounds().has(Workaround::kBoundPayloads)) {
-    const uint32_t limit =
-        nested_payload_limit(largest_payload(*linked_), default_thread_stack_bytes());
-    max_trace_depth_ = std::min(max_trace_depth_, limit);
-    max_callable_depth = std::min(max_callable_depth, limit);
+    const uint64_t stack = default_thread_stack_bytes();
+    max_trace_depth_ =
+        std::min(max_trace_depth_, nested_payload_limit(largest_payload(*linked_), stack));
+    max_callable_depth =
+        std::min(max_callable_depth, nested_payload_limit(largest_callable_data(*linked_), stack));
   }
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
   StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics()});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // State objects: hit groups, configs, collections.
+#include <shaders/stack.h>
+
 #include "tests/conformance/compile.h"
 #include "tests/conformance/states.h"
 
@@ -122,6 +124,25 @@ void pipeline_configs(Context& t) {
       t.refused("different depths in two collections", make(t, outer), "KA0514");
     }
   }
+}
+
+void shaders_need_tier_1_1(Context& t) {
+  const Device old = old_device(t);
+  const auto with = [&](const Device& device, const std::string& raygen, const std::string& hit) {
+    StateObjectDesc desc = configs();
+    desc.Add(
+        DxilLibraryDesc{LoadShaderLibrary(kaamos_shaders_stack()).value(), named({raygen, hit})});
+    desc.Add(triangles("group", hit));
+    desc.Add(GlobalRootSignature{
+        device.CreateRootSignature("SRV(t0), UAV(u0), RootConstants(b0, num32BitConstants = 1)")
+            .value()});
+    return device.CreateStateObject(desc);
+  };
+  t.accepted("TraceRay on tier 1.0", with(old, "TraceDeep", "HitDeep"));
+  t.refused("SKIP_TRIANGLES on tier 1.0", with(old, "TraceSkipping", "HitDeep"), "KA0542");
+  t.refused("RayQuery on tier 1.0", with(old, "TraceDeep", "HitQuery"), "KA0542");
+  t.accepted("SKIP_TRIANGLES on tier 1.1", with(t.device(), "TraceSkipping", "HitDeep"));
+  t.accepted("RayQuery on tier 1.1", with(t.device(), "TraceDeep", "HitQuery"));
 }
 
 void additions_need_tier_1_1(Context& t) {
@@ -317,6 +338,7 @@ std::vector<RuleTest> so_collection_tests() {
           {"SO-22", recursion_depths},
           {"SO-23", pipeline_configs},
           {"SO-23", additions_need_tier_1_1},
+          {"FLG-05", shaders_need_tier_1_1},
           {"SO-24", shader_configs_match},
           {"SO-25", a_default_collection_is_complete},
           {"SO-26", a_collection_may_stay_unresolved},

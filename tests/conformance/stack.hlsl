@@ -29,6 +29,14 @@ void TraceDeep() {
   words.Store(0, level.value + 1);
 }
 
+[shader("raygeneration")]
+void TraceSkipping() {
+  Level level;
+  level.value = 0;
+  TraceRay(scene, RAY_FLAG_SKIP_TRIANGLES, 0xFF, 0, 0, 0, straight(), level);
+  words.Store(0, level.value + 1);
+}
+
 [shader("closesthit")]
 void HitDeep(inout Level level, BuiltInTriangleIntersectionAttributes attributes) {
   level.value += 1;
