@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // Command signatures: what the bytes of ExecuteIndirect's argument buffer mean.
+//
+//   // A command: one root constant of parameter 2, then a DispatchRaysDesc. 4 + 104 bytes.
+//   auto signature = device.CreateCommandSignature(
+//       {.ByteStride = 108,
+//        .ArgumentDescs = {{.Type = IndirectArgumentType::kConstant, .Constant = {2, 0, 1}},
+//                          {.Type = IndirectArgumentType::kDispatchRays}}},
+//       root_signature).value();
+//   list.ExecuteIndirect(signature, max_commands, arguments, 0, count, 0);
+//
+// Arguments follow each other without the padding that a C++ structure would have here: write them
+// one by one, or let a shader write them before the command executes.
 #pragma once
 
 #include <cstdint>
