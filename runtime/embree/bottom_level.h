@@ -23,6 +23,7 @@ struct BuildContext {
   RTCDevice device = nullptr;
   bool robust = true;  // RTC_SCENE_FLAG_ROBUST: DXR's open t interval is exact only with it
   bool exact = false;  // triangles are our own: exact.h
+  PackFilter pack_filter = nullptr;  // of exact
 };
 
 // What Embree's callbacks get as the user pointer of a geometry.

@@ -2,6 +2,7 @@
 #include "runtime/embree/device.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <thread>
 #include <utility>
@@ -75,7 +76,12 @@ Device::Device(const rtapi::DeviceDesc& desc, const runtime::Context& context)
 rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
     const rtapi::DeviceDesc& desc, const runtime::Context& context) {
   std::unique_ptr<Device> device(new Device(desc, context));
-  device->embree_ = rtcNewDevice(kEmbreeConfig);
+  std::string config = kEmbreeConfig;
+  if (const char* more = std::getenv("KAAMOS_EMBREE_CONFIG")) config += std::string(",") + more;
+  // A machine without AVX, acted: packs are then filtered as there.
+  device->pack_filter_ =
+      config.find("isa=sse") == std::string::npos ? fastest_pack_filter() : filter_pack_sse2;
+  device->embree_ = rtcNewDevice(config.c_str());
   if (device->embree_ == nullptr) {
     return rtapi::Error{"KA0992", rtapi::ErrorCode::kFailed,
                         "KA0992 Embree could not be started: error " +

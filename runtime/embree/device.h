@@ -50,7 +50,7 @@ class Device final : public runtime::BackendDevice {
   // What the commands' code needs; see execute.cpp and build.cpp.
   const runtime::Context& context() const { return context_; }
   Memory& memory() { return *memory_; }
-  BuildContext build_context() const { return {embree_, robust_, exact_}; }
+  BuildContext build_context() const { return {embree_, robust_, exact_, pack_filter_}; }
   // Bytes that Embree holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
   runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
@@ -68,6 +68,7 @@ class Device final : public runtime::BackendDevice {
   rtapi::DeviceInfo info_;
   runtime::Context context_;
   bool robust_ = true;
+  PackFilter pack_filter_ = filter_pack_sse2;
   bool exact_ = false;
   std::optional<tbb::global_control> parallelism_;  // more threads than the machine has
   tbb::task_arena arena_;

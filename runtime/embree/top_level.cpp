@@ -95,7 +95,6 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
     }
   }
   exact_ = true;
-  pack_filter_ = fastest_pack_filter();
   frame_ = ExactFrame::of(all.lower, all.upper);
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level != nullptr) {
@@ -119,6 +118,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   std::sort(kept.begin(), kept.end());
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
+  level->pack_filter_ = context.pack_filter;
   if (context.exact) level->add_exact_instances(instances, bounds);
 
   rtcGetDeviceError(context.device);  // forgets what an earlier build left

@@ -65,6 +65,7 @@ TEST(Bench, WrongArgumentsSayWhatIsAllowed) {
       {{"--threads", "-1"}, "--threads is \"-1\", allowed is 1 to 256"},
       {{"--size", "640"}, "--size is \"640\", allowed is WxH"},
       {{"--size", "0x9"}, "--size is \"0x9\""},
+      {{"--precision", "double"}, "--precision is \"double\", allowed is fast, robust or exact"},
       {{"--clock", "sun"}, "--clock is \"sun\", allowed is wall or cpu"},
   };
   for (const auto& [arguments, message] : kWrong) {

@@ -49,13 +49,13 @@ void build_structure(const Device& device, CommandQueue& queue,
 }
 
 DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
-                   const std::string& backend, TraversalPrecision precision)
+                   const std::string& backend, TraversalPrecision precision, float distance)
     : data_(data),
       device_(make_device(threads, backend, precision)),
       queue_(device_.CreateCommandQueue().value()) {
   meshes_.resize(data.meshes.size());
   for (size_t i = 0; i < meshes_.size(); ++i) build_mesh(data.meshes[i], alpha_tested, meshes_[i]);
-  build_instances();
+  build_instances(distance);
   materials_ = CreateUploadBuffer(device_, materials_of(data.scene), "materials").value();
   upload_images();
 }
@@ -85,11 +85,12 @@ void DxrScene::build_mesh(const MeshData& mesh, bool alpha_tested, MeshBuffers& 
   build_structure(device_, queue_, inputs, out.structure);
 }
 
-void DxrScene::build_instances() {
+void DxrScene::build_instances(float distance) {
   std::vector<RaytracingInstanceDesc> instances;
   for (const InstanceData& instance : data_.instances) {
     RaytracingInstanceDesc& desc = instances.emplace_back();
     std::memcpy(desc.Transform, instance.transform.data(), sizeof(desc.Transform));
+    for (int axis : {0, 2}) desc.Transform[axis][3] += distance;
     desc.InstanceContributionToHitGroupIndex = data_.meshes[instance.mesh].first_record;
     desc.AccelerationStructure = meshes_[instance.mesh].structure.GetGPUVirtualAddress();
   }

@@ -24,10 +24,12 @@ void build_structure(const rtapi::Device& device, rtapi::CommandQueue& queue,
 // The lounge's buffers, textures and structures.
 class DxrScene {
  public:
-  // `alpha_tested`: plants are not opaque; else everything is.
+  // `alpha_tested`: plants are not opaque; else everything is. `distance`: how far all instances
+  // are moved, in metres along x and z.
   DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
            const std::string& backend = "embree",
-           rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust);
+           rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust,
+           float distance = 0);
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }
@@ -47,7 +49,7 @@ class DxrScene {
   };
   void upload_images();
   void build_mesh(const MeshData& mesh, bool alpha_tested, MeshBuffers& out);
-  void build_instances();
+  void build_instances(float distance);
   const MeshBuffers& buffers_of(const MeshData& mesh) const;
 
   const SceneData& data_;

@@ -19,7 +19,17 @@ const SceneData& Fixtures::scene() {
   return *scene_;
 }
 
-const RayGrid& Fixtures::rays(RaySet set) {
+const RayGrid& Fixtures::rays(RaySet set, float distance) {
+  if (distance != 0) {
+    RayGrid& moved = distant_rays_[{static_cast<int>(set), distance}];
+    if (!moved.rays.empty()) return moved;
+    moved = rays(set);
+    for (Ray& ray : moved.rays) {
+      ray.origin[0] += distance;
+      ray.origin[2] += distance;
+    }
+    return moved;
+  }
   RayGrid& grid = rays_[static_cast<int>(set)];
   if (!grid.rays.empty()) return grid;
   grid.width = options_.width;
@@ -41,18 +51,24 @@ const EmbreeScene& Fixtures::embree_scene(bool alpha_tested) {
 
 DxrScene& Fixtures::dxr_scene(bool alpha_tested) {
   auto& made = dxr_[alpha_tested ? 1 : 0];
-  if (!made) made = std::make_unique<DxrScene>(scene(), threads(), alpha_tested);
+  if (!made) {
+    made =
+        std::make_unique<DxrScene>(scene(), threads(), alpha_tested, "embree", options_.precision);
+  }
   return *made;
 }
 
 Fixtures::~Fixtures() = default;
 
-DxrScene& Fixtures::exact_scene() {
-  if (!exact_) {
-    exact_ = std::make_unique<DxrScene>(scene(), threads(), false, "embree",
-                                        rtapi::TraversalPrecision::kExact);
+DxrScene& Fixtures::scene_of(rtapi::TraversalPrecision precision, float distance) {
+  const auto index = static_cast<uint32_t>(precision);
+  Distant& distant = distant_[index];
+  auto& made = distance == 0 ? of_precision_[index] : distant.scene;
+  if (distance != 0 && std::exchange(distant.distance, distance) != distance) made.reset();
+  if (!made) {
+    made = std::make_unique<DxrScene>(scene(), threads(), false, "embree", precision, distance);
   }
-  return *exact_;
+  return *made;
 }
 
 DxrScene& Fixtures::vulkan_scene() {
@@ -68,7 +84,7 @@ HandVulkan& Fixtures::hand_vulkan() {
 #endif
 
 const OwnTopLevel& Fixtures::own_top_level() {
-  if (!own_) own_ = std::make_unique<OwnTopLevel>(dxr_scene(false));
+  if (!own_) own_ = std::make_unique<OwnTopLevel>(scene_of(rtapi::TraversalPrecision::kRobust));
   return *own_;
 }
 

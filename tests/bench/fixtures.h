@@ -5,8 +5,10 @@
 
 #include <tbb/task_arena.h>
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "dxr_scene.h"
 #include "embree_loops.h"
@@ -27,10 +29,12 @@ class Fixtures {
   tbb::task_arena& arena() { return arena_; }
 
   const SceneData& scene();
-  const RayGrid& rays(RaySet set);
+  // `distance`: from the origin, as DxrScene's.
+  const RayGrid& rays(RaySet set, float distance = 0);
   const EmbreeScene& embree_scene(bool alpha_tested);
   DxrScene& dxr_scene(bool alpha_tested);
-  DxrScene& exact_scene();  // in exact precision, everything opaque
+  // Everything opaque. Scenes at a distance replace each other.
+  DxrScene& scene_of(rtapi::TraversalPrecision precision, float distance = 0);
   const OwnTopLevel& own_top_level();
   DxrScene& vulkan_scene();  // everything opaque
   bool has_vulkan_scene() const { return vulkan_ != nullptr; }
@@ -42,12 +46,18 @@ class Fixtures {
   std::optional<SceneData> scene_;
   std::unique_ptr<EmbreeScene> embree_[2];
   std::unique_ptr<DxrScene> dxr_[2];
-  std::unique_ptr<DxrScene> exact_;
+  std::unique_ptr<DxrScene> of_precision_[3];
+  struct Distant {
+    float distance = 0;
+    std::unique_ptr<DxrScene> scene;
+  };
+  Distant distant_[3];
   std::unique_ptr<OwnTopLevel> own_;
   std::unique_ptr<DxrScene> vulkan_;
   std::unique_ptr<HandVulkan> hand_;
   std::vector<SurfacePoint> points_;
   RayGrid rays_[5];
+  std::map<std::pair<int, float>, RayGrid> distant_rays_;
 };
 
 }  // namespace kaamos::bench

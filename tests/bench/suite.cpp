@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "suite.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <exception>
 #include <iomanip>
+#include <iterator>
 #include <ostream>
 #include <thread>
 
 #include "fixtures.h"
+#include "precision_table.h"
 
 namespace kaamos::bench {
 namespace {
@@ -25,6 +28,9 @@ Measures Kaamos against hand-written baselines in the same process, in turn.
   --pairs N        pairs of runs per case, 1 to 999 (default 9); the median counts
   --size WxH       rays of a dispatch, 1x1 to 4096x4096 (default 640x360)
   --threads N      1 to 256 (default: all of the machine)
+  --precision P    of the Embree backend in dispatch/embree/: fast, robust (default) or exact
+  --precision-table
+                   instead of the cases: speeds, wrong hits and errors of every precision
   --clock wall|cpu cpu: CPU time over threads, for a machine that is busy (default wall)
   --quick          small inputs and one pair: shows that it works, measures nothing
   --help           this text
@@ -63,6 +69,13 @@ bool parse_value(const std::string& option, const std::string& value, Options& o
   if (option == "--size") {
     allowed = "WxH, each 1 to 4096, for example 640x360";
     return parse_size(value, options.width, options.height);
+  }
+  if (option == "--precision") {
+    allowed = "fast, robust or exact";
+    const char* names[] = {"fast", "robust", "exact"};
+    const auto* at = std::find(std::begin(names), std::end(names), value);
+    options.precision = static_cast<rtapi::TraversalPrecision>(at - names);
+    return at != std::end(names);
   }
   allowed = "wall or cpu";
   options.clock = value == "cpu" ? Clock::kCpu : Clock::kWall;
@@ -155,13 +168,15 @@ bool parse_arguments(const std::vector<std::string>& arguments, Options& options
       options.list = true;
     } else if (argument == "--help" || argument == "-h") {
       options.help = true;
+    } else if (argument == "--precision-table") {
+      options.precision_table = true;
     } else if (argument == "--quick") {
       options.quick = true;
       options.pairs = 1;
       options.width = 64;
       options.height = 36;
     } else if (argument == "--only" || argument == "--pairs" || argument == "--threads" ||
-               argument == "--size" || argument == "--clock") {
+               argument == "--size" || argument == "--clock" || argument == "--precision") {
       if (i + 1 == arguments.size()) {
         error = argument + " needs a value";
         return false;
@@ -192,6 +207,7 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
     return 0;
   }
   if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());
+  if (options.precision_table) return print_precision_table(options, out, errors);
   std::vector<Case> cases;
   for (auto part : {dispatch_cases, build_cases, hlsl_cases, compute_cases, vulkan_cases}) {
     for (Case& one : part()) {

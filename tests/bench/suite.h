@@ -3,6 +3,8 @@
 // The list of cases, and the program around it: arguments, progress, output.
 #pragma once
 
+#include <rtapi/device.h>
+
 #include <functional>
 #include <iosfwd>
 #include <memory>
@@ -23,7 +25,9 @@ struct Options {
   uint32_t threads = 0;  // 0: as many as the machine has
   uint32_t width = 640;  // rays of a dispatch
   uint32_t height = 360;
-  bool quick = false;  // small inputs: shows that it works, measures nothing
+  rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;  // of Embree
+  bool precision_table = false;  // instead of the cases: precision_table.h
+  bool quick = false;            // small inputs: shows that it works, measures nothing
 };
 
 // One line of the output. `ours` and `baseline` are in `unit`; `value` is what counts: a ratio for

@@ -3,6 +3,9 @@
 // Single rays at one instance of one mesh, through rtapi.
 #pragma once
 
+#include <rtapi/rtapi.h>
+#include <rtapi/shader_table.h>
+
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -30,7 +33,30 @@ struct ProbeMesh {
   glm::mat3x4 transform{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };
 
-// One hit per ray. Throws rtapi::ResultError.
+// A device with one mesh, at which rays are shot. All throw rtapi::ResultError.
+class RayProbe {
+ public:
+  explicit RayProbe(const rtapi::DeviceDesc& desc = {});
+  void set_mesh(const ProbeMesh& mesh);
+  // One for each ray.
+  std::vector<ProbeHit> hits(const std::vector<ProbeRay>& rays);
+  // How many triangles an any-hit shader that ignores all of them is asked about.
+  std::vector<std::uint32_t> triangle_counts(const std::vector<ProbeRay>& rays);
+
+ private:
+  std::vector<ProbeHit> run(const rtapi::ShaderTable& ray_generation,
+                            const std::vector<ProbeRay>& rays);
+
+  rtapi::Device device_;
+  rtapi::CommandQueue queue_;
+  rtapi::RootSignature root_signature_;
+  rtapi::StateObject pipeline_;
+  rtapi::ShaderTable hits_, counts_, miss_, groups_;
+  rtapi::Buffer bottom_level_;
+  rtapi::Buffer top_level_;
+};
+
+// Of a RayProbe for this mesh alone.
 std::vector<ProbeHit> probe(const ProbeMesh& mesh, const std::vector<ProbeRay>& rays);
 
 }  // namespace kaamos::test

@@ -22,18 +22,36 @@ RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<ProbeRay> rays : register(t1);
 RWStructuredBuffer<ProbeHit> hits : register(u0);
 
-[shader("raygeneration")]
-void ProbeRays() {
-  const uint index = DispatchRaysIndex().x;
-  const ProbeRay ray = rays[index];
+RayDesc DescOf(ProbeRay ray) {
   RayDesc desc;
   desc.Origin = ray.origin;
   desc.TMin = ray.t_min;
   desc.Direction = ray.direction;
   desc.TMax = ray.t_max;
+  return desc;
+}
+
+[shader("raygeneration")]
+void ProbeRays() {
+  const uint index = DispatchRaysIndex().x;
   Payload payload = (Payload)0;
-  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 0, 0, desc, payload);
+  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 0, 0, DescOf(rays[index]), payload);
   hits[index] = payload.hit;
+}
+
+// Every triangle that the ray meets is counted and ignored.
+[shader("raygeneration")]
+void CountTriangles() {
+  const uint index = DispatchRaysIndex().x;
+  Payload payload = (Payload)0;
+  TraceRay(scene, RAY_FLAG_FORCE_NON_OPAQUE, 0xFF, 1, 0, 0, DescOf(rays[index]), payload);
+  hits[index] = payload.hit;
+}
+
+[shader("anyhit")]
+void CountAnyHit(inout Payload payload, in BuiltInTriangleIntersectionAttributes attributes) {
+  payload.hit.primitive += 1;
+  IgnoreHit();
 }
 
 [shader("closesthit")]
