@@ -76,6 +76,26 @@ TEST(Bench, WrongArgumentsSayWhatIsAllowed) {
   }
 }
 
+TEST(Bench, ThePrecisionTableHasNoWrongHitInExact) {
+  const Output table = run({"--precision-table", "--quick", "--threads", "2"});
+  EXPECT_EQ(table.status, 0);
+  EXPECT_EQ(table.errors, "");
+  int rows = 0;
+  int wrong_in_robust = 0;
+  const size_t start = table.out.find("Wrong hits");
+  const size_t end = table.out.find("Largest error");
+  ASSERT_LT(start, end);
+  for (const std::string& line : split(table.out.substr(start, end - start), '\n')) {
+    const auto cells = split(line, '|');  // before the first bar: nothing
+    if (cells.size() < 5 || cells[2].find(" / ") == std::string::npos) continue;
+    ++rows;
+    EXPECT_EQ(cells[4], " 0 / 0 / 0 ") << line;
+    wrong_in_robust += cells[3] != " 0 / 0 / 0 " ? 1 : 0;
+  }
+  EXPECT_GE(rows, 10) << table.out;
+  EXPECT_GT(wrong_in_robust, 5) << table.out;
+}
+
 TEST(Bench, ALineHasSixFields) {
   EXPECT_EQ(format_line({"build/x", 1.25, 0.5, 0.4, "ms", false}),
             "build/x\t1.25\t0.5\t0.4\tms\tlower");
