@@ -29,6 +29,7 @@ void list_rules(const std::string& filter) {
     });
     std::cout << rule.id << " [" << rule.tag << "] " << rule.title
               << (tested                ? ""
+                  : rule.tag == 'F'     ? " (free: nothing is asserted)"
                   : rule.not_applicable ? " (not applicable)"
                                         : " (not yet tested)")
               << "\n";
