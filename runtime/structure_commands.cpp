@@ -54,6 +54,16 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
                        "ALLOW_UPDATE, " +
                            at(command.source) + ".");
   }
+  // Of bottom levels check_update says it.
+  constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
+  if (command.type == Type::kTopLevel &&
+      (command.flags & ~kMayDiffer) != (source->flags & ~kMayDiffer)) {
+    return build_error("KA0793", "update with build flags " +
+                                     std::to_string(static_cast<uint32_t>(command.flags)) +
+                                     " of a top level built with " +
+                                     std::to_string(static_cast<uint32_t>(source->flags)) +
+                                     ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
+  }
   if (command.type == Type::kTopLevel && source->instance_count != command.instance_count) {
     return build_error("KA0793", "update of a top level changes NumDescs from " +
                                      std::to_string(source->instance_count) + " to " +
@@ -123,6 +133,10 @@ rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, u
                                    "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
 
+bool overlap(uint64_t a, uint64_t b, uint64_t bytes) {
+  return (a > b ? a - b : b - a) < bytes;
+}
+
 uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes) {
   return std::min(size_bytes, round_up(kHeaderBytes + held_bytes));
 }
@@ -179,6 +193,14 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
           : estimate_sizes(command.type, command.flags, command.geometries, command.instance_count)
                 .ResultDataMaxSizeInBytes;
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
+  if (source != nullptr && command.dest != source->address &&
+      overlap(command.dest, source->address, source->size_bytes)) {
+    return build_error("KA0793", "update of the acceleration structure " + at(source->address) +
+                                     " into " + std::to_string(command.dest) + ": each takes " +
+                                     std::to_string(source->size_bytes) +
+                                     " bytes, and they overlap. Update in place, or into other "
+                                     "memory.");
+  }
   if (auto s = guarded(build_level, source.get(), structure); !s) return s;
   structure.compacted_bytes = source != nullptr
                                   ? source->compacted_bytes

@@ -49,6 +49,8 @@ rtapi::Status emit_postbuild_info(
 
 // KA0795 if `bytes` reach past the buffer at `address`.
 rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes);
+// Whether two ranges of so many bytes have some in common.
+bool overlap(uint64_t a, uint64_t b, uint64_t bytes);
 // COMPACTED_SIZE of what holds so many bytes.
 uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes);
 

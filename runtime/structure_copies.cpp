@@ -152,6 +152,13 @@ rtapi::Status copy(const StructureEnvironment& environment,
     }
     result.size_bytes = source->compacted_bytes;
   }
+  // The source is as long as the copy, or longer.
+  const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
+  if (overlap(command.dest, command.source, clear)) {
+    return copy_error("KA0796", "copy of the acceleration structure " + at(command.source) +
+                                    " into " + std::to_string(command.dest) +
+                                    ": they overlap. Copy into other memory.");
+  }
   // Both refer to the same immutable tree; an update in place of one of them makes a tree of its
   // own first.
   return place(environment, std::move(result));

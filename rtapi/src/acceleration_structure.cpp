@@ -79,10 +79,10 @@ Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTriangle
                      t.IndexBuffer ? "is an index buffer" : "are ",
                      t.IndexBuffer ? "" : Text(t.IndexCount, " indices"));
   }
-  if (!none && t.IndexBuffer == 0 && t.IndexCount != 0) {
-    return MakeError(Id::kIndexBuffer, where, ": ", t.IndexCount,
-                     " indices and no index buffer; without one the format is kUnknown and the "
-                     "count 0");
+  if (!none && t.IndexBuffer == 0) {
+    return MakeError(Id::kIndexBuffer, where, ": ", t.IndexCount, " indices of format ",
+                     static_cast<uint32_t>(t.IndexFormat),
+                     " and no index buffer; without one the format is kUnknown and the count 0");
   }
   const uint32_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
   if (!none && t.IndexBuffer % index_bytes != 0) {
