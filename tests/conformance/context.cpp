@@ -85,6 +85,14 @@ Buffer Context::zeros(uint64_t bytes) {
   return keep(device_.CreateBuffer(desc).value());
 }
 
+Buffer Context::structure_memory(uint64_t bytes) {
+  BufferDesc desc;
+  desc.SizeInBytes = bytes;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
+  return keep(device_.CreateBuffer(desc).value());
+}
+
 std::vector<uint32_t> Context::read(const Buffer& buffer) {
   const auto bytes = ReadbackBuffer(device_, queue_, buffer).value();
   std::vector<uint32_t> out(bytes.size() / 4);
@@ -94,11 +102,7 @@ std::vector<uint32_t> Context::read(const Buffer& buffer) {
 
 Buffer Context::build(const BuildRaytracingAccelerationStructureInputs& inputs) {
   const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  BufferDesc desc;
-  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
-  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
-  const Buffer result = keep(device_.CreateBuffer(desc).value());
+  const Buffer result = structure_memory(sizes.ResultDataMaxSizeInBytes);
   BuildRaytracingAccelerationStructureDesc build;
   build.Inputs = inputs;
   build.DestAccelerationStructureData = result.GetGPUVirtualAddress();
@@ -110,7 +114,7 @@ Buffer Context::build(const BuildRaytracingAccelerationStructureInputs& inputs) 
   return result;
 }
 
-Buffer Context::bottom_level(const std::vector<Geometry>& geometries) {
+std::vector<RaytracingGeometryDesc> Context::describe(const std::vector<Geometry>& geometries) {
   std::vector<RaytracingGeometryDesc> descs;
   for (const Geometry& geometry : geometries) {
     RaytracingGeometryDesc desc;
@@ -129,6 +133,11 @@ Buffer Context::bottom_level(const std::vector<Geometry>& geometries) {
     }
     descs.push_back(desc);
   }
+  return descs;
+}
+
+Buffer Context::bottom_level(const std::vector<Geometry>& geometries) {
+  const auto descs = describe(geometries);
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
   inputs.NumDescs = static_cast<uint32_t>(descs.size());

@@ -76,9 +76,12 @@ class Context {
   rtapi::Buffer upload(const std::vector<T>& elements) {
     return keep(rtapi::CreateUploadBuffer(device_, elements).value());
   }
-  rtapi::Buffer zeros(uint64_t bytes);  // default heap, unordered access
+  rtapi::Buffer zeros(uint64_t bytes);             // default heap, unordered access
+  rtapi::Buffer structure_memory(uint64_t bytes);  // for acceleration structures
   std::vector<uint32_t> read(const rtapi::Buffer& buffer);
 
+  // Of geometries in upload buffers.
+  std::vector<rtapi::RaytracingGeometryDesc> describe(const std::vector<Geometry>& geometries);
   rtapi::Buffer bottom_level(const std::vector<Geometry>& geometries);
   rtapi::Buffer top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);
   // A bottom level of its own for these, in one instance.
@@ -129,5 +132,10 @@ std::vector<RuleTest> so_tests();
 std::vector<RuleTest> so_collection_tests();
 std::vector<RuleTest> so_object_tests();
 std::vector<RuleTest> dsp_tests();
+std::vector<RuleTest> as_build_tests();
+std::vector<RuleTest> as_memory_tests();
+std::vector<RuleTest> as_info_tests();
+std::vector<RuleTest> as_update_tests();
+std::vector<RuleTest> as_copy_tests();
 
 }  // namespace kaamos::conformance
