@@ -94,6 +94,6 @@ class ComputePipeline final : public runtime::BackendPipeline {
 
 // Levels of callable shaders that call each other: what lavapipe was found to bear. DXR bounds them
 // by the stack alone. [DXR: Ray recursion limit]
-inline constexpr uint32_t kMaxCallableDepth = 63;
+inline constexpr uint32_t kMaxCallableDepth = 31;
 
 }  // namespace kaamos::vulkan
