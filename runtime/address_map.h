@@ -4,6 +4,7 @@
 // backend looks up what it is about to read or write while it executes.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -30,10 +31,12 @@ class AddressMap {
   void insert(Allocation allocation) {
     std::unique_lock lock(mutex_);
     allocations_[allocation.address] = std::move(allocation);
+    ++version_;
   }
   void erase(uint64_t address) {
     std::unique_lock lock(mutex_);
     allocations_.erase(address);
+    ++version_;
   }
   void rename(uint64_t address, std::string name) {
     std::unique_lock lock(mutex_);
@@ -41,6 +44,9 @@ class AddressMap {
       it->second.name = std::move(name);
     }
   }
+
+  // Grows with every allocation that comes or goes.
+  uint64_t version() const { return version_; }
 
   // The allocation that holds the byte at `address`.
   std::optional<Allocation> find(uint64_t address) const {
@@ -75,6 +81,7 @@ class AddressMap {
 
   mutable std::shared_mutex mutex_;
   std::map<uint64_t, Allocation> allocations_;
+  std::atomic<uint64_t> version_{0};
 };
 
 }  // namespace kaamos::runtime

@@ -96,6 +96,10 @@ static Texture Render(const example::Setup& setup) {
     table->Build(device).value();
   }
 
+  GpuVirtualAddressRangeAndStride hit_groups = hit_table.GetTable();
+  // A classic: the stride of records without arguments. Checked mode says what it should be.
+  if (setup.broken == "stride") hit_groups.StrideInBytes = kShaderIdentifierSizeInBytes;
+
   CommandList list = device.CreateCommandList().value();
   list.SetDescriptorHeaps({image.heap});
   list.SetComputeRootSignature(root_signature);
@@ -104,7 +108,7 @@ static Texture Render(const example::Setup& setup) {
   list.SetPipelineState1(pipeline);
   list.DispatchRays({.RayGenerationShaderRecord = raygen_table.GetRecord(0),
                      .MissShaderTable = miss_table.GetTable(),
-                     .HitGroupTable = hit_table.GetTable(),
+                     .HitGroupTable = hit_groups,
                      .Width = setup.width,
                      .Height = setup.height});
   CommandQueue queue = setup.queue;
@@ -113,5 +117,5 @@ static Texture Render(const example::Setup& setup) {
 }
 
 int main(int argc, char** argv) {
-  return example::Main(argc, argv, "06-local-root-signature", Render);
+  return example::Main(argc, argv, "06-local-root-signature", Render, {"stride"});
 }

@@ -4,6 +4,7 @@
 #include "effects/image/png.h"
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -69,20 +70,31 @@ Buffer Build(const Setup& setup, const BuildRaytracingAccelerationStructureInput
 
 }  // namespace
 
-int Main(int argc, char** argv, const char* name, Body body) {
+int Main(int argc, char** argv, const char* name, Body body,
+         const std::vector<std::string>& breakable) {
   std::string backend = "embree";
   std::string size = "640x360";
   std::string out = std::string(name) + ".png";
   std::string pixel;
+  std::string broken;
+  bool unchecked = false;
   CLI::App app(std::string(name) + ", an example of Kaamos");
   app.add_option("--backend", backend, "which backend runs it: embree or vulkan")
       ->capture_default_str();
   app.add_option("--size", size, "width and height of the picture")->capture_default_str();
   app.add_option("--out", out, "the picture file, a PNG")->capture_default_str();
   app.add_option("--pixel", pixel, "x,y: print that pixel instead of writing the picture");
+  app.add_flag("--unchecked", unchecked, "without checked mode: faster, and says nothing");
+  if (!breakable.empty()) {
+    app.add_option("--break", broken, "do that wrong, to see what checked mode says")
+        ->check(CLI::IsMember(breakable));
+  }
   CLI11_PARSE(app, argc, argv);
 
   Setup setup;
+  setup.broken = broken;
+  // Messages may come from any thread.
+  std::atomic<uint32_t> findings = 0;
   if (!ParseSize(size, setup.width, setup.height)) {
     std::fprintf(stderr,
                  "%s: --size %s is not a size: give width and height of 1 to 16384, like 640x360\n",
@@ -92,12 +104,18 @@ int Main(int argc, char** argv, const char* name, Body body) {
   try {
     DeviceDesc desc;
     desc.Backend = backend;
-    desc.OnMessage = [](const Message& message) {
+    desc.Checked = !unchecked;
+    desc.OnMessage = [&findings](const Message& message) {
       std::fprintf(stderr, "%s\n", message.Text.c_str());
+      if (message.Severity == MessageSeverity::kError) ++findings;
     };
     setup.device = CreateDevice(desc).value();
     setup.queue = setup.device.CreateCommandQueue().value();
     const Texture picture = body(setup);
+    if (findings > 0) {
+      std::fprintf(stderr, "%s: stopped, checked mode found the above\n", name);
+      return 1;
+    }
     const std::vector<std::byte> texels =
         ReadbackTexture(setup.device, setup.queue, picture, 0).value();
     kaamos::effects::ByteImage image{setup.width, setup.height, 4, {}};

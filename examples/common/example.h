@@ -7,6 +7,7 @@
 #include <rtapi/rtapi.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace example {
@@ -16,6 +17,7 @@ struct Setup {
   rtapi::CommandQueue queue;
   uint32_t width = 0;
   uint32_t height = 0;
+  std::string broken;  // what to do wrong, of the names given to Main; "" for nothing
 };
 
 // Renders into a texture of Setup's size, format kR8G8B8A8Unorm. Errors leave as
@@ -23,9 +25,11 @@ struct Setup {
 using Body = rtapi::Texture (*)(const Setup&);
 
 // Parses `--backend NAME --size WxH --out FILE`, runs `body` and writes its picture to
-// "<name>.png"; with `--pixel X,Y` it prints that pixel instead. Returns the exit code; an error is
-// printed.
-int Main(int argc, char** argv, const char* name, Body body);
+// "<name>.png"; with `--pixel X,Y` it prints that pixel instead. The device is in checked mode
+// (`--unchecked` turns it off): what it finds is printed and makes the exit code 1, as does an
+// error. With `breakable` there is also `--break WHAT`. Returns the exit code.
+int Main(int argc, char** argv, const char* name, Body body,
+         const std::vector<std::string>& breakable = {});
 
 // A texture that a shader can write, and a heap whose descriptor 0 is its unordered access view.
 struct Image {

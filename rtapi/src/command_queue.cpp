@@ -74,6 +74,7 @@ void CommandQueueImpl::Run(const Operation& operation) {
   const auto* execute = std::get_if<Execute>(&operation);
   if (!execute || !device->removed().ok()) return;
   std::lock_guard lock(device->execute_mutex);
+  if (device->checks) device->checks->begin_list();
   if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
 }
 

@@ -429,6 +429,7 @@ class Linker {
       auto pipeline = parts_.device->backend->create_raytracing_pipeline(out_->linked);
       if (!pipeline.ok()) return pipeline.error();
       out_->pipeline = std::move(*pipeline);
+      if (parts_.device->checks) parts_.device->checks->created(*linked_);
     }
     for (const ExplicitAssociation& a : parts_.explicit_associations) {
       if (parts_.is_collection()) out_->outward_associations.push_back(a);

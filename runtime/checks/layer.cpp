@@ -1,21 +1,273 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/checks/layer.h"
 
+#include <cstring>
+#include <set>
+#include <utility>
 #include <variant>
 
-namespace kaamos::checks {
+#include "runtime/checks/arguments.h"
+#include "runtime/checks/names.h"
+#include "runtime/structure_commands.h"
 
-void Layer::before(const runtime::Command&, const std::string& label) {
+namespace kaamos::checks {
+namespace {
+
+using rtapi::HasAny;
+using rtapi::ResourceStates;
+
+constexpr size_t kMostProven = 4096;
+
+class Hash {
+ public:
+  void add(uint64_t value) {
+    state_ = (state_ ^ value) * 0x9E3779B97F4A7C15u;
+    state_ ^= state_ >> 29;
+  }
+  void add(const uint8_t* bytes, uint64_t size) {
+    uint64_t word = 0;
+    for (; size >= 8; size -= 8, bytes += 8) {
+      std::memcpy(&word, bytes, 8);
+      add(word);
+    }
+    word = 0;
+    std::memcpy(&word, bytes, size);
+    add(word);
+  }
+  uint64_t value() const { return state_; }
+
+ private:
+  uint64_t state_ = 0xCBF29CE484222325u;
+};
+
+}  // namespace
+
+void Layer::before(const runtime::Command& command, const std::string& label) {
   reporter_.begin(label);
+  hazards_.begin_command(label);
+  std::visit([this](const auto& c) { check(c); }, command);
 }
 
-void Layer::after(const runtime::Command&, bool) {
+void Layer::after(const runtime::Command& command, bool succeeded) {
+  if (succeeded) std::visit([this](const auto& c) { note(c); }, command);
+  instances_.clear();
+  contents_.clear();
   reporter_.end();
 }
 
 bool Layer::needs_memory(const runtime::Command& command) const {
   return std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
+         std::holds_alternative<runtime::DispatchCommand>(command) ||
          std::holds_alternative<runtime::BuildCommand>(command);
+}
+
+uint64_t Layer::proof_key(const runtime::DispatchRaysCommand& command) const {
+  Hash hash;
+  hash.add(reinterpret_cast<uintptr_t>(command.linked.get()));
+  hash.add(reinterpret_cast<uintptr_t>(command.state.root_signature.impl().get()));
+  hash.add(structures_.version());
+  hash.add(addresses_.version());
+  hash.add(command.state.root_arguments->bytes.data(), runtime::kRootArgumentBytes);
+  for (const auto& heap : {command.state.view_heap, command.state.sampler_heap}) {
+    if (heap == nullptr || heap->host() == nullptr) continue;
+    hash.add(heap->address());
+    hash.add(heap->host(), heap->size_bytes());
+  }
+  const rtapi::DispatchRaysDesc& desc = command.desc;
+  const auto& first = desc.RayGenerationShaderRecord;
+  const rtapi::GpuVirtualAddressRangeAndStride tables[] = {
+      {first.StartAddress, first.SizeInBytes, 0},
+      desc.MissShaderTable,
+      desc.HitGroupTable,
+      desc.CallableShaderTable};
+  for (const auto& table : tables) {
+    hash.add(table.StartAddress);
+    hash.add(table.SizeInBytes);
+    hash.add(table.StrideInBytes);
+    if (table.SizeInBytes == 0 || !addresses_.contains(table.StartAddress, table.SizeInBytes)) {
+      continue;
+    }
+    hash.add(addresses_.host(table.StartAddress), table.SizeInBytes);
+  }
+  return hash.value();
+}
+
+void Layer::check(const runtime::DispatchRaysCommand& command) {
+  if (command.linked == nullptr) return;
+  const auto& desc = command.desc;
+  for (const uint64_t table :
+       {desc.RayGenerationShaderRecord.StartAddress, desc.MissShaderTable.StartAddress,
+        desc.HitGroupTable.StartAddress, desc.CallableShaderTable.StartAddress}) {
+    hazards_.use(table, ResourceStates::kNonPixelShaderResource, "a shader table");
+  }
+  const uint64_t key = proof_key(command);
+  if (const auto it = proven_.find(key); it != proven_.end()) return check_uses(it->second);
+  std::vector<ShaderUse> uses;
+  const bool good = prove_tables(inputs(), command, uses);
+  check_uses(uses);
+  if (!good) return;
+  if (proven_.size() >= kMostProven) proven_.clear();
+  proven_[key] = std::move(uses);
+}
+
+void Layer::check_uses(const std::vector<ShaderUse>& uses) {
+  std::set<uint64_t> levels;
+  for (const ShaderUse& use : uses) {
+    if (!use.structure) {
+      hazards_.use(use.address, use.state, use.what);
+      continue;
+    }
+    if (!levels.insert(use.address).second) continue;
+    StructureState state;
+    const TrackedStructure* top = structures_.find(use.address, state);
+    if (top == nullptr || state != StructureState::kAlive) continue;
+    hazards_.read_structure(use.address, top->size_bytes, use.what);
+    for (const TrackedInstance& instance : top->instances) {
+      if (instance.version == 0 || !levels.insert(instance.bottom_level).second) continue;
+      if (const uint64_t bytes = bytes_at(instance.bottom_level)) {
+        hazards_.read_structure(instance.bottom_level, bytes, use.what + ", a bottom level of it,");
+      }
+    }
+  }
+}
+
+uint64_t Layer::bytes_at(uint64_t address) const {
+  StructureState state;
+  const TrackedStructure* structure = structures_.find(address, state);
+  return structure != nullptr && state == StructureState::kAlive ? structure->size_bytes : 0;
+}
+
+void Layer::check(const runtime::DispatchCommand& command) {
+  if (command.linked == nullptr) return;
+  const runtime::LinkedShader& shader = command.linked->shader;
+  Arguments arguments;
+  arguments.global = command.state.root_arguments->bytes.data();
+  arguments.state = &command.state;
+  const std::string where = "compute shader " + quoted(shader.name);
+  check_arguments(inputs(), shader, arguments, where);
+  for (uint32_t i = 0; i < shader.slots.size(); ++i) {
+    const auto& binding = shader.library->bindings[i];
+    if (binding.type != shader::BindingType::kAccelerationStructure || binding.count != 1) continue;
+    for (const uint64_t address : structures_behind(shader, i, arguments)) {
+      if (address != 0) check_top_level(inputs(), address, where + ", " + binding_name(binding));
+    }
+  }
+  std::vector<ShaderUse> uses;
+  collect_uses(shader, arguments, where, uses);
+  check_uses(uses);
+}
+
+void Layer::check(const runtime::BuildCommand& command) {
+  instances_ = structures_.read_instances(command);
+  contents_ = check_geometries(inputs(), command);
+  check_instances(inputs(), instances_);
+  check_update_contents(inputs(), command, contents_);
+  const bool update = HasAny(command.flags, runtime::BuildFlags::kPerformUpdate);
+  const auto sizes = runtime::estimate_sizes(command.type, command.flags, command.geometries,
+                                             command.instance_count);
+  const uint64_t scratch =
+      update ? sizes.UpdateScratchDataSizeInBytes : sizes.ScratchDataSizeInBytes;
+  const uint64_t in_place = bytes_at(command.source);
+  const uint64_t dest = update && in_place != 0 ? in_place : sizes.ResultDataMaxSizeInBytes;
+  check_ranges(inputs(), command, dest, scratch);
+
+  const auto input = [&](uint64_t address, const char* what) {
+    hazards_.use(address, ResourceStates::kNonPixelShaderResource, what);
+  };
+  for (const auto& geometry : command.geometries) {
+    if (geometry.Type == rtapi::RaytracingGeometryType::kTriangles) {
+      input(geometry.Triangles.VertexBuffer.StartAddress, "the build's vertex buffer");
+      input(geometry.Triangles.IndexBuffer, "the build's index buffer");
+      input(geometry.Triangles.Transform3x4, "the build's Transform3x4");
+    } else {
+      input(geometry.AABBs.AABBs.StartAddress, "the build's buffer of boxes");
+    }
+  }
+  if (command.instance_count != 0) input(command.instance_descs, "the build's instance records");
+  hazards_.use(command.scratch, ResourceStates::kUnorderedAccess, "the build's scratch memory");
+  for (const auto& info : command.postbuild_infos) {
+    hazards_.use(info.DestBuffer, ResourceStates::kUnorderedAccess, "the postbuild info");
+  }
+  hazards_.use_scratch(command.scratch, scratch);
+  std::set<uint64_t> levels;
+  for (const auto& instance : instances_) {
+    if (!levels.insert(instance.AccelerationStructure).second) continue;
+    if (const uint64_t bytes = bytes_at(instance.AccelerationStructure)) {
+      hazards_.read_structure(instance.AccelerationStructure, bytes,
+                              "a bottom level of the top level's build");
+    }
+  }
+  if (update && command.source != command.dest && in_place != 0) {
+    hazards_.read_structure(command.source, in_place, "the update's source");
+  }
+  hazards_.write_structure(command.dest, dest, "the build's destination");
+}
+
+void Layer::check(const runtime::EmitPostbuildInfoCommand& command) {
+  hazards_.use(command.desc.DestBuffer, ResourceStates::kUnorderedAccess, "the postbuild info");
+  for (const uint64_t source : command.sources) {
+    if (const uint64_t bytes = bytes_at(source)) {
+      hazards_.read_structure(source, bytes, "the postbuild info's source");
+    }
+  }
+}
+
+void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
+  if (const uint64_t bytes = bytes_at(command.source)) {
+    hazards_.read_structure(command.source, bytes, "the copy's source");
+  }
+  hazards_.write_structure(command.dest, 256, "the copy's destination");
+}
+
+void Layer::check(const runtime::CopyBufferCommand& command) {
+  if (command.size_bytes == 0) return;
+  hazards_.use(command.source->address() + command.source_offset, ResourceStates::kCopySource,
+               "the copy's source");
+  hazards_.use(command.dest->address() + command.dest_offset, ResourceStates::kCopyDest,
+               "the copy's destination");
+}
+
+void Layer::check(const runtime::CopyTextureCommand& command) {
+  if (command.source.buffer != nullptr) {
+    hazards_.use(command.source.buffer->address(), ResourceStates::kCopySource,
+                 "the texture copy's source");
+  }
+  if (command.dest.buffer != nullptr) {
+    hazards_.use(command.dest.buffer->address(), ResourceStates::kCopyDest,
+                 "the texture copy's destination");
+  }
+}
+
+void Layer::note(const runtime::BuildCommand& command) {
+  const uint64_t size = runtime::estimate_sizes(command.type, command.flags, command.geometries,
+                                                command.instance_count)
+                            .ResultDataMaxSizeInBytes;
+  structures_.built(command, size, std::move(contents_), instances_);
+}
+
+void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
+  // How much compaction leaves only the backend knows; its first 256 bytes are there in any case.
+  const bool compact = command.mode == rtapi::RaytracingAccelerationStructureCopyMode::kCompact;
+  structures_.copied(command, compact ? 256 : 0);
+}
+
+void Layer::note(const runtime::CopyBufferCommand& command) {
+  if (command.size_bytes == 0) return;
+  const uint64_t dest = command.dest->address() + command.dest_offset;
+  structures_.written(dest, command.size_bytes);
+  structures_.bytes_copied(dest, command.source->address() + command.source_offset,
+                           command.size_bytes);
+}
+
+void Layer::note(const runtime::CopyTextureCommand& command) {
+  if (command.dest.buffer == nullptr) return;
+  structures_.written(command.dest.buffer->address() + command.dest.offset,
+                      command.dest.buffer->size_bytes() - command.dest.offset);
+}
+
+void Layer::note(const runtime::ClearUavCommand& command) {
+  if (command.view.kind == shader::DescriptorKind::kTexture) return;
+  structures_.written(command.view.address, command.view.size_bytes);
 }
 
 }  // namespace kaamos::checks

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/checks/arguments.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "runtime/checks/names.h"
+
+namespace kaamos::checks {
+namespace {
+
+using shader::BindingDesc;
+using shader::BindingSlot;
+using shader::BindingType;
+using shader::Descriptor;
+using shader::DescriptorAccess;
+using shader::DescriptorKind;
+using shader::RegisterClass;
+using shader::SlotSource;
+
+// Arrays may hold what is never indexed: only so many descriptors of one are looked at for
+// acceleration structures.
+constexpr uint32_t kMostDescriptors = 1024;
+
+struct Heap {
+  const Descriptor* begin = nullptr;
+  uint64_t address = 0;
+  uint64_t count = 0;
+};
+
+Heap heap_of(const runtime::DispatchState& state, bool samplers) {
+  const auto& buffer = samplers ? state.sampler_heap : state.view_heap;
+  if (buffer == nullptr || buffer->host() == nullptr) return {};
+  return {reinterpret_cast<const Descriptor*>(buffer->host()), buffer->address(),
+          buffer->size_bytes() / sizeof(Descriptor)};
+}
+
+bool is_sampler(const BindingDesc& binding) {
+  return binding.type == BindingType::kSampler || binding.type == BindingType::kComparisonSampler;
+}
+
+// The eight bytes of an address or handle; false where the record ends before.
+bool read_argument(const BindingSlot& slot, const Arguments& arguments, uint64_t& value) {
+  const uint8_t* base = slot.local ? arguments.local : arguments.global;
+  const uint64_t size = slot.local ? arguments.local_bytes : runtime::kRootArgumentBytes;
+  if (base == nullptr || uint64_t{slot.argument_offset} + 8 > size) return false;
+  std::memcpy(&value, base + slot.argument_offset, sizeof value);
+  return true;
+}
+
+const char* kind_name(DescriptorKind kind) {
+  switch (kind) {
+    case DescriptorKind::kNull:
+      return "a null descriptor";
+    case DescriptorKind::kConstantBuffer:
+      return "a constant buffer";
+    case DescriptorKind::kRawBuffer:
+      return "a raw buffer";
+    case DescriptorKind::kStructuredBuffer:
+      return "a structured buffer";
+    case DescriptorKind::kTypedBuffer:
+      return "a typed buffer";
+    case DescriptorKind::kTexture:
+      return "a texture";
+    case DescriptorKind::kSampler:
+      return "a sampler";
+    case DescriptorKind::kAccelerationStructure:
+      return "an acceleration structure";
+  }
+  return "an unknown descriptor";
+}
+
+DescriptorKind wanted_kind(BindingType type) {
+  switch (type) {
+    case BindingType::kConstantBuffer:
+      return DescriptorKind::kConstantBuffer;
+    case BindingType::kRawBuffer:
+      return DescriptorKind::kRawBuffer;
+    case BindingType::kStructuredBuffer:
+      return DescriptorKind::kStructuredBuffer;
+    case BindingType::kTypedBuffer:
+      return DescriptorKind::kTypedBuffer;
+    case BindingType::kTexture:
+      return DescriptorKind::kTexture;
+    case BindingType::kSampler:
+    case BindingType::kComparisonSampler:
+      return DescriptorKind::kSampler;
+    case BindingType::kAccelerationStructure:
+      return DescriptorKind::kAccelerationStructure;
+  }
+  return DescriptorKind::kNull;
+}
+
+class ArgumentCheck {
+ public:
+  ArgumentCheck(const ProofInputs& inputs, const runtime::LinkedShader& shader,
+                const Arguments& arguments, const std::string& where)
+      : inputs_(inputs), shader_(shader), arguments_(arguments), where_(where) {}
+
+  bool run() {
+    if (never_written()) return false;
+    for (uint32_t i = 0; i < shader_.slots.size(); ++i) {
+      const BindingSlot& slot = shader_.slots[i];
+      uint64_t value = 0;
+      if (slot.source == SlotSource::kRootDescriptor && read_argument(slot, arguments_, value)) {
+        check_root_descriptor(shader_.library->bindings[i], slot, value);
+      }
+      if (slot.source == SlotSource::kDescriptorTable && read_argument(slot, arguments_, value)) {
+        check_table(shader_.library->bindings[i], slot, value);
+      }
+    }
+    return good_;
+  }
+
+ private:
+  void report(Id id, const std::string& text) {
+    inputs_.reporter.report(id, text);
+    good_ = false;
+  }
+  std::string parameter(const BindingDesc& binding, const BindingSlot& slot) const {
+    return where_ + ", " + (slot.local ? "local" : "global") + " parameter " +
+           binding_name(binding);
+  }
+
+  // Addresses that are all 0 with constants that are all 0: nobody wrote this record.
+  bool never_written() {
+    std::string unset;
+    for (uint32_t i = 0; i < shader_.slots.size(); ++i) {
+      const BindingSlot& slot = shader_.slots[i];
+      const bool pointer =
+          slot.source == SlotSource::kRootDescriptor || slot.source == SlotSource::kDescriptorTable;
+      if (!slot.local || !pointer) continue;
+      unset += (unset.empty() ? "" : ", ") + binding_name(shader_.library->bindings[i]);
+    }
+    const uint64_t bytes = std::min<uint64_t>(shader_.local_argument_bytes, arguments_.local_bytes);
+    if (unset.empty() || arguments_.local == nullptr || bytes == 0) return false;
+    if (std::any_of(arguments_.local, arguments_.local + bytes, [](uint8_t b) { return b != 0; })) {
+      return false;
+    }
+    report(Id::kRecordNeverWritten,
+           where_ + ": all " + std::to_string(shader_.local_argument_bytes) +
+               " bytes of arguments after the identifier are 0, but the shader reads " + unset +
+               ". Write the arguments of the local root signature behind the identifier, from "
+               "byte 32 of the record.");
+    return true;
+  }
+
+  void check_root_descriptor(const BindingDesc& binding, const BindingSlot& slot, uint64_t value) {
+    if (value == 0 || binding.type == BindingType::kAccelerationStructure) return;
+    const auto allocation = inputs_.addresses.find(value);
+    if (!allocation) {
+      return report(Id::kRecordArgument,
+                    parameter(binding, slot) + ": the root descriptor is " + hex(value) +
+                        ", which is in no live buffer. Was the buffer freed, or are the "
+                        "arguments laid out in another order than the root signature's?");
+    }
+    const bool constants = binding.type == BindingType::kConstantBuffer;
+    const uint64_t alignment = constants ? 256 : 4;
+    if (value % alignment != 0) {
+      report(Id::kRecordArgumentKind, parameter(binding, slot) + ": the root descriptor is " +
+                                          address_name(inputs_.addresses, value) + "; " +
+                                          (constants ? "a constant buffer" : "a buffer") +
+                                          " starts at a multiple of " + std::to_string(alignment) +
+                                          ".");
+    }
+    if (binding.register_class == RegisterClass::kUnorderedAccess &&
+        !rtapi::HasAny(allocation->flags, rtapi::ResourceFlags::kAllowUnorderedAccess)) {
+      report(Id::kRecordArgumentKind,
+             parameter(binding, slot) + ": the root descriptor is " +
+                 address_name(inputs_.addresses, value) +
+                 ", which was created without kAllowUnorderedAccess; the shader may write there.");
+    }
+  }
+
+  void check_table(const BindingDesc& binding, const BindingSlot& slot, uint64_t value) {
+    const bool samplers = is_sampler(binding);
+    const Heap heap = heap_of(*arguments_.state, samplers);
+    const char* heap_kind = samplers ? "sampler" : "CBV/SRV/UAV";
+    const uint64_t offset = value - heap.address;
+    const uint64_t first = offset / sizeof(Descriptor);
+    if (heap.begin == nullptr || value < heap.address || first >= heap.count ||
+        offset % sizeof(Descriptor) != 0) {
+      return report(Id::kRecordArgument,
+                    parameter(binding, slot) + ": the descriptor table is handle " + hex(value) +
+                        ", which is in no " + heap_kind + " heap that is set" +
+                        (heap.begin == nullptr ? "; none is. Call SetDescriptorHeaps"
+                                               : ". Is it the handle of another heap, or a CPU "
+                                                 "handle?"));
+    }
+    const uint64_t index = first + slot.descriptor_index;
+    if (binding.count != 1) return;  // which of an array are read is not known
+    if (index >= heap.count) {
+      return report(Id::kRecordArgument, parameter(binding, slot) + ": descriptor " +
+                                             std::to_string(index) + " of a " + heap_kind +
+                                             " heap that has " + std::to_string(heap.count) + ".");
+    }
+    check_descriptor(binding, slot, heap.begin[index], index);
+  }
+
+  void check_descriptor(const BindingDesc& binding, const BindingSlot& slot,
+                        const Descriptor& descriptor, uint64_t index) {
+    if (descriptor.kind == DescriptorKind::kNull) return;
+    const DescriptorKind wanted = wanted_kind(binding.type);
+    const std::string place =
+        parameter(binding, slot) + ": descriptor " + std::to_string(index) + " of the heap is ";
+    if (descriptor.kind != wanted) {
+      return report(Id::kRecordArgumentKind,
+                    place + kind_name(descriptor.kind) + ", the shader declares " +
+                        kind_name(wanted) + ". Is the table's first descriptor the right one?");
+    }
+    const bool buffer =
+        wanted == DescriptorKind::kConstantBuffer || wanted == DescriptorKind::kRawBuffer ||
+        wanted == DescriptorKind::kStructuredBuffer || wanted == DescriptorKind::kTypedBuffer;
+    if (buffer && descriptor.address != 0 && !inputs_.addresses.find(descriptor.address)) {
+      report(Id::kRecordArgument, place + "a view of a buffer that was freed since, at address " +
+                                      hex(descriptor.address) + ".");
+    }
+    const bool writable = binding.register_class == RegisterClass::kUnorderedAccess;
+    const bool view =
+        wanted != DescriptorKind::kSampler && wanted != DescriptorKind::kConstantBuffer;
+    if (view && writable != (descriptor.access == DescriptorAccess::kUnorderedAccess)) {
+      report(Id::kRecordArgumentKind,
+             place + (writable ? "a shader resource view, the shader declares an unordered access "
+                                 "view."
+                               : "an unordered access view, the shader declares a shader resource "
+                                 "view."));
+    }
+  }
+
+  const ProofInputs& inputs_;
+  const runtime::LinkedShader& shader_;
+  const Arguments& arguments_;
+  const std::string& where_;
+  bool good_ = true;
+};
+
+}  // namespace
+
+bool check_arguments(const ProofInputs& inputs, const runtime::LinkedShader& shader,
+                     const Arguments& arguments, const std::string& where) {
+  return ArgumentCheck(inputs, shader, arguments, where).run();
+}
+
+std::vector<uint64_t> structures_behind(const runtime::LinkedShader& shader, uint32_t binding,
+                                        const Arguments& arguments) {
+  std::vector<uint64_t> out;
+  if (binding >= shader.slots.size()) return out;
+  const BindingSlot& slot = shader.slots[binding];
+  uint64_t value = 0;
+  if (slot.source == SlotSource::kRootDescriptor) {
+    if (read_argument(slot, arguments, value)) out.push_back(value);
+    return out;
+  }
+  if (slot.source != SlotSource::kDescriptorTable || !read_argument(slot, arguments, value)) {
+    return out;
+  }
+  const Heap heap = heap_of(*arguments.state, false);
+  if (heap.begin == nullptr || value < heap.address ||
+      (value - heap.address) % sizeof(Descriptor) != 0) {
+    return out;
+  }
+  const uint64_t first = (value - heap.address) / sizeof(Descriptor) + slot.descriptor_index;
+  const uint32_t count =
+      std::min({slot.descriptor_count, shader.library->bindings[binding].count, kMostDescriptors});
+  for (uint64_t i = first; i < std::min<uint64_t>(first + count, heap.count); ++i) {
+    if (heap.begin[i].kind == DescriptorKind::kAccelerationStructure) {
+      out.push_back(heap.begin[i].address);
+    }
+  }
+  return out;
+}
+
+void collect_uses(const runtime::LinkedShader& shader, const Arguments& arguments,
+                  const std::string& shader_name, std::vector<ShaderUse>& uses) {
+  using rtapi::ResourceStates;
+  for (uint32_t i = 0; i < shader.slots.size(); ++i) {
+    const BindingSlot& slot = shader.slots[i];
+    const BindingDesc& binding = shader.library->bindings[i];
+    if (slot.source == SlotSource::kUnbound || binding.count != 1) continue;
+    ShaderUse use;
+    use.what = shader_name + ", " + binding_name(binding);
+    if (binding.type == BindingType::kAccelerationStructure) {
+      use.structure = true;
+      for (const uint64_t address : structures_behind(shader, i, arguments)) {
+        use.address = address;
+        if (address != 0) uses.push_back(use);
+      }
+      continue;
+    }
+    use.state = binding.type == BindingType::kConstantBuffer
+                    ? ResourceStates::kVertexAndConstantBuffer
+                : binding.register_class == RegisterClass::kUnorderedAccess
+                    ? ResourceStates::kUnorderedAccess
+                    : ResourceStates::kNonPixelShaderResource;
+    uint64_t value = 0;
+    if (slot.source == SlotSource::kRootDescriptor && read_argument(slot, arguments, value)) {
+      use.address = value;
+    } else if (slot.source == SlotSource::kDescriptorTable &&
+               read_argument(slot, arguments, value)) {
+      const Heap heap = heap_of(*arguments.state, is_sampler(binding));
+      const uint64_t index = (value - heap.address) / sizeof(Descriptor) + slot.descriptor_index;
+      if (heap.begin == nullptr || value < heap.address || index >= heap.count) continue;
+      const Descriptor& descriptor = heap.begin[index];
+      const bool buffer = descriptor.kind == DescriptorKind::kConstantBuffer ||
+                          descriptor.kind == DescriptorKind::kRawBuffer ||
+                          descriptor.kind == DescriptorKind::kStructuredBuffer ||
+                          descriptor.kind == DescriptorKind::kTypedBuffer;
+      if (buffer) use.address = descriptor.address;
+    }
+    if (use.address != 0) uses.push_back(std::move(use));
+  }
+}
+
+}  // namespace kaamos::checks

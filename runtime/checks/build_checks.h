@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// What a build reads: indices, vertices, boxes and instance records, held against DXR's rules.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "runtime/checks/table_proof.h"
+
+namespace kaamos::checks {
+
+// Reports KA0472, KA0473 of each geometry.
+std::vector<GeometryContents> check_geometries(const ProofInputs& inputs,
+                                               const runtime::BuildCommand& command);
+// KA0474, KA0476.
+void check_instances(const ProofInputs& inputs,
+                     const std::vector<rtapi::RaytracingInstanceDesc>& instances);
+// KA0470: an update with other indices, or other inactive vertices or boxes, than its source has.
+void check_update_contents(const ProofInputs& inputs, const runtime::BuildCommand& command,
+                           const std::vector<GeometryContents>& contents);
+// KA0471: ranges of one build that must not overlap.
+void check_ranges(const ProofInputs& inputs, const runtime::BuildCommand& command,
+                  uint64_t dest_bytes, uint64_t scratch_bytes);
+
+}  // namespace kaamos::checks

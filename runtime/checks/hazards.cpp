@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/checks/hazards.h"
+
+#include <utility>
+
+#include "runtime/backend.h"
+#include "runtime/checks/names.h"
+
+namespace kaamos::checks {
+namespace {
+
+using rtapi::HasAny;
+using rtapi::ResourceStates;
+
+constexpr ResourceStates kWritable = ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest;
+
+}  // namespace
+
+std::string state_name(ResourceStates state) {
+  static constexpr std::pair<ResourceStates, const char*> kNames[] = {
+      {ResourceStates::kVertexAndConstantBuffer, "kVertexAndConstantBuffer"},
+      {ResourceStates::kUnorderedAccess, "kUnorderedAccess"},
+      {ResourceStates::kNonPixelShaderResource, "kNonPixelShaderResource"},
+      {ResourceStates::kIndirectArgument, "kIndirectArgument"},
+      {ResourceStates::kCopyDest, "kCopyDest"},
+      {ResourceStates::kCopySource, "kCopySource"},
+  };
+  if (state == ResourceStates::kCommon) return "kCommon";
+  if (state == ResourceStates::kGenericRead) return "kGenericRead";
+  std::string text;
+  for (const auto& [bit, name] : kNames) {
+    if (HasAny(state, bit)) text += (text.empty() ? "" : " | ") + std::string(name);
+  }
+  return text.empty() ? hex(static_cast<uint32_t>(state)) : text;
+}
+
+void Hazards::begin_list() {
+  written_.clear();
+  read_.clear();
+  scratch_.clear();
+  states_.clear();
+}
+
+void Hazards::add(Ranges& ranges, uint64_t begin, uint64_t end, std::string what) {
+  Range& range = ranges[begin];
+  if (range.end < end) range.end = end;
+  range.what = std::move(what);
+}
+
+void Hazards::drop(Ranges& ranges, uint64_t begin, uint64_t end) {
+  for (auto it = ranges.begin(); it != ranges.end();) {
+    it = it->first < end && begin < it->second.end ? ranges.erase(it) : std::next(it);
+  }
+}
+
+void Hazards::hold_against(Ranges& ranges, uint64_t begin, uint64_t end, const std::string& what) {
+  for (auto it = ranges.begin(); it != ranges.end();) {
+    if (it->first >= end || begin >= it->second.end) {
+      ++it;
+      continue;
+    }
+    const auto allocation = addresses_.find(it->first);
+    reporter_.report(
+        Id::kUavBarrierMissing,
+        what + " at " + address_name(addresses_, begin) + " is " + it->second.what +
+            ", and there is no UAV barrier between the two. Record ResourceBarrier::Uav of " +
+            (allocation && !allocation->name.empty() ? quoted(allocation->name)
+                                                     : std::string("the buffer")) +
+            ", or of no resource for all, after the first.");
+    it = ranges.erase(it);
+  }
+}
+
+void Hazards::barrier(const runtime::BarrierCommand& command) {
+  if (command.texture != nullptr) return;
+  if (command.buffer == nullptr) {
+    if (command.kind != runtime::BarrierCommand::Kind::kUav) return;
+    written_.clear();
+    read_.clear();
+    scratch_.clear();
+    return;
+  }
+  const uint64_t begin = command.buffer->address();
+  const uint64_t end = begin + command.buffer->size_bytes();
+  for (Ranges* ranges : {&written_, &read_, &scratch_}) drop(*ranges, begin, end);
+  if (command.kind != runtime::BarrierCommand::Kind::kTransition) return;
+  const auto it = states_.find(begin);
+  if (it != states_.end() && !it->second.promoted && it->second.state != command.before) {
+    const auto allocation = addresses_.find(begin);
+    reporter_.report(Id::kTransitionBefore,
+                     "StateBefore of " +
+                         (allocation ? buffer_name(*allocation) : std::string("a buffer")) +
+                         " is " + state_name(command.before) + ", but it is in state " +
+                         state_name(it->second.state) + " since " + it->second.by +
+                         ". Give the state that it is in.");
+  }
+  if (command.after == ResourceStates::kCommon) {
+    states_.erase(begin);
+  } else {
+    states_[begin] = {command.after, false, label_};
+  }
+}
+
+void Hazards::read_structure(uint64_t address, uint64_t size_bytes, const std::string& what) {
+  hold_against(written_, address, address + size_bytes, what);
+  add(read_, address, address + size_bytes, "read by " + label_);
+}
+
+void Hazards::write_structure(uint64_t address, uint64_t size_bytes, const std::string& what) {
+  hold_against(written_, address, address + size_bytes, what);
+  hold_against(read_, address, address + size_bytes, what);
+  add(written_, address, address + size_bytes, "written by " + label_);
+}
+
+void Hazards::use_scratch(uint64_t address, uint64_t size_bytes) {
+  if (size_bytes == 0) return;
+  hold_against(scratch_, address, address + size_bytes, "the scratch memory");
+  add(scratch_, address, address + size_bytes, "scratch memory of " + label_);
+}
+
+void Hazards::use(uint64_t address, ResourceStates wanted, const std::string& what) {
+  const auto allocation = addresses_.find(address);
+  if (!allocation || allocation->heap != rtapi::HeapType::kDefault) return;
+  if (allocation->acceleration_structure) return;
+  const auto [it, first] = states_.try_emplace(allocation->address, State{wanted, true, label_});
+  if (first) return;
+  State& state = it->second;
+  if ((state.state & wanted) == wanted) return;
+  if (state.promoted && !HasAny(state.state | wanted, kWritable)) {
+    state.state = state.state | wanted;
+    return;
+  }
+  reporter_.report(Id::kResourceState,
+                   what + " is in " + buffer_name(*allocation) + ", which is in state " +
+                       state_name(state.state) + " since " + state.by + "; it must be in state " +
+                       state_name(wanted) + ". Record ResourceBarrier::Transition from " +
+                       state_name(state.state) + " to " + state_name(wanted) + " before.");
+  state = {wanted, true, label_};
+}
+
+}  // namespace kaamos::checks

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/checks/structures.h"
+
+#include <cstring>
+#include <utility>
+
+#include "runtime/checks/names.h"
+
+namespace kaamos::checks {
+namespace {
+
+using rtapi::HasAny;
+using runtime::BuildFlags;
+using Type = rtapi::RaytracingAccelerationStructureType;
+
+// So many of those that are gone are remembered.
+constexpr size_t kMostGone = 4096;
+
+}  // namespace
+
+std::vector<rtapi::RaytracingInstanceDesc> Structures::read_instances(
+    const runtime::BuildCommand& command) const {
+  std::vector<rtapi::RaytracingInstanceDesc> out;
+  if (command.type != Type::kTopLevel || command.instance_count == 0) return out;
+  const bool pointers = command.instance_layout == rtapi::ElementsLayout::kArrayOfPointers;
+  const uint64_t element = pointers ? 8 : sizeof(rtapi::RaytracingInstanceDesc);
+  if (!addresses_.contains(command.instance_descs, command.instance_count * element)) return out;
+  const uint8_t* host = addresses_.host(command.instance_descs);
+  out.resize(command.instance_count);
+  for (uint32_t i = 0; i < command.instance_count; ++i) {
+    const uint8_t* record = host + i * element;
+    if (pointers) {
+      uint64_t address;
+      std::memcpy(&address, record, sizeof address);
+      if (!addresses_.contains(address, sizeof out[i])) continue;
+      record = addresses_.host(address);
+    }
+    std::memcpy(static_cast<void*>(&out[i]), record, sizeof out[i]);
+  }
+  return out;
+}
+
+void Structures::end_in(uint64_t address, uint64_t size_bytes, uint64_t by) {
+  auto it = structures_.lower_bound(address);
+  if (it != structures_.begin()) {
+    const auto before = std::prev(it);
+    if (address - before->first < before->second.size_bytes) it = before;
+  }
+  while (it != structures_.end() && (it->first < address || it->first - address < size_bytes)) {
+    if (gone_.size() > kMostGone) gone_.clear();
+    gone_[it->first] = {std::move(it->second), by};
+    it = structures_.erase(it);
+    ++next_version_;
+  }
+}
+
+void Structures::place(TrackedStructure structure) {
+  const uint64_t begin = structure.address;
+  end_in(begin, structure.size_bytes, begin);
+  gone_.erase(begin);
+  byte_copies_.erase(begin);
+  structure.version = next_version_++;
+  if (addresses_.contains(begin, structure.header.size())) {
+    std::memcpy(structure.header.data(), addresses_.host(begin), structure.header.size());
+  }
+  structures_[begin] = std::move(structure);
+}
+
+void Structures::built(const runtime::BuildCommand& command, uint64_t size_bytes,
+                       std::vector<GeometryContents> contents,
+                       const std::vector<rtapi::RaytracingInstanceDesc>& instances) {
+  TrackedStructure structure;
+  structure.contents = std::move(contents);
+  structure.address = command.dest;
+  structure.size_bytes = size_bytes;
+  if (HasAny(command.flags, BuildFlags::kPerformUpdate)) {
+    // An update takes the memory of its source.
+    if (const uint64_t bytes = structure_bytes(command.source)) structure.size_bytes = bytes;
+  }
+  structure.top = command.type == Type::kTopLevel;
+  structure.flags = command.flags & ~BuildFlags::kPerformUpdate;
+  for (uint32_t i = 0; i < command.geometries.size(); ++i) {
+    structure.geometries.push_back(runtime::shape_of(command.geometries[i], i));
+  }
+  structure.instances.reserve(instances.size());
+  for (const rtapi::RaytracingInstanceDesc& desc : instances) {
+    TrackedInstance instance;
+    instance.bottom_level = desc.AccelerationStructure;
+    instance.contribution = desc.InstanceContributionToHitGroupIndex;
+    instance.mask = desc.InstanceMask;
+    instance.flags = desc.Flags;
+    StructureState state;
+    const TrackedStructure* level = find(desc.AccelerationStructure, state);
+    if (level != nullptr && state == StructureState::kAlive) instance.version = level->version;
+    structure.instances.push_back(instance);
+  }
+  place(std::move(structure));
+}
+
+void Structures::copied(const runtime::CopyAccelerationStructureCommand& command,
+                        uint64_t size_bytes) {
+  using Mode = rtapi::RaytracingAccelerationStructureCopyMode;
+  if (command.mode != Mode::kClone && command.mode != Mode::kCompact &&
+      command.mode != Mode::kDeserialize) {
+    return;
+  }
+  TrackedStructure structure;
+  if (const auto it = structures_.find(command.source); it != structures_.end()) {
+    structure = it->second;
+  } else {
+    structure.known = false;
+  }
+  structure.address = command.dest;
+  if (size_bytes != 0) structure.size_bytes = size_bytes;
+  place(std::move(structure));
+}
+
+void Structures::bytes_copied(uint64_t dest, uint64_t source, uint64_t size_bytes) {
+  for (auto it = structures_.lower_bound(source);
+       it != structures_.end() && it->first - source < size_bytes; ++it) {
+    byte_copies_[dest + (it->first - source)] = it->first;
+    ++next_version_;
+  }
+}
+
+uint64_t Structures::structure_bytes(uint64_t address) const {
+  const auto it = structures_.find(address);
+  return it == structures_.end() ? 0 : it->second.size_bytes;
+}
+
+const TrackedStructure* Structures::find(uint64_t address, StructureState& state) const {
+  const auto allocation = addresses_.find(address);
+  if (const auto it = structures_.find(address); it != structures_.end()) {
+    const TrackedStructure& structure = it->second;
+    if (!allocation) {
+      state = StructureState::kFreed;
+    } else {
+      const bool same = addresses_.contains(address, structure.header.size()) &&
+                        std::memcmp(addresses_.host(address), structure.header.data(),
+                                    structure.header.size()) == 0;
+      state = same ? StructureState::kAlive : StructureState::kOverwritten;
+    }
+    return &structure;
+  }
+  if (byte_copies_.count(address) != 0) {
+    state = StructureState::kBytesCopied;
+    return nullptr;
+  }
+  if (const auto it = gone_.find(address); it != gone_.end()) {
+    state = !allocation          ? StructureState::kFreed
+            : it->second.by == 0 ? StructureState::kOverwritten
+                                 : StructureState::kReplaced;
+    return &it->second.structure;
+  }
+  state = StructureState::kNever;
+  return nullptr;
+}
+
+std::string Structures::history(uint64_t address, StructureState state) const {
+  switch (state) {
+    case StructureState::kAlive:
+      return "stands there";
+    case StructureState::kNever:
+      return "was never built there";
+    case StructureState::kOverwritten:
+      return "stood there, and its bytes were written over since";
+    case StructureState::kReplaced: {
+      const auto it = gone_.find(address);
+      return "stood there, and another one was built or copied over it" +
+             (it == gone_.end() ? std::string()
+                                : ", at " + address_name(addresses_, it->second.by));
+    }
+    case StructureState::kFreed:
+      return "stood there, and its buffer was freed since";
+    case StructureState::kBytesCopied: {
+      const auto it = byte_copies_.find(address);
+      return "was copied there as bytes, from " +
+             address_name(addresses_, it == byte_copies_.end() ? 0 : it->second) +
+             "; that makes no structure. Use CopyRaytracingAccelerationStructure";
+    }
+  }
+  return "";
+}
+
+}  // namespace kaamos::checks

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// The shader tables of a dispatch, proven before it runs: which records any instance, geometry and
+// ray type can reach, and whether each holds what it must. Of a TraceRay whose arguments are not
+// constants nothing is known ahead; the backends say what such a ray meets (KA0894-0896).
+// [DXR: Shader tables; Hit group table indexing]
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "runtime/backend.h"
+#include "runtime/checks/identifiers.h"
+#include "runtime/checks/report.h"
+#include "runtime/checks/structures.h"
+
+namespace kaamos::checks {
+
+struct ProofInputs {
+  const runtime::AddressMap& addresses;
+  const Structures& structures;
+  const Identifiers& identifiers;
+  Reporter& reporter;
+};
+
+// A buffer or structure that a reached shader can read or write.
+struct ShaderUse {
+  uint64_t address = 0;
+  bool structure = false;
+  rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;  // of buffers
+  std::string what;  // "miss shader \"Miss\", t1 \"sky\""
+};
+
+// Reports what is wrong; true if nothing is. Adds what the reached shaders use to `uses`.
+bool prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
+                  std::vector<ShaderUse>& uses);
+
+// The structure behind one acceleration structure binding: stands there, is a top level, is not
+// stale. `user` says who traces: "ray generation shader \"RayGen\", t0 \"scene\"". False: reported.
+bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user);
+
+}  // namespace kaamos::checks

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+//
+// Acceleration structures: their lives, what builds read, barriers and states.
+#include <cmath>
+#include <limits>
+
+#include "tests/checks/world.h"
+
+namespace kaamos::checks::test {
+namespace {
+
+using namespace rtapi;
+using BuildFlags = RaytracingAccelerationStructureBuildFlags;
+
+class Structure : public World {
+ protected:
+  void SetUp() override {
+    World::SetUp();
+    if (IsSkipped()) return;
+    build_scene();
+    set_ = make_tables(pipeline_);
+  }
+  TableSet set_;
+};
+
+TEST_P(Structure, BuildTraceUpdateTraceWithBarriersIsSilent) {
+  const auto descs = triangles();
+  const auto inputs = bottom_inputs(descs, BuildFlags::kAllowUpdate);
+  auto again = inputs;
+  again.Flags = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
+  bottom_ = structure_for(inputs, "floor");
+  const auto instances = top_inputs({instance(bottom_)});
+  top_ = structure_for(instances, "scene");
+  CommandList commands = list();
+  record_build(commands, bottom_, inputs);
+  commands.ResourceBarrier(ResourceBarrier::Uav(bottom_));
+  record_build(commands, top_, instances);
+  commands.ResourceBarrier(ResourceBarrier::Uav(top_));
+  record_dispatch(commands, set_.desc);
+  commands.ResourceBarrier(ResourceBarrier::Uav());
+  record_build(commands, bottom_, again, bottom_.GetGPUVirtualAddress());
+  commands.ResourceBarrier(ResourceBarrier::Uav());
+  record_build(commands, top_, instances);
+  commands.ResourceBarrier(ResourceBarrier::Uav());
+  record_dispatch(commands, set_.desc);
+  ASSERT_TRUE(execute(commands).ok());
+  expect_none();
+}
+
+TEST_P(Structure, MissingBarrierBetweenBuilds) {
+  const auto descs = triangles();
+  const auto inputs = bottom_inputs(descs);
+  bottom_ = structure_for(inputs, "floor");
+  const auto instances = top_inputs({instance(bottom_)});
+  CommandList commands = list();
+  record_build(commands, bottom_, inputs);
+  record_build(commands, top_, instances);
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0450", {"a bottom level of the top level's build at byte 0 of buffer \"floor\"",
+                        "is written by BuildRaytracingAccelerationStructure, command 0",
+                        "Record ResourceBarrier::Uav of \"floor\"",
+                        "(BuildRaytracingAccelerationStructure, command 1)"});
+}
+
+TEST_P(Structure, MissingBarrierBeforeTheDispatch) {
+  const auto instances = top_inputs({instance(bottom_)});
+  CommandList commands = list();
+  record_build(commands, top_, instances);
+  record_dispatch(commands, set_.desc);
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0450", {"ray generation shader \"RayGen\", t0 \"scene\" at byte 0 of buffer "
+                        "\"scene\"",
+                        "is written by BuildRaytracingAccelerationStructure, command 0"});
+}
+
+TEST_P(Structure, ScratchUsedTwiceWithoutABarrier) {
+  const auto descs = triangles();
+  const auto inputs = bottom_inputs(descs);
+  const Buffer a = structure_for(inputs, "a");
+  const Buffer b = structure_for(inputs, "b");
+  const Buffer scratch = buffer(65536, "shared scratch");
+  CommandList commands = list();
+  for (const Buffer& dest : {a, b}) {
+    commands.BuildRaytracingAccelerationStructure(
+        {.DestAccelerationStructureData = dest.GetGPUVirtualAddress(),
+         .Inputs = inputs,
+         .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
+  }
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0450", {"the scratch memory at byte 0 of buffer \"shared scratch\"",
+                        "is scratch "
+                        "memory of BuildRaytracingAccelerationStructure, command 0"});
+}
+
+TEST_P(Structure, InputThatIsStillACopyDestination) {
+  auto descs = triangles();
+  const Buffer moved = buffer(36, "moved.vb");
+  descs[0].Triangles.VertexBuffer.StartAddress = moved.GetGPUVirtualAddress();
+  const auto inputs = bottom_inputs(descs);
+  CommandList commands = list();
+  commands.CopyBufferRegion(moved, 0, vertices_, 0, 36);
+  record_build(commands, structure_for(inputs, "floor"), inputs);
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0451",
+             {"the build's vertex buffer is in buffer \"moved.vb\" (36 bytes), which is in state "
+              "kCopyDest since CopyBufferRegion, command 0; it must be in state "
+              "kNonPixelShaderResource"});
+  CommandList right = list();
+  right.CopyBufferRegion(moved, 0, vertices_, 0, 36);
+  right.ResourceBarrier(ResourceBarrier::Transition(moved, ResourceStates::kCopyDest,
+                                                    ResourceStates::kNonPixelShaderResource));
+  record_build(right, structure_for(inputs, "floor"), inputs);
+  ASSERT_TRUE(execute(right).ok());
+  expect_none();
+}
+
+TEST_P(Structure, TransitionFromAnotherState) {
+  const Buffer b = buffer(64, "work");
+  CommandList commands = list();
+  commands.ResourceBarrier(ResourceBarrier::Transition(b, ResourceStates::kUnorderedAccess,
+                                                       ResourceStates::kCopySource));
+  commands.ResourceBarrier(
+      ResourceBarrier::Transition(b, ResourceStates::kUnorderedAccess, ResourceStates::kCopyDest));
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0452", {"StateBefore of buffer \"work\" (64 bytes) is kUnorderedAccess, but it is "
+                        "in state kCopySource since ResourceBarrier, command 0"});
+}
+
+TEST_P(Structure, StaleTopLevel) {
+  const auto descs = triangles();
+  CommandList commands = list();
+  record_build(commands, bottom_, bottom_inputs(descs));
+  ASSERT_TRUE(execute(commands).ok());
+  dispatch(set_.desc);
+  expect_one("KA0463", {"ray generation shader \"RayGen\", t0 \"scene\" uses byte 0 of buffer "
+                        "\"scene\"",
+                        "instance 0 of it refers to the bottom level at byte 0 of "
+                        "buffer \"floor\"",
+                        "was built or updated after the top level"});
+}
+
+TEST_P(Structure, OverwrittenBottomLevel) {
+  CommandList commands = list();
+  const Buffer zeros = upload(std::vector<uint32_t>(64), "zeros");
+  commands.CopyBufferRegion(bottom_, 0, zeros, 0, 256);
+  ASSERT_TRUE(execute(commands).ok());
+  messages_.clear();
+  dispatch(set_.desc);
+  expect_one("KA0461", {"instance 0 of it refers to the bottom level at byte 0 of buffer "
+                        "\"floor\"",
+                        "stood there, and its bytes were written over since"});
+}
+
+TEST_P(Structure, FreedBottomLevel) {
+  std::erase(keep_, bottom_);
+  bottom_ = {};
+  dispatch(set_.desc);
+  expect_one("KA0462", {"instance 0", "stood there, and its buffer was freed since"});
+}
+
+TEST_P(Structure, NothingThereToTrace) {
+  top_ = buffer(1024, "empty", true);
+  dispatch(set_.desc);
+  expect_one("KA0460",
+             {"uses byte 0 of buffer \"empty\" (1024 bytes): an acceleration structure was "
+              "never built there. Every ray misses"});
+}
+
+TEST_P(Structure, BottomLevelPassedToTraceRay) {
+  top_ = bottom_;
+  dispatch(set_.desc);
+  expect_one("KA0464", {"there stands a bottom level, and rays are traced against top levels"});
+}
+
+TEST_P(Structure, BytesCopiedStructure) {
+  const Buffer copy = buffer(top_.size(), "copy", true);
+  CommandList commands = list();
+  commands.CopyBufferRegion(copy, 0, top_, 0, top_.size());
+  ASSERT_TRUE(execute(commands).ok());
+  messages_.clear();
+  top_ = copy;
+  dispatch(set_.desc);
+  expect_one("KA0465", {"was copied there as bytes, from byte 0 of buffer \"scene\"",
+                        "Use CopyRaytracingAccelerationStructure"});
+}
+
+TEST_P(Structure, UpdateWithOtherIndices) {
+  auto descs = triangles();
+  Buffer indices = upload(std::vector<uint32_t>{0, 1, 2}, "floor.ib");
+  descs[0].Triangles.IndexFormat = Format::kR32Uint;
+  descs[0].Triangles.IndexCount = 3;
+  descs[0].Triangles.IndexBuffer = indices.GetGPUVirtualAddress();
+  auto inputs = bottom_inputs(descs, BuildFlags::kAllowUpdate);
+  const Buffer level = build(inputs, "floor");
+  expect_none();
+  indices.data<uint32_t>()[0] = 1;
+  inputs.Flags = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
+  CommandList commands = list();
+  record_build(commands, level, inputs, level.GetGPUVirtualAddress());
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0470", {"geometry 0 of the update of byte 0 of buffer \"floor\"",
+                        "has other indices than when it was built"});
+}
+
+TEST_P(Structure, ScratchInTheDestination) {
+  const auto descs = triangles();
+  const auto inputs = bottom_inputs(descs);
+  const Buffer dest = structure_for(inputs, "floor");
+  CommandList commands = list();
+  commands.BuildRaytracingAccelerationStructure(
+      {.DestAccelerationStructureData = dest.GetGPUVirtualAddress(),
+       .Inputs = inputs,
+       .ScratchAccelerationStructureData = dest.GetGPUVirtualAddress()});
+  ASSERT_TRUE(execute(commands).ok());
+  expect_one("KA0471", {"scratch (bytes 0..", "lies in the destination"});
+}
+
+TEST_P(Structure, IndexPastTheVertices) {
+  auto descs = triangles();
+  const Buffer indices = upload(std::vector<uint32_t>{0, 1, 2, 0, 7, 2}, "floor.ib");
+  descs[0].Triangles.IndexFormat = Format::kR32Uint;
+  descs[0].Triangles.IndexCount = 6;
+  descs[0].Triangles.IndexBuffer = indices.GetGPUVirtualAddress();
+  build(bottom_inputs(descs), "floor");
+  expect_one("KA0472", {"geometry 0 of the bottom level at byte 0 of buffer \"floor\"",
+                        "index 7 of triangle 1 (element 4 of the indices at byte 0 of buffer "
+                        "\"floor.ib\" (24 bytes)), VertexCount is 3"});
+}
+
+TEST_P(Structure, NotANumberInY) {
+  const auto descs = triangles();
+  vertices_.data<float>()[4] = std::numeric_limits<float>::quiet_NaN();
+  build(bottom_inputs(descs), "floor");
+  expect_one("KA0473", {"vertex 1 (byte 0 of buffer \"floor.vb\" (36 bytes) + 1 * 12) has NaN in Y "
+                        "or Z and a number in X"});
+  vertices_.data<float>()[3] = std::numeric_limits<float>::quiet_NaN();
+  build(bottom_inputs(descs), "floor");
+  expect_none();  // NaN in X: inactive
+}
+
+TEST_P(Structure, InstanceFlagsAndStructures) {
+  RaytracingInstanceDesc bad = instance(bottom_);
+  bad.Flags = 12;
+  build(top_inputs({bad}), "scene");
+  expect_one("KA0474", {"instance 0 has kForceOpaque and kForceNonOpaque"});
+  build(top_inputs({instance(bottom_), instance(top_)}), "scene");
+  expect_one("KA0476",
+             {"instance 1 refers to byte 0 of buffer \"scene\"", "there stands a top level"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Embree, Structure, ::testing::Values("embree"));
+INSTANTIATE_TEST_SUITE_P(Vulkan, Structure, ::testing::Values("vulkan"));
+
+}  // namespace
+}  // namespace kaamos::checks::test
