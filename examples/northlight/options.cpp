@@ -91,6 +91,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str();
   app.add_option("--backend", options.backend, "the backend that runs the shaders: embree, vulkan")
       ->capture_default_str();
+  app.add_flag("--checked", options.checked, "checked mode: says what DXR leaves undefined");
   app.add_option("--precision", options.precision,
                  "of ray and triangle tests on embree: fast, robust, exact")
       ->capture_default_str()

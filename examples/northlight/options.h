@@ -13,6 +13,7 @@ struct Options {
   std::string scene = "lounge";  // or a .gltf or .glb file
   std::string backend = "embree";
   std::string precision = "robust";  // of traversals: fast, robust, exact
+  bool checked = false;              // checked mode: what it finds is printed
   std::uint32_t width = 1280;
   std::uint32_t height = 720;
   bool ao = true;

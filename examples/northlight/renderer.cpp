@@ -48,6 +48,7 @@ rtapi::Result<std::unique_ptr<Renderer>> Renderer::create(
   if (options.precision == "fast") desc.Precision = rtapi::TraversalPrecision::kFast;
   if (options.precision == "exact") desc.Precision = rtapi::TraversalPrecision::kExact;
   desc.CollectStatistics = true;
+  desc.Checked = options.checked;
   desc.OnMessage = [message = std::move(message)](const rtapi::Message& m) { message(m.Text); };
   const auto device = rtapi::CreateDevice(desc);
   if (!device) return device.error();

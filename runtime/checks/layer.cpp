@@ -216,6 +216,11 @@ void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
   if (const uint64_t bytes = bytes_at(command.source)) {
     hazards_.read_structure(command.source, bytes, "the copy's source");
   }
+  using Mode = rtapi::RaytracingAccelerationStructureCopyMode;
+  if (command.mode == Mode::kSerialize || command.mode == Mode::kVisualizationDecodeForTools) {
+    return hazards_.use(command.dest, ResourceStates::kUnorderedAccess, "the copy's destination");
+  }
+  // How much is written only the backend knows.
   hazards_.write_structure(command.dest, 256, "the copy's destination");
 }
 
@@ -253,10 +258,7 @@ void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
 
 void Layer::note(const runtime::CopyBufferCommand& command) {
   if (command.size_bytes == 0) return;
-  const uint64_t dest = command.dest->address() + command.dest_offset;
-  structures_.written(dest, command.size_bytes);
-  structures_.bytes_copied(dest, command.source->address() + command.source_offset,
-                           command.size_bytes);
+  structures_.written(command.dest->address() + command.dest_offset, command.size_bytes);
 }
 
 void Layer::note(const runtime::CopyTextureCommand& command) {

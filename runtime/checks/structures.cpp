@@ -58,10 +58,11 @@ void Structures::place(TrackedStructure structure) {
   const uint64_t begin = structure.address;
   end_in(begin, structure.size_bytes, begin);
   gone_.erase(begin);
-  byte_copies_.erase(begin);
   structure.version = next_version_++;
   if (addresses_.contains(begin, structure.header.size())) {
     std::memcpy(structure.header.data(), addresses_.host(begin), structure.header.size());
+    if (headers_.size() > kMostGone) headers_.clear();
+    headers_[structure.header] = begin;
   }
   structures_[begin] = std::move(structure);
 }
@@ -105,7 +106,8 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
     return;
   }
   TrackedStructure structure;
-  if (const auto it = structures_.find(command.source); it != structures_.end()) {
+  const auto it = structures_.find(command.source);
+  if (command.mode != Mode::kDeserialize && it != structures_.end()) {
     structure = it->second;
   } else {
     structure.known = false;
@@ -115,12 +117,12 @@ void Structures::copied(const runtime::CopyAccelerationStructureCommand& command
   place(std::move(structure));
 }
 
-void Structures::bytes_copied(uint64_t dest, uint64_t source, uint64_t size_bytes) {
-  for (auto it = structures_.lower_bound(source);
-       it != structures_.end() && it->first - source < size_bytes; ++it) {
-    byte_copies_[dest + (it->first - source)] = it->first;
-    ++next_version_;
-  }
+uint64_t Structures::copied_from(uint64_t address) const {
+  std::array<uint8_t, 16> bytes;
+  if (!addresses_.contains(address, bytes.size())) return 0;
+  std::memcpy(bytes.data(), addresses_.host(address), bytes.size());
+  const auto it = headers_.find(bytes);
+  return it == headers_.end() || it->second == address ? 0 : it->second;
 }
 
 uint64_t Structures::structure_bytes(uint64_t address) const {
@@ -134,6 +136,8 @@ const TrackedStructure* Structures::find(uint64_t address, StructureState& state
     const TrackedStructure& structure = it->second;
     if (!allocation) {
       state = StructureState::kFreed;
+    } else if (!structure.known) {
+      state = StructureState::kAlive;  // a backend may complete it at any time
     } else {
       const bool same = addresses_.contains(address, structure.header.size()) &&
                         std::memcmp(addresses_.host(address), structure.header.data(),
@@ -142,7 +146,7 @@ const TrackedStructure* Structures::find(uint64_t address, StructureState& state
     }
     return &structure;
   }
-  if (byte_copies_.count(address) != 0) {
+  if (copied_from(address) != 0) {
     state = StructureState::kBytesCopied;
     return nullptr;
   }
@@ -172,12 +176,10 @@ std::string Structures::history(uint64_t address, StructureState state) const {
     }
     case StructureState::kFreed:
       return "stood there, and its buffer was freed since";
-    case StructureState::kBytesCopied: {
-      const auto it = byte_copies_.find(address);
-      return "was copied there as bytes, from " +
-             address_name(addresses_, it == byte_copies_.end() ? 0 : it->second) +
+    case StructureState::kBytesCopied:
+      return "was copied there as bytes, of the one built at " +
+             address_name(addresses_, copied_from(address)) +
              "; that makes no structure. Use CopyRaytracingAccelerationStructure";
-    }
   }
   return "";
 }

@@ -52,7 +52,7 @@ enum class StructureState : uint8_t {
   kOverwritten,  // its bytes were written over
   kReplaced,     // another structure was built or copied over a part of it
   kFreed,        // its buffer is gone
-  kBytesCopied,  // only bytes were copied there, by a buffer copy
+  kBytesCopied,  // only bytes were copied there
 };
 
 class Structures {
@@ -69,7 +69,6 @@ class Structures {
   void copied(const runtime::CopyAccelerationStructureCommand& command, uint64_t size_bytes);
   // Something else was written there by a command of the list.
   void written(uint64_t address, uint64_t size_bytes) { end_in(address, size_bytes, 0); }
-  void bytes_copied(uint64_t dest, uint64_t source, uint64_t size_bytes);
 
   // What stood or stands at exactly this address; null only for kNever and kBytesCopied.
   const TrackedStructure* find(uint64_t address, StructureState& state) const;
@@ -83,6 +82,8 @@ class Structures {
   // Ends what has bytes there; `by` is the structure that takes its place, 0: other bytes.
   void end_in(uint64_t address, uint64_t size_bytes, uint64_t by);
   uint64_t structure_bytes(uint64_t address) const;
+  // Where the structure was built whose bytes stand at this address; 0: none.
+  uint64_t copied_from(uint64_t address) const;
 
   const runtime::AddressMap& addresses_;
   std::map<uint64_t, TrackedStructure> structures_;
@@ -91,7 +92,7 @@ class Structures {
     uint64_t by = 0;  // address of the structure that replaced it; 0: other bytes
   };
   std::map<uint64_t, Gone> gone_;
-  std::map<uint64_t, uint64_t> byte_copies_;  // address -> where the structure was copied from
+  std::map<std::array<uint8_t, 16>, uint64_t> headers_;  // of all that were built -> address
   uint64_t next_version_ = 1;
 };
 

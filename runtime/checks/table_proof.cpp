@@ -112,7 +112,7 @@ class Proof {
   }
 
   void report(Id id, const std::string& text) {
-    inputs_.reporter.report(id, text);
+    inputs_.reporter.report(id, Reporter::key_of(text), told_++, [&] { return text; });
     good_ = false;
   }
 
@@ -159,6 +159,7 @@ class Proof {
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
   std::set<const LinkedShader*> other_root_signature_;
   std::set<uint64_t> structures_;  // checked
+  uint64_t told_ = 0;
   bool good_ = true;
 };
 
@@ -231,7 +232,7 @@ const LinkedRecord* Proof::identify(RecordKind kind, Table& table, uint64_t inde
 
 void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
   Table& table = tables_[static_cast<size_t>(kind)];
-  if (table.range.StrideInBytes == 0) index = 0;
+  if (table.host != nullptr && table.range.StrideInBytes == 0) index = 0;
   if (!table.seen.insert({index, reason.procedural}).second) return;
   const std::string where = name_of(table, kind, index);
   const std::string how = reason_text(kind, reason);
@@ -413,6 +414,7 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
                                     all.history(address, state) +
                                     ". Every ray misses; build it (again) before the dispatch.");
   }
+  if (!top->known) return true;
   if (!top->top) {
     return report(Id::kStructureLevel,
                   place +

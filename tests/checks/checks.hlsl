@@ -67,8 +67,10 @@ void Call(inout Payload payload) {
   payload.value = 3;
 }
 
+ByteAddressBuffer source : register(t1);
+
 [shader("compute")]
 [numthreads(1, 1, 1)]
-void Fill() {
-  results.Store(0, 0x3F800000);
+void CopyBytes() {
+  results.Store4(0, source.Load4(0));
 }

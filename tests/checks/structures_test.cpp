@@ -140,15 +140,31 @@ TEST_P(Structure, StaleTopLevel) {
 }
 
 TEST_P(Structure, OverwrittenBottomLevel) {
-  CommandList commands = list();
-  const Buffer zeros = upload(std::vector<uint32_t>(64), "zeros");
-  commands.CopyBufferRegion(bottom_, 0, zeros, 0, 256);
-  ASSERT_TRUE(execute(commands).ok());
-  messages_.clear();
+  copy_bytes(bottom_, upload(std::vector<uint32_t>(64), "zeros"));
   dispatch(set_.desc);
   expect_one("KA0461", {"instance 0 of it refers to the bottom level at byte 0 of buffer "
                         "\"floor\"",
                         "stood there, and its bytes were written over since"});
+}
+
+TEST_P(Structure, AnotherOneBuiltOverABottomLevel) {
+  const auto descs = triangles();
+  const auto inputs = bottom_inputs(descs);
+  const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+  const Buffer both = buffer(sizes.ResultDataMaxSizeInBytes + 256, "both", true);
+  CommandList commands = list();
+  record_build(commands, both, inputs);
+  ASSERT_TRUE(execute(commands).ok());
+  top_ = build(top_inputs({instance(both)}), "scene");
+  CommandList over = list();
+  over.BuildRaytracingAccelerationStructure(
+      {.DestAccelerationStructureData = both.GetGPUVirtualAddress() + 256,
+       .Inputs = inputs,
+       .ScratchAccelerationStructureData = buffer(65536, "scratch").GetGPUVirtualAddress()});
+  ASSERT_TRUE(execute(over).ok());
+  dispatch(set_.desc);
+  expect_one("KA0461", {"stood there, and another one was built or copied over it, at byte 256 of "
+                        "buffer \"both\""});
 }
 
 TEST_P(Structure, FreedBottomLevel) {
@@ -174,13 +190,10 @@ TEST_P(Structure, BottomLevelPassedToTraceRay) {
 
 TEST_P(Structure, BytesCopiedStructure) {
   const Buffer copy = buffer(top_.size(), "copy", true);
-  CommandList commands = list();
-  commands.CopyBufferRegion(copy, 0, top_, 0, top_.size());
-  ASSERT_TRUE(execute(commands).ok());
-  messages_.clear();
+  copy_bytes(copy, top_);
   top_ = copy;
   dispatch(set_.desc);
-  expect_one("KA0465", {"was copied there as bytes, from byte 0 of buffer \"scene\"",
+  expect_one("KA0465", {"was copied there as bytes, of the one built at byte 0 of buffer \"scene\"",
                         "Use CopyRaytracingAccelerationStructure"});
 }
 

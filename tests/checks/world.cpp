@@ -188,6 +188,22 @@ void World::dispatch(const DispatchRaysDesc& desc) {
   EXPECT_TRUE(status.ok()) << status.error().message;
 }
 
+void World::copy_bytes(const Buffer& dest, const Buffer& source) {
+  const RootSignature signature = device_.CreateRootSignature("SRV(t1), UAV(u0)").value();
+  ComputePipelineStateDesc desc;
+  desc.pRootSignature = signature;
+  desc.CS = pipeline_library();
+  desc.EntryPoint = "CopyBytes";
+  const PipelineState pipeline = device_.CreateComputePipelineState(desc).value();
+  CommandList commands = list();
+  commands.SetComputeRootSignature(signature);
+  commands.SetComputeRootShaderResourceView(0, source.GetGPUVirtualAddress());
+  commands.SetComputeRootUnorderedAccessView(1, dest.GetGPUVirtualAddress());
+  commands.SetPipelineState(pipeline);
+  commands.Dispatch(1, 1, 1);
+  execute(commands).value();
+}
+
 std::vector<std::string> World::told() {
   std::vector<std::string> out;
   for (const Message& m : messages_) {

@@ -60,6 +60,8 @@ class World : public ::testing::TestWithParam<const char*> {
 
   void record_dispatch(rtapi::CommandList& list, const rtapi::DispatchRaysDesc& desc);
   void dispatch(const rtapi::DispatchRaysDesc& desc);
+  // 16 bytes, by a compute shader: copies to structures are refused.
+  void copy_bytes(const rtapi::Buffer& dest, const rtapi::Buffer& source);
   rtapi::CommandList list() { return device_.CreateCommandList().value(); }
   rtapi::Status execute(rtapi::CommandList& commands) { return queue_.ExecuteAndWait(commands); }
 
