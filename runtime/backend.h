@@ -28,6 +28,8 @@ class Reporter;  // runtime/checks/report.h
 
 namespace kaamos::runtime {
 
+struct AccelerationStructure;
+
 // Linear memory. Zero at first; freed with the object.
 class BackendBuffer {
  public:
@@ -107,6 +109,12 @@ class BackendDevice {
   // error removes the device; what is wrong with the contents of GPU memory but does no harm goes
   // to Context::message instead.
   virtual rtapi::Status execute(std::span<const Command> commands) = 0;
+
+  // The acceleration structure at exactly this address, with what it was built from
+  // (structure_map.h); null where there is none. Not while a list executes.
+  virtual std::shared_ptr<const AccelerationStructure> find_structure(uint64_t) const {
+    return nullptr;
+  }
 
   virtual rtapi::RaytracingStatistics statistics() const { return {}; }
   virtual void reset_statistics() {}

@@ -66,7 +66,7 @@ Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& de
   heap->device = impl_;
   heap->desc = desc;
   heap->memory = std::move(*memory);
-  impl_->RegisterHeap(heap->memory->host(), desc);
+  impl_->RegisterHeap(heap->memory->host(), heap->memory->address(), desc);
   return DescriptorHeap(std::move(heap));
 }
 

@@ -44,10 +44,11 @@ void DeviceImpl::Report(MessageSeverity severity, const Error& error) const {
   if (desc.OnMessage) desc.OnMessage({severity, error.id, error.message});
 }
 
-void DeviceImpl::RegisterHeap(uint8_t* host, const DescriptorHeapDesc& heap) {
+void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap) {
   std::lock_guard lock(heaps_mutex_);
   heaps_[reinterpret_cast<uintptr_t>(host)] = {
-      heap.Type, HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible), heap.NumDescriptors};
+      heap.Type, HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible), heap.NumDescriptors,
+      address, heap.Name};
 }
 
 void DeviceImpl::UnregisterHeap(uint8_t* host) {
@@ -63,8 +64,25 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
   const uint64_t offset = handle.ptr - start;
   const uint64_t index = offset / kDescriptorHandleIncrementSize;
   if (index >= heap.count || offset % kDescriptorHandleIncrementSize != 0) return std::nullopt;
-  return HeapSlot{heap.type, heap.shader_visible, reinterpret_cast<shader::Descriptor*>(handle.ptr),
-                  static_cast<uint32_t>(index), heap.count - static_cast<uint32_t>(index)};
+  return HeapSlot{heap.type,
+                  heap.shader_visible,
+                  reinterpret_cast<shader::Descriptor*>(handle.ptr),
+                  static_cast<uint32_t>(index),
+                  heap.count - static_cast<uint32_t>(index),
+                  heap.name};
+}
+
+std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
+  uintptr_t host = 0;
+  {
+    std::lock_guard lock(heaps_mutex_);
+    for (const auto& [start, heap] : heaps_) {
+      const uint64_t bytes = uint64_t{heap.count} * kDescriptorHandleIncrementSize;
+      if (!heap.shader_visible || handle.ptr - heap.address >= bytes) continue;
+      host = start + (handle.ptr - heap.address);
+    }
+  }
+  return host == 0 ? std::nullopt : FindSlot(CpuDescriptorHandle{host});
 }
 
 ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {

@@ -13,6 +13,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/error_table.h"
+#include "rtapi/src/view_names.h"
 #include "runtime/backend.h"
 #include "runtime/checks/layer.h"
 #include "runtime/checks/report.h"
@@ -29,10 +30,12 @@ struct HeapSlot {
   shader::Descriptor* slot = nullptr;
   uint32_t index = 0;
   uint32_t count_from_here = 0;
+  std::string heap_name = {};
 };
 
 struct DeviceImpl {
   DeviceDesc desc;
+  ViewNames views;  // what descriptors of textures and samplers name
   runtime::AddressMap addresses;
   runtime::Context context;
   // Checked mode; null without.
@@ -48,9 +51,11 @@ struct DeviceImpl {
   void Report(MessageSeverity severity, const Error& error) const;
 
   // Descriptor heaps by host address. Handles carry no type, so that they are looked up here.
-  void RegisterHeap(uint8_t* host, const DescriptorHeapDesc& heap);
+  void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap);
   void UnregisterHeap(uint8_t* host);
   std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
+  // The same by GPU handle; shader-visible heaps only.
+  std::optional<HeapSlot> FindSlot(GpuDescriptorHandle handle) const;
 
   ShaderIdentifier MakeIdentifier(std::string_view name);
 
@@ -62,6 +67,8 @@ struct DeviceImpl {
     DescriptorHeapType type;
     bool shader_visible;
     uint32_t count;
+    uint64_t address;  // for GPU handles
+    std::string name;
   };
   mutable std::mutex heaps_mutex_;
   std::map<uintptr_t, HeapRange> heaps_;

@@ -216,6 +216,9 @@ constexpr ErrorEntry kTable[] = {
     {Id::kMapDefaultHeap, ErrorCode::kInvalidArgument, "default heap cannot be mapped",
      "D3D12: ID3D12Resource::Map"},
     {Id::kDeviceDesc, ErrorCode::kInvalidArgument, "device description", "CreateDevice"},
+    {Id::kTableDescription, ErrorCode::kInvalidArgument, "shader tables cannot be described",
+     "DescribeShaderTables"},
+    {Id::kExplain, ErrorCode::kInvalidArgument, "cannot be explained", "ExplainDispatchRays"},
 };
 
 }  // namespace

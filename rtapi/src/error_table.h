@@ -144,6 +144,8 @@ enum class Id : uint16_t {
   kShaderLibrary = 910,
   kMapDefaultHeap = 911,
   kDeviceDesc = 914,
+  kTableDescription = 915,
+  kExplain = 916,
 };
 
 struct ErrorEntry {

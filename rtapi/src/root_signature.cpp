@@ -315,6 +315,7 @@ Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& devic
   for (const StaticSamplerDesc& sampler : desc.StaticSamplers) {
     auto object = device->backend->create_sampler(ToSamplerDesc(sampler));
     if (!object.ok()) return object.error();
+    device->views.AddSampler(*object, ToSamplerDesc(sampler));
     shader::Descriptor descriptor;
     descriptor.kind = shader::DescriptorKind::kSampler;
     descriptor.access = shader::DescriptorAccess::kOther;

@@ -87,6 +87,7 @@ Status Device::CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) 
   }
   auto object = impl_->backend->create_sampler(desc);
   if (!object.ok()) return object.error();
+  impl_->views.AddSampler(*object, desc);
   shader::Descriptor descriptor;
   descriptor.kind = shader::DescriptorKind::kSampler;
   descriptor.access = shader::DescriptorAccess::kOther;

@@ -220,6 +220,7 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   }
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
   if (!object.ok()) return object.error();
+  device->views.AddView(*object, {desc.Name, desc, resolved, texture.impl()->memory});
   Descriptor descriptor;
   descriptor.kind = DescriptorKind::kTexture;
   descriptor.access =

@@ -45,6 +45,9 @@ class Structures final : public AccelerationStructures {
   rtapi::Status emit(CommandStream& stream,
                      const runtime::EmitPostbuildInfoCommand& command) override;
   void evict(uint64_t address, uint64_t size_bytes) override { map_->evict(address, size_bytes); }
+  std::shared_ptr<const AccelerationStructure> find(uint64_t address) const override {
+    return map_->find(address);
+  }
   rtapi::Result<SceneTables> tables() override;
 
  private:

@@ -49,6 +49,8 @@ class AccelerationStructures {
   // Ends the structures that have bytes in a range which is written or goes.
   virtual void evict(uint64_t address, uint64_t size_bytes) = 0;
 
+  virtual std::shared_ptr<const runtime::AccelerationStructure> find(uint64_t address) const = 0;
+
   // Up to date for the next dispatch; the stream was flushed.
   virtual rtapi::Result<SceneTables> tables() = 0;
 };

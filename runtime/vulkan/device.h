@@ -42,6 +42,10 @@ class Device final : public runtime::BackendDevice {
       std::span<const rtapi::RaytracingGeometryDesc> geometries,
       uint32_t instance_count) const override;
   rtapi::Status execute(std::span<const runtime::Command> commands) override;
+  std::shared_ptr<const runtime::AccelerationStructure> find_structure(
+      uint64_t address) const override {
+    return structures_->find(address);
+  }
   rtapi::RaytracingStatistics statistics() const override;
   void reset_statistics() override;
 
