@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs the shaders of one DispatchRaysIndex at a time on the calling thread, with services of its
+// own: rays are traced by scene.h, and whatever happens is written down.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <rtapi/explain.h>
+
+#include "kaamos/shader/abi.h"
+#include "runtime/address_map.h"
+#include "runtime/backend.h"
+#include "runtime/explain/scene.h"
+#include "runtime/linked_pipeline.h"
+#include "runtime/shader/texture/texture_view.h"
+
+namespace kaamos::explain {
+
+// What a replay needs of its device; all of it outlives the replay.
+struct Environment {
+  const runtime::BackendDevice* backend = nullptr;
+  const runtime::AddressMap* addresses = nullptr;
+  // Copies of textures in host memory; null reads as zeros. The copies take what is written.
+  std::function<const shader::TextureView*(const shader::Descriptor&)> texture;
+  std::function<const shader::SamplerState*(const shader::Descriptor&)> sampler;
+};
+
+class Replay {
+ public:
+  Replay(const Environment& environment, const runtime::DispatchRaysCommand& command);
+  ~Replay();
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  // Writes to the memory that the shaders write to. `out` is null where only the counts matter.
+  rtapi::PixelStatistics run(const uint32_t index[3], uint32_t max_candidates,
+                             rtapi::PixelExplanation* out);
+
+ private:
+  friend struct Services;
+  struct Frame;
+  struct Trace;
+  struct Query;
+  struct Record;
+  struct Verdict;
+
+  rtapi::AddressDescription describe(uint64_t address) const;
+  bool recording() const { return explanation_ != nullptr; }
+  void run_ray_generation();
+
+  // Records of tables
+  Record find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, runtime::RecordKind kind,
+                     uint64_t index) const;
+  Record hit_record(const Trace& trace, const Candidate& candidate) const;
+  void describe_hit_record(const Trace& trace, const Candidate& candidate, const Record& record,
+                           rtapi::ExplainedRecord& out) const;
+
+  // TraceRay
+  void trace_ray(Frame& caller, const shader::TraceRayArguments& arguments, void* payload,
+                 const shader::RayDesc& ray);
+  void search(Trace& trace);
+  void offer(Trace& trace, const Candidate& candidate, rtapi::ExplainedCandidate* node);
+  void offer_triangle(Trace& trace, const Candidate& candidate, const Record& record,
+                      rtapi::ExplainedCandidate* node);
+  void offer_box(Trace& trace, const Candidate& candidate, const Record& record,
+                 rtapi::ExplainedCandidate* node);
+  void commit(Trace& trace, const Candidate& candidate, const Record& record, float t,
+              uint32_t hit_kind, const void* attributes, bool end_search);
+  void run_closest_hit(Trace& trace);
+  void run_miss(Trace& trace);
+  shader::AnyHitResult run_any_hit(Trace& trace, const Candidate& candidate, const Record& record,
+                                   float t, uint32_t hit_kind, const void* attributes,
+                                   std::vector<rtapi::ExplainedShader>* nodes);
+  shader::ReportHitResult report_hit(Frame& frame, float t, uint32_t hit_kind,
+                                     const void* attributes, uint32_t attribute_bytes);
+  const char* payload_layout(const runtime::LinkedShader* shader, uint32_t bytes) const;
+
+  // The rest
+  void call_shader(Frame& caller, uint32_t index, void* data, uint32_t data_bytes);
+  void begin_query(Frame& caller, shader::RayQuery& query,
+                   const shader::RayQueryArguments& arguments, const shader::RayDesc& ray);
+  bool proceed(shader::RayQuery& query);
+  void settle(Query& state, const shader::RayQuery& query);
+  void finish_queries(const rtapi::ExplainedShader* node);
+  rtapi::ExplainedCall* add_call(Frame& caller, rtapi::ExplainedCallKind kind);
+  void enter();  // counts nested shaders, and ends the replay where there are too many
+  void leave() { --nesting_; }
+
+  const Environment& environment_;
+  const runtime::DispatchRaysCommand& command_;
+  shader::Dispatch dispatch_;
+  Scenes scenes_;
+
+  // Of the index that runs. What lives across shader calls lies here: a fault jumps over frames.
+  rtapi::PixelExplanation* explanation_ = nullptr;
+  rtapi::PixelStatistics statistics_;
+  uint32_t max_candidates_ = 0;
+  uint32_t index_[3] = {0, 0, 0};
+  uint32_t nesting_ = 0;
+  uint32_t traces_ = 0;                               // in flight
+  std::deque<std::vector<Candidate>> candidates_;     // of each trace in flight, reused
+  std::deque<Query> queries_;
+};
+
+}  // namespace kaamos::explain

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// What one shader invocation, one TraceRay and one RayQuery have while they are replayed.
+#pragma once
+
+#include "runtime/explain/replay.h"
+#include "runtime/explain/verdict.h"
+
+namespace kaamos::explain {
+
+inline constexpr uint32_t kMaxAttributeBytes = 32;
+
+struct Replay::Record {
+  const runtime::LinkedRecord* linked = nullptr;  // null: nothing runs
+  const uint8_t* address = nullptr;
+  const char* reason = "";  // why nothing runs
+};
+
+struct Replay::Trace {
+  const shader::TraceRayArguments* arguments = nullptr;
+  shader::RayDesc ray;
+  uint32_t reported_flags = 0;
+  const shader::Invocation* caller = nullptr;
+  void* payload = nullptr;
+  const TopLevel* scene = nullptr;
+  Search search;
+  rtapi::ExplainedCall* call = nullptr;  // null: nothing is recorded
+  // Of the committed hit
+  Candidate hit;
+  Record hit_record;
+  uint32_t hit_kind = 0;
+  size_t hit_node = SIZE_MAX;   // in call->Candidates
+  size_t this_node = SIZE_MAX;  // the candidate that is being offered
+  alignas(16) uint8_t attributes[kMaxAttributeBytes] = {};
+};
+
+// A shader at work; Invocation::backend points to it.
+struct Replay::Frame : shader::Invocation {
+  Replay* replay = nullptr;
+  rtapi::ExplainedShader* node = nullptr;  // null: nothing is recorded
+  shader::RaySystemValues values;
+  Trace* trace = nullptr;                // intersection shaders
+  const Candidate* candidate = nullptr;  // the same
+  Record record;
+
+  void begin(Replay& self, const runtime::LinkedShader& linked, const Record& its_record,
+             uint32_t its_depth) {
+    replay = &self;
+    record = its_record;
+    dispatch = &self.dispatch_;
+    slots = linked.slots.data();
+    local_arguments = its_record.address + rtapi::kShaderIdentifierSizeInBytes;
+    for (int i = 0; i < 3; ++i) index[i] = self.index_[i];
+    depth = its_depth;
+    backend = this;
+  }
+};
+
+struct Replay::Query {
+  const TopLevel* scene = nullptr;
+  std::vector<Candidate> candidates;
+  size_t next = 0;
+  Search search;
+  // Where it is written down; null: nowhere.
+  rtapi::ExplainedShader* node = nullptr;
+  size_t call = 0;
+  size_t offered = SIZE_MAX;    // candidate that the shader has not answered yet
+  size_t committed = SIZE_MAX;  // in the recorded candidates
+  std::vector<size_t> recorded;  // of each candidate, its place in ExplainedCall::Candidates
+};
+
+template <class Function>
+Function entry_of(const runtime::LinkedShader& linked) {
+  return reinterpret_cast<Function>(linked.code->entry);
+}
+
+inline rtapi::ShaderStage stage_of(const runtime::LinkedShader& linked) {
+  return static_cast<rtapi::ShaderStage>(linked.stage);
+}
+
+rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& instance,
+                                   uint32_t flags);
+
+const shader::Services& services();
+
+}  // namespace kaamos::explain

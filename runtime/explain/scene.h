@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Acceleration structures as their builds read them, searched in double precision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "kaamos/shader/abi.h"
+#include "runtime/backend.h"
+#include "runtime/explain/bvh.h"
+#include "runtime/structure_map.h"
+
+namespace kaamos::explain {
+
+struct Candidate {
+  double t = 0;  // boxes: where the ray enters, at least 0
+  double leave = 0;  // boxes
+  uint32_t instance = 0;
+  uint32_t geometry = 0;
+  uint32_t primitive = 0;
+  bool procedural = false;
+  bool geometry_opaque = false;
+  bool clockwise = false;  // triangles, as seen from the origin in object space
+  float barycentrics[2] = {0, 0};
+};
+
+// A bottom level with what finds its primitives.
+class BottomLevel {
+ public:
+  explicit BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source);
+  Box bounds() const { return bvh_.bounds(); }
+  // Every triangle at t >= 0 along the object-space ray, every box that it meets.
+  void find(const Ray& ray, uint32_t instance, std::vector<Candidate>& out) const;
+
+ private:
+  struct Primitive {
+    uint32_t geometry;
+    uint32_t index;
+  };
+  struct Geometry {
+    runtime::GeometryShape shape;
+    runtime::GeometryContents contents;
+  };
+  bool corners(const Geometry& geometry, uint32_t primitive, const float* (&out)[3]) const;
+  Box box_of(const Geometry& geometry, uint32_t primitive) const;
+  void test_triangle(const Ray& ray, const Geometry& geometry, uint32_t primitive,
+                     uint32_t instance, std::vector<Candidate>& out) const;
+  void test_box(const Ray& ray, const Geometry& geometry, uint32_t primitive, uint32_t instance,
+                std::vector<Candidate>& out) const;
+
+  std::shared_ptr<const runtime::BottomLevelBase> source_;  // owns what contents refer to
+  std::vector<Geometry> geometries_;
+  std::vector<Primitive> primitives_;
+  Bvh bvh_;
+};
+
+struct Instance {
+  rtapi::RaytracingInstanceDesc desc;
+  std::array<float, 12> object_to_world = {};
+  std::array<float, 12> world_to_object = {};
+  std::array<double, 12> inverse = {};  // of object_to_world
+  std::shared_ptr<const BottomLevel> bottom_level;  // null: inactive
+};
+
+class TopLevel {
+ public:
+  const std::vector<Instance>& instances() const { return instances_; }
+  // All candidates at t >= 0, masked ones too, by t, then by instance, geometry and primitive.
+  void find(const shader::RayDesc& ray, std::vector<Candidate>& out) const;
+
+ private:
+  friend class Scenes;
+  std::vector<Instance> instances_;
+  Bvh bvh_;
+};
+
+// Structures by address, made when they are first asked for.
+class Scenes {
+ public:
+  explicit Scenes(const runtime::BackendDevice& backend) : backend_(backend) {}
+  // Null where no top level stands.
+  const TopLevel* find(uint64_t address);
+
+ private:
+  std::shared_ptr<const BottomLevel> bottom_level(uint64_t address);
+
+  const runtime::BackendDevice& backend_;
+  std::map<uint64_t, std::unique_ptr<TopLevel>> top_levels_;
+  std::map<const runtime::BottomLevelBase*, std::shared_ptr<const BottomLevel>> bottom_levels_;
+};
+
+}  // namespace kaamos::explain

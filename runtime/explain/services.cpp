@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// The services that replayed shaders call.
+#include "runtime/explain/guard.h"
+#include "runtime/explain/replay_state.h"
+#include "runtime/shader/texture/texture_sampling.h"
+
+namespace kaamos::explain {
+
+// Texture services get no invocation: the replay that runs on this thread.
+thread_local const Environment* environment = nullptr;
+
+const shader::Services& texture_services() {
+  static const shader::Services table = [] {
+    shader::Services out = {};
+    shader::set_texture_services(out);
+    return out;
+  }();
+  return table;
+}
+
+namespace {
+
+shader::Descriptor host_copy(const shader::Descriptor& descriptor) {
+  shader::Descriptor out = descriptor;
+  if (descriptor.kind == shader::DescriptorKind::kTexture) {
+    out.address = reinterpret_cast<uint64_t>(environment->texture(descriptor));
+  } else if (descriptor.kind == shader::DescriptorKind::kSampler) {
+    out.address = reinterpret_cast<uint64_t>(environment->sampler(descriptor));
+  }
+  return out;
+}
+
+struct Sampling {
+  shader::Descriptor texture;
+  shader::Descriptor sampler;
+  shader::SampleArguments arguments;
+  explicit Sampling(const shader::SampleArguments& from) : arguments(from) {
+    if (from.texture != nullptr) {
+      texture = host_copy(*from.texture);
+      arguments.texture = &texture;
+    }
+    if (from.sampler != nullptr) {
+      sampler = host_copy(*from.sampler);
+      arguments.sampler = &sampler;
+    }
+  }
+  Sampling(const Sampling&) = delete;
+  Sampling& operator=(const Sampling&) = delete;
+};
+
+}  // namespace
+
+struct Services {
+  static Replay::Frame& frame_of(shader::Invocation& invocation) {
+    auto& frame = *static_cast<Replay::Frame*>(invocation.backend);
+    environment = &frame.replay->environment_;
+    return frame;
+  }
+  static void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
+                        void* payload, shader::RayLanes origin, shader::RayLanes direction) {
+    const shader::RayDesc ray = {{origin[0], origin[1], origin[2]},
+                                 origin[3],
+                                 {direction[0], direction[1], direction[2]},
+                                 direction[3]};
+    Replay::Frame& frame = frame_of(caller);
+    frame.replay->trace_ray(frame, arguments, payload, ray);
+  }
+  static shader::ReportHitResult report_hit(shader::Invocation& caller, float t, uint32_t hit_kind,
+                                            const void* attributes, uint32_t bytes) {
+    Replay::Frame& frame = frame_of(caller);
+    return frame.replay->report_hit(frame, t, hit_kind, attributes, bytes);
+  }
+  static void call_shader(shader::Invocation& caller, uint32_t index, void* data, uint32_t bytes) {
+    Replay::Frame& frame = frame_of(caller);
+    frame.replay->call_shader(frame, index, data, bytes);
+  }
+  static void begin_query(shader::Invocation& caller, shader::RayQuery& query,
+                          const shader::RayQueryArguments& arguments, const shader::RayDesc& ray) {
+    Replay::Frame& frame = frame_of(caller);
+    frame.replay->begin_query(frame, query, arguments, ray);
+  }
+  static bool proceed(shader::Invocation& caller, shader::RayQuery& query) {
+    return frame_of(caller).replay->proceed(query);
+  }
+  static void remove(shader::Invocation&, shader::RemovalReason reason) {
+    leave(reason == shader::RemovalReason::kStepLimit ? "a shader ran for too long"
+                                                      : "a shader removed the device");
+  }
+};
+
+namespace {
+
+shader::Services make_services() {
+  shader::Services table = {};
+  table.trace_ray = Services::trace_ray;
+  table.report_hit = Services::report_hit;
+  table.call_shader = Services::call_shader;
+  table.begin_query = Services::begin_query;
+  table.proceed = Services::proceed;
+  table.remove_device = Services::remove;
+  const shader::Services& textures = texture_services();
+  table.load_typed = textures.load_typed;
+  table.store_typed = textures.store_typed;
+  table.typed_address = textures.typed_address;
+  table.sample_level = [](const shader::SampleArguments& a) {
+    return texture_services().sample_level(Sampling(a).arguments);
+  };
+  table.sample_gradient = [](const shader::SampleArguments& a) {
+    return texture_services().sample_gradient(Sampling(a).arguments);
+  };
+  table.sample_compare_level = [](const shader::SampleArguments& a) {
+    return texture_services().sample_compare_level(Sampling(a).arguments);
+  };
+  table.gather = [](const shader::SampleArguments& a) {
+    return texture_services().gather(Sampling(a).arguments);
+  };
+  table.gather_compare = [](const shader::SampleArguments& a) {
+    return texture_services().gather_compare(Sampling(a).arguments);
+  };
+  table.load_texel = [](const shader::Descriptor& d, const int32_t at[4]) {
+    return texture_services().load_texel(host_copy(d), at);
+  };
+  table.store_texel = [](const shader::Descriptor& d, const int32_t at[4],
+                         const shader::Texel& value) {
+    texture_services().store_texel(host_copy(d), at, value);
+  };
+  table.texel_address = [](const shader::Descriptor& d, const int32_t at[4]) {
+    return texture_services().texel_address(host_copy(d), at);
+  };
+  table.texture_dimensions = [](const shader::Descriptor& d, uint32_t mip) {
+    return texture_services().texture_dimensions(host_copy(d), mip);
+  };
+  return table;
+}
+
+}  // namespace
+
+const shader::Services& services() {
+  static const shader::Services table = make_services();
+  return table;
+}
+
+}  // namespace kaamos::explain

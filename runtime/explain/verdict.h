@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// Which candidates a ray sees, and why it does not see the others. [DXR: TraceRay control flow]
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <rtapi/explain.h>
+
+#include "runtime/explain/scene.h"
+
+namespace kaamos::explain {
+
+// What decides about candidates of one ray at one moment.
+struct Search {
+  uint32_t flags = 0;  // with the pipeline's
+  uint32_t inclusion_mask = 0;
+  float t_min = 0;
+  float t_max = 0;
+  float committed_t = 0;  // t_max without a committed hit
+  bool committed = false;
+  bool ended = false;
+};
+
+enum class OpacitySource { kGeometry, kInstance, kRay };
+struct Opacity {
+  bool opaque = false;
+  OpacitySource source = OpacitySource::kGeometry;
+};
+// Of geometry, instance and ray the later replaces the earlier.
+Opacity opacity_of(const Candidate& candidate, const Instance& instance, uint32_t ray_flags);
+bool is_front_face(const Candidate& candidate, const Instance& instance);
+
+// Empty: the candidate is offered.
+std::optional<rtapi::CandidateOutcome> refusal(const Search& search, const Candidate& candidate,
+                                               const Instance& instance);
+// The refusal in words.
+std::string refusal_text(rtapi::CandidateOutcome outcome, const Search& search,
+                         const Candidate& candidate, const Instance& instance);
+// "opaque by the geometry's flag"
+std::string opacity_text(const Opacity& opacity);
+
+}  // namespace kaamos::explain
