@@ -11,6 +11,7 @@
 #include <optional>
 #include <shared_mutex>
 #include <string>
+#include <vector>
 
 #include <rtapi/resource.h>
 
@@ -63,6 +64,12 @@ class AddressMap {
     std::shared_lock lock(mutex_);
     const Allocation* a = locate(address);
     return a ? a->address + a->size_bytes - address : 0;
+  }
+  std::vector<Allocation> all() const {
+    std::shared_lock lock(mutex_);
+    std::vector<Allocation> out;
+    for (const auto& [address, allocation] : allocations_) out.push_back(allocation);
+    return out;
   }
   // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.
   uint8_t* host(uint64_t address) const {

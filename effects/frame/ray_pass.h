@@ -45,6 +45,10 @@ class RayPass {
                      std::uint32_t width, std::uint32_t height,
                      const PassArguments& arguments) const;
 
+  const rtapi::StateObject& pipeline() const { return pipeline_; }
+  /// The tables of every dispatch; no size.
+  const rtapi::DispatchRaysDesc& tables() const { return dispatch_; }
+
  private:
   rtapi::StateObject pipeline_;
   rtapi::Buffer tables_[3];  // keeps them alive

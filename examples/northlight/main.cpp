@@ -11,6 +11,7 @@
 #include "effects/scene/gltf_write.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/staging.h"
+#include "inspect.h"
 #include "options.h"
 #include "output.h"
 #include "renderer.h"
@@ -82,6 +83,17 @@ int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Opti
     std::fputs(describe_pixel(*frame, options.pixel->first, options.pixel->second).c_str(), stdout);
     return 0;
   }
+  if (options.explain) {
+    std::fputs(print_explanations(frame->explained, options.json).c_str(), stdout);
+    return 0;
+  }
+  if (!options.heatmap.empty()) {
+    std::string said;
+    const std::string error = write_heatmap(options, *frame, said);
+    if (!error.empty()) say_error(error);
+    std::fputs(said.c_str(), stdout);
+    return error.empty() ? 0 : 1;
+  }
   if (const std::string error = write_results(options, scene, renderer, *frame); !error.empty()) {
     say_error(error);
     return 1;
@@ -123,8 +135,8 @@ int main(int argc, char** argv) {
     std::fputs(list_devices().c_str(), stdout);
     return 0;
   }
-  if (const std::string error = options->pixel ? "" : prepare_folder(options->out);
-      !error.empty()) {
+  const bool prints = options->pixel || options->explain || !options->tables.empty();
+  if (const std::string error = prints ? "" : prepare_folder(options->out); !error.empty()) {
     say_error(error);
     return 1;
   }
@@ -143,5 +155,11 @@ int main(int argc, char** argv) {
   if (options->watch) return watch(**renderer, *options, scene);
   const auto libraries = built_in_libraries();
   if (!libraries) return report(libraries.error(), *options);
+  if (!options->tables.empty()) {
+    const auto tables = (*renderer)->describe_tables(*libraries);
+    if (!tables) return report(tables.error(), *options);
+    std::fputs(print_tables(*tables, options->tables == "json").c_str(), stdout);
+    return 0;
+  }
   return render_once(**renderer, *libraries, *options, scene);
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 namespace northlight {
 namespace {
@@ -27,7 +28,8 @@ std::string parse_size(const std::string& text, Options& options) {
   return {};
 }
 
-std::string parse_pixel(const std::string& text, Options& options) {
+std::string parse_pixel(const std::string& text,
+                        std::optional<std::pair<std::uint32_t, std::uint32_t>>& pixel) {
   unsigned x = 0;
   unsigned y = 0;
   int end = 0;
@@ -35,7 +37,7 @@ std::string parse_pixel(const std::string& text, Options& options) {
       static_cast<std::size_t>(end) != text.size()) {
     return "\"" + text + "\" is not a pixel: give x and y, as in 12,40";
   }
-  options.pixel = {x, y};
+  pixel = {x, y};
   return {};
 }
 
@@ -82,6 +84,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   std::string effects = "ao,sun";
   std::string radius = "4";
   std::string pixel;
+  std::string explain;
   float sun_angle = 0;
   CLI::App app(
       "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow.\n"
@@ -125,7 +128,19 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
   app.add_option("--pixel", pixel,
                  "x,y: print what each layer holds there instead of writing files")
-      ->check(parsed_by(parse_pixel, options));
+      ->check(CLI::Validator([&](std::string& t) { return parse_pixel(t, options.pixel); }, ""));
+  app.add_option("--tables", options.tables,
+                 "print every shader table, as text or json, instead of rendering")
+      ->expected(0, 1)
+      ->default_str("text")
+      ->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--explain", explain,
+                 "x,y: print what every ray of that pixel met, and why it was taken or not")
+      ->check(CLI::Validator([&](std::string& t) { return parse_pixel(t, options.explain); }, ""));
+  app.add_flag("--json", options.json, "--explain prints JSON");
+  app.add_option("--heatmap", options.heatmap,
+                 "anyhit, candidates, depth or rays: write a picture of these counts per pixel")
+      ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
   app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
   try {
     app.parse(argc, argv);
@@ -133,10 +148,13 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;
   }
-  if (options.pixel &&
-      (options.pixel->first >= options.width || options.pixel->second >= options.height)) {
-    std::fprintf(stderr, "northlight: --pixel %s is outside of the picture (%ux%u)\n",
-                 pixel.c_str(), options.width, options.height);
+  for (const auto& [name, text, chosen] : {std::tuple("--pixel", &pixel, &options.pixel),
+                                           std::tuple("--explain", &explain, &options.explain)}) {
+    if (!*chosen || ((*chosen)->first < options.width && (*chosen)->second < options.height)) {
+      continue;
+    }
+    std::fprintf(stderr, "northlight: %s %s is outside of the picture (%ux%u)\n", name,
+                 text->c_str(), options.width, options.height);
     exit_code = 2;
     return std::nullopt;
   }

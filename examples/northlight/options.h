@@ -29,7 +29,11 @@ struct Options {
   bool watch = false;
   bool list_devices = false;
   std::optional<std::pair<std::uint32_t, std::uint32_t>>
-      pixel;  // print it instead of writing files
+      pixel;           // print it instead of writing files
+  std::string tables;  // "text", "json": print the shader tables instead of rendering; empty: no
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> explain;  // print this pixel's tree
+  bool json = false;                                               // of explain
+  std::string heatmap;  // "anyhit", "candidates", "depth", "rays": write that picture; empty: no
 };
 
 // Parses the command line. Where the program is to end at once (--help, a wrong option), nothing is

@@ -94,7 +94,7 @@ rtapi::Status Renderer::run_pass(const RayPass& pass, const std::string& name,
       if (const auto reset = list->Reset(); !reset) return reset;
       pass.dispatch(*list, frame_, constants, count);
       const auto before = Clock::now();
-      if (const auto done = queue_.ExecuteAndWait(*list); !done) return done;
+      if (const auto done = execute_band(*list, name, row, count, result); !done) return done;
       const double seconds = std::chrono::duration<double>(Clock::now() - before).count();
       const double fit = rows * std::clamp(kDispatchSeconds / std::max(seconds, 1e-4), 0.5, 2.0);
       rows = static_cast<std::uint32_t>(std::clamp(fit, 1.0, static_cast<double>(options_.height)));
@@ -109,6 +109,17 @@ rtapi::Status Renderer::run_pass(const RayPass& pass, const std::string& name,
   return {};
 }
 
+std::vector<Renderer::Step> Renderer::steps(const ShaderLibraries& libraries) const {
+  std::vector<Step> out = {{gbuffer_pass(libraries.gbuffer), 1}};
+  if (options_.ao) {
+    out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion), options_.ao_samples});
+  }
+  if (options_.sun && scene_.sun) {
+    out.push_back({sun_shadow_pass(libraries.sun_shadow), options_.sun_samples});
+  }
+  return out;
+}
+
 rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,
                                             const Progress& progress,
                                             const std::atomic<bool>& stop) {
@@ -120,18 +131,7 @@ rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,
   list->ResourceBarrier(rtapi::ResourceBarrier::Uav());
   if (const auto done = queue_.ExecuteAndWait(*list); !done) return done.error();
 
-  struct Step {
-    RayPassDesc desc;
-    std::uint32_t samples;
-  };
-  std::vector<Step> steps = {{gbuffer_pass(libraries.gbuffer), 1}};
-  if (options_.ao) {
-    steps.push_back({ambient_occlusion_pass(libraries.ambient_occlusion), options_.ao_samples});
-  }
-  if (options_.sun && scene_.sun) {
-    steps.push_back({sun_shadow_pass(libraries.sun_shadow), options_.sun_samples});
-  }
-  for (const Step& step : steps) {
+  for (const Step& step : steps(libraries)) {
     const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
     if (!pass) return pass.error();
     const auto done = run_pass(*pass, step.desc.name, step.samples, progress, stop, result);

@@ -46,8 +46,8 @@ class FloatMode {
   uint32_t saved_;
 };
 
-void set_range(const std::shared_ptr<runtime::BackendBuffer>& heap, const shader::Descriptor*& begin,
-               const shader::Descriptor*& end) {
+void set_range(const std::shared_ptr<runtime::BackendBuffer>& heap,
+               const shader::Descriptor*& begin, const shader::Descriptor*& end) {
   if (heap == nullptr || heap->host() == nullptr) return;
   begin = reinterpret_cast<const shader::Descriptor*>(heap->host());
   end = begin + heap->size_bytes() / sizeof(shader::Descriptor);
@@ -95,8 +95,9 @@ rtapi::PixelStatistics Replay::run(const uint32_t index[3], uint32_t max_candida
     out->Dimensions[i] = dispatch_.dimensions[i];
   }
   const FloatMode float_mode;
-  const std::string removal = run_guarded(
-      [](void* self) { static_cast<Replay*>(self)->run_ray_generation(); }, this);
+  set_environment(&environment_);
+  const std::string removal =
+      run_guarded([](void* self) { static_cast<Replay*>(self)->run_ray_generation(); }, this);
   if (out != nullptr) out->Removal = removal;
   return statistics_;
 }
@@ -183,12 +184,13 @@ void Replay::describe_hit_record(const Trace& trace, const Candidate& candidate,
 
 // The payload's fields as the miss shader declares them, or any shader of that payload size.
 const char* Replay::payload_layout(const LinkedShader* shader, uint32_t bytes) const {
-  if (shader != nullptr && shader->code->payload_layout != nullptr) {
-    return shader->code->payload_layout;
-  }
+  const auto knows = [](const shader::ExportDesc& code) {
+    return code.payload_layout != nullptr && *code.payload_layout != '\0';
+  };
+  if (shader != nullptr && knows(*shader->code)) return shader->code->payload_layout;
   for (const auto& each : command_.linked->shaders) {
     const shader::ExportDesc& code = *each->code;
-    if (code.payload_layout != nullptr && code.payload_storage_bytes == bytes &&
+    if (knows(code) && code.payload_storage_bytes == bytes &&
         code.stage != shader::Stage::kCallable) {
       return code.payload_layout;
     }
@@ -226,7 +228,7 @@ void Replay::call_shader(Frame& caller, uint32_t index, void* data, uint32_t dat
   if (frame.node != nullptr) frame.node->Name = linked->name;
   frame.begin(*this, *linked, record, caller.depth);
   enter();
-  entry_of<shader::CallableFn>(*linked)(frame, data);
+  entry_of<shader::CallableFn> (*linked)(frame, data);
   leave();
   finish_queries(frame.node);
   if (call != nullptr) call->After = decode_values(layout, data, data_bytes);

@@ -103,8 +103,8 @@ class Replay {
   uint32_t max_candidates_ = 0;
   uint32_t index_[3] = {0, 0, 0};
   uint32_t nesting_ = 0;
-  uint32_t traces_ = 0;                               // in flight
-  std::deque<std::vector<Candidate>> candidates_;     // of each trace in flight, reused
+  uint32_t traces_ = 0;                            // in flight
+  std::deque<std::vector<Candidate>> candidates_;  // of each trace in flight, reused
   std::deque<Query> queries_;
 };
 

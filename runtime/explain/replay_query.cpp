@@ -49,8 +49,8 @@ bool is_hit(const RayQueryHit& hit, const Candidate& candidate) {
 
 }  // namespace
 
-void Replay::begin_query(Frame& caller, RayQuery& query,
-                         const shader::RayQueryArguments& arguments, const shader::RayDesc& ray) {
+void Replay::begin_query(Frame& caller, RayQuery& query, const shader::RayQueryArguments& arguments,
+                         const shader::RayDesc& ray) {
   ++statistics_.RayQueries;
   Query& state = queries_.emplace_back();
   state.scene = scenes_.find(arguments.acceleration_structure);

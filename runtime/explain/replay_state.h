@@ -64,8 +64,8 @@ struct Replay::Query {
   // Where it is written down; null: nowhere.
   rtapi::ExplainedShader* node = nullptr;
   size_t call = 0;
-  size_t offered = SIZE_MAX;    // candidate that the shader has not answered yet
-  size_t committed = SIZE_MAX;  // in the recorded candidates
+  size_t offered = SIZE_MAX;     // candidate that the shader has not answered yet
+  size_t committed = SIZE_MAX;   // in the recorded candidates
   std::vector<size_t> recorded;  // of each candidate, its place in ExplainedCall::Candidates
 };
 
@@ -82,5 +82,7 @@ rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& i
                                    uint32_t flags);
 
 const shader::Services& services();
+// Whose textures shaders on this thread read: services of textures get no invocation.
+void set_environment(const Environment* environment);
 
 }  // namespace kaamos::explain

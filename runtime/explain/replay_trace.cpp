@@ -167,9 +167,9 @@ void Replay::offer_triangle(Trace& trace, const Candidate& candidate, const Reco
   bool end_search = has(trace.search.flags, RayFlags::kAcceptFirstHitAndEndSearch);
   std::string reason;
   if (!opacity.opaque && any_hit != nullptr) {
-    const AnyHitResult result = run_any_hit(trace, candidate, record, t, hit_kind,
-                                            candidate.barycentrics,
-                                            node == nullptr ? nullptr : &node->Shaders);
+    const AnyHitResult result =
+        run_any_hit(trace, candidate, record, t, hit_kind, candidate.barycentrics,
+                    node == nullptr ? nullptr : &node->Shaders);
     if (node != nullptr) {
       reason = "any-hit \"" + any_hit->name + "\" " +
                (result == AnyHitResult::kIgnore ? "ignored it" : "accepted it");
@@ -220,7 +220,7 @@ void Replay::offer_box(Trace& trace, const Candidate& candidate, const Record& r
     frame.node->Record = node->Record;
   }
   enter();
-  entry_of<shader::IntersectionFn>(*linked)(frame);
+  entry_of<shader::IntersectionFn> (*linked)(frame);
   leave();
   finish_queries(frame.node);
   if (node == nullptr) return;
@@ -275,8 +275,7 @@ AnyHitResult Replay::run_any_hit(Trace& trace, const Candidate& candidate, const
         decode_values(payload_layout(&linked, payload_bytes), trace.payload, payload_bytes);
   }
   enter();
-  const AnyHitResult result =
-      entry_of<shader::AnyHitFn>(linked)(frame, trace.payload, attributes);
+  const AnyHitResult result = entry_of<shader::AnyHitFn>(linked)(frame, trace.payload, attributes);
   leave();
   finish_queries(frame.node);
   if (frame.node != nullptr) {
@@ -289,8 +288,8 @@ AnyHitResult Replay::run_any_hit(Trace& trace, const Candidate& candidate, const
   return result;
 }
 
-ReportHitResult Replay::report_hit(Frame& frame, float t, uint32_t hit_kind,
-                                   const void* attributes, uint32_t attribute_bytes) {
+ReportHitResult Replay::report_hit(Frame& frame, float t, uint32_t hit_kind, const void* attributes,
+                                   uint32_t attribute_bytes) {
   Trace& trace = *frame.trace;
   rtapi::ExplainedCall* call = add_call(frame, rtapi::ExplainedCallKind::kReportHit);
   if (call != nullptr) {
@@ -317,9 +316,8 @@ ReportHitResult Replay::report_hit(Frame& frame, float t, uint32_t hit_kind,
   bool end_search = has(trace.search.flags, RayFlags::kAcceptFirstHitAndEndSearch);
   if (!opacity_of(*frame.candidate, instance, trace.search.flags).opaque &&
       frame.record.linked->any_hit != nullptr) {
-    const AnyHitResult result =
-        run_any_hit(trace, *frame.candidate, frame.record, t, hit_kind, bytes,
-                    call == nullptr ? nullptr : &call->Shaders);
+    const AnyHitResult result = run_any_hit(trace, *frame.candidate, frame.record, t, hit_kind,
+                                            bytes, call == nullptr ? nullptr : &call->Shaders);
     if (result == AnyHitResult::kIgnore) {
       if (call != nullptr) call->Note = "rejected: the any-hit shader ignored it";
       return ReportHitResult::kRejected;
@@ -361,12 +359,13 @@ void Replay::run_closest_hit(Trace& trace) {
     trace.call->Shaders.push_back({linked->name, stage_of(*linked)});
     frame.node = &trace.call->Shaders.back();
     describe_hit_record(trace, trace.hit, trace.hit_record, frame.node->Record);
-    frame.node->Attributes = decode_values(linked->code->attribute_layout, trace.attributes,
-                                           std::min(linked->code->attribute_bytes, kMaxAttributeBytes));
+    frame.node->Attributes =
+        decode_values(linked->code->attribute_layout, trace.attributes,
+                      std::min(linked->code->attribute_bytes, kMaxAttributeBytes));
     frame.node->Before = decode_values(layout, trace.payload, trace.arguments->payload_bytes);
   }
   enter();
-  entry_of<shader::ClosestHitFn>(*linked)(frame, trace.payload, trace.attributes);
+  entry_of<shader::ClosestHitFn> (*linked)(frame, trace.payload, trace.attributes);
   leave();
   finish_queries(frame.node);
   if (frame.node != nullptr) {
@@ -376,8 +375,7 @@ void Replay::run_closest_hit(Trace& trace) {
 
 void Replay::run_miss(Trace& trace) {
   const uint32_t index = trace.arguments->miss_shader_index & 0xFFFFu;
-  const Record record =
-      find_record(command_.desc.MissShaderTable, RecordKind::kMiss, index);
+  const Record record = find_record(command_.desc.MissShaderTable, RecordKind::kMiss, index);
   const LinkedShader* linked = record.linked == nullptr ? nullptr : record.linked->shader;
   if (linked == nullptr) {
     if (trace.call != nullptr) {
@@ -389,7 +387,8 @@ void Replay::run_miss(Trace& trace) {
   }
   Frame frame;
   frame.begin(*this, *linked, record, trace.caller->depth + 1);
-  frame.values = {trace.ray, trace.ray.t_max, trace.reported_flags, 0, 0, 0, 0, 0, nullptr, nullptr};
+  frame.values = {trace.ray, trace.ray.t_max, trace.reported_flags, 0, 0, 0, 0, 0,
+                  nullptr,   nullptr};
   frame.ray = &frame.values;
   const char* layout = payload_layout(linked, trace.arguments->payload_bytes);
   if (trace.call != nullptr) {
@@ -400,7 +399,7 @@ void Replay::run_miss(Trace& trace) {
     frame.node->Before = decode_values(layout, trace.payload, trace.arguments->payload_bytes);
   }
   enter();
-  entry_of<shader::MissFn>(*linked)(frame, trace.payload);
+  entry_of<shader::MissFn> (*linked)(frame, trace.payload);
   leave();
   finish_queries(frame.node);
   if (frame.node != nullptr) {

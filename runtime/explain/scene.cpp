@@ -33,7 +33,8 @@ bool invert(const std::array<float, 12>& m, std::array<double, 12>& out) {
   if (determinant == 0 || !std::isfinite(1 / determinant)) return false;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) out[r * 4 + c] = cofactor[c][r] / determinant;
-    out[r * 4 + 3] = -(out[r * 4] * at(0, 3) + out[r * 4 + 1] * at(1, 3) + out[r * 4 + 2] * at(2, 3));
+    out[r * 4 + 3] =
+        -(out[r * 4] * at(0, 3) + out[r * 4 + 1] * at(1, 3) + out[r * 4 + 2] * at(2, 3));
   }
   return true;
 }
@@ -86,9 +87,9 @@ bool BottomLevel::corners(const Geometry& geometry, uint32_t primitive,
   const auto& contents = geometry.contents;
   for (int corner = 0; corner < 3; ++corner) {
     const size_t position = size_t{primitive} * 3 + corner;
-    const size_t vertex = contents.indices.empty()              ? position
+    const size_t vertex = contents.indices.empty()             ? position
                           : position < contents.indices.size() ? contents.indices[position]
-                                                                : SIZE_MAX;
+                                                               : SIZE_MAX;
     if (vertex >= contents.xyz.size() / 3) return false;
     out[corner] = &contents.xyz[vertex * 3];
     if (!is_finite(out[corner], 3)) return false;
@@ -154,8 +155,7 @@ void BottomLevel::test_triangle(const Ray& ray, const Geometry& geometry, uint32
   candidate.geometry = geometry.shape.index;
   candidate.primitive = primitive;
   candidate.geometry_opaque = geometry.shape.opaque;
-  // The determinant is -(normal . direction): front faces are clockwise in D3D's left-handed sense,
-  // which is the side that the normal edge1 x edge2 points away to.
+  // It is -(edge1 x edge2 . direction): positive where that normal points against the ray.
   candidate.clockwise = determinant > 0;
   candidate.barycentrics[0] = static_cast<float>(u);
   candidate.barycentrics[1] = static_cast<float>(v);

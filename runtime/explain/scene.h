@@ -17,7 +17,7 @@
 namespace kaamos::explain {
 
 struct Candidate {
-  double t = 0;  // boxes: where the ray enters, at least 0
+  double t = 0;      // boxes: where the ray enters, at least 0
   double leave = 0;  // boxes
   uint32_t instance = 0;
   uint32_t geometry = 0;
@@ -62,7 +62,7 @@ struct Instance {
   rtapi::RaytracingInstanceDesc desc;
   std::array<float, 12> object_to_world = {};
   std::array<float, 12> world_to_object = {};
-  std::array<double, 12> inverse = {};  // of object_to_world
+  std::array<double, 12> inverse = {};              // of object_to_world
   std::shared_ptr<const BottomLevel> bottom_level;  // null: inactive
 };
 

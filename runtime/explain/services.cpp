@@ -7,7 +7,8 @@
 
 namespace kaamos::explain {
 
-// Texture services get no invocation: the replay that runs on this thread.
+namespace {
+
 thread_local const Environment* environment = nullptr;
 
 const shader::Services& texture_services() {
@@ -18,8 +19,6 @@ const shader::Services& texture_services() {
   }();
   return table;
 }
-
-namespace {
 
 shader::Descriptor host_copy(const shader::Descriptor& descriptor) {
   shader::Descriptor out = descriptor;
@@ -51,11 +50,13 @@ struct Sampling {
 
 }  // namespace
 
+void set_environment(const Environment* its) {
+  environment = its;
+}
+
 struct Services {
   static Replay::Frame& frame_of(shader::Invocation& invocation) {
-    auto& frame = *static_cast<Replay::Frame*>(invocation.backend);
-    environment = &frame.replay->environment_;
-    return frame;
+    return *static_cast<Replay::Frame*>(invocation.backend);
   }
   static void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                         void* payload, shader::RayLanes origin, shader::RayLanes direction) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/explain/values.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <string_view>
 
 #include "kaamos/shader/half.h"
@@ -39,7 +41,8 @@ constexpr ScalarKind kScalars[] = {
     {"uint", 4, [](const uint8_t* p) { return shortest(read<uint32_t>(p)); }},
     {"int64_t", 8, [](const uint8_t* p) { return shortest(read<int64_t>(p)); }},
     {"uint64_t", 8, [](const uint8_t* p) { return shortest(read<uint64_t>(p)); }},
-    {"float16_t", 2, [](const uint8_t* p) { return shortest(shader::to_float(read<shader::half>(p))); }},
+    {"float16_t", 2,
+     [](const uint8_t* p) { return shortest(shader::to_float(read<shader::half>(p))); }},
     {"float", 4, [](const uint8_t* p) { return shortest(read<float>(p)); }},
     {"double", 8, [](const uint8_t* p) { return shortest(read<double>(p)); }},
 };
@@ -49,7 +52,8 @@ constexpr ScalarKind kScalars[] = {
 const ScalarKind* parse_type(std::string_view type, uint32_t& components) {
   const ScalarKind* found = nullptr;
   for (const ScalarKind& kind : kScalars) {
-    if (type.starts_with(kind.name) && (found == nullptr || kind.name.size() > found->name.size())) {
+    if (type.starts_with(kind.name) &&
+        (found == nullptr || kind.name.size() > found->name.size())) {
       found = &kind;
     }
   }
@@ -88,7 +92,7 @@ std::vector<rtapi::ExplainedValue> decode_values(const char* layout, const void*
                                                  uint32_t byte_count) {
   const auto* from = static_cast<const uint8_t*>(bytes);
   if (from == nullptr) return {};
-  if (layout == nullptr) return decode_words(from, byte_count);
+  if (layout == nullptr || *layout == '\0') return decode_words(from, byte_count);
   std::vector<rtapi::ExplainedValue> out;
   std::string_view rest = layout;
   while (!rest.empty()) {

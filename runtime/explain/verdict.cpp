@@ -22,8 +22,7 @@ std::string hex2(uint32_t value) {
   return text;
 }
 
-bool is_culled_by_face(const Search& search, const Candidate& candidate,
-                       const Instance& instance) {
+bool is_culled_by_face(const Search& search, const Candidate& candidate, const Instance& instance) {
   if (candidate.procedural || (instance.desc.Flags & runtime::kInstanceTriangleCullDisable) != 0) {
     return false;
   }
@@ -57,8 +56,8 @@ bool is_front_face(const Candidate& candidate, const Instance& instance) {
 std::optional<CandidateOutcome> refusal(const Search& search, const Candidate& candidate,
                                         const Instance& instance) {
   if ((instance.desc.InstanceMask & search.inclusion_mask) == 0) return CandidateOutcome::kMasked;
-  if (has(search.flags, candidate.procedural ? RayFlags::kSkipProceduralPrimitives
-                                             : RayFlags::kSkipTriangles)) {
+  if (has(search.flags,
+          candidate.procedural ? RayFlags::kSkipProceduralPrimitives : RayFlags::kSkipTriangles)) {
     return CandidateOutcome::kSkipped;
   }
   if (is_culled_by_face(search, candidate, instance)) return CandidateOutcome::kCulledByFace;
@@ -77,8 +76,8 @@ std::optional<CandidateOutcome> refusal(const Search& search, const Candidate& c
   return std::nullopt;
 }
 
-std::string refusal_text(CandidateOutcome outcome, const Search& search,
-                         const Candidate& candidate, const Instance& instance) {
+std::string refusal_text(CandidateOutcome outcome, const Search& search, const Candidate& candidate,
+                         const Instance& instance) {
   switch (outcome) {
     case CandidateOutcome::kMasked:
       return "InstanceMask " + hex2(instance.desc.InstanceMask) + " & InstanceInclusionMask " +

@@ -8,6 +8,7 @@
 #include "runtime/hlsl/cpp_emitter.h"
 #include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/trace_calls.h"
+#include "runtime/hlsl/value_layout.h"
 
 namespace kaamos::hlsl {
 
@@ -401,7 +402,8 @@ void CppEmitter::emit_tables() {
          (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
                                     : ", nullptr, 0u") +
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
-         number(calls[i].callables.size()) + "},");
+         number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
+         quote(value_layout(e.attributes)) + "},");
   }
   for (const LibraryFunction& f : module_.library_functions) {
     line("{" + quote(f.name) + ", " + quote(f.mangled) +

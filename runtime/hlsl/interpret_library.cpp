@@ -7,6 +7,7 @@
 
 #include "runtime/hlsl/interpret_closure.h"
 #include "runtime/hlsl/trace_calls.h"
+#include "runtime/hlsl/value_layout.h"
 
 namespace kaamos::hlsl {
 
@@ -19,6 +20,7 @@ struct InterpretedLibrary::Tables {
   std::vector<shader::ExportDesc> exports;
   std::vector<shader::SubobjectDesc> subobjects;
   std::deque<shader::ComputeDesc> compute;
+  std::deque<std::string> layouts;
   std::deque<ReachedCalls> calls;
   shader::LibraryDesc library = {};
 };
@@ -170,6 +172,9 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     const ReachedCalls& calls = tables.calls.emplace_back(collect_calls(m, *code.entry));
     desc.trace_calls = calls.traces.data();
     desc.trace_call_count = static_cast<uint32_t>(calls.traces.size());
+    desc.payload_layout = tables.layouts.emplace_back(value_layout(code.entry->payload)).c_str();
+    desc.attribute_layout =
+        tables.layouts.emplace_back(value_layout(code.entry->attributes)).c_str();
     desc.callable_indices = calls.callables.data();
     desc.callable_index_count = static_cast<uint32_t>(calls.callables.size());
     tables.exports.push_back(desc);

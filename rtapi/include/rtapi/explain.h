@@ -41,7 +41,7 @@ struct ExplainedValue {
 
 // How a record was chosen.
 struct ExplainedRecord {
-  std::string Table = {};       // "hit group", "miss", "callable", "ray generation"
+  std::string Table = {};  // "hit group", "miss", "callable", "ray generation"
   uint64_t Index = 0;
   std::string Arithmetic = {};  // "1 (ray) + 2 (multiplier) * 0 (geometry) + 4 (instance)"
   std::string Export = {};      // empty: nothing runs
@@ -68,6 +68,7 @@ enum class CandidateOutcome : uint32_t {
   kIgnored,             // by an any-hit shader
   kNotReported,         // procedural: no ReportHit was accepted, or there is no shader
   kNotCommitted,        // a RayQuery's shader did not commit it
+  kOffered,             // a RayQuery's shader decided, and did not call Proceed again
   kMasked,              // InstanceMask & InstanceInclusionMask is 0
   kSkipped,             // SKIP_TRIANGLES, SKIP_PROCEDURAL_PRIMITIVES
   kCulledByFace,        // CULL_BACK_FACING_TRIANGLES, CULL_FRONT_FACING_TRIANGLES
@@ -150,6 +151,7 @@ struct DispatchStatistics {
 
 // Executes the list (which is closed if it is open) as ExecuteAndWait does, and explains one
 // DispatchRaysIndex of one of its dispatches as it is when that dispatch begins.
+// Where the replay ends early (Removal), that is returned and no error: the device says its own.
 // Errors: those of ExecuteAndWait; KA0904 an empty handle; KA0916 no such dispatch or index, or
 // memory that the host cannot reach.
 Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,

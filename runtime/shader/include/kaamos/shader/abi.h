@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 4;
+inline constexpr uint32_t kAbiVersion = 5;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -397,6 +397,11 @@ struct ExportDesc {
   uint32_t trace_call_count = 0;
   const uint32_t* callable_indices = nullptr;  // of CallShader; kUnknownIndex: not constant
   uint32_t callable_index_count = 0;
+  // How the payload (or callable data) and the attributes lie in memory: "float3 color 0;uint depth
+  // 12;", type, name and byte offset of each scalar, vector and matrix, bool in 1 byte, rows of a
+  // matrix one after another. Null: not known. For people; nothing depends on it.
+  const char* payload_layout = nullptr;
+  const char* attribute_layout = nullptr;
 };
 
 // Subobjects written in HLSL. Which members count depends on type (numbers of

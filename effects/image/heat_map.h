@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Counts per pixel as colors: black, blue, red, yellow, white.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "effects/image/image.h"
+
+namespace kaamos::effects {
+
+struct HeatMap {
+  ByteImage image;          ///< 3 channels
+  std::uint32_t white = 1;  ///< count that is white: 999 of 1000 pixels have no more
+  std::uint32_t most = 0;
+  double mean = 0;
+};
+
+/// `counts`: width * height, row 0 on top; missing ones are 0.
+HeatMap heat_map(std::uint32_t width, std::uint32_t height, std::span<const std::uint32_t> counts);
+
+}  // namespace kaamos::effects
