@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <kaamos/shader/abi.h>
+
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "tests/explain/scene.h"
 
 using namespace rtapi;
+namespace shader = kaamos::shader;
 
 KAAMOS_EXPLAIN_SUITE(Explain);
 
@@ -175,18 +178,19 @@ TEST_P(Explain, StatisticsCountWhatTheTreeShows) {
 }
 
 TEST_P(Explain, AFaultOfAShaderEndsTheReplayAndTheTreeUpToThereIsReturned) {
-  CommandList list = device_.CreateCommandList().value();
-  list.SetDescriptorHeaps({heap_});
-  list.SetComputeRootSignature(root_);
-  list.SetComputeRootShaderResourceView(0, top_level_.GetGPUVirtualAddress());
-  list.SetComputeRootUnorderedAccessView(1, 0x10000);  // no buffer of anybody
-  list.SetPipelineState1(pipeline_);
-  list.DispatchRays(dispatch_);
-  const auto explanation = ExplainPixel(queue_, list, {.X = 3});
+  // The descriptor of the wall's colors, with an address where no memory is.
+  shader::Descriptor* slot = nullptr;
+  const size_t handle = heap_.GetCPUDescriptorHandle(2).ptr;
+  std::memcpy(&slot, &handle, sizeof slot);
+  slot->address = 0x10000;
+  CommandList list = record();
+  const auto explanation = ExplainPixel(queue_, list, {.X = 0});
   ASSERT_TRUE(explanation.ok()) << explanation.error().message;
-  EXPECT_EQ(explanation->Removal, "signal 11 at address 0x10030");
-  ASSERT_EQ(explanation->RayGeneration.size(), 1u);
-  EXPECT_EQ(explanation->RayGeneration[0].Calls.size(), 1u);
+  EXPECT_EQ(explanation->Removal, "signal 11 at address 0x10000");
+  const ExplainedCall& trace = explanation->RayGeneration.at(0).Calls.at(0);
+  EXPECT_EQ(trace.Candidates.size(), 7u);
+  EXPECT_EQ(trace.Shaders.at(0).Name, "WallHit");
+  EXPECT_EQ(trace.Shaders.at(0).Calls.size(), 1u);
   EXPECT_FALSE(device_.GetDeviceRemovedReason().ok());
 }
 
