@@ -146,5 +146,7 @@ function(kaamos_install_package)
     DESTINATION "${KAAMOS_PACKAGE_DIR}")
   install(FILES "${PROJECT_SOURCE_DIR}/cmake/KaamosShaders.cmake" DESTINATION "${KAAMOS_PACKAGE_DIR}"
     OPTIONAL)
+  install(FILES "${PROJECT_SOURCE_DIR}/runtime/shader/gdb/kaamos_gdb.py"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/kaamos/gdb")
   install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 endfunction()

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -9,6 +10,7 @@
 #include "effects/common/file.h"
 #include "effects/image/compare.h"
 #include "effects/image/exr.h"
+#include "effects/image/heat_map.h"
 #include "effects/image/png.h"
 #include "effects/image/tonemap.h"
 
@@ -184,6 +186,28 @@ TEST(Compare, NonFiniteValues) {
   b.values[0] = 0.0f;
   EXPECT_EQ(compare(a, b).value().max_abs, std::numeric_limits<double>::infinity());
   EXPECT_FALSE(compare(a, FloatImage(2, 1, 1)).ok());
+}
+
+TEST(HeatMap, GoesFromBlackToWhiteAndLeavesOutliersWhite) {
+  std::vector<std::uint32_t> counts(2000, 4);
+  counts[0] = 0;
+  counts[1] = 1;
+  counts[2] = 900;  // 1 of 2000: does not set the scale
+  const HeatMap map = heat_map(100, 20, counts);
+  EXPECT_EQ(map.white, 4u);
+  EXPECT_EQ(map.most, 900u);
+  EXPECT_NEAR(map.mean, (1997 * 4.0 + 901) / 2000, 1e-9);
+  const auto color = [&](std::size_t pixel) {
+    const auto* p = &map.image.values[pixel * 3];
+    return std::array<int, 3>{p[0], p[1], p[2]};
+  };
+  EXPECT_EQ(color(0), (std::array<int, 3>{0, 0, 0}));
+  EXPECT_EQ(color(1), (std::array<int, 3>{30, 40, 160}));
+  EXPECT_EQ(color(2), (std::array<int, 3>{255, 255, 255}));
+  EXPECT_EQ(color(3), (std::array<int, 3>{255, 255, 255}));
+  // Fewer counts than pixels, none at all.
+  EXPECT_EQ(heat_map(2, 1, {}).image.values, std::vector<std::uint8_t>(6, 0));
+  EXPECT_EQ(heat_map(0, 0, {}).white, 1u);
 }
 
 }  // namespace

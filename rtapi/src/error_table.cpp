@@ -218,7 +218,7 @@ constexpr ErrorEntry kTable[] = {
     {Id::kDeviceDesc, ErrorCode::kInvalidArgument, "device description", "CreateDevice"},
     {Id::kTableDescription, ErrorCode::kInvalidArgument, "shader tables cannot be described",
      "DescribeShaderTables"},
-    {Id::kExplain, ErrorCode::kInvalidArgument, "cannot be explained", "ExplainDispatchRays"},
+    {Id::kExplain, ErrorCode::kInvalidArgument, "cannot be explained", "ExplainPixel"},
 };
 
 }  // namespace

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# gdb_test.sh GDB PROGRAM SHADER: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
+# gdb_test.sh GDB PROGRAM SHADER [PRINTERS]: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
 # stops there, shows the whole stack down to the ray generation shader, and the shader's variables.
 set -u
 gdb=$1
 program=$2
 shader=$3
+printers=${4:-}
 
 if ! command -v "$gdb" > /dev/null; then
   echo "gdb is not installed (apt install gdb)"
@@ -20,6 +21,7 @@ output=$(DEBUGINFOD_URLS='' "$gdb" -nx -batch \
   -ex 'handle SIGSEGV nostop noprint pass' \
   -ex "break $name:$line" \
   -ex run -ex backtrace -ex 'info locals' -ex 'print payload' -ex 'print barycentrics' \
+  ${printers:+-ex "source $printers" -ex 'print payload' -ex 'print barycentrics'} \
   --args "$program" "$shader" 2>&1)
 
 failed=0
@@ -34,6 +36,10 @@ expect "^#[0-9]+ .*ProbeAnyHit.*$name" "the any-hit shader on the stack"
 expect "^#[0-9]+ .*ProbeRayGen.*$name:$caller" "the ray generation shader on the stack, at its TraceRay"
 expect "transmittance = 1" "the payload's value"
 expect "thickness = 1\.25" "a local variable's value"
+if [ -n "$printers" ]; then
+  expect " = Payload = \{transmittance = 1, layers = 0\}" "the payload by its HLSL name"
+  expect " = float2\(0\.25, 0\.25\)" "a vector as HLSL writes it"
+fi
 if [ "$failed" != 0 ]; then
   echo "--- gdb said:"
   echo "$output"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All of the API. Runtime compilation of HLSL stands apart: <rtapi/shader_compiler.h>.
+// All of the API. Apart stand runtime compilation of HLSL, <rtapi/shader_compiler.h>, and what
+// shows tables and pixels to people, <rtapi/table_description.h> and <rtapi/explain.h>.
 #pragma once
 
 #include <rtapi/command_list.h>       // IWYU pragma: export
