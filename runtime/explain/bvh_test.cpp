@@ -12,7 +12,7 @@ namespace {
 // Every box that meets the forward half of the ray is visited, by a test of each.
 TEST(Bvh, FindsWhatATestOfEachBoxFinds) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> place(-10, 10), size(0, 1);
+  std::uniform_real_distribution<double> place(-10, 10), size(0, 4);
   std::vector<Box> boxes(500);
   for (size_t i = 0; i < boxes.size(); ++i) {
     if (i % 50 == 0) continue;  // empty
