@@ -2,6 +2,7 @@
 // Opaque reflections: one ray per sample in a direction that GGX's facets as seen by the camera
 // choose, shaded where it hits. [effects-spec B4.10; Control]
 #include "hit_shading.hlsli"
+#include "indirect_volume.hlsli"
 #include "sampling.hlsli"
 
 // Sums over the samples: radiance over the specular albedo, and the ray's length (0: no ray).
@@ -26,7 +27,9 @@ struct ReflectionPayload {
 
 [shader("miss")]
 void ReflectionMiss(inout ReflectionPayload payload) {
-  payload.radiance = SkyTowards(WorldRayDirection());
+  // Where the ray ends, not where it would have hit: the volume knows what comes from there on.
+  const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
+  payload.radiance = VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
   payload.distance = -1.0;
 }
 
@@ -40,7 +43,10 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent() * frame.pixel_angle);
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0);
+  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
+                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
+                                                 SkyTowards(surface.normal));
   payload.distance = RayTCurrent();
 }
 

@@ -8,6 +8,7 @@
 
 #include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
+#include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
 #include "effects/scene/oracle_scenes.h"
 
@@ -57,6 +58,8 @@ Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionCon
   PassViews views = frame.create_pass_views(device).value();
   views.set_unordered_access(0, picture).value();
   lighting.bind(views).value();
+  const GpuVolume no_volume = GpuVolume::create(device, {}, camera.position()).value();
+  no_volume.bind(views).value();
   const RayPass gbuffer =
       RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
   const RayPass pass =

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include "effects/indirect_diffuse/indirect_diffuse.h"
+
+#include <shaders/indirect_diffuse.h>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_indirect_diffuse());
+}
+
+RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "indirect diffuse";
+  desc.library = std::move(library);
+  desc.ray_generation = "IndirectRayGen";
+  desc.miss[kRayTypeSurface] = "IndirectMiss";
+  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
+  desc.hit[kRayTypeSurface] = {"IndirectAnyHit", "IndirectClosestHit"};
+  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  desc.payload_bytes = 16;
+  desc.max_recursion_depth = 2;  // the sun's ray at a hit
+  return desc;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
+#pragma once
+
+#include "effects/frame/ray_pass.h"
+#include "effects/indirect_diffuse/volume.h"
+
+namespace kaamos::effects {
+
+/// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: irradiance over pi,
+/// and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
+RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
+rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
+
+enum class IndirectMode : std::uint32_t {
+  kDirect,     ///< the volume, sampled at the surface; times ambient occlusion if one likes
+  kHitBlack,   ///< rays sample it where they end, what they hit is black
+  kNearField,  ///< what they hit is shaded
+};
+
+/// Constants b0, space3.
+struct IndirectConstants {
+  IndirectMode mode = IndirectMode::kNearField;
+  float length = 3.0f;  ///< of the rays, metres; at least two cells
+  std::uint32_t sun_at_hits = 1;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Indirect diffuse light of each pixel, in the four ways that the talk compares. [effects-spec B5.2 to
+// B5.4]
+#include "hit_shading.hlsli"
+#include "indirect_volume.hlsli"
+#include "sampling.hlsli"
+
+// Sums over the samples: irradiance over pi, and the rays' length.
+RWTexture2D<float4> indirect : register(u0, space3);
+
+struct IndirectConstants {
+  uint mode;
+  float length;  // of the rays, metres
+  uint sun_at_hits;
+};
+ConstantBuffer<IndirectConstants> constants : register(b0, space3);
+
+static const uint kModeDirect = 0;      // the volume at the surface
+static const uint kModeHitBlack = 1;    // rays sample the volume where they end; hits are black
+static const uint kModeNearField = 2;   // hits are shaded
+static const uint kIndirectPair = 4;    // and 5: the end's jitter
+
+struct IndirectPayload {
+  float3 radiance;
+  float distance;  // of the hit, metres; negative: none
+};
+
+float3 Fallback(float3 direction) { return SkyTowards(direction); }
+
+[shader("miss")]
+void IndirectMiss(inout IndirectPayload payload) {
+  payload.distance = -1.0;
+}
+
+[shader("anyhit")]
+void IndirectAnyHit(inout IndirectPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  payload.distance = RayTCurrent();
+  if (constants.mode != kModeNearField) return;
+  const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
+  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
+                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
+                                                 Fallback(surface.normal));
+}
+
+// What one direction brings, and in w how far its ray got.
+float4 Gather(float3 origin, float3 direction, float3 jitter) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = constants.length;
+  IndirectPayload payload;
+  payload.radiance = float3(0, 0, 0);
+  payload.distance = -1.0;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+           payload);
+  const float3 end = origin + direction * constants.length + jitter * volume_constants[0].cell;
+  if (payload.distance < 0.0) {
+    return float4(VolumeRadiance(end, direction, Fallback(direction)), constants.length);
+  }
+  if (constants.mode == kModeHitBlack) return float4(0, 0, 0, payload.distance);
+  // Close to the ray's end the volume takes over, so that no shell shows where rays end.
+  const float far = smoothstep(0.8 * constants.length, constants.length, payload.distance);
+  const float3 from_volume = VolumeRadiance(end, direction, Fallback(direction));
+  return float4(lerp(payload.radiance, from_volume, far), payload.distance);
+}
+
+[shader("raygeneration")]
+void IndirectRayGen() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) return;
+  const float4 position = g_position[pixel];
+  const float3 normal = OctahedralDecode(g_normal[pixel]);
+  const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
+  if (constants.mode == kModeDirect) {
+    const float count = float(pass_constants.sample_count);
+    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, shading_normal,
+                                                         Fallback(shading_normal)), 0.0);
+    return;
+  }
+  const float3 origin = position.xyz + normal * position.w;
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
+  const uint pixel_seed = HashCombine(frame.seed, pixel.y * 65536 + pixel.x);
+  float4 sum = float4(0, 0, 0, 0);
+  for (uint i = 0; i < pass_constants.sample_count; ++i) {
+    const uint index = pass_constants.first_sample + i;
+    const float2 u = PixelSample(tile, index, kIndirectPair, frame.seed);
+    const float3 direction = ToWorld(SampleCosineHemisphere(u), shading_normal);
+    if (!(dot(direction, normal) > 0.0)) continue;
+    // Half a cell to each side hides the cells' steps.
+    const uint key = HashCombine(pixel_seed, index * 8 + kIndirectPair + 1);
+    const float3 jitter = float3(UnitFloat(PcgHash(key)), UnitFloat(PcgHash(key + 1)),
+                                 UnitFloat(PcgHash(key + 2))) - 0.5;
+    sum += Gather(origin, direction, jitter);
+  }
+  indirect[pixel] += sum;
+}

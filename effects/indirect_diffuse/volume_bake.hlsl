@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Fills a volume by path tracing: from each cell's middle rays to all sides, and from their hits on.
+// [effects-spec B5.1]
+#include "hit_lighting.hlsli"
+#include "indirect_volume.hlsli"
+#include "sampling.hlsli"
+#include "sky.hlsli"
+#include "surface.hlsli"
+#include "visibility.hlsli"
+
+RWStructuredBuffer<VolumeCell> sums : register(u0, space3);      // over the samples; validity: back faces
+StructuredBuffer<float4> cell_centers : register(t3, space3);  // relative to the camera
+
+struct BakeConstants {
+  uint cell_count;
+  uint first_sample;
+  uint sample_count;
+  uint bounces;  // after the first hit
+  uint width;    // of the dispatch
+  uint seed;
+};
+ConstantBuffer<BakeConstants> constants : register(b0, space3);
+
+static const float kSunDistance = 1e4;  // metres
+
+// What a path needs of a hit to go on.
+struct PathPayload {
+  float3 position;
+  float offset;  // negative: nothing was hit
+  float3 normal;
+  uint back_face;
+  float3 albedo;
+  float padding;
+  float3 emissive;
+};
+
+[shader("miss")]
+void PathMiss(inout PathPayload payload) {
+  payload.offset = -1.0;
+}
+
+[shader("anyhit")]
+void PathAnyHit(inout PathPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void PathClosestHit(inout PathPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const Surface surface = LoadSurface(hit.barycentrics, 0.0);
+  payload.position = surface.position;
+  payload.offset = surface.offset;
+  payload.normal = surface.normal;
+  payload.back_face = surface.back_face ? 1 : 0;
+  // Metal sends light on too; as far as this volume can tell, to all sides.
+  payload.albedo = surface.base_color * lerp(1.0, 0.7, surface.metallic);
+  payload.emissive = surface.emissive;
+}
+
+// Light of the sun and of the local lights on a surface, over pi, each by a shadow ray.
+float3 DirectAt(PathPayload hit) {
+  const float3 origin = hit.position + hit.normal * hit.offset;
+  float3 sum = float3(0, 0, 0);
+  const float toward_sun = dot(hit.normal, frame.direction_to_sun);
+  if (toward_sun > 0.0 && any(frame.sun_irradiance > 0.0)) {
+    sum += frame.sun_irradiance *
+           (toward_sun * TraceVisibility(origin, frame.direction_to_sun, kSunDistance));
+  }
+  const uint cluster = ClusterOf(hit.position);
+  const uint count = ClusterLightCount(cluster);
+  for (uint i = 0; i < count; ++i) {
+    const LightConstants light = lights[ClusterLight(cluster, i)];
+    const LightSample s = SampleLight(light, hit.position);
+    const float cosine = dot(hit.normal, s.direction);
+    if (!(cosine > 0.0) || !any(s.irradiance > 0.0)) continue;
+    const float reach = s.distance - light.radius;
+    sum += s.irradiance * (cosine * (reach > 0.0 ? TraceVisibility(origin, s.direction, reach) : 1.0));
+  }
+  return sum / kBrdfPi;
+}
+
+PathPayload TracePath(float3 origin, float3 direction) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = 1e30;
+  PathPayload payload;
+  payload.position = payload.normal = payload.albedo = payload.emissive = float3(0, 0, 0);
+  payload.offset = -1.0;
+  payload.back_face = 0;
+  payload.padding = 0.0;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+           payload);
+  return payload;
+}
+
+float2 Random2(uint key) { return float2(UnitFloat(PcgHash(key)), UnitFloat(PcgHash(key ^ 0x9E3779B9u))); }
+
+// Radiance along a ray; back_face: its first hit was a surface's back.
+float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_face) {
+  float3 radiance = float3(0, 0, 0);
+  float3 throughput = float3(1, 1, 1);
+  back_face = false;
+  for (uint bounce = 0; bounce <= constants.bounces; ++bounce) {
+    const PathPayload hit = TracePath(origin, direction);
+    if (hit.offset < 0.0) {
+      radiance += throughput * SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
+      break;
+    }
+    if (bounce == 0) back_face = hit.back_face != 0;
+    radiance += throughput * (hit.emissive + hit.albedo * DirectAt(hit));
+    throughput *= hit.albedo;
+    origin = hit.position + hit.normal * hit.offset;
+    direction = ToWorld(SampleCosineHemisphere(Random2(HashCombine(key, bounce + 1))), hit.normal);
+  }
+  return radiance;
+}
+
+[shader("raygeneration")]
+void BakeRayGen() {
+  const uint cell = DispatchRaysIndex().y * constants.width + DispatchRaysIndex().x;
+  if (cell >= constants.cell_count) return;
+  VolumeCell sum = sums[cell];
+  const float3 center = cell_centers[cell].xyz;
+  const uint cell_seed = HashCombine(constants.seed, cell);
+  for (uint i = 0; i < constants.sample_count; ++i) {
+    const uint index = constants.first_sample + i;
+    // The whole sphere, evenly.
+    const float2 u = SobolOwen(index, cell_seed);
+    const float z = 1.0 - 2.0 * u.x;
+    const float r = sqrt(max(0.0, 1.0 - z * z));
+    const float3 direction = float3(r * cos(6.2831853 * u.y), r * sin(6.2831853 * u.y), z);
+    bool back_face;
+    const float3 radiance = PathRadiance(center, direction, HashCombine(cell_seed, index), back_face);
+    sum.mean += radiance;
+    sum.slope_x += 3.0 * radiance * direction.x;
+    sum.slope_y += 3.0 * radiance * direction.y;
+    sum.slope_z += 3.0 * radiance * direction.z;
+    sum.validity += back_face ? 1.0 : 0.0;
+  }
+  sums[cell] = sum;
+}
