@@ -84,6 +84,8 @@ constexpr ErrorEntry kTable[] = {
     {Id::kCommandSignatureTier, ErrorCode::kUnsupported, "indirect DispatchRays needs tier 1.1",
      "DSP-09"},
     {Id::kShaderTier, ErrorCode::kUnsupported, "shader needs tier 1.1", "FLG-05"},
+    {Id::kCallGraphSignatures, ErrorCode::kInvalidArgument,
+     "functions of a call graph have different root signatures", "ROOT-13"},
     {Id::kRootSignatureTooLarge, ErrorCode::kInvalidArgument, "root signature too large",
      "D3D12: root signature limits"},
     {Id::kLocalRootSignatureTooLarge, ErrorCode::kInvalidArgument, "local root signature too large",

@@ -58,6 +58,7 @@ enum class Id : uint16_t {
   kCommandSignature = 540,
   kCommandSignatureTier = 541,
   kShaderTier = 542,
+  kCallGraphSignatures = 543,
   // Root signatures and descriptors
   kRootSignatureTooLarge = 600,
   kLocalRootSignatureTooLarge = 601,

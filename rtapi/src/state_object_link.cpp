@@ -339,7 +339,9 @@ class Linker {
     const DefinitionPtr& d = effective[static_cast<size_t>(Category::kShaderConfig)];
     if (!d) return {};
     const RaytracingShaderConfig& config = d->shader_config;
-    if (s.code->payload_bytes > config.MaxPayloadSizeInBytes) {
+    // [DXR: Payload access qualifiers, Payload size]
+    const bool bounded = !(s.code->flags & shader::kExportQualifiedPayload);
+    if (bounded && s.code->payload_bytes > config.MaxPayloadSizeInBytes) {
       return MakeError(Id::kPayloadTooLarge, where, " has a payload of ", s.code->payload_bytes,
                        " bytes; MaxPayloadSizeInBytes of ", d->where, " is ",
                        config.MaxPayloadSizeInBytes);
@@ -352,9 +354,36 @@ class Linker {
     return {};
   }
 
+  // [DXR: D3D12_LOCAL_ROOT_SIGNATURE]: a library function may name no other root signature than
+  // the shaders that call it. Defaults say nothing of functions.
+  Status CheckCallGraph(const Subject& s, const Effective& effective,
+                        const std::string& where) const {
+    const shader::LibraryDesc* library = s.library.impl()->desc;
+    const auto index = static_cast<uint32_t>(s.code - library->exports);
+    for (const SubjectPtr& f : parts_.subjects) {
+      if (f->is_group() || f->code->stage != Stage::kLibrary) continue;
+      if (f->library.impl()->desc != library) continue;
+      const uint32_t* callers = f->code->callable_indices;
+      const uint32_t* end = callers + f->code->callable_index_count;
+      if (std::find(callers, end, index) == end) continue;
+      for (Category c : {Category::kLocalRootSignature, Category::kGlobalRootSignature}) {
+        const Associated& own = f->associations[static_cast<size_t>(c)];
+        if (own.strength != Strength::kExplicit || !own.definition) continue;
+        const DefinitionPtr& callers_own = effective[static_cast<size_t>(c)];
+        if (callers_own && SameDefinition(*callers_own, *own.definition)) continue;
+        return MakeError(Id::kCallGraphSignatures, where, " calls function ", Quoted(f->name),
+                         ", whose ", CategoryName(c), " is ", own.definition->where,
+                         "; its own is ", callers_own ? callers_own->where : "none",
+                         ". Functions take that of their callers: associate both or neither");
+      }
+    }
+    return {};
+  }
+
   Result<const LinkedShader*> LinkShader(const Subject& s, const Effective& effective,
                                          const std::string& where) {
     if (Status st = CheckSizes(s, effective, where); !st.ok()) return st.error();
+    if (Status st = CheckCallGraph(s, effective, where); !st.ok()) return st.error();
     const RootSignature global = SignatureOf(effective, Category::kGlobalRootSignature);
     const RootSignature local = SignatureOf(effective, Category::kLocalRootSignature);
     const auto key = std::make_tuple(s.code, global.impl().get(), local.impl().get());

@@ -80,6 +80,7 @@ std::unique_ptr<ir::Module> Checker::run(const TranslationUnit& unit) {
   if (options_.target.starts_with("lib")) add_library_functions();
   check_initialisers();
   finish(*module_);
+  if (!has_errors()) check_payload_uses();
   if (!has_errors()) warn_skipped();
   if (has_errors() || diagnostics_.has_errors()) return nullptr;
   return std::move(module_);

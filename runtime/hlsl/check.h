@@ -37,6 +37,8 @@ struct CheckOptions {
   bool row_major = false;        // [-Zpr]
   // Before 2021, logic and ?: work on vectors and evaluate both sides always. [-HV]
   uint32_t hlsl_version = 2021;
+  // Payload access qualifiers count. [-enable-payload-qualifiers, -disable-payload-qualifiers]
+  bool payload_qualifiers = false;
   bool strict = false;  // older habits are errors
 };
 

@@ -136,6 +136,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
                                                      : check_ray_parameters(function, entry);
   if (!valid || !parameters || !function->ir) return;
   if (!entry.function) entry.function = function->ir;
+  if (stage != ir::kStageCompute && stage != ir::kStageCallable) wrap_payload(function, entry);
   entries_.push_back({function, module_->entry_points.size()});
   module_->entry_points.push_back(std::move(entry));
 }
@@ -190,16 +191,7 @@ bool Checker::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry
                                                            : ir::EntryParameter::kPayload);
     entry.payload = parameter.type->ir;
     entry.payload_bytes = bytes;
-    const bool qualified_payloads = options_.target == "lib_6_7" || options_.target == "lib_6_8";
-    if (qualified_payloads && stage != ir::kStageCallable && parameter.type->structure->decl) {
-      const auto attributes = parameter.type->structure->decl->attributes;
-      const bool has = std::any_of(attributes.begin(), attributes.end(), [](const Attribute& one) {
-        return same_word(one.name, "raypayload");
-      });
-      if (!has) {
-        report(CheckId::kPayloadQualifiers, location, {to_string(parameter.type), options_.target});
-      }
-    }
+    if (stage != ir::kStageCallable) check_payload_use(parameter.type, location);
   }
   return valid;
 }
@@ -321,7 +313,7 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
   call_statement->function = function->ir;
   call_statement->arguments = std::move(arguments);
   wrapper->body.push_back(call_statement);
-  wrappers_.push_back({wrapper, function});
+  wrappers_.push_back({wrapper, function, ir::kStageCompute});
   entry.function = wrapper;
   return true;
 }
@@ -346,7 +338,9 @@ void Checker::add_library_functions() {
       // A rename changes the name inside the mangled one as well.
       std::string qualified = function->qualified;
       if (name != function->name) qualified = name;
-      module_->library_functions.push_back({name, mangle(qualified, function->result, parameters)});
+      module_->library_functions.push_back(
+          {name, mangle(qualified, function->result, parameters), {}});
+      library_functions_.push_back(function);
     }
   }
   for (const ExportRequest& request : options_.exports) {

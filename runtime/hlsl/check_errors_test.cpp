@@ -28,6 +28,28 @@ FrontendOptions target(const char* name) {
   return options;
 }
 
+FrontendOptions qualifiers(const char* name, bool enabled) {
+  FrontendOptions options = target(name);
+  options.payload_qualifiers = enabled;
+  return options;
+}
+
+// A payload struct of these fields and shaders; lib_6_7 has qualifiers on.
+std::string payload(const std::string& fields, const std::string& shaders = {}) {
+  return "RaytracingAccelerationStructure scene : register(t0);\n"
+         "typedef BuiltInTriangleIntersectionAttributes Attributes;\n"
+         "struct [raypayload] Inner { int i : read(caller) : write(miss); };\n"
+         "struct Plain { int i; };\n"
+         "struct [raypayload] Payload {\n" +
+         fields + "\n};\n" +
+         (shaders.empty() ? "[shader(\"miss\")] void M(inout Payload p) {}\n" : shaders);
+}
+
+std::string caller(const std::string& before, const std::string& after) {
+  return "[shader(\"raygeneration\")] void R() {\n  RayDesc r = (RayDesc)0;\n  Payload p;\n" +
+         before + "TraceRay(scene, 0, 255, 0, 0, 0, r, @p);\n" + after + "}\n";
+}
+
 const std::string kRayTypes =
     "struct Payload { float4 color; };\n"
     "typedef BuiltInTriangleIntersectionAttributes Attributes;\n"
@@ -213,6 +235,94 @@ const std::vector<Case>& cases() {
            "\n  TraceRay(scene, 0, 255, 0, 0, 0, r, @x);\n}"},
       {"PayloadQualifiers", Id::kPayloadQualifiers,
        kRayTypes + "[shader(\"miss\")] void M(inout Payload @p) {}", target("lib_6_7")},
+      {"PayloadQualifiersOfTrace", Id::kPayloadQualifiers,
+       kRayTypes + "[shader(\"raygeneration\")] void R() {\n  RayDesc r = (RayDesc)0;\n"
+                   "  Payload p;\n  TraceRay(scene, 0, 255, 0, 0, 0, r, @p);\n}",
+       target("lib_6_8")},
+      {"PayloadQualifiersEnabled", Id::kPayloadQualifiers,
+       kRayTypes + "[shader(\"miss\")] void M(inout Payload @p) {}", qualifiers("lib_6_6", true)},
+      {"PayloadTarget", Id::kPayloadTarget, payload("int a : read() : write();"),
+       qualifiers("lib_6_5", true)},
+      {"PayloadIgnored", Id::kPayloadIgnored,
+       "struct [raypayload] @P { int a : read() : write(); };\n"
+       "[shader(\"miss\")] void M(inout P p) {}",
+       target("lib_6_6")},
+      {"PayloadDisabled", Id::kPayloadIgnored,
+       "[raypayload] struct @P { int a : read() : write(); };\n"
+       "[shader(\"miss\")] void M(inout P p) {}",
+       qualifiers("lib_6_7", false)},
+      {"PayloadFieldPlain", Id::kPayloadFieldPlain, payload("int @a;"), target("lib_6_7")},
+      {"PayloadFieldOfPlainStruct", Id::kPayloadFieldPlain, payload("Plain @a;"),
+       target("lib_6_7")},
+      {"PayloadNested", Id::kPayloadNested, payload("Inner a : @read(caller) : write(miss);"),
+       target("lib_6_7")},
+      {"PayloadTwice", Id::kPayloadTwice,
+       payload("int a : read(caller) : write(miss) : @read(miss);"), target("lib_6_7")},
+      {"PayloadStage", Id::kPayloadStage,
+       payload("int a : read(caller, @intersection) : write(miss);"), target("lib_6_7")},
+      {"PayloadNoWrite", Id::kPayloadMissing, payload("int @a : read(caller);"), target("lib_6_7")},
+      {"PayloadNoRead", Id::kPayloadMissing, payload("int @a : write(caller);"), target("lib_6_7")},
+      {"PayloadReadOfMiss", Id::kPayloadProducer,
+       payload("int a : read(caller, @miss) : write(closesthit);"), target("lib_6_7")},
+      {"PayloadReadOfAnyHit", Id::kPayloadProducer,
+       payload("int a : read(@anyhit, caller) : write(closesthit, miss);"), target("lib_6_7")},
+      {"PayloadReadOfCaller", Id::kPayloadProducer, payload("int a : read(@caller) : write();"),
+       target("lib_6_7")},
+      {"PayloadWriteOfMiss", Id::kPayloadConsumer,
+       payload("int a : read(closesthit) : write(caller, @miss);"), target("lib_6_7")},
+      {"PayloadWriteOfCaller", Id::kPayloadConsumer, payload("int a : read() : write(@caller);"),
+       target("lib_6_7")},
+      {"PayloadBase", Id::kPayloadBase,
+       "struct B { int b; };\n"
+       "struct [raypayload] @P : B { int a : read(caller) : write(miss); };\n"
+       "[shader(\"miss\")] void M(inout P p) {}",
+       target("lib_6_7")},
+      {"PayloadUndefined", Id::kPayloadUndefined,
+       payload("int a : read(caller) : write(miss);",
+               "[shader(\"miss\")] void M(inout Payload p) {\n  int x = 2 + p.@a;\n  p.a = x;\n}"),
+       target("lib_6_7")},
+      {"PayloadUndefinedOnOnePath", Id::kPayloadUndefined,
+       payload("int a : read(caller) : write(miss);\nint b : read(miss) : write(caller);",
+               "[shader(\"miss\")] void M(inout Payload p) {\n  if (p.b > 0) p.a = 1;\n"
+               "  if (p.@a == 1) p.a = 2;\n}"),
+       target("lib_6_7")},
+      {"PayloadUndefinedInFunction", Id::kPayloadUndefined,
+       payload("int a : read(caller) : write(miss, anyhit);",
+               "int twice(in Payload q) { return 2 * q.@a; }\n"
+               "[shader(\"miss\")] void M(inout Payload p) { p.a = twice(p); }"),
+       target("lib_6_7")},
+      {"PayloadUndefinedInLoop", Id::kPayloadUndefined,
+       payload("int a : read(caller) : write(caller);\nint b : read(miss) : write(caller);",
+               "[shader(\"miss\")] void M(inout Payload p) {\n"
+               "  for (int i = 0; i < p.b; ++i) { if (p.b == 2) break; p.a = 1; }\n"
+               "  int x = p.@a;\n}"),
+       target("lib_6_7")},
+      {"PayloadDropped", Id::kPayloadDropped,
+       payload("int a : read(miss) : write(caller);",
+               "[shader(\"miss\")] void M(inout Payload p) {\n  p.@a = 1;\n}"),
+       target("lib_6_7")},
+      {"PayloadDroppedElement", Id::kPayloadDropped,
+       payload("int a[3] : read(miss) : write(caller);",
+               "void set(inout Payload q) { q.@a[2] += 1; }\n"
+               "[shader(\"miss\")] void M(inout Payload p) { set(p); }"),
+       target("lib_6_7")},
+      {"PayloadDroppedNested", Id::kPayloadDropped,
+       payload("Inner inner;",
+               "[shader(\"closesthit\")] void C(inout Payload p, Attributes a) {\n"
+               "  p.inner.@i = 1;\n}"),
+       target("lib_6_7")},
+      {"PayloadNotReturned", Id::kPayloadNotReturned,
+       payload("int a : read(miss) : write(caller);",
+               "[shader(\"raygeneration\")] void R() {\n  RayDesc r = (RayDesc)0;\n"
+               "  Payload p;\n  p.a = 1;\n  TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n"
+               "  int x = p.@a;\n}"),
+       target("lib_6_7")},
+      {"PayloadNotPassed", Id::kPayloadNotPassed,
+       payload("int a : read(caller) : write(miss);", caller("p.a = 1;\n", "")), target("lib_6_7")},
+      {"PayloadDataLoss", Id::kPayloadDataLoss,
+       payload("int a : read(caller) : write(caller, miss);\nint b : read(miss) : write(caller);",
+               "[shader(\"miss\")] void M(inout Payload @p) { if (p.b == 1) p.a = 1; }"),
+       target("lib_6_7")},
       {"DuplicateEntry", Id::kDuplicateExport,
        kRayTypes + "[shader(\"miss\")] void M(inout Payload p) {}\n"
                    "[shader(\"raygeneration\")] void @M() {}"},
@@ -278,6 +388,66 @@ INSTANTIATE_TEST_SUITE_P(All, CheckErrors, testing::Range<size_t>(0, cases().siz
                          [](const testing::TestParamInfo<size_t>& one) {
                            return std::string(cases()[one.param].name);
                          });
+
+std::string payload_messages(const std::string& fields, const std::string& shaders) {
+  const Compilation compilation(payload(fields, shaders), target("lib_6_7"));
+  EXPECT_NE(compilation.module, nullptr);
+  return compilation.messages();
+}
+
+TEST(CheckPayloads, NoWarningWhereEveryPathHasAValue) {
+  const std::string fields =
+      "int a : read(caller) : write(miss, closesthit);\n"
+      "int b : read(miss, closesthit) : write(caller);\n"
+      "int c : read() : write();\nInner inner;";
+  EXPECT_EQ(payload_messages(fields,
+
+                             "[shader(\"miss\")] void M(inout Payload p) {\n"
+                             "  if (p.b > 1) p.a = 2; else p.a = 3;\n  p.a = p.a + p.b;\n"
+                             "  switch (p.a) { case 1: p.inner.i = 2; break;\n"
+                             "    default: p.inner.i = 3; }\n  p.a += p.inner.i;\n}\n"),
+            "");
+  EXPECT_EQ(payload_messages(fields,
+                             "[shader(\"raygeneration\")] void R() {\n"
+                             "  RayDesc r = (RayDesc)0;\n  Payload p = (Payload)0;\n  p.b = 4;\n"
+                             "  TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n  p.b = p.a;\n"
+                             "  p.b += p.inner.i;\n}\n"),
+            "");
+}
+
+// What a closest-hit shader writes into its copy counts where it hands the payload on.
+TEST(CheckPayloads, AWriteForANestedTraceIsNotDropped) {
+  EXPECT_EQ(payload_messages("int a : read(miss, caller) : write(caller, miss);",
+                             "[shader(\"closesthit\")]\n"
+                             "void C(inout Payload p, Attributes a) {\n"
+                             "  RayDesc r = (RayDesc)0;\n  p.a = 4;\n"
+                             "  TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n}\n"),
+            "");
+}
+
+TEST(CheckPayloads, AnnotationsWithoutEffectBelow67) {
+  for (const char* name : {"lib_6_3", "lib_6_6"}) {
+    const Compilation compilation(payload("int a;"), target(name));
+    EXPECT_NE(compilation.module, nullptr) << compilation.messages();
+    EXPECT_TRUE(compilation.has(Id::kPayloadIgnored));
+  }
+  const Compilation enabled(payload("int a : read(caller) : write(miss);"),
+                            qualifiers("lib_6_6", true));
+  EXPECT_NE(enabled.module, nullptr) << enabled.messages();
+  EXPECT_FALSE(enabled.has(Id::kPayloadIgnored));
+  EXPECT_TRUE(
+      Compilation(payload("int a;"), qualifiers("lib_6_6", true)).has(Id::kPayloadFieldPlain));
+}
+
+TEST(CheckPayloads, TwoNamesOfOneShaderShareItsWorkingCopy) {
+  FrontendOptions options = target("lib_6_7");
+  options.exports = "A,B=M";
+  const Compilation compilation(payload("int a : read(caller) : write(miss);"), options);
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  ASSERT_EQ(compilation.module->entry_points.size(), 2u);
+  EXPECT_EQ(compilation.module->entry_points[0].function,
+            compilation.module->entry_points[1].function);
+}
 
 TEST(CheckMessages, StageErrorNamesStageAndEntryPoint) {
   const Compilation compilation(

@@ -95,6 +95,7 @@ void Checker::complete_struct(StructInfo* info) {
   }
   for (const Decl* member : decl->members) declare_member(info, member);
   info->complete = true;
+  check_payload_struct(info);
 }
 
 void Checker::declare_member(StructInfo* info, const Decl* member) {

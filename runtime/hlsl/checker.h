@@ -28,6 +28,8 @@
 
 namespace kaamos::hlsl {
 
+struct PayloadLeaf;
+
 using CheckId = DiagnosticId;
 
 class Checker {
@@ -318,6 +320,25 @@ class Checker {
   void add_library_functions();
   void declare_subobject(const SubobjectDecl* decl);
 
+  // -- Payload access qualifiers (check_payloads.cpp, lower_payloads.cpp, check_payload_uses.cpp)
+  static bool has_raypayload(const StructInfo& structure);
+  void check_payload_struct(StructInfo* info);
+  void check_payload_field(FieldInfo& field);
+  void check_payload_use(const Type* type, SourceLocation location);
+  const ir::Expr* payload_field(const ir::Variable* payload, const PayloadLeaf& leaf);
+  void copy_payload_field(const ir::Variable* to, const ir::Variable* from,
+                          const PayloadLeaf& leaf);
+  void emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
+                  SourceLocation location);
+  void wrap_payload(FunctionInfo* function, ir::EntryPoint& entry);
+  void check_payload_uses();
+  class PayloadUses;
+  struct TracePayload {
+    const ir::Variable* variable;
+    const StructInfo* structure;
+    SourceLocation location;
+  };
+
   // -- The module (lower_module.cpp)
   void finish(ir::Module& module);
   void mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint32_t mark,
@@ -384,7 +405,18 @@ class Checker {
   std::vector<std::pair<FunctionInfo*, size_t>> entries_;
   std::set<const ir::Struct*> collected_structs_;
   std::set<const ir::Expr*> collected_exprs_;
-  std::vector<std::pair<ir::Function*, FunctionInfo*>> wrappers_;
+  // An entry point made around one of the source.
+  struct Wrapper {
+    ir::Function* function;
+    FunctionInfo* wrapped;
+    uint32_t stage;
+  };
+  std::vector<Wrapper> wrappers_;
+  std::vector<const FunctionInfo*> library_functions_;  // of Module::library_functions
+  std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
+  // Where the source names a field of a payload struct, and passes one to TraceRay.
+  std::unordered_map<const ir::Expr*, SourceLocation> payload_accesses_;
+  std::unordered_map<const ir::Stmt*, TracePayload> trace_payloads_;
   std::set<std::string> mangled_names_;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
   std::set<std::pair<uint32_t, uint32_t>> reported_uses_;

@@ -381,6 +381,12 @@ void CppEmitter::emit_tables() {
     calls.push_back(collect_calls(module_, module_.entry_points[i]));
     emit_calls(i, calls.back());
   }
+  for (size_t i = 0; i < module_.library_functions.size(); ++i) {
+    std::string list;
+    for (const uint32_t caller : module_.library_functions[i].callers)
+      list += number(caller) + ", ";
+    line("static const uint32_t callers_" + std::to_string(i) + "[] = {" + list + "0u};");
+  }
   open("static const ks::ExportDesc exports[] = {");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
     const EntryPoint& e = module_.entry_points[i];
@@ -391,7 +397,8 @@ void CppEmitter::emit_tables() {
     uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->uses_query ? 32u : 0u) |
                      (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
                      (e.uses_sampler_heap ? 8u : 0u) |
-                     (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u);
+                     (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u) |
+                     (e.unbounded_payload ? 64u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +
          (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +
@@ -405,9 +412,13 @@ void CppEmitter::emit_tables() {
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
          quote(value_layout(e.attributes)) + "},");
   }
-  for (const LibraryFunction& f : module_.library_functions) {
+  for (size_t i = 0; i < module_.library_functions.size(); ++i) {
+    const LibraryFunction& f = module_.library_functions[i];
     line("{" + quote(f.name) + ", " + quote(f.mangled) +
-         ", ks::Stage::kLibrary, nullptr, nullptr, 0u, 0u, 0u, 0u, 0u, 0u, nullptr, 0u},");
+         ", ks::Stage::kLibrary, nullptr, nullptr, 0u, 0u, 0u, 0u, 0u, 0u, nullptr, 0u, nullptr, "
+         "0u, "
+         "nullptr, 0u, callers_" +
+         std::to_string(i) + ", " + number(f.callers.size()) + "},");
   }
   line("{}};");
   --indent_;

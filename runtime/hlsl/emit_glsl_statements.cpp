@@ -99,7 +99,7 @@ void GlslEmitter::call_function(const Stmt& stmt) {
     arguments += argument->type->is_query() ? query_arguments(argument) : value(argument);
   }
   line(result + function_names_[stmt.function] + "(" + arguments + ");");
-  if (stmt.function->may_end_shader) {
+  if (stmt.function->may_end_shader && !stmt.outlives_end) {
     return_if_ended();
   }
 }

@@ -136,7 +136,7 @@ void CppEmitter::call_function(const Stmt& stmt) {
     text += ", " + value(argument);
   }
   line(text + ");");
-  if (stmt.function->may_end_shader) {
+  if (stmt.function->may_end_shader && !stmt.outlives_end) {
     open("if (ctx.ended) {");
     end_shader();
     close("}");

@@ -64,6 +64,10 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
     diagnostics.report(DiagnosticId::kExportSyntax, {}, {options.exports});
     return nullptr;
   }
+  if (options.payload_qualifiers.value_or(false) && minor < 6) {
+    diagnostics.report(DiagnosticId::kPayloadTarget, {}, {options.target});
+    return nullptr;
+  }
   PreprocessOptions preprocess;
   preprocess.include_folders = options.include_folders;
   preprocess.defines = options.defines;
@@ -88,6 +92,7 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   check_options.native_16bit = options.native_16bit;
   check_options.row_major = options.row_major;
   check_options.hlsl_version = options.hlsl_version;
+  check_options.payload_qualifiers = options.payload_qualifiers.value_or(minor >= 7);
   check_options.strict = options.strict;
   return check(*unit, check_options, sources, diagnostics);
 }

@@ -29,6 +29,8 @@ struct FrontendOptions {
   uint32_t hlsl_version = 2021;      // [-HV]
   bool native_16bit = false;         // [-enable-16bit-types]
   bool row_major = false;            // [-Zpr]; false is [-Zpc]
+  // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: from lib_6_7 on.
+  std::optional<bool> payload_qualifiers = {};
   bool strict = false;               // refuse what DXC refuses; give it to the engine as well
 };
 

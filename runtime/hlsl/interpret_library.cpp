@@ -124,7 +124,8 @@ shader::ExportDesc describe(const EntryCode& code) {
               (entry.function->may_call ? shader::kExportCalls : 0u) |
               (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
               (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
-              (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u);
+              (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u) |
+              (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u);
   out.bindings = entry.bindings.data();
   out.binding_count = static_cast<uint32_t>(entry.bindings.size());
   return out;
@@ -185,6 +186,8 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     desc.name = f.name.c_str();
     desc.mangled_name = f.mangled.c_str();
     desc.stage = shader::Stage::kLibrary;
+    desc.callable_indices = f.callers.data();
+    desc.callable_index_count = static_cast<uint32_t>(f.callers.size());
     tables.exports.push_back(desc);
   }
   for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));

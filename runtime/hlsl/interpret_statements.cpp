@@ -262,7 +262,7 @@ Flow run(const Action& action, Frame& frame) {
       return Flow::kNext;
     case StmtKind::kCall:
       call(action, frame);
-      return context.ended ? Flow::kReturn : Flow::kNext;
+      return context.ended && !stmt.outlives_end ? Flow::kReturn : Flow::kNext;
     case StmtKind::kTraceRay:
       trace_ray(action, frame);
       return Flow::kNext;

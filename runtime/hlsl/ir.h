@@ -367,6 +367,7 @@ struct Stmt {
   AtomicOp atomic = AtomicOp::kAdd;
   AtomicTarget target = AtomicTarget::kPlace;
   QueryOp query = {};
+  bool outlives_end = false;  // kCall: what follows runs even where the callee ended the shader
   Layout layout = Layout::kStructured;
   bool row_major = false;
   uint32_t barrier = 0;  // BarrierFlags
@@ -420,6 +421,8 @@ struct EntryPoint {
   std::vector<EntryParameter> parameters;
   const Type* payload = nullptr;  // payload, or callable data
   const Type* attributes = nullptr;
+  // It has access qualifiers, in shader model 6.7 or higher: MaxPayloadSizeInBytes is no limit.
+  bool unbounded_payload = false;
   uint32_t payload_bytes = 0;  // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
   uint32_t thread_group[3] = {1, 1, 1};
@@ -432,6 +435,7 @@ struct EntryPoint {
 struct LibraryFunction {
   std::string name;
   std::string mangled;
+  std::vector<uint32_t> callers;  // entry points that can reach it
 };
 
 struct Binding {

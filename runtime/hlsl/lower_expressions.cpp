@@ -302,7 +302,12 @@ Value Checker::member_of(const Value& base, const QualifiedName& name) {
     const FieldInfo& field = info->fields[symbol->field];
     if (field.type->is_error()) return error_value();
     Value owner = base_of(object, info);
-    return owner.failed() ? owner : field_of(owner, field.index, field.type);
+    if (owner.failed()) return owner;
+    const Value result = field_of(owner, field.index, field.type);
+    const bool is_access = info->is_payload && result.kind == ValueKind::kExpr &&
+                           result.expr->kind == ir::ExprKind::kField;
+    if (is_access) payload_accesses_[result.expr] = location;
+    return result;
   }
   report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)}, member,
                  structure->scope, false);

@@ -72,6 +72,10 @@ void Checker::finish(ir::Module& module) {
     std::set<uint32_t> globals;
     mark_reachable(function, entry, ++mark, globals);
     bindings_of[index] = entry_bindings_;
+    for (size_t i = 0; i < library_functions_.size(); ++i) {
+      if (library_functions_[i]->visit_mark != mark) continue;
+      module.library_functions[i].callers.push_back(static_cast<uint32_t>(index));
+    }
     std::sort(entry_globals_.begin(), entry_globals_.end(),
               [](const VariableInfo* a, const VariableInfo* b) {
                 return a->variable->id < b->variable->id;
@@ -87,14 +91,18 @@ void Checker::finish(ir::Module& module) {
       body.insert(body.begin(), start.begin(), start.end());
     }
   }
-  for (const auto& [wrapper, function] : wrappers_) {
-    wrapper->stages = ir::kStageCompute;
+  for (const auto& [wrapper, function, stage] : wrappers_) {
+    wrapper->stages = stage;
+    wrapper->may_trace = function->ir->may_trace;
+    wrapper->uses_query = function->ir->uses_query;
+    wrapper->may_call = function->ir->may_call;
+    wrapper->may_end_shader = function->ir->may_end_shader;
     wrapper->has_barrier = function->ir->has_barrier;
   }
   for (FunctionInfo* function : lowered_functions_) {
     if (function->ir->stages != 0) module.functions.push_back(function->ir);
   }
-  for (const auto& [wrapper, function] : wrappers_) module.functions.push_back(wrapper);
+  for (const Wrapper& one : wrappers_) module.functions.push_back(one.function);
   for (VariableInfo& variable : variables_) {
     if (variable.kind == VariableKind::kGlobal && all_globals.count(&variable)) {
       module.globals.push_back(variable.variable);

@@ -58,8 +58,8 @@ Value Checker::call_trace_ray(std::vector<Value>& arguments, SourceLocation loca
   const ir::Variable* variable =
       pass_by_reference(payload, "the payload of TraceRay", payload.location, copied);
   if (!variable) return error_value();
-  statement->place = build_.read(variable);
-  emit(statement);
+  check_payload_use(payload.type, payload.location);
+  emit_trace(statement, variable, payload.type, payload.location);
   if (copied) store(payload, build_.read(variable));
   return rvalue(build_.int32(0), types_.void_type());
 }

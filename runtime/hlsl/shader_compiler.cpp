@@ -31,6 +31,7 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.automatic_space = options.AutoBindingSpace.value_or(0);
   out.hlsl_version = options.HlslVersion == "2018" ? 2018 : 2021;
   out.row_major = options.RowMajorMatrices;
+  out.payload_qualifiers = options.PayloadQualifiers;
   out.strict = options.Strict;
   return out;
 }

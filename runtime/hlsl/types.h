@@ -112,11 +112,18 @@ inline bool same_type(const Type* a, const Type* b) {
 uint64_t flat_component_count(const Type* type);
 bool contains_resource(const Type* type);
 
+// The stages that may read and write a field of a payload. [DXR: Payload access qualifiers]
+struct PayloadAccessBits {
+  uint8_t read = 0;  // PayloadStageBits
+  uint8_t write = 0;
+};
+
 struct FieldInfo {
   std::string_view name;
   const Type* type = nullptr;
   const VariableDecl* decl = nullptr;
   uint32_t index = 0;  // in ir::Struct::fields
+  PayloadAccessBits access;
 };
 
 struct Scope;
@@ -130,6 +137,7 @@ struct StructInfo {
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;
   bool complete = false;
+  bool is_payload = false;  // its access qualifiers count
   std::string_view template_name;  // "Pair" of Pair<float>; empty where it is no instance
 };
 

@@ -32,6 +32,8 @@ struct ShaderCompileOptions {
   std::optional<uint32_t> AutoBindingSpace = {};     // -auto-binding-space
   std::string HlslVersion = "2021";                  // -HV
   bool RowMajorMatrices = false;                     // -Zpr
+  // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
+  std::optional<bool> PayloadQualifiers = {};
   bool Strict = false;                               // --strict: refuse what DXC refuses
   bool WarningsAsErrors = false;                     // -WX
   bool Debug = false;                                // -Od -Zi: for gdb

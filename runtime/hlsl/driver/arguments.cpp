@@ -89,6 +89,19 @@ const std::vector<Option>& options() {
        [](Arguments& a, const std::string& v) { return parse_number(v, a.automatic_space); },
        "a whole number"},
       {"-enable-16bit-types", false, flag(&Arguments::native_16bit), ""},
+      {"-enable-payload-qualifiers", false,
+       [](Arguments& a, const std::string&) {
+         // The other one wins, wherever it stands.
+         a.payload_qualifiers = a.payload_qualifiers.value_or(true);
+         return true;
+       },
+       ""},
+      {"-disable-payload-qualifiers", false,
+       [](Arguments& a, const std::string&) {
+         a.payload_qualifiers = false;
+         return true;
+       },
+       ""},
       {"-Zpr", false, flag(&Arguments::row_major), ""},
       {"-Zpc", false,
        [](Arguments& a, const std::string&) {
@@ -195,6 +208,8 @@ As in DXC:
   -exports A;B=C            what the library exports, and under which name
   -default-linkage external every non-static function is an export
   -auto-binding-space N     space of resources without a register
+  -enable-payload-qualifiers, -disable-payload-qualifiers
+                            access qualifiers of payloads count (default from lib_6_7 on)
   -enable-16bit-types       half, int16_t and uint16_t are 16 bits wide
   -Zpr, -Zpc                matrices are row- or column-major (default) in memory
   -WX, -no-warnings         warnings are errors, or are not shown

@@ -342,6 +342,7 @@ enum ExportFlags : uint32_t {
   kExportUsesViewHeap = 4,     // ResourceDescriptorHeap[]
   kExportUsesSamplerHeap = 8,  // SamplerDescriptorHeap[]
   kExportUsesRayQuery = 32,    // TraceRayInline
+  kExportQualifiedPayload = 64,  // shader model 6.7+: MaxPayloadSizeInBytes does not bound it
   kExportReadsHitKind = 16,    // HitKind; without it a closest-hit shader may find any value there
 };
 
@@ -395,7 +396,7 @@ struct ExportDesc {
   // For checked mode.
   const TraceCall* trace_calls = nullptr;
   uint32_t trace_call_count = 0;
-  const uint32_t* callable_indices = nullptr;  // of CallShader; kUnknownIndex: not constant
+  const uint32_t* callable_indices = nullptr;  // of CallShader, or kUnknownIndex; kLibrary: callers
   uint32_t callable_index_count = 0;
   // How the payload (or callable data) and the attributes lie in memory: "float3 color 0;uint depth
   // 12;", type, name and byte offset of each scalar, vector and matrix, bool in 1 byte, rows of a
