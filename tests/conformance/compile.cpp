@@ -5,11 +5,13 @@
 
 namespace kaamos::conformance {
 
-rtapi::Status compile(const std::string& source, const std::string& target) {
+rtapi::Status compile(const std::string& source, const std::string& target,
+                      std::optional<bool> payload_qualifiers) {
   rtapi::ShaderCompileOptions options;
   options.File = "rule.hlsl";
   options.Source = source;
   options.Target = target;
+  options.PayloadQualifiers = payload_qualifiers;
   // The front end decides; no C++ compiler is needed.
   options.Interpret = true;
   options.Spirv = false;

@@ -117,6 +117,7 @@ struct RuleTest {
   void (*run)(Context& t);
 };
 std::vector<RuleTest> sbt_tests();
+std::vector<RuleTest> sbt_undefined_tests();
 std::vector<RuleTest> root_tests();
 std::vector<RuleTest> flg_tests();
 std::vector<RuleTest> flg_legality_tests();
@@ -137,5 +138,7 @@ std::vector<RuleTest> as_memory_tests();
 std::vector<RuleTest> as_info_tests();
 std::vector<RuleTest> as_update_tests();
 std::vector<RuleTest> as_copy_tests();
+std::vector<RuleTest> pay_qualifier_tests();
+std::vector<RuleTest> rq_tests();
 
 }  // namespace kaamos::conformance

@@ -122,19 +122,6 @@ void each_trace_has_its_payload(Context& t) {
   t.equal("end in the outer shader's copy", seen.box_record, kNothingRan);
 }
 
-void annotated_and_plain_payloads(Context& t) {
-  Standard program(t, kaamos_shaders_payload(), {"TraceQualified", "ClosestQualified"});
-  program.group("Qualified", "ClosestQualified");
-  program.raygen("TraceQualified");
-  program.record("Plain");
-  program.hit("Qualified");
-  program.scene = t.scene({triangle(5)});
-  program.prepare({Ray{}});
-  const auto words = program.run();
-  t.equal("answer in the annotated payload", words[0], 21u);
-  t.equal("end in the plain payload", words[1], kClosestHitRan);
-}
-
 }  // namespace
 
 std::vector<RuleTest> pay_tests() {
@@ -144,8 +131,7 @@ std::vector<RuleTest> pay_tests() {
           {"PAY-04", attribute_types_agree},
           {"PAY-05", callable_parameters_travel_by_value},
           {"PAY-06", any_hit_changes_are_seen},
-          {"PAY-07", each_trace_has_its_payload},
-          {"PAY-10", annotated_and_plain_payloads}};
+          {"PAY-07", each_trace_has_its_payload}};
 }
 
 }  // namespace kaamos::conformance

@@ -110,24 +110,3 @@ void Forwards(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes)
   seen.anyRecord = copy.geometry;
   seen.boxRecord = copy.end;
 }
-
-struct [raypayload] Qualified {
-  uint sent : write(caller) : read(closesthit, miss);
-  uint answer : write(closesthit, miss) : read(caller);
-};
-
-[shader("raygeneration")]
-void TraceQualified() {
-  Qualified qualified;
-  qualified.sent = 20;
-  TraceRay(scene, 0, 0xFF, 1, 0, 1, describe(rays[0]), qualified);
-  words.Store(0, qualified.answer);
-  Seen seen = nothingSeen();
-  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
-  words.Store(4, seen.end);
-}
-
-[shader("closesthit")]
-void ClosestQualified(inout Qualified qualified, BuiltInTriangleIntersectionAttributes attributes) {
-  qualified.answer = qualified.sent + 1;
-}

@@ -261,6 +261,48 @@ void each_shader_has_its_own(Context& t) {
   t.equal("records of four layouts", found, {0u, 999u, 5003u, 3u});
 }
 
+constexpr char kFirstSignature[] =
+    "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b1, space = 1, num32BitConstants = 1)";
+
+// A pipeline of CallsFunctions; `function` has the local root signature `of_function`, the shader
+// `of_shader` where that is not empty.
+Program calls_functions(Context& t, const std::string& function, const std::string& of_function,
+                        const std::string& of_shader) {
+  Program program(t, kaamos_shaders_root(), {"CallsFunctions", "firstOfRecord", "twiceFirst"});
+  if (!of_shader.empty()) program.local(of_shader, {"CallsFunctions"});
+  if (!of_function.empty()) program.local(of_function, {function});
+  return program;
+}
+
+void call_graphs_have_one_signature(Context& t) {
+  const std::string other =
+      "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b1, space = 1, num32BitConstants = 2)";
+  for (const char* function : {"firstOfRecord", "twiceFirst"}) {
+    t.accepted(std::string(function) + " with its caller's local root signature",
+               calls_functions(t, function, kFirstSignature, kFirstSignature).try_create());
+    t.refused(std::string(function) + " with another than its caller",
+              calls_functions(t, function, other, kFirstSignature).try_create(), "KA0543");
+  }
+  t.refused("a local root signature that the caller lacks",
+            calls_functions(t, "twiceFirst", kFirstSignature, "").try_create());
+  Program program = calls_functions(t, "", "", kFirstSignature);
+  program.raygen("CallsFunctions", {LocalArgument::Constants(21u)});
+  t.equal("what functions without one read in their caller's record", program.run()[0], 42u);
+  for (const bool same : {true, false}) {
+    Program globals(t, kaamos_shaders_root(), {"CallsFunctions", "firstOfRecord", "twiceFirst"});
+    globals.local(kFirstSignature, {"CallsFunctions"});
+    const RootSignature own = t.device().CreateRootSignature("SRV(t7), UAV(u0)").value();
+    const auto index = globals.desc.Add(GlobalRootSignature{own});
+    if (same) {
+      globals.desc.Associate(index, {"CallsFunctions", "twiceFirst"});
+      t.accepted("a function with its caller's global root signature", globals.try_create());
+    } else {
+      globals.desc.Associate(index, {"twiceFirst"});
+      t.refused("a function with another global root signature", globals.try_create(), "KA0543");
+    }
+  }
+}
+
 void two_global_signatures(Context& t) {
   Program program(t, kaamos_shaders_root(), {"RaysShared", "WriteOrdinal"});
   const RootSignature other =
@@ -393,6 +435,7 @@ std::vector<RuleTest> root_tests() {
           {"ROOT-10, ROOT-16", arguments_are_shared_with_compute},
           {"ROOT-11", registers_do_not_overlap},
           {"ROOT-12", each_shader_has_its_own},
+          {"ROOT-13", call_graphs_have_one_signature},
           {"ROOT-14", two_global_signatures},
           {"ROOT-15", static_samplers_agree},
           {"ROOT-17", handles_are_unique},

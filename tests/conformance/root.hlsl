@@ -87,3 +87,15 @@ void TraceBound() {
   }
 }
 
+// Functions that are exports of the library themselves.
+export uint firstOfRecord() {
+  return first;
+}
+export uint twiceFirst() {
+  return 2 * firstOfRecord();
+}
+
+[shader("raygeneration")]
+void CallsFunctions() {
+  words.Store(0, twiceFirst());
+}
