@@ -15,6 +15,30 @@ struct CompositeConstants {
 
 rtapi::Result<rtapi::ShaderLibrary> composite_library();
 
+/// What the whole frame is put together from: pictures of R32G32B32A32_FLOAT, null where an effect
+/// was not rendered.
+struct FrameParts {
+  const rtapi::Texture* sun_visibility = nullptr;
+  const rtapi::Texture* ambient = nullptr;       ///< where there is no `indirect`: dims the sky
+  const rtapi::Texture* local_lights = nullptr;  ///< radiance
+  const rtapi::Texture* indirect = nullptr;      ///< irradiance over pi
+  const rtapi::Texture* reflection = nullptr;    ///< radiance over the specular albedo
+};
+
+/// The frame's radiance from all effects. [effects-spec C: Co1]
+class ComposePass {
+ public:
+  static rtapi::Result<ComposePass> create(const rtapi::Device& device, const Frame& frame,
+                                           const rtapi::ShaderLibrary& library,
+                                           const FrameParts& parts);
+  void dispatch(rtapi::CommandList& list, const Frame& frame) const;
+
+ private:
+  ComputePass pass_;
+  PassViews views_;
+  std::uint32_t has_ = 0;
+};
+
 class CompositePass {
  public:
   static rtapi::Result<CompositePass> create(const rtapi::Device& device, const Frame& frame,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Radiance of each pixel: what a diffuse surface sends back of the sun it sees and of the open sky,
 // what it emits itself, and the sky behind everything.
+#include "brdf.hlsli"
 #include "frame.hlsli"
 #include "sky.hlsli"
 
@@ -45,4 +46,60 @@ void Composite(uint3 id : SV_DispatchThreadID) {
   const float3 from_sun = frame.sun_irradiance * (saturate(dot(normal, frame.direction_to_sun)) * sun / kPi);
   const float3 from_sky = SkyAround(normal) * open;
   radiance[pixel] = float4(base_color * (from_sun + from_sky) + g_emissive[pixel].rgb, 1.0);
+}
+
+// The whole frame: what each effect found, put together. What an effect has not rendered is left out,
+// or stands in for by the sky. [effects-spec C: Co1]
+RWTexture2D<float4> sun_visibility : register(u0, space3);
+RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
+RWTexture2D<float4> local_lights : register(u2, space3);  // radiance
+RWTexture2D<float4> indirect : register(u3, space3);      // irradiance over pi
+RWTexture2D<float4> reflection : register(u4, space3);    // radiance over the specular albedo
+
+static const uint kHasSun = 1;
+static const uint kHasAmbient = 2;
+static const uint kHasLocalLights = 4;
+static const uint kHasIndirect = 8;
+static const uint kHasReflections = 16;
+
+struct ComposeConstants {
+  uint has;
+};
+ConstantBuffer<ComposeConstants> compose : register(b0, space3);
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void ComposeFrame(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  radiance.GetDimensions(width, height);
+  const uint2 pixel = id.xy;
+  if (pixel.x >= width || pixel.y >= height) {
+    return;
+  }
+  const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
+  if (g_ids[pixel].x == 0) {
+    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+    radiance[pixel] = float4(Sky(normalize(direction)), 1.0);
+    return;
+  }
+  const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
+  const float3 view = normalize(-g_position[pixel].xyz);
+  const float roughness = g_material[pixel].x;
+  const Brdf brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
+  float3 sum = g_emissive[pixel].rgb;
+  if ((compose.has & kHasSun) != 0) {
+    sum += frame.sun_irradiance * sun_visibility[pixel].x *
+           EvaluateBrdf(brdf, normal, view, frame.direction_to_sun);
+  }
+  if ((compose.has & kHasLocalLights) != 0) sum += local_lights[pixel].rgb;
+  if ((compose.has & kHasIndirect) != 0) {
+    sum += brdf.diffuse * indirect[pixel].rgb;
+  } else {
+    const float open = (compose.has & kHasAmbient) != 0 ? ambient[pixel].x : 1.0;
+    sum += brdf.diffuse * SkyAround(normal) * open;
+  }
+  if ((compose.has & kHasReflections) != 0) {
+    sum += SpecularAlbedo(brdf.f0, roughness, max(dot(normal, view), 1e-4)) * reflection[pixel].rgb;
+  }
+  radiance[pixel] = float4(sum, 1.0);
 }

@@ -215,9 +215,11 @@ rtapi::Status Denoiser::add_temporal(const rtapi::Device& device, const Frame& f
 
 rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& frame,
                                     const DenoiseLibraries& libraries, const Texture& sum) {
-  const auto pass = ComputePass::create(device, frame, libraries.spatial, "LoadScalar");
+  const bool scalar = sum.GetDesc().Format == rtapi::Format::kR32Float;
+  const auto pass =
+      ComputePass::create(device, frame, libraries.spatial, scalar ? "LoadScalar" : "LoadColor");
   if (!pass) return pass.error();
-  const auto views = bind(device, frame, {{1, &signal_}, {2, &sum}});
+  const auto views = bind(device, frame, {{1, &signal_}, {scalar ? 2u : 0u, &sum}});
   if (!views) return views.error();
   load_pass_ = std::make_shared<ComputePass>(*pass);
   load_views_ = *views;

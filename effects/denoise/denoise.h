@@ -66,7 +66,7 @@ class Denoiser {
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries, std::string name,
                                         const rtapi::Texture& signal, const DenoiseDesc& desc);
-  /// Makes signal = scale * sum; `sum` is a picture of one float.
+  /// Makes signal = scale * sum at each load; `sum` is a picture of one float or of four.
   rtapi::Status create_load(const rtapi::Device& device, const Frame& frame,
                             const DenoiseLibraries& libraries, const rtapi::Texture& sum);
   void load(rtapi::CommandList& list, const Frame& frame, float scale) const;

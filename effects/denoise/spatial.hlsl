@@ -22,6 +22,15 @@ void LoadScalar(uint3 id : SV_DispatchThreadID) {
   result[pixel] = float4(value, value, value, 0.0);
 }
 
+// A sum over samples becomes a signal, their mean.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void LoadColor(uint3 id : SV_DispatchThreadID) {
+  const int2 pixel = int2(id.xy);
+  if (!IsInside(pixel, SizeOf(result))) return;
+  result[pixel] = source[pixel] * denoise.scale;
+}
+
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void Copy(uint3 id : SV_DispatchThreadID) {

@@ -16,7 +16,7 @@ using kaamos::effects::RayPass;
 rtapi::Result<std::vector<std::pair<std::string, rtapi::TableDescription>>>
 Renderer::describe_tables(const ShaderLibraries& libraries) {
   std::vector<std::pair<std::string, rtapi::TableDescription>> out;
-  for (const Step& step : steps(libraries)) {
+  for (const RayStep& step : steps(libraries)) {
     const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
     if (!pass) return pass.error();
     rtapi::TableDescriptionDesc desc;

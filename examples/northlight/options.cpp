@@ -42,18 +42,26 @@ std::string parse_pixel(const std::string& text,
 }
 
 std::string parse_effects(const std::string& text, Options& options) {
-  options.ao = false;
-  options.sun = false;
+  options.ao = options.sun = options.local = options.contact = options.gi = options.reflections =
+      false;
+  const std::pair<const char*, bool*> effects[] = {
+      {"ao", &options.ao},           {"sun", &options.sun}, {"local", &options.local},
+      {"contact", &options.contact}, {"gi", &options.gi},   {"reflections", &options.reflections}};
   std::stringstream list(text);
   for (std::string name; std::getline(list, name, ',');) {
-    if (name == "ao") {
-      options.ao = true;
-    } else if (name == "sun") {
-      options.sun = true;
-    } else {
-      return "\"" + name + "\" is not an effect: there are ao and sun, as in ao,sun";
+    bool known = name == "all";
+    for (const auto& [effect, chosen] : effects) {
+      if (name != effect && name != "all") continue;
+      *chosen = known = true;
+    }
+    if (!known) {
+      return "\"" + name +
+             "\" is not an effect: there are ao, sun, local, contact, gi, reflections and all, as "
+             "in "
+             "ao,sun";
     }
   }
+  options.local = options.local || options.contact;  // it shades what local lights light
   return {};
 }
 
@@ -87,7 +95,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   std::string explain;
   float sun_angle = 0;
   CLI::App app(
-      "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow.\n"
+      "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow, or\n"
+      "the whole frame with --effects all.\n"
       "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
       "northlight");
   app.add_option("--scene", options.scene, "lounge (built in), or a .gltf or .glb file")
@@ -102,7 +111,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--size", size, "width and height in pixels")
       ->capture_default_str()
       ->check(parsed_by(parse_size, options));
-  app.add_option("--effects", effects, "comma-separated: ao, sun")
+  app.add_option("--effects", effects,
+                 "comma-separated: ao, sun, local (lights), contact (shadows), gi, reflections; "
+                 "or all")
       ->capture_default_str()
       ->check(parsed_by(parse_effects, options));
   app.add_option("--ao-samples", options.ao_samples, "ambient occlusion rays per pixel")
@@ -118,6 +129,39 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                                "how large the sun is in the sky, in degrees "
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
+  app.add_option("--denoise", options.denoise,
+                 "of the whole frame's effects: none, gaussian, bilateral, svgf")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "svgf"}));
+  app.add_option("--contact-samples", options.contact_samples,
+                 "contact shadow rays per pixel and light")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--contact-length", options.contact_length, "of these rays, in metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1e6f));
+  app.add_option("--gi-mode", options.gi_mode,
+                 "indirect light: direct (the volume at the surface), hit-black, near-field")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"direct", "hit-black", "near-field"}));
+  app.add_option("--gi-samples", options.gi_samples, "indirect rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--gi-cell", options.gi_cell, "cells of the volume of indirect light, in metres")
+      ->capture_default_str()
+      ->check(CLI::Range(1e-3f, 1e3f));
+  app.add_option("--gi-bake-samples", options.gi_bake_samples, "paths per cell")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--gi-volume", options.gi_volume,
+                 "file of the volume: read if it is there, else baked and written");
+  app.add_option("--reflection-samples", options.reflection_samples, "reflection rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--firefly-limit", options.firefly_limit,
+                 "luminance that a reflection's sample is clamped to; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1e30f));
   app.add_option("--seed", options.seed, "the same seed gives the same picture")
       ->capture_default_str();
   app.add_option("--threads", options.threads, "0: all; the picture does not depend on it")

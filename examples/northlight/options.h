@@ -18,6 +18,22 @@ struct Options {
   std::uint32_t height = 720;
   bool ao = true;
   bool sun = true;
+  bool local = false;    // lights besides the sun
+  bool contact = false;  // contact shadows of the strongest of them
+  bool gi = false;       // indirect diffuse light
+  bool reflections = false;
+  // Whether any effect besides ambient occlusion and the sun is rendered.
+  bool whole_frame() const { return local || gi || reflections; }
+  std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, svgf
+  std::uint32_t contact_samples = 1;
+  float contact_length = 1.0f;         // metres
+  std::string gi_mode = "near-field";  // direct, hit-black, near-field
+  std::uint32_t gi_samples = 1;
+  float gi_cell = 0.25f;  // metres
+  std::uint32_t gi_bake_samples = 256;
+  std::string gi_volume;  // file that holds it, or will; empty: baked each time
+  std::uint32_t reflection_samples = 1;
+  float firefly_limit = 0;  // luminance; 0: none
   std::uint32_t ao_samples = 4;
   float ao_radius = 4.0f;  // metres; infinity: no limit
   std::uint32_t sun_samples = 2;

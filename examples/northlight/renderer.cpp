@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/sun_shadow/sun_shadow.h"
 
@@ -27,17 +28,6 @@ rtapi::Error stopped() {
 }
 
 }  // namespace
-
-rtapi::Result<ShaderLibraries> built_in_libraries() {
-  const auto gbuffer = gbuffer_library();
-  const auto ao = ambient_occlusion_library();
-  const auto sun = sun_shadow_library();
-  const auto composite = composite_library();
-  for (const auto* library : {&gbuffer, &ao, &sun, &composite}) {
-    if (!*library) return library->error();
-  }
-  return ShaderLibraries{*gbuffer, *ao, *sun, *composite};
-}
 
 rtapi::Result<std::unique_ptr<Renderer>> Renderer::create(
     const Options& options, const Scene& scene, std::function<void(const std::string&)> message) {
@@ -74,9 +64,12 @@ rtapi::Result<std::unique_ptr<Renderer>> Renderer::create(
   return out;
 }
 
-rtapi::Status Renderer::run_pass(const RayPass& pass, const std::string& name,
-                                 std::uint32_t samples, const Progress& progress,
+rtapi::Status Renderer::run_step(const RayStep& step, const Progress& progress,
                                  const std::atomic<bool>& stop, FrameResult& result) {
+  const std::string& name = step.desc.name;
+  const std::uint32_t samples = step.samples;
+  const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
+  if (!pass) return pass.error();
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
   device_.ResetStatistics();
@@ -92,7 +85,7 @@ rtapi::Status Renderer::run_pass(const RayPass& pass, const std::string& name,
       const std::uint32_t count = std::min(rows, options_.height - row);
       constants.first_row = row;
       if (const auto reset = list->Reset(); !reset) return reset;
-      pass.dispatch(*list, frame_, constants, count);
+      pass->dispatch(*list, frame_, constants, count, step.arguments);
       const auto before = Clock::now();
       if (const auto done = execute_band(*list, name, row, count, result); !done) return done;
       const double seconds = std::chrono::duration<double>(Clock::now() - before).count();
@@ -109,15 +102,68 @@ rtapi::Status Renderer::run_pass(const RayPass& pass, const std::string& name,
   return {};
 }
 
-std::vector<Renderer::Step> Renderer::steps(const ShaderLibraries& libraries) const {
-  std::vector<Step> out = {{gbuffer_pass(libraries.gbuffer), 1}};
+rtapi::Status Renderer::run_compute(const std::string& name,
+                                    const std::function<void(rtapi::CommandList&)>& record,
+                                    FrameResult& result) {
+  auto list = device_.CreateCommandList();
+  if (!list) return list.error();
+  device_.ResetStatistics();
+  const auto start = Clock::now();
+  record(*list);
+  if (const auto done = queue_.ExecuteAndWait(*list); !done) return done;
+  const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  result.passes.push_back({name, ms, device_.GetStatistics()});
+  return {};
+}
+
+std::vector<RayStep> Renderer::steps(const ShaderLibraries& libraries) const {
+  std::vector<RayStep> out = {{gbuffer_pass(libraries.gbuffer), 1, {}}};
   if (options_.ao) {
-    out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion), options_.ao_samples});
+    out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion), options_.ao_samples, {}});
   }
   if (options_.sun && scene_.sun) {
-    out.push_back({sun_shadow_pass(libraries.sun_shadow), options_.sun_samples});
+    out.push_back({sun_shadow_pass(libraries.sun_shadow), options_.sun_samples, {}});
   }
   return out;
+}
+
+rtapi::Status Renderer::run_effects(FrameEffects& effects, const Progress& progress,
+                                    const std::atomic<bool>& stop, FrameResult& result) {
+  result.left_out = effects.left_out();
+  if (const auto done = run_compute(
+          "local lights", [&](rtapi::CommandList& list) { effects.light(list, frame_); }, result);
+      !done) {
+    return done;
+  }
+  for (const RayStep& step : effects.steps()) {
+    if (const auto done = run_step(step, progress, stop, result); !done) return done;
+  }
+  for (const auto& filter : effects.filters(frame_)) {
+    if (const auto done = run_compute(filter.name, filter.record, result); !done) return done;
+  }
+  if (const auto done = run_compute(
+          "composite", [&](rtapi::CommandList& list) { effects.compose(list, frame_); }, result);
+      !done) {
+    return done;
+  }
+  for (const FrameEffects::Layer& layer : effects.layers()) {
+    auto image = read_picture(device_, queue_, layer.picture);
+    if (!image) return image.error();
+    for (float& value : image->values) value *= layer.scale;
+    result.layers[layer.name] = std::move(*image);
+  }
+  return {};
+}
+
+rtapi::Status Renderer::run_composite(const ShaderLibraries& libraries, FrameResult& result) {
+  CompositeConstants weights;
+  weights.ao_samples = options_.ao ? options_.ao_samples : 0;
+  weights.sun_samples = options_.sun && scene_.sun ? options_.sun_samples : 0;
+  const auto composite = CompositePass::create(device_, frame_, libraries.composite);
+  if (!composite) return composite.error();
+  return run_compute(
+      "composite", [&](rtapi::CommandList& list) { composite->dispatch(list, frame_, weights); },
+      result);
 }
 
 rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,
@@ -131,24 +177,24 @@ rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,
   list->ResourceBarrier(rtapi::ResourceBarrier::Uav());
   if (const auto done = queue_.ExecuteAndWait(*list); !done) return done.error();
 
-  for (const Step& step : steps(libraries)) {
-    const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
-    if (!pass) return pass.error();
-    const auto done = run_pass(*pass, step.desc.name, step.samples, progress, stop, result);
-    if (!done) return done.error();
+  FrameEffects effects;
+  if (options_.whole_frame()) {
+    const auto bake_progress = [&](double done) { progress("indirect light", done); };
+    const auto start = Clock::now();
+    if (const auto created = effects.create(device_, queue_, frame_, gpu_, scene_, options_,
+                                            libraries, bake_progress, stop);
+        !created) {
+      return created.error();
+    }
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    result.passes.push_back({"set-up and bake", ms, device_.GetStatistics()});
   }
-
-  CompositeConstants weights;
-  weights.ao_samples = options_.ao ? options_.ao_samples : 0;
-  weights.sun_samples = options_.sun && scene_.sun ? options_.sun_samples : 0;
-  const auto start = Clock::now();
-  const auto composite = CompositePass::create(device_, frame_, libraries.composite);
-  if (!composite) return composite.error();
-  if (const auto reset = list->Reset(); !reset) return reset.error();
-  composite->dispatch(*list, frame_, weights);
-  if (const auto done = queue_.ExecuteAndWait(*list); !done) return done.error();
-  result.passes.push_back(
-      {"composite", std::chrono::duration<double, std::milli>(Clock::now() - start).count(), {}});
+  for (const RayStep& step : steps(libraries)) {
+    if (const auto done = run_step(step, progress, stop, result); !done) return done.error();
+  }
+  const auto done = options_.whole_frame() ? run_effects(effects, progress, stop, result)
+                                           : run_composite(libraries, result);
+  if (!done) return done.error();
   if (const auto read = read_layers(result); !read) return read.error();
   return result;
 }

@@ -17,6 +17,7 @@
 #include "effects/composite/composite.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
+#include "frame_effects.h"
 #include "options.h"
 
 namespace northlight {
@@ -41,19 +42,11 @@ struct FrameResult {
   std::vector<PassStatistics> passes;
   std::vector<ExplainedDispatch> explained;          // with --explain
   std::vector<rtapi::PixelStatistics> pixel_counts;  // with --heatmap: width * height
+  std::vector<std::string> left_out;                 // effects and parts, and why
 };
 
 // Done part of the pass, from 0 to 1.
 using Progress = std::function<void(const std::string& pass, double done)>;
-
-// The shader libraries of a frame; built in, or compiled at run time.
-struct ShaderLibraries {
-  rtapi::ShaderLibrary gbuffer;
-  rtapi::ShaderLibrary ambient_occlusion;
-  rtapi::ShaderLibrary sun_shadow;
-  rtapi::ShaderLibrary composite;
-};
-rtapi::Result<ShaderLibraries> built_in_libraries();
 
 class Renderer {
  public:
@@ -75,15 +68,19 @@ class Renderer {
  private:
   Renderer(const Options& options, const kaamos::effects::Scene& scene)
       : options_(options), scene_(scene) {}
-  rtapi::Status run_pass(const kaamos::effects::RayPass& pass, const std::string& name,
-                         std::uint32_t samples, const Progress& progress,
+  rtapi::Status run_step(const RayStep& step, const Progress& progress,
                          const std::atomic<bool>& stop, FrameResult& result);
+  // A pass without rays, timed.
+  rtapi::Status run_compute(const std::string& name,
+                            const std::function<void(rtapi::CommandList&)>& record,
+                            FrameResult& result);
+  // Local lights, indirect light, reflections, denoising and the composition of all.
+  rtapi::Status run_effects(FrameEffects& effects, const Progress& progress,
+                            const std::atomic<bool>& stop, FrameResult& result);
+  rtapi::Status run_composite(const ShaderLibraries& libraries, FrameResult& result);
   rtapi::Status read_layers(FrameResult& result);
-  struct Step {
-    kaamos::effects::RayPassDesc desc;
-    std::uint32_t samples;
-  };
-  std::vector<Step> steps(const ShaderLibraries& libraries) const;
+  // The G-buffer, ambient occlusion and the sun.
+  std::vector<RayStep> steps(const ShaderLibraries& libraries) const;
   // Executes a band of rows, and looks at it as --explain and --heatmap ask. [inspect.cpp]
   rtapi::Status execute_band(rtapi::CommandList& list, const std::string& pass,
                              std::uint32_t first_row, std::uint32_t row_count, FrameResult& result);

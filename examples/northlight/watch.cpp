@@ -5,7 +5,10 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <iterator>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace northlight {
 
@@ -23,16 +26,26 @@ fs::file_time_type time_of(const std::string& path) {
 
 rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
   ShaderLibraries libraries;
-  const std::pair<const char*, rtapi::ShaderLibrary*> parts[] = {
-      {"gbuffer", &libraries.gbuffer},
-      {"ambient_occlusion", &libraries.ambient_occlusion},
-      {"sun_shadow", &libraries.sun_shadow},
-      {"composite", &libraries.composite}};
+  std::vector<std::pair<const char*, rtapi::ShaderLibrary*>> parts = {
+      {"gbuffer/gbuffer", &libraries.gbuffer},
+      {"ambient_occlusion/ambient_occlusion", &libraries.ambient_occlusion},
+      {"sun_shadow/sun_shadow", &libraries.sun_shadow},
+      {"composite/composite", &libraries.composite}};
+  const std::pair<const char*, rtapi::ShaderLibrary*> more[] = {
+      {"lights/lighting", &libraries.lighting},
+      {"direct/direct", &libraries.direct},
+      {"contact_shadow/contact_shadow", &libraries.contact_shadow},
+      {"indirect_diffuse/volume_bake", &libraries.volume_bake},
+      {"indirect_diffuse/indirect_diffuse", &libraries.indirect_diffuse},
+      {"reflections/reflections", &libraries.reflections},
+      {"denoise/spatial", &libraries.denoise.spatial},
+      {"denoise/svgf", &libraries.denoise.svgf}};
+  if (whole_frame_) parts.insert(parts.end(), std::begin(more), std::end(more));
   files_.clear();
   rtapi::Status status;
   for (const auto& [name, library] : parts) {
     rtapi::ShaderCompileOptions options;
-    options.File = (folder_ / name / (std::string(name) + ".hlsl")).string();
+    options.File = (folder_ / (std::string(name) + ".hlsl")).string();
     options.IncludeDirectories = {(folder_ / "shaders").string()};
     const auto compiled = rtapi::CompileShaderLibrary(options);
     for (const std::string& file : compiled.Dependencies) {

@@ -14,8 +14,10 @@ namespace northlight {
 
 class ShaderWatcher {
  public:
-  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/.
-  explicit ShaderWatcher(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/. `whole_frame`: all effects, not
+  // only ambient occlusion and the sun.
+  ShaderWatcher(std::filesystem::path folder, bool whole_frame)
+      : folder_(std::move(folder)), whole_frame_(whole_frame) {}
 
   // Compiles all of them; the message of an error is what the compiler says.
   rtapi::Result<ShaderLibraries> compile();
@@ -24,6 +26,7 @@ class ShaderWatcher {
 
  private:
   std::filesystem::path folder_;
+  bool whole_frame_;
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 

@@ -57,6 +57,21 @@ small=(--size 64x36 --out "$work/out")
 for file in frame.png frame.exr ao.png sun.png normal.png stats.json; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
+
+# The whole frame; its volume of indirect light is kept, read again, and refused when damaged.
+whole=(--effects all --size 64x36 --gi-bake-samples 1 --gi-cell 1 --gi-volume "$work/lounge.gi")
+"$northlight" "${whole[@]}" --out "$work/whole" > "$work/log" || fail "the whole frame"
+grep -q '^denoise indirect' "$work/log" || fail "the whole frame's table lacks passes: $(cat "$work/log")"
+for file in frame.png reflection.png indirect_denoised.png local_lights.png contact.png; do
+  [ -s "$work/whole/$file" ] || fail "the whole frame's $file is missing"
+done
+"$northlight" "${whole[@]}" --out "$work/again" > /dev/null || fail "the whole frame from a kept volume"
+cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the kept volume gives another picture"
+"$northlight" "${whole[@]}" --threads 1 --out "$work/again" > /dev/null || fail "the whole frame on one thread"
+cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the whole frame depends on the threads"
+echo damage >> "$work/lounge.gi"
+expect_error 1 'lounge.gi is no volume.*bake it again' "${whole[@]}"
+
 before=$(cd "$work/out" && sha256sum ./* | sha256sum)
 "$northlight" "${small[@]}" --scene nothere.gltf > /dev/null 2>&1
 timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --ao-samples 65536 > /dev/null 2> "$work/log"

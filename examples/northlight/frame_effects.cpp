@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+#include "frame_effects.h"
+
+#include <filesystem>
+
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/lights/light_constants.h"
+#include "effects/sun_shadow/sun_shadow.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+namespace {
+
+constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
+
+// An empty id would mean that somebody stopped it.
+rtapi::Error failure(const std::string& text) {
+  return {"effects", rtapi::ErrorCode::kFailed, text};
+}
+
+DenoiseMethod denoise_method(const std::string& name) {
+  if (name == "none") return DenoiseMethod::kNone;
+  if (name == "gaussian") return DenoiseMethod::kGaussian;
+  if (name == "bilateral") return DenoiseMethod::kBilateral;
+  return DenoiseMethod::kSvgf;
+}
+
+}  // namespace
+
+rtapi::Result<ShaderLibraries> built_in_libraries() {
+  ShaderLibraries out;
+  const auto denoise = denoise_libraries();
+  if (!denoise) return denoise.error();
+  out.denoise = *denoise;
+  struct {
+    rtapi::Result<rtapi::ShaderLibrary> loaded;
+    rtapi::ShaderLibrary* library;
+  } const parts[] = {{gbuffer_library(), &out.gbuffer},
+                     {ambient_occlusion_library(), &out.ambient_occlusion},
+                     {sun_shadow_library(), &out.sun_shadow},
+                     {composite_library(), &out.composite},
+                     {lighting_library(), &out.lighting},
+                     {direct_library(), &out.direct},
+                     {contact_shadow_library(), &out.contact_shadow},
+                     {volume_bake_library(), &out.volume_bake},
+                     {indirect_diffuse_library(), &out.indirect_diffuse},
+                     {reflections_library(), &out.reflections}};
+  for (const auto& part : parts) {
+    if (!part.loaded) return part.loaded.error();
+    *part.library = *part.loaded;
+  }
+  return out;
+}
+
+rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                   const Frame& frame, const GpuScene& gpu, const Scene& scene,
+                                   const Options& options, const ShaderLibraries& libraries,
+                                   const std::function<void(double)>& bake_progress,
+                                   const std::atomic<bool>& stop) {
+  const Camera& camera = scene.cameras.front();
+  given_ = {device, queue, &frame, &gpu, options, &libraries, camera.position()};
+  const auto lights = light_constants(scene, camera.position());
+  const auto lighting = Lighting::create(device, frame, gpu, libraries.lighting,
+                                         static_cast<std::uint32_t>(lights.size()));
+  if (!lighting) return lighting.error();
+  lighting_ = *lighting;
+  if (lights.empty()) {
+    left_out_.push_back("local lights and contact shadows: the scene has no local light");
+  } else if (options.local) {
+    const auto direct = DirectLighting::create(device, frame, *lighting_, libraries.direct);
+    if (!direct) return direct.error();
+    direct_ = *direct;
+    contact_ = options.contact;
+    if (contact_) {
+      if (const auto s = add_contact(); !s) return s;
+    }
+  }
+  // Hits of reflections and of indirect rays see the volume too.
+  rtapi::CommandList list = device.CreateCommandList().value();
+  lighting_->update(list, frame);
+  if (const auto s = queue.ExecuteAndWait(list); !s) return s;
+  auto baked = volume(scene, bake_progress, stop);
+  if (!baked) return baked.error();
+  const auto gpu_volume = GpuVolume::create(device, *baked, camera.position());
+  if (!gpu_volume) return gpu_volume.error();
+  volume_ = *gpu_volume;
+  if (options.gi) {
+    if (const auto s = add_indirect(); !s) return s;
+  }
+  if (options.reflections) {
+    if (const auto s = add_reflections(); !s) return s;
+  }
+  if (options.ao) {
+    if (const auto s = add_signal("ao", frame.texture(kAmbientOcclusionSum), options.ao_samples);
+        !s) {
+      return s;
+    }
+  }
+  if (options.sun && scene.sun) {
+    if (const auto s = add_signal("sun", frame.texture(kSunVisibilitySum), options.sun_samples);
+        !s) {
+      return s;
+    }
+  }
+  if (contact_) {
+    if (const auto s = direct_->set_contact(*denoised("contact")); !s) return s;
+  }
+  FrameParts parts;
+  parts.sun_visibility = denoised("sun");
+  parts.ambient = denoised("ao");
+  if (direct_) parts.local_lights = contact_ ? &direct_->total() : &direct_->direct();
+  parts.indirect = denoised("indirect");
+  parts.reflection = denoised("reflection");
+  const auto compose = ComposePass::create(device, frame, libraries.composite, parts);
+  if (!compose) return compose.error();
+  compose_ = *compose;
+  return {};
+}
+
+rtapi::Status FrameEffects::add_signal(const std::string& name, const rtapi::Texture& sum,
+                                       std::uint32_t samples) {
+  auto signal = std::make_unique<Signal>();
+  signal->name = name;
+  signal->sum = sum;
+  signal->samples = samples;
+  const auto mean = given_.frame->create_picture(given_.device, name + " mean", kSignalFormat);
+  if (!mean) return mean.error();
+  signal->mean = *mean;
+  auto denoiser = Denoiser::create(given_.device, *given_.frame, given_.libraries->denoise, name,
+                                   *mean, default_denoise(denoise_method(given_.options.denoise)));
+  if (!denoiser) return denoiser.error();
+  signal->denoiser = std::move(*denoiser);
+  if (const auto s = signal->denoiser.create_load(given_.device, *given_.frame,
+                                                  given_.libraries->denoise, sum);
+      !s) {
+    return s;
+  }
+  signals_.push_back(std::move(signal));
+  return {};
+}
+
+rtapi::Status FrameEffects::add_contact() {
+  const auto sum = given_.frame->create_picture(given_.device, "contact sum", kSignalFormat);
+  if (!sum) return sum.error();
+  const auto views = given_.frame->create_pass_views(given_.device);
+  if (!views) return views.error();
+  contact_views_ = *views;
+  if (const auto s = contact_views_.set_unordered_access(0, direct_->strongest()); !s) return s;
+  if (const auto s = contact_views_.set_unordered_access(1, *sum); !s) return s;
+  ContactShadowConstants constants;
+  constants.length = given_.options.contact_length;
+  steps_.push_back({contact_shadow_pass(given_.libraries->contact_shadow),
+                    given_.options.contact_samples, PassArguments(contact_views_, constants)});
+  return add_signal("contact", *sum, given_.options.contact_samples);
+}
+
+rtapi::Status FrameEffects::add_indirect() {
+  const auto sum = given_.frame->create_picture(given_.device, "indirect sum", kSignalFormat);
+  if (!sum) return sum.error();
+  const auto views = given_.frame->create_pass_views(given_.device);
+  if (!views) return views.error();
+  indirect_views_ = *views;
+  if (const auto s = indirect_views_.set_unordered_access(0, *sum); !s) return s;
+  if (const auto s = lighting_->bind(indirect_views_); !s) return s;
+  if (const auto s = volume_.bind(indirect_views_); !s) return s;
+  IndirectConstants constants;
+  const std::string& mode = given_.options.gi_mode;
+  constants.mode = mode == "direct"      ? IndirectMode::kDirect
+                   : mode == "hit-black" ? IndirectMode::kHitBlack
+                                         : IndirectMode::kNearField;
+  steps_.push_back({indirect_diffuse_pass(given_.libraries->indirect_diffuse),
+                    given_.options.gi_samples, PassArguments(indirect_views_, constants)});
+  return add_signal("indirect", *sum, given_.options.gi_samples);
+}
+
+rtapi::Status FrameEffects::add_reflections() {
+  const auto sum = given_.frame->create_picture(given_.device, "reflection sum", kSignalFormat);
+  if (!sum) return sum.error();
+  const auto views = given_.frame->create_pass_views(given_.device);
+  if (!views) return views.error();
+  reflection_views_ = *views;
+  if (const auto s = reflection_views_.set_unordered_access(0, *sum); !s) return s;
+  if (const auto s = lighting_->bind(reflection_views_); !s) return s;
+  if (const auto s = volume_.bind(reflection_views_); !s) return s;
+  ReflectionConstants constants;
+  constants.firefly_limit = given_.options.firefly_limit;
+  steps_.push_back({reflections_pass(given_.libraries->reflections),
+                    given_.options.reflection_samples,
+                    PassArguments(reflection_views_, constants)});
+  return add_signal("reflection", *sum, given_.options.reflection_samples);
+}
+
+rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
+                                                   const std::function<void(double)>& bake_progress,
+                                                   const std::atomic<bool>& stop) {
+  const Options& options = given_.options;
+  if (!options.gi && !options.reflections) {
+    left_out_.push_back("the volume of indirect light: no effect reads it");
+    return IndirectVolume{};
+  }
+  if (!options.gi_volume.empty() && std::filesystem::exists(options.gi_volume)) {
+    auto loaded = load_volume(options.gi_volume);
+    if (!loaded.ok()) return failure(loaded.error());
+    return std::move(loaded.value());
+  }
+  auto laid_out = layout_volume(scene, options.gi_cell);
+  if (!laid_out.ok()) return failure(laid_out.error());
+  BakeDesc desc;
+  desc.samples = options.gi_bake_samples;
+  desc.seed = options.seed;
+  if (const auto baked = bake_volume(given_.device, given_.queue, *given_.frame, *given_.gpu,
+                                     *lighting_, given_.origin, given_.libraries->volume_bake, desc,
+                                     laid_out.value(), bake_progress, stop);
+      !baked) {
+    return baked.error();
+  }
+  if (!options.gi_volume.empty()) {
+    if (const auto saved = save_volume(options.gi_volume, laid_out.value()); !saved.ok()) {
+      return failure(saved.error());
+    }
+  }
+  return std::move(laid_out.value());
+}
+
+const rtapi::Texture* FrameEffects::denoised(const std::string& name) const {
+  for (const auto& signal : signals_) {
+    if (signal->name == name) return &signal->denoiser.result();
+  }
+  return nullptr;
+}
+
+void FrameEffects::light(rtapi::CommandList& list, const Frame& frame) const {
+  lighting_->update(list, frame);
+  if (direct_) direct_->dispatch(list, frame, contact_);
+}
+
+std::vector<FrameEffects::Filter> FrameEffects::filters(const Frame& frame) {
+  std::vector<Filter> out;
+  for (const auto& signal : signals_) {
+    out.push_back({"denoise " + signal->name, [&frame, s = signal.get()](rtapi::CommandList& list) {
+                     s->denoiser.load(list, frame, 1.0f / static_cast<float>(s->samples));
+                     s->denoiser.dispatch(list, frame);
+                   }});
+  }
+  return out;
+}
+
+void FrameEffects::compose(rtapi::CommandList& list, const Frame& frame) const {
+  if (contact_) direct_->add_strongest(list, frame);
+  compose_->dispatch(list, frame);
+}
+
+std::vector<FrameEffects::Layer> FrameEffects::layers() const {
+  std::vector<Layer> out;
+  for (const auto& signal : signals_) {
+    // The raw ones of ambient occlusion and the sun are layers of every frame.
+    if (signal->sum.GetDesc().Format == kSignalFormat) {
+      out.push_back({signal->name, signal->sum, 1.0f / static_cast<float>(signal->samples)});
+    }
+    out.push_back({signal->name + "_denoised", signal->denoiser.result(), 1});
+  }
+  if (direct_) {
+    out.push_back({"local_lights", contact_ ? direct_->total() : direct_->direct(), 1});
+  }
+  return out;
+}
+
+}  // namespace northlight

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The effects of the whole frame besides ambient occlusion and the sun: local lights with contact
+// shadows, indirect diffuse light, reflections; their denoising and their composition.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/composite/composite.h"
+#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/denoise/denoise.h"
+#include "effects/direct/direct.h"
+#include "effects/frame/frame.h"
+#include "effects/frame/ray_pass.h"
+#include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/lights/lighting.h"
+#include "effects/reflections/reflections.h"
+#include "options.h"
+
+namespace northlight {
+
+// The shader libraries of a frame; built in, or compiled at run time.
+struct ShaderLibraries {
+  rtapi::ShaderLibrary gbuffer;
+  rtapi::ShaderLibrary ambient_occlusion;
+  rtapi::ShaderLibrary sun_shadow;
+  rtapi::ShaderLibrary composite;
+  rtapi::ShaderLibrary lighting;
+  rtapi::ShaderLibrary direct;
+  rtapi::ShaderLibrary contact_shadow;
+  rtapi::ShaderLibrary volume_bake;
+  rtapi::ShaderLibrary indirect_diffuse;
+  rtapi::ShaderLibrary reflections;
+  kaamos::effects::DenoiseLibraries denoise;
+};
+rtapi::Result<ShaderLibraries> built_in_libraries();
+
+// A ray tracing pass of the frame, with what only it reads and writes.
+struct RayStep {
+  kaamos::effects::RayPassDesc desc;
+  std::uint32_t samples = 1;
+  kaamos::effects::PassArguments arguments;
+};
+
+class FrameEffects {
+ public:
+  FrameEffects() = default;
+  FrameEffects(const FrameEffects&) = delete;  // steps point into it
+  FrameEffects& operator=(const FrameEffects&) = delete;
+
+  // Makes pictures and pipelines of the effects that `options` names and the scene needs. The
+  // volume of indirect light is loaded or baked.
+  rtapi::Status create(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                       const kaamos::effects::Frame& frame, const kaamos::effects::GpuScene& gpu,
+                       const kaamos::effects::Scene& scene, const Options& options,
+                       const ShaderLibraries& libraries,
+                       const std::function<void(double)>& bake_progress,
+                       const std::atomic<bool>& stop);
+
+  // Lights' lists and maps and the main lighting: behind the G-buffer.
+  void light(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
+  const std::vector<RayStep>& steps() const { return steps_; }
+  // Denoises what the steps wrote. One list for each signal, for its time.
+  struct Filter {
+    std::string name;
+    std::function<void(rtapi::CommandList&)> record;
+  };
+  std::vector<Filter> filters(const kaamos::effects::Frame& frame);
+  // Puts the frame together.
+  void compose(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
+
+  // Pictures for files: a name, the picture, and what its values are divided by.
+  struct Layer {
+    std::string name;
+    rtapi::Texture picture;
+    float scale = 1;
+  };
+  std::vector<Layer> layers() const;
+  // What was left out because the scene or the options have no use for it.
+  const std::vector<std::string>& left_out() const { return left_out_; }
+
+ private:
+  struct Signal {
+    std::string name;
+    rtapi::Texture sum;   // what the step adds to
+    rtapi::Texture mean;  // the denoiser's input
+    std::uint32_t samples = 1;
+    kaamos::effects::Denoiser denoiser;
+  };
+  rtapi::Status add_signal(const std::string& name, const rtapi::Texture& sum,
+                           std::uint32_t samples);
+  rtapi::Status add_contact();
+  rtapi::Status add_indirect();
+  rtapi::Status add_reflections();
+  rtapi::Result<kaamos::effects::IndirectVolume> volume(
+      const kaamos::effects::Scene& scene, const std::function<void(double)>& bake_progress,
+      const std::atomic<bool>& stop);
+  const rtapi::Texture* denoised(const std::string& name) const;
+
+  // What create was given, for its parts.
+  struct Given {
+    rtapi::Device device;
+    rtapi::CommandQueue queue;
+    const kaamos::effects::Frame* frame = nullptr;
+    const kaamos::effects::GpuScene* gpu = nullptr;
+    Options options;
+    const ShaderLibraries* libraries = nullptr;
+    glm::dvec3 origin{0.0};
+  } given_;
+  std::optional<kaamos::effects::Lighting> lighting_;
+  std::optional<kaamos::effects::DirectLighting> direct_;
+  kaamos::effects::GpuVolume volume_;
+  kaamos::effects::PassViews contact_views_, indirect_views_, reflection_views_;
+  std::vector<RayStep> steps_;
+  std::vector<std::unique_ptr<Signal>> signals_;
+  std::optional<kaamos::effects::ComposePass> compose_;
+  std::vector<std::string> left_out_;
+  bool contact_ = false;
+};
+
+}  // namespace northlight
