@@ -52,11 +52,25 @@ rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
   return result;
 }
 
-RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu) {
+// Meshes that are glass somewhere.
+std::vector<bool> glass_meshes(const Scene& scene) {
+  std::vector<bool> glass(scene.meshes.size());
+  for (const Instance& instance : scene.instances) {
+    if (instance.mask & kMaskTransparent) glass[instance.mesh] = true;
+  }
+  return glass;
+}
+
+RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
+  // Layers of glass are counted in any-hit shaders, each once.
+  if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+  return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
+}
+
+RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu, bool glass) {
   RaytracingGeometryDesc desc;
   desc.Type = RaytracingGeometryType::kTriangles;
-  desc.Flags =
-      geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
+  desc.Flags = geometry_flags(geometry, glass);
   desc.Triangles.VertexFormat = Format::kR32G32B32Float;
   desc.Triangles.VertexCount = geometry.vertex_count;
   desc.Triangles.VertexBuffer = {gpu.vertices, kVertexStride};
@@ -68,7 +82,7 @@ RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry
 
 // Buffers of one mesh, the records' arguments of its geometries, and its bottom level.
 rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& scene,
-                       std::uint32_t mesh_id, GpuScene& out) {
+                       std::uint32_t mesh_id, bool glass, GpuScene& out) {
   const Mesh& mesh = scene.meshes[mesh_id];
   auto vertices =
       CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), mesh.name + " vertices");
@@ -87,8 +101,8 @@ rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& s
     gpu.constants.material_id = geometry.material;
     gpu.constants.mesh_id = mesh_id;
     gpu.constants.geometry_id = i;
-    gpu.alpha_tested = geometry.alpha_tested;
-    descs.push_back(geometry_desc(geometry, gpu));
+    gpu.alpha_tested = geometry.alpha_tested || glass;
+    descs.push_back(geometry_desc(geometry, gpu, glass));
     out.geometries.push_back(gpu);
   }
   BuildRaytracingAccelerationStructureInputs inputs;
@@ -128,7 +142,7 @@ std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const Gpu
     desc.InstanceContributionToHitGroupIndex =
         (first_geometry[instance.mesh] * kRayTypeCount) & 0xFFFFFFu;
     // Opaque instances never look for an any-hit shader. [Northlight deck: FORCE_OPAQUE]
-    desc.Flags = opaque[instance.mesh]
+    desc.Flags = opaque[instance.mesh] && !(instance.mask & kMaskTransparent)
                      ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
                      : 0u;
     desc.AccelerationStructure = gpu.bottom_levels[instance.mesh].GetGPUVirtualAddress();
@@ -186,8 +200,9 @@ rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& que
   out.statistics.instanced_triangles = instanced_triangle_count(scene);
 
   const auto bottom_start = Clock::now();
+  const std::vector<bool> glass = glass_meshes(scene);
   for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
-    if (const rtapi::Status added = add_mesh(device, queue, scene, i, out); !added) {
+    if (const rtapi::Status added = add_mesh(device, queue, scene, i, glass[i], out); !added) {
       return added.error();
     }
   }

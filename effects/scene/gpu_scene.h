@@ -26,7 +26,7 @@ struct GpuGeometry {
   rtapi::GpuVirtualAddress vertices = 0;
   rtapi::GpuVirtualAddress indices = 0;
   HitConstants constants;
-  bool alpha_tested = false;
+  bool alpha_tested = false;  ///< any-hit shaders run: also of glass
 };
 
 struct GpuSceneStatistics {

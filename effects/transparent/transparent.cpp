@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "effects/transparent/transparent.h"
+
+#include <shaders/transparent.h>
+
+#include <algorithm>
+
+namespace kaamos::effects {
+
+rtapi::Result<rtapi::ShaderLibrary> transparent_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_transparent());
+}
+
+RayPassDesc transparent_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc;
+  desc.name = "transparent";
+  desc.library = std::move(library);
+  desc.ray_generation = "TransparentRayGen";
+  desc.miss[kRayTypeSurface] = "TransparentMiss";
+  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
+  desc.hit[kRayTypeSurface] = {"TransparentAnyHit", "TransparentClosestHit"};
+  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  desc.payload_bytes = 48;
+  desc.max_recursion_depth = 3;  // a layer, what it mirrors, the sun's ray there
+  return desc;
+}
+
+rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
+                                                    const rtapi::ShaderLibrary& library) {
+  return ComputePass::create(device, frame, library, "TransparentCompose");
+}
+
+TransparentConstants deck_layers(std::uint32_t layers) {
+  TransparentConstants constants;
+  constants.reflecting_layers = std::min(layers, kMaxSortedLayers);
+  constants.sorted_layers = constants.reflecting_layers;
+  return constants;
+}
+
+TransparentConstants sorted_reference() {
+  return deck_layers(kMaxSortedLayers);
+}
+
+}  // namespace kaamos::effects

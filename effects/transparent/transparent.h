@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Glass: its light, what it mirrors, and what it lets through. [effects-spec B4.12, B4.13]
+#pragma once
+
+#include <cstdint>
+
+#include "effects/frame/compute_pass.h"
+#include "effects/frame/ray_pass.h"
+
+namespace kaamos::effects {
+
+/// Registers of space3: u0 R32G32B32A32_FLOAT, radiance of the glass and view depth of its first
+/// layer (metres, 0: no glass); u1 R32G32B32A32_FLOAT, transmittance by colour and the number of
+/// layers traced one by one. Lighting::bind and GpuVolume::bind are needed too. What lies behind is
+/// multiplied with u1 and u0 added.
+RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
+rtapi::Result<rtapi::ShaderLibrary> transparent_library();
+/// That composition onto the frame's kRadiance; takes the same views and constants.
+rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
+                                                    const rtapi::ShaderLibrary& library);
+
+/// How layers without an order are weighted by their view depth z. [McGuire and Bavoil 2013]
+enum class BlendWeight : std::uint32_t {
+  kNone,    ///< all alike
+  kSquare,  ///< alpha clamp(10 / (1e-5 + (z / 5)^2 + (z / 200)^6), 0.01, 3000)
+  kCube,    ///< with (z / 5)^3
+  kFar,     ///< alpha clamp(0.03 / (1e-5 + (z / 200)^4), 0.01, 3000)
+  kDepth,   ///< alpha clamp(3000 (near / z)^3, 0.01, 3000)
+};
+
+inline constexpr std::uint32_t kMaxSortedLayers = 8;
+
+/// Constants b0, space3. The defaults are Control's: the first layer reflects.
+struct TransparentConstants {
+  std::uint32_t reflecting_layers = 1;  ///< nearest layers with a mirrored ray each
+  /// Nearest layers traced one by one, in their exact order, at most kMaxSortedLayers; those that
+  /// do not reflect are lit only. What lies behind is blended without an order.
+  std::uint32_t sorted_layers = 1;
+  BlendWeight weight = BlendWeight::kSquare;
+  std::uint32_t sun = 1;  ///< 1: shadow rays to the sun; 0: the sun does not shine on glass
+  float reflection_length = 60.0f;  ///< metres; beyond it the sky or the volume is mirrored
+  float fade = 0.2f;                ///< last part of that length, over which the sky takes over
+  /// 1: a layer reflects as much as glass does however little it covers (and lets that much less
+  /// through). 0: coverage takes the reflection with it, as glTF has it.
+  std::uint32_t full_reflection = 1;
+  float depth_scale = 1.0f;  ///< of z in kSquare, kCube and kFar: scenes that are not metres large
+};
+static_assert(sizeof(TransparentConstants) == 32);
+
+/// The deck's: `layers` with reflections, the rest blended. 0..kMaxSortedLayers.
+TransparentConstants deck_layers(std::uint32_t layers);
+/// The reference: every layer in its order and with its reflection.
+TransparentConstants sorted_reference();
+
+}  // namespace kaamos::effects

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+// Glass in front of what the G-buffer holds: the first layers one by one, with a mirrored ray each;
+// those behind them in one ray whose any-hit shader blends them without an order.
+// [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
+#include "hit_shading.hlsli"
+#include "indirect_volume.hlsli"
+
+// Radiance of the glass, and the view depth of its first layer, metres (0: no glass).
+RWTexture2D<float4> glass_radiance : register(u0, space3);
+// What it lets through by colour, and how many layers were traced one by one.
+RWTexture2D<float4> glass_transmittance : register(u1, space3);
+
+struct TransparentConstants {
+  uint reflecting_layers;   // with a mirrored ray
+  uint sorted_layers;       // traced one by one, with or without; at most kMaxSortedLayers
+  uint weight_kind;         // of blending without order
+  uint sun;                 // 1: a shadow ray per layer and per reflection
+  float reflection_length;  // metres
+  float fade;               // last part of that length, over which the sky takes over
+  uint full_reflection;     // 1: reflections of thin coverage keep their strength
+  float depth_scale;        // view depths are multiplied with it before they are weighted
+};
+ConstantBuffer<TransparentConstants> constants : register(b0, space3);
+
+static const uint kMaskGlass = 0x02;  // [effects/scene/scene.h: InstanceMask]
+static const uint kMaxSortedLayers = 8;
+static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
+
+// What a ray is for.
+static const uint kLayerRay = 0;
+static const uint kReflectingLayerRay = 1;
+static const uint kMirrorRay = 2;
+static const uint kBlendRay = 3;
+
+struct GlassPayload {
+  float3 radiance;       // of a layer, of what a mirrored ray meets; weighted sum of a blend
+  float distance;        // along the ray; negative: nothing was met
+  float3 transmittance;  // of a layer; x: product of a blend
+  float weight;          // sum of a blend
+  uint kind;
+  uint instance;         // of the layer before, which the ray must not meet again
+  uint primitive;
+  float sun_visibility;  // at the layer before: any-hit shaders cannot trace a ray
+};
+
+// Black instead of what is no number, and no more than a picture can hold: a broken material stays
+// in its own pixels.
+float Contain(float x) {
+  if (!(x > 0.0)) return 0.0;
+  return x < kLargestRadiance ? x : kLargestRadiance;
+}
+float3 Contain(float3 x) { return float3(Contain(x.x), Contain(x.y), Contain(x.z)); }
+
+float Coverage(float opacity) {
+  if (!(opacity > 0.0)) return 0.0;
+  return opacity < 1.0 ? opacity : 1.0;
+}
+
+// Coverage where a ray meets glass, 0 where it goes by: holes, and the backs of single-sided glass.
+float GlassCoverage(float2 barycentrics) {
+  const MaterialConstants material = materials[hit_constants.material_id];
+  const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
+  if ((material.flags & kMaterialDoubleSided) == 0) {
+    const float3 p0 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.x);
+    const float3 p1 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.y);
+    const float3 p2 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z);
+    if (dot(ObjectRayDirection(), cross(p1 - p0, p2 - p0)) > 0.0) return 0.0;
+  }
+  float alpha = material.base_color.a;
+  if (HasTexture(material, kBaseColorTexture)) {
+    const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+    alpha *= SampleMaterial(material, kBaseColorTexture, uv, -100.0).a;
+  }
+  return Coverage(alpha);
+}
+
+// Light that a layer sends to the camera without its mirror image, and how much of the sun reaches
+// it: known only where a ray may be traced.
+float3 LayerLight(Surface surface, Brdf brdf, float3 view, float sun_visibility) {
+  float3 light = surface.emissive;
+  light += LocalLights(brdf, surface.position, surface.normal, surface.shading_normal, view);
+  light += brdf.diffuse * VolumeIrradianceAt(surface.position, surface.normal,
+                                             SkyTowards(surface.normal));
+  if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
+    light += frame.sun_irradiance *
+             EvaluateBrdf(brdf, surface.shading_normal, view, frame.direction_to_sun) *
+             sun_visibility;
+  }
+  return light;
+}
+
+// [McGuire and Bavoil 2013, equations 7 to 10, as effects-spec B4.13 has them]
+float BlendWeight(float alpha, float view_z) {
+  const float z = view_z * constants.depth_scale;
+  const float far = pow(z / 200.0, 4.0);
+  if (constants.weight_kind == 1) {
+    const float near = (z / 5.0) * (z / 5.0);
+    return alpha * clamp(10.0 / (1e-5 + near + far * (z / 200.0) * (z / 200.0)), 1e-2, 3e3);
+  }
+  if (constants.weight_kind == 2) {
+    const float near = (z / 5.0) * (z / 5.0) * (z / 5.0);
+    return alpha * clamp(10.0 / (1e-5 + near + far * (z / 200.0) * (z / 200.0)), 1e-2, 3e3);
+  }
+  if (constants.weight_kind == 3) return alpha * clamp(0.03 / (1e-5 + far), 1e-2, 3e3);
+  if (constants.weight_kind == 4) {
+    // 1 - d of a depth buffer that is 1 far away: near / z.
+    const float nearness = saturate(frame.near_plane / max(view_z, frame.near_plane));
+    return alpha * clamp(3e3 * nearness * nearness * nearness, 1e-2, 3e3);
+  }
+  return 1.0;
+}
+
+float ConeWidth() { return RayTCurrent() * length(WorldRayDirection()) * frame.pixel_angle; }
+
+[shader("anyhit")]
+void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (payload.kind == kMirrorRay) {
+    if (IsOpenAt(hit.barycentrics)) {
+      IgnoreHit();
+    }
+    return;
+  }
+  const float coverage = GlassCoverage(hit.barycentrics);
+  if (!(coverage > 0.0)) {
+    IgnoreHit();
+  }
+  if (payload.kind != kBlendRay) {
+    if (InstanceIndex() == payload.instance && PrimitiveIndex() == payload.primitive) {
+      IgnoreHit();
+    }
+    return;
+  }
+  const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
+  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const float3 light =
+      Contain(LayerLight(surface, brdf, -normalize(WorldRayDirection()), payload.sun_visibility));
+  const float weight = coverage * BlendWeight(coverage, RayTCurrent());
+  payload.radiance += light * weight;
+  payload.weight += weight;
+  payload.transmittance.x *= 1.0 - coverage;
+  if (payload.distance < 0.0 || RayTCurrent() < payload.distance) payload.distance = RayTCurrent();
+  IgnoreHit();
+}
+
+[shader("miss")]
+void TransparentMiss(inout GlassPayload payload) {
+  if (payload.kind == kMirrorRay) {
+    const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
+    payload.radiance = VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
+  }
+}
+
+// What the glass mirrors, by the way that light takes from a flat pane: roughness is left out.
+float3 MirrorImage(Surface surface, float3 direction) {
+  float3 mirrored = reflect(direction, surface.shading_normal);
+  // A bent normal can send the ray into the pane.
+  if (!(dot(mirrored, surface.normal) > 0.0)) mirrored = reflect(direction, surface.normal);
+  RayDesc ray;
+  ray.Origin = SurfaceOrigin(surface, mirrored);
+  ray.TMin = 0.0;
+  ray.Direction = mirrored;
+  ray.TMax = constants.reflection_length;
+  GlassPayload payload;
+  payload.radiance = float3(0, 0, 0);
+  payload.distance = -1.0;
+  payload.transmittance = float3(1, 1, 1);
+  payload.weight = 0.0;
+  payload.kind = kMirrorRay;
+  payload.instance = 0xFFFFFFFF;
+  payload.primitive = 0;
+  payload.sun_visibility = 0.0;
+  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+           payload);
+  if (payload.distance < 0.0) return payload.radiance;
+  // No seam where the rays end.
+  const float start = constants.reflection_length * (1.0 - constants.fade);
+  const float far = saturate((payload.distance - start) /
+                             max(constants.reflection_length - start, 1e-6));
+  if (far == 0.0) return payload.radiance;
+  return lerp(payload.radiance, SkyTowards(mirrored), far);
+}
+
+void ShadeMirrored(inout GlassPayload payload, Surface surface) {
+  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
+  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun != 0) +
+                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
+                                                 SkyTowards(surface.normal));
+  payload.distance = RayTCurrent();
+}
+
+[shader("closesthit")]
+void TransparentClosestHit(inout GlassPayload payload,
+                           in BuiltInTriangleIntersectionAttributes hit) {
+  const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
+  if (payload.kind == kMirrorRay) {
+    ShadeMirrored(payload, surface);
+    return;
+  }
+  const float3 direction = normalize(WorldRayDirection());
+  const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const float coverage = Coverage(surface.opacity);
+  if (constants.sun != 0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
+    payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
+                                             frame.direction_to_sun, kHitSunDistance);
+  }
+  float3 radiance =
+      coverage * Contain(LayerLight(surface, brdf, -direction, payload.sun_visibility));
+  float3 transmittance = float3(1, 1, 1) * (1.0 - coverage);
+  if (payload.kind == kReflectingLayerRay) {
+    const float3 fresnel =
+        saturate(FresnelSchlick(brdf.f0, -dot(direction, surface.shading_normal)));
+    const float3 mirrored = fresnel * Contain(MirrorImage(surface, direction));
+    if (constants.full_reflection != 0) {
+      radiance += mirrored;
+      transmittance *= float3(1, 1, 1) - fresnel;
+    } else {
+      radiance += coverage * mirrored;
+    }
+  }
+  payload.radiance = Contain(radiance);
+  payload.transmittance = transmittance;
+  payload.distance = RayTCurrent();
+  payload.instance = InstanceIndex();
+  payload.primitive = PrimitiveIndex();
+}
+
+[shader("raygeneration")]
+void TransparentRayGen() {
+  const uint2 pixel = FramePixel();
+  uint width, height;
+  g_view_z.GetDimensions(width, height);
+  const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
+  const float opaque_z = g_view_z[pixel];
+  // As long as the G-buffer's rays: t is the view depth.
+  RayDesc ray;
+  ray.Origin = float3(0, 0, 0);
+  ray.TMin = 0.0;
+  ray.Direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  ray.TMax = opaque_z > 0.0 ? opaque_z : 1e30;
+
+  GlassPayload payload;
+  payload.instance = 0xFFFFFFFF;
+  payload.primitive = 0;
+  payload.sun_visibility = constants.sun != 0 ? 1.0 : 0.0;
+  float3 sum = float3(0, 0, 0);
+  float3 through = float3(1, 1, 1);
+  float first = 0.0;
+  uint layers = 0;
+  bool more = true;
+  const uint sorted_layers = min(constants.sorted_layers, kMaxSortedLayers);
+  for (uint i = 0; i < sorted_layers && more; ++i) {
+    payload.kind = i < constants.reflecting_layers ? kReflectingLayerRay : kLayerRay;
+    payload.radiance = float3(0, 0, 0);
+    payload.transmittance = float3(1, 1, 1);
+    payload.distance = -1.0;
+    payload.weight = 0.0;
+    TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+             payload);
+    if (payload.distance < 0.0) {
+      more = false;
+    } else {
+      sum += through * payload.radiance;
+      through *= payload.transmittance;
+      if (layers == 0) first = payload.distance;
+      ++layers;
+      // Strictly behind this one: a pane in the same place is taken for the same.
+      ray.TMin = payload.distance;
+      more = max(through.x, max(through.y, through.z)) > 0.0;
+    }
+  }
+  if (more) {
+    payload.kind = kBlendRay;
+    payload.radiance = float3(0, 0, 0);
+    payload.transmittance = float3(1, 1, 1);
+    payload.distance = -1.0;
+    payload.weight = 0.0;
+    TraceRay(scene, RAY_FLAG_NONE, kMaskGlass, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
+             payload);
+    if (payload.weight > 0.0) {
+      const float open = payload.transmittance.x;
+      sum += through * (payload.radiance / payload.weight) * (1.0 - open);
+      through *= open;
+    }
+    if (layers == 0 && payload.distance >= 0.0) first = payload.distance;
+  }
+  glass_radiance[pixel] = float4(Contain(sum), first);
+  glass_transmittance[pixel] = float4(through, float(layers));
+}
+
+// Puts the glass before what the pixel holds.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void TransparentCompose(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  radiance.GetDimensions(width, height);
+  if (id.x >= width || id.y >= height) return;
+  const float4 behind = radiance[id.xy];
+  radiance[id.xy] = float4(behind.rgb * glass_transmittance[id.xy].rgb + glass_radiance[id.xy].rgb,
+                           behind.a);
+}
