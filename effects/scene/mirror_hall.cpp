@@ -72,7 +72,7 @@ void add_hidden_props(Scene& scene) {
     add(scene, "behind " + std::to_string(i), box({0.25, 0.5, 0.25}), {colors[i]},
         {-1.2 + 1.2 * i, 0.5, 5.0});
     add(scene, "above " + std::to_string(i), box({0.2, 0.2, 0.2}), {colors[2 - i]},
-        {-1.2 + 1.2 * i, kHeight - 0.3, 0.6});
+        {-1.2 + 1.2 * i, kHeight - 0.3, 2.2});
   }
 }
 

@@ -20,7 +20,7 @@ RayPassDesc transparent_pass(rtapi::ShaderLibrary library) {
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"TransparentAnyHit", "TransparentClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 48;
+  desc.payload_bytes = 52;
   desc.max_recursion_depth = 3;  // a layer, what it mirrors, the sun's ray there
   return desc;
 }

@@ -26,6 +26,12 @@ static const uint kMaskGlass = 0x02;  // [effects/scene/scene.h: InstanceMask]
 static const uint kMaxSortedLayers = 8;
 static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
 
+// Nearer to an edge than that, in barycentrics, a neighbour may be met too, at a distance that is
+// the same but for rounding.
+static const float kEdge = 1e-5;
+static const float kSameDistance = 1e-6;
+static const uint kNoInstance = 0xFFFFFFFF;
+
 // What a ray is for.
 static const uint kLayerRay = 0;
 static const uint kReflectingLayerRay = 1;
@@ -40,6 +46,7 @@ struct GlassPayload {
   uint kind;
   uint instance;         // of the layer before, which the ray must not meet again
   uint primitive;
+  float met;             // at this distance
   float sun_visibility;  // at the layer before: any-hit shaders cannot trace a ray
 };
 
@@ -72,6 +79,23 @@ float GlassCoverage(float2 barycentrics) {
     alpha *= SampleMaterial(material, kBaseColorTexture, uv, -100.0).a;
   }
   return Coverage(alpha);
+}
+
+// Two triangles that share an edge can both be met on it: one layer all the same.
+bool IsMetAgain(GlassPayload payload, bool on_edge) {
+  if (InstanceIndex() != payload.instance) return false;
+  return PrimitiveIndex() == payload.primitive ||
+         (on_edge && abs(RayTCurrent() - payload.met) <= kSameDistance * RayTCurrent());
+}
+
+bool IsOnEdge(float2 barycentrics) {
+  return min(min(barycentrics.x, barycentrics.y), 1.0 - barycentrics.x - barycentrics.y) < kEdge;
+}
+
+void Remember(inout GlassPayload payload) {
+  payload.instance = InstanceIndex();
+  payload.primitive = PrimitiveIndex();
+  payload.met = RayTCurrent();
 }
 
 // Light that a layer sends to the camera without its mirror image, and how much of the sun reaches
@@ -124,12 +148,12 @@ void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectio
   if (!(coverage > 0.0)) {
     IgnoreHit();
   }
-  if (payload.kind != kBlendRay) {
-    if (InstanceIndex() == payload.instance && PrimitiveIndex() == payload.primitive) {
-      IgnoreHit();
-    }
-    return;
+  const bool on_edge = IsOnEdge(hit.barycentrics);
+  if (IsMetAgain(payload, on_edge)) {
+    IgnoreHit();
   }
+  if (payload.kind != kBlendRay) return;
+  if (on_edge) Remember(payload);
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
   const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
   const float3 light =
@@ -166,8 +190,9 @@ float3 MirrorImage(Surface surface, float3 direction) {
   payload.transmittance = float3(1, 1, 1);
   payload.weight = 0.0;
   payload.kind = kMirrorRay;
-  payload.instance = 0xFFFFFFFF;
+  payload.instance = kNoInstance;
   payload.primitive = 0;
+  payload.met = -1.0;
   payload.sun_visibility = 0.0;
   TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
@@ -220,8 +245,7 @@ void TransparentClosestHit(inout GlassPayload payload,
   payload.radiance = Contain(radiance);
   payload.transmittance = transmittance;
   payload.distance = RayTCurrent();
-  payload.instance = InstanceIndex();
-  payload.primitive = PrimitiveIndex();
+  Remember(payload);
 }
 
 [shader("raygeneration")]
@@ -239,8 +263,9 @@ void TransparentRayGen() {
   ray.TMax = opaque_z > 0.0 ? opaque_z : 1e30;
 
   GlassPayload payload;
-  payload.instance = 0xFFFFFFFF;
+  payload.instance = kNoInstance;
   payload.primitive = 0;
+  payload.met = -1.0;
   payload.sun_visibility = constants.sun != 0 ? 1.0 : 0.0;
   float3 sum = float3(0, 0, 0);
   float3 through = float3(1, 1, 1);
