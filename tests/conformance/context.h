@@ -140,5 +140,6 @@ std::vector<RuleTest> as_update_tests();
 std::vector<RuleTest> as_copy_tests();
 std::vector<RuleTest> pay_qualifier_tests();
 std::vector<RuleTest> rq_tests();
+std::vector<RuleTest> err_tests();
 
 }  // namespace kaamos::conformance

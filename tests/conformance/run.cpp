@@ -69,13 +69,15 @@ RuleResult result_without_run(const Rule& rule) {
 
 std::vector<RuleTest> all_tests() {
   std::vector<RuleTest> out;
-  for (const auto& section :
-       {sbt_tests(),           sbt_undefined_tests(), root_tests(),        flg_tests(),
-        flg_legality_tests(),  trv_tests(),           trv_any_hit_tests(), trv_inactive_tests(),
-        trv_random_tests(),    trv_report_tests(),    trv_edge_tests(),    sv_tests(),
-        pay_tests(),           pay_qualifier_tests(), rq_tests(),          so_tests(),
-        so_collection_tests(), so_object_tests(),     dsp_tests(),         as_build_tests(),
-        as_memory_tests(),     as_info_tests(),       as_update_tests(),   as_copy_tests()}) {
+  for (const auto& section : {sbt_tests(),         sbt_undefined_tests(), root_tests(),
+                              flg_tests(),         flg_legality_tests(),  trv_tests(),
+                              trv_any_hit_tests(), trv_inactive_tests(),  trv_random_tests(),
+                              trv_report_tests(),  trv_edge_tests(),      sv_tests(),
+                              pay_tests(),         pay_qualifier_tests(), rq_tests(),
+                              so_tests(),          so_collection_tests(), so_object_tests(),
+                              dsp_tests(),         as_build_tests(),      as_memory_tests(),
+                              as_info_tests(),     as_update_tests(),     as_copy_tests(),
+                              err_tests()}) {
     out.insert(out.end(), section.begin(), section.end());
   }
   return out;
