@@ -371,7 +371,7 @@ void tables_of_records(Context& t) {
     desc.HitGroupTable = other.tables().HitGroupTable;
     s.run(desc);
     c.told("another pipeline's identifier", "KA0432");
-    desc.HitGroupTable = s.tables().MissShaderTable;
+    desc.HitGroupTable = desc.MissShaderTable;
     s.run(desc);
     c.told("a miss shader in the hit group table", "KA0433");
   }
