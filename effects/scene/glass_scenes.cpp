@@ -165,8 +165,9 @@ Scene make_glass_stack(const GlassStackDesc& desc) {
   scene.samplers.push_back(Sampler{});
   scene.sky = default_sky();
   scene.sun = default_sun();
+  scene.exposure = 0.4f;
   const std::uint32_t ground = add_material(scene, "ground", {0.45f, 0.43f, 0.4f, 1.0f}, 0.6f);
-  const std::uint32_t wall = add_material(scene, "wall", {0.75f, 0.75f, 0.72f, 1.0f}, 0.9f);
+  const std::uint32_t wall = add_material(scene, "wall", {0.3f, 0.32f, 0.36f, 1.0f}, 0.9f);
   add(scene, "ground", patch({-20, 0, 20}, {40, 0, 0}, {0, 0, -40}, 1, 1), ground, glm::dmat4(1.0));
   add(scene, "wall", box({4.0, 1.5, 0.1}), wall, translate({0, 1.5, -3.0}));
   for (int i = 0; i < 5; ++i) {
@@ -181,8 +182,8 @@ Scene make_glass_stack(const GlassStackDesc& desc) {
   add(scene, "sign", box({0.6, 0.25, 0.05}), lit, translate({-0.5, 1.3, 6.0}));
   add_stack(scene, desc);
   if (desc.cabinet) add_cabinet(scene, {1.3, 0, -0.4});
-  add_lamp(scene, {-1.5, 2.4, 1.5}, 12.0f);
-  add_lamp(scene, {1.5, 2.6, 0.8}, 12.0f);
+  add_lamp(scene, {-1.5, 2.4, 1.5}, 5.0f);
+  add_lamp(scene, {1.5, 2.6, 0.8}, 5.0f);
   add_camera(scene, {0.1, 1.15, 4.2}, {0, 0.75, -0.5}, 0.75);
   return scene;
 }

@@ -96,13 +96,13 @@ void add_bulb(Scene& scene) {
                          radius * std::sin(angle));
   }
   add(scene, "bulb", revolve(profile, 24), {glm::vec3(0.0f), 0.0f, 1.0f, glm::vec3(1e4f)}, at);
-  // The light that such a bulb gives: radiance times the disk that is seen of it. It stands below
-  // the bulb, whose surface would shadow one inside.
+  // The light that such a bulb gives: radiance times the disk that is seen of it. Its sphere holds
+  // the bulb, which then casts no shadow of its own.
   Light light;
   light.name = "bulb";
   light.intensity = static_cast<float>(1e4 * glm::pi<double>() * radius * radius);
-  light.position = at - glm::dvec3(0, radius + 0.01, 0);
-  light.radius = static_cast<float>(radius);
+  light.position = at;
+  light.radius = static_cast<float>(1.02 * radius);
   scene.lights.push_back(light);
 }
 
@@ -112,7 +112,7 @@ Scene make_mirror_hall() {
   Scene scene;
   scene.name = "mirror-hall";
   scene.samplers.push_back(Sampler{});
-  scene.exposure = 0.5f;
+  scene.exposure = 0.35f;
   const glm::dvec3 eye(0.3, 1.5, 3.6);
   add_room(scene);
   add_strip(scene);

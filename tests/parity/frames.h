@@ -8,6 +8,7 @@
 
 #include "effects/frame/frame.h"
 #include "effects/scene/scene.h"
+#include "effects/transparent/transparent.h"
 
 namespace kaamos::parity {
 
@@ -23,5 +24,15 @@ struct FrameRun {
 // rtapi::ResultError.
 std::map<effects::FrameTexture, effects::FloatImage> render_frame(const effects::Scene& scene,
                                                                   const FrameRun& run);
+
+struct GlassRun {
+  effects::FloatImage ids;       // of what lies behind the glass
+  effects::FloatImage whole;     // radiance, the glass before what lies behind it
+  effects::FloatImage coverage;  // transmittance and the number of layers traced one by one
+};
+
+// The transparent pass before sunlight and sky.
+GlassRun render_glass(const effects::Scene& scene, const FrameRun& run,
+                      const effects::TransparentConstants& constants);
 
 }  // namespace kaamos::parity

@@ -10,6 +10,7 @@
 
 #include "effects/image/png.h"
 #include "effects/image/tonemap.h"
+#include "effects/scene/glass_scenes.h"
 #include "effects/scene/lounge.h"
 #include "effects/scene/oracle_scenes.h"
 #include "tests/parity/frames.h"
@@ -226,6 +227,28 @@ INSTANTIATE_TEST_SUITE_P(
                     NamedScene{"wall", [] { return make_wall_oracle(2.0); }},
                     NamedScene{"penumbra", [] { return make_penumbra_oracle(2.0, 0.05); }}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(VulkanGlass, DrawsWhatEmbreeDraws) {
+  KAAMOS_NEED_VULKAN();
+  const Scene scene = make_glass_stack({.thick = true});
+  // One layer on its own, with its mirrored ray, and the rest blended: every shader runs.
+  GlassRun seen[2];
+  FrameRun run;
+  run.width = 96;
+  run.height = 54;
+  for (int i = 0; i < 2; ++i) {
+    run.backend = kBackends[i];
+    seen[i] = render_glass(scene, run, deck_layers(1));
+  }
+  const LayerDifference coverage =
+      compare_layers(seen[0].coverage, seen[1].coverage, seen[0].ids, seen[1].ids, 1e-5);
+  EXPECT_LE(static_cast<double>(coverage.above), 5e-3 * run.width * run.height)
+      << "by up to " << coverage.worst << " at " << coverage.worst_x << "," << coverage.worst_y;
+  const PictureDifference picture =
+      compare_pictures(floats(tonemap(seen[0].whole, scene.exposure)),
+                       floats(tonemap(seen[1].whole, scene.exposure)));
+  EXPECT_EQ(judge(picture), "") << describe(picture);
+}
 
 class VulkanExamples : public testing::TestWithParam<const char*> {};
 
