@@ -178,8 +178,8 @@ Scene make_glass_stack(const GlassStackDesc& desc) {
   }
   // Behind the camera: seen in the glass only.
   const std::uint32_t lit = add_material(scene, "sign", {0.1f, 0.1f, 0.1f, 1.0f}, 0.9f);
-  scene.materials[lit].constants.emissive = glm::vec3(4.0f, 1.2f, 0.3f);
-  add(scene, "sign", box({0.6, 0.25, 0.05}), lit, translate({-0.5, 1.3, 6.0}));
+  scene.materials[lit].constants.emissive = glm::vec3(12.0f, 4.0f, 1.0f);
+  add(scene, "sign", box({0.6, 0.25, 0.05}), lit, translate({-1.8, 0.8, 6.0}));
   add_stack(scene, desc);
   if (desc.cabinet) add_cabinet(scene, {1.3, 0, -0.4});
   add_lamp(scene, {-1.5, 2.4, 1.5}, 5.0f);
