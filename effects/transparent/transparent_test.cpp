@@ -27,8 +27,10 @@ struct Seen {
 
 // Every setting on one device: most of the time goes into pipelines.
 std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstants>& settings,
-                       std::uint32_t size = 8) {
-  const rtapi::Device device = rtapi::CreateDevice().value();
+                       std::uint32_t size = 8, std::uint32_t threads = 0) {
+  rtapi::DeviceDesc device_desc;
+  device_desc.Threads = threads;
+  const rtapi::Device device = rtapi::CreateDevice(device_desc).value();
   rtapi::CommandQueue queue = device.CreateCommandQueue().value();
   const Camera& camera = scene.cameras.front();
   const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
@@ -348,6 +350,80 @@ TEST(Transparent, MoreLayersAreNearerToTheReference) {
   }
   EXPECT_EQ(last, 0);
   EXPECT_GT(rms_difference(seen[0].whole, seen[0].behind), 0.01);
+}
+
+// The scene elsewhere, as large as `scale` says; `move` is rigid.
+Scene moved(Scene scene, const glm::dmat4& move, double scale) {
+  const glm::dmat4 grow{glm::dmat3(scale)};
+  for (Instance& instance : scene.instances) instance.transform = move * grow * instance.transform;
+  const auto place = [&](const glm::dvec3& p) {
+    return glm::dvec3(move * grow * glm::dvec4(p, 1));
+  };
+  for (Camera& camera : scene.cameras) {
+    const glm::dvec3 eye = place(camera.position());
+    camera.camera_to_world = move * camera.camera_to_world;
+    camera.camera_to_world[3] = glm::dvec4(eye, 1);
+    camera.near_plane *= scale;
+  }
+  for (Light& light : scene.lights) {
+    light.position = place(light.position);
+    light.intensity *= static_cast<float>(scale * scale);
+    light.range *= static_cast<float>(scale);
+    light.radius *= static_cast<float>(scale);
+  }
+  scene.sun->direction_to_sun =
+      glm::vec3(glm::dmat3(move) * glm::dvec3(scene.sun->direction_to_sun));
+  return scene;
+}
+
+// [effects-spec E.1: turned, moved, far from the origin, small and large]
+TEST(Transparent, ThePlaceOfTheSceneDoesNotMatter) {
+  constexpr std::uint32_t kSize = 32;
+  const Scene scene = make_glass_stack({.panes = 4, .thick = true});
+  // Texels of a lamp's shadow map lie along the world's axes: turned scenes do without.
+  Scene dark = scene;
+  dark.lights.clear();
+  const Seen lit_here = look(scene, {deck_layers(2)}, kSize)[0];
+  const Seen dark_here = look(dark, {deck_layers(2)}, kSize)[0];
+  struct {
+    glm::dvec3 offset;
+    double angle, scale;
+  } const rows[] = {{{3, -2, 5}, 1.5707963267948966, 1},
+                    {{1e5, -3e4, 7e4}, 0, 1},
+                    {{1e5, 2e3, 0}, 3.1, 1},
+                    {{0, 0, 0}, 0, 1e-3},
+                    {{0, 0, 0}, 0.3, 1e3}};
+  for (const auto& row : rows) {
+    TransparentConstants constants = deck_layers(2);
+    constants.reflection_length *= static_cast<float>(row.scale);
+    constants.depth_scale = static_cast<float>(1 / row.scale);
+    const Seen& here = row.angle == 0 ? lit_here : dark_here;
+    const Scene there = moved(row.angle == 0 ? scene : dark,
+                              translate(row.offset) * rotate_y(row.angle), row.scale);
+    const Seen seen = look(there, {constants}, kSize)[0];
+    int different = 0;
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+      bool same = true;
+      for (std::uint32_t c = 0; c < 4; ++c) {
+        const float before = here.glass.values[4 * i + c];
+        const double expected = c == 3 ? before * row.scale : before;
+        same = same && std::abs(seen.glass.values[4 * i + c] - expected) <= 2e-3 * (0.1 + expected);
+        same = same && std::abs(seen.transmittance.values[4 * i + c] -
+                                here.transmittance.values[4 * i + c]) <= 1e-4;
+      }
+      different += !same;
+    }
+    // Edges that pass through the centre of a pixel.
+    EXPECT_LE(different, kSize * kSize / 100) << "scale " << row.scale << " angle " << row.angle;
+  }
+}
+
+TEST(Transparent, ThreadsDoNotMatter) {
+  const Scene scene = make_glass_stack({.panes = 8, .thick = true});
+  const Seen one = look(scene, {deck_layers(1)}, 48, 1)[0];
+  const Seen more = look(scene, {deck_layers(1)}, 48, 3)[0];
+  EXPECT_EQ(one.glass.values, more.glass.values);
+  EXPECT_EQ(one.transmittance.values, more.transmittance.values);
 }
 
 }  // namespace
