@@ -37,8 +37,8 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"motion", Format::kR32G32B32A32Float},
 };
 
-// Descriptors of the view heap: t0..t3, then u0.., then the scene's textures, then the passes' own.
-constexpr std::uint32_t kFirstPicture = 4;
+// Descriptors of the view heap: t0..t4, then u0.., then the scene's textures, then the passes' own.
+constexpr std::uint32_t kFirstPicture = 5;
 constexpr std::uint32_t kFirstSceneTexture = kFirstPicture + kFrameTextureCount;
 
 TextureAddressMode address_mode(Wrap wrap) {
@@ -167,24 +167,13 @@ rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   if (!created) return created.error();
   views_ = *created;
 
-  ShaderResourceViewDesc top_level;
-  top_level.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
-  top_level.RaytracingAccelerationStructure.Location = gpu.top_level.GetGPUVirtualAddress();
-  if (const auto s =
-          device.CreateShaderResourceView({}, top_level, views_.GetCPUDescriptorHandle(0));
-      !s) {
-    return s;
-  }
+  if (const auto s = set_scene(device, gpu); !s) return s;
   const auto structured = [&](const Buffer& buffer, std::uint32_t stride, std::uint32_t index) {
-    ShaderResourceViewDesc view;
-    view.ViewDimension = SrvDimension::kBuffer;
-    view.Buffer.StructureByteStride = stride;
-    view.Buffer.NumElements = static_cast<std::uint32_t>(buffer.size() / stride);
-    return device.CreateShaderResourceView(buffer, view, views_.GetCPUDescriptorHandle(index));
+    return write_structured_view(device, buffer, stride, index);
   };
   if (const auto s = structured(gpu.materials, sizeof(MaterialConstants), 1); !s) return s;
   if (const auto s = structured(blue_noise_, sizeof(glm::vec2), 2); !s) return s;
-  if (const auto s = write_lights_view(device); !s) return s;
+  if (const auto s = structured(lights_, sizeof(LightConstants), 3); !s) return s;
   for (std::uint32_t i = 0; i < kFrameTextureCount; ++i) {
     const auto handle = views_.GetCPUDescriptorHandle(kFirstPicture + i);
     if (const auto s = device.CreateUnorderedAccessView(textures_[i], handle); !s) return s;
@@ -252,15 +241,29 @@ rtapi::Status Frame::set_camera(const Device& device, const Scene& scene, const 
   buffer = CreateUploadBuffer(device, lights, "lights");
   if (!buffer) return buffer.error();
   lights_ = *buffer;
-  return views_ ? write_lights_view(device) : rtapi::Status();
+  if (!views_) return {};
+  return write_structured_view(device, lights_, sizeof(LightConstants), 3);
 }
 
-rtapi::Status Frame::write_lights_view(const Device& device) const {
+rtapi::Status Frame::set_scene(const Device& device, const GpuScene& gpu) {
+  ShaderResourceViewDesc top_level;
+  top_level.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+  top_level.RaytracingAccelerationStructure.Location = gpu.top_level.GetGPUVirtualAddress();
+  if (const auto s =
+          device.CreateShaderResourceView({}, top_level, views_.GetCPUDescriptorHandle(0));
+      !s) {
+    return s;
+  }
+  return write_structured_view(device, gpu.previous_instances, sizeof(PreviousInstance), 4);
+}
+
+rtapi::Status Frame::write_structured_view(const Device& device, const Buffer& buffer,
+                                           std::uint32_t stride, std::uint32_t index) const {
   ShaderResourceViewDesc view;
   view.ViewDimension = SrvDimension::kBuffer;
-  view.Buffer.StructureByteStride = sizeof(LightConstants);
-  view.Buffer.NumElements = static_cast<std::uint32_t>(lights_.size() / sizeof(LightConstants));
-  return device.CreateShaderResourceView(lights_, view, views_.GetCPUDescriptorHandle(3));
+  view.Buffer.StructureByteStride = stride;
+  view.Buffer.NumElements = static_cast<std::uint32_t>(buffer.size() / stride);
+  return device.CreateShaderResourceView(buffer, view, views_.GetCPUDescriptorHandle(index));
 }
 
 void Frame::bind(CommandList& list, const PassConstants& constants,

@@ -120,6 +120,10 @@ class Frame {
   /// so other constants and lights. The top level must be relative to that camera by then.
   rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
                            const FrameTime& time);
+  /// Puts the top level and the previous instances of `gpu` in place of those before (t0, t4). Its
+  /// textures and materials must be those that the frame was made with. No dispatch of this frame
+  /// may run meanwhile.
+  rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
   /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
   /// A picture of the frame's size.
@@ -141,7 +145,8 @@ class Frame {
   rtapi::Status create_root_signatures(const rtapi::Device& device);
   rtapi::Status create_textures(const rtapi::Device& device);
   rtapi::Status create_views(const rtapi::Device& device, const GpuScene& gpu);
-  rtapi::Status write_lights_view(const rtapi::Device& device) const;
+  rtapi::Status write_structured_view(const rtapi::Device& device, const rtapi::Buffer& buffer,
+                                      std::uint32_t stride, std::uint32_t index) const;
   rtapi::Status create_samplers(const rtapi::Device& device, const Scene& scene);
 
   FrameDesc desc_;

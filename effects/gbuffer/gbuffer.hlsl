@@ -59,14 +59,33 @@ float2 PictureUv(float3 position, float3 right, float3 up, float3 forward, out f
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 
+// Where the hit point was one frame ago, relative to the camera of then.
+float3 PreviousPosition(float3 position, float2 barycentrics) {
+  const PreviousInstance before = previous_instances[InstanceIndex()];
+  if (before.flags == 0) {
+    return position + frame.camera_motion;
+  }
+  const HitConstants layout = hit_constants;
+  const uint offset = (before.flags & kPreviousDeformed) != 0 ? kPreviousPositionOffset : 0;
+  const uint3 corners = LoadTriangle(indices, layout.index_size_bytes, PrimitiveIndex());
+  const float4 object = float4(
+      Interpolate(LoadVertexFloat3(vertices, layout.vertex_stride, offset, corners.x),
+                  LoadVertexFloat3(vertices, layout.vertex_stride, offset, corners.y),
+                  LoadVertexFloat3(vertices, layout.vertex_stride, offset, corners.z), barycentrics),
+      1.0);
+  return float3(dot(before.rows[0], object), dot(before.rows[1], object),
+                dot(before.rows[2], object));
+}
+
 // From here to where this point was one frame ago: picture widths and heights, metres along the axis.
+// `previous_position`: relative to the camera of then.
 float3 MotionOf(float3 position, float3 previous_position) {
   float view_z, previous_view_z;
   const float2 now = PictureUv(position, frame.camera_right, frame.camera_up, frame.camera_forward,
                                view_z);
   const float2 before =
-      PictureUv(previous_position + frame.camera_motion, frame.previous_right, frame.previous_up,
-                frame.previous_forward, previous_view_z);
+      PictureUv(previous_position, frame.previous_right, frame.previous_up, frame.previous_forward,
+                previous_view_z);
   return float3(before - now, previous_view_z - view_z);
 }
 
@@ -85,5 +104,7 @@ void GBufferClosestHit(inout SurfacePayload payload, in BuiltInTriangleIntersect
   g_material[pixel] = float4(surface.roughness, surface.metallic, 0.0, 0.0);
   g_ids[pixel] = uint2(InstanceID() + 1, PrimitiveIndex());
   g_position[pixel] = float4(surface.position, surface.offset);
-  g_motion[pixel] = float4(MotionOf(surface.position, surface.position), 0.0);
+  g_motion[pixel] = float4(MotionOf(surface.position,
+                                    PreviousPosition(surface.position, hit.barycentrics)),
+                           0.0);
 }

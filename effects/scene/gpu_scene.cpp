@@ -7,17 +7,11 @@
 #include <span>
 
 namespace kaamos::effects {
-namespace {
 
 using namespace rtapi;
-using Clock = std::chrono::steady_clock;
 
-double milliseconds_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-rtapi::Result<Buffer> create_acceleration_structure(const Device& device, std::uint64_t bytes,
-                                                    std::string name) {
+rtapi::Result<Buffer> create_structure_buffer(const Device& device, std::uint64_t bytes,
+                                              std::string name) {
   BufferDesc desc;
   desc.SizeInBytes = bytes;
   desc.Flags = ResourceFlags::kAllowUnorderedAccess;
@@ -26,19 +20,52 @@ rtapi::Result<Buffer> create_acceleration_structure(const Device& device, std::u
   return device.CreateBuffer(desc);
 }
 
+rtapi::Result<Buffer> create_scratch_buffer(const Device& device, std::uint64_t bytes,
+                                            std::string name) {
+  BufferDesc desc;
+  desc.SizeInBytes = std::max<std::uint64_t>(bytes, 1);
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.Name = std::move(name);
+  return device.CreateBuffer(desc);
+}
+
+static RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
+  // Layers of glass are counted in any-hit shaders, each once.
+  if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+  return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
+}
+
+RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu) {
+  RaytracingGeometryDesc desc;
+  desc.Type = RaytracingGeometryType::kTriangles;
+  desc.Flags = geometry_flags(geometry, gpu.glass);
+  desc.Triangles.VertexFormat = Format::kR32G32B32Float;
+  desc.Triangles.VertexCount = geometry.vertex_count;
+  desc.Triangles.VertexBuffer = {gpu.vertices, gpu.constants.vertex_stride};
+  desc.Triangles.IndexFormat = geometry.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint;
+  desc.Triangles.IndexCount = geometry.index_count;
+  desc.Triangles.IndexBuffer = gpu.indices;
+  return desc;
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
 // Builds and waits; `bytes` grows by the result's size.
 rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
                             const BuildRaytracingAccelerationStructureInputs& inputs,
                             std::string name, std::uint64_t& bytes) {
   const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
   if (!sizes) return sizes.error();
-  auto result = create_acceleration_structure(device, sizes->ResultDataMaxSizeInBytes, name);
+  auto result = create_structure_buffer(device, sizes->ResultDataMaxSizeInBytes, name);
   if (!result) return result.error();
-  BufferDesc scratch_desc;
-  scratch_desc.SizeInBytes = std::max<std::uint64_t>(sizes->ScratchDataSizeInBytes, 1);
-  scratch_desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  scratch_desc.Name = name + " scratch";
-  const auto scratch = device.CreateBuffer(scratch_desc);
+  const auto scratch =
+      create_scratch_buffer(device, sizes->ScratchDataSizeInBytes, name + " scratch");
   if (!scratch) return scratch.error();
   auto list = device.CreateCommandList();
   if (!list) return list.error();
@@ -61,28 +88,9 @@ std::vector<bool> glass_meshes(const Scene& scene) {
   return glass;
 }
 
-RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
-  // Layers of glass are counted in any-hit shaders, each once.
-  if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
-  return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
-}
-
-RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu, bool glass) {
-  RaytracingGeometryDesc desc;
-  desc.Type = RaytracingGeometryType::kTriangles;
-  desc.Flags = geometry_flags(geometry, glass);
-  desc.Triangles.VertexFormat = Format::kR32G32B32Float;
-  desc.Triangles.VertexCount = geometry.vertex_count;
-  desc.Triangles.VertexBuffer = {gpu.vertices, kVertexStride};
-  desc.Triangles.IndexFormat = geometry.index_size_bytes == 2 ? Format::kR16Uint : Format::kR32Uint;
-  desc.Triangles.IndexCount = geometry.index_count;
-  desc.Triangles.IndexBuffer = gpu.indices;
-  return desc;
-}
-
-// Buffers of one mesh, the records' arguments of its geometries, and its bottom level.
-rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& scene,
-                       std::uint32_t mesh_id, bool glass, GpuScene& out) {
+// Buffers of one mesh, and the records' arguments of its geometries.
+rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t mesh_id, bool glass,
+                       GpuScene& out) {
   const Mesh& mesh = scene.meshes[mesh_id];
   auto vertices =
       CreateUploadBuffer(device, std::as_bytes(std::span(mesh.vertices)), mesh.name + " vertices");
@@ -90,7 +98,6 @@ rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& s
   auto indices =
       CreateUploadBuffer(device, std::as_bytes(std::span(mesh.indices)), mesh.name + " indices");
   if (!indices) return indices.error();
-  std::vector<RaytracingGeometryDesc> descs;
   for (std::uint32_t i = 0; i < mesh.geometries.size(); ++i) {
     const Geometry& geometry = mesh.geometries[i];
     GpuGeometry gpu;
@@ -102,8 +109,20 @@ rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& s
     gpu.constants.mesh_id = mesh_id;
     gpu.constants.geometry_id = i;
     gpu.alpha_tested = geometry.alpha_tested || glass;
-    descs.push_back(geometry_desc(geometry, gpu, glass));
+    gpu.glass = glass;
     out.geometries.push_back(gpu);
+  }
+  out.vertices.push_back(*vertices);
+  out.indices.push_back(*indices);
+  return {};
+}
+
+// `first_record`: of the mesh's geometries in out.geometries; goes on to the next mesh's.
+rtapi::Status add_bottom_level(const Device& device, CommandQueue& queue, const Mesh& mesh,
+                               std::size_t& first_record, GpuScene& out) {
+  std::vector<RaytracingGeometryDesc> descs;
+  for (const Geometry& geometry : mesh.geometries) {
+    descs.push_back(geometry_desc(geometry, out.geometries[first_record++]));
   }
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
@@ -113,8 +132,6 @@ rtapi::Status add_mesh(const Device& device, CommandQueue& queue, const Scene& s
   auto bottom_level =
       build(device, queue, inputs, mesh.name + " bottom level", out.statistics.bottom_level_bytes);
   if (!bottom_level) return bottom_level.error();
-  out.vertices.push_back(*vertices);
-  out.indices.push_back(*indices);
   out.bottom_levels.push_back(*bottom_level);
   return {};
 }
@@ -193,26 +210,17 @@ rtapi::Status add_textures(const Device& device, CommandQueue& queue, const Scen
 
 }  // namespace
 
-rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
-                                         const Scene& scene, const glm::dvec3& origin) {
+rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
+                                     const Scene& scene) {
   GpuScene out;
   out.statistics.unique_triangles = unique_triangle_count(scene);
   out.statistics.instanced_triangles = instanced_triangle_count(scene);
-
-  const auto bottom_start = Clock::now();
   const std::vector<bool> glass = glass_meshes(scene);
   for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) {
-    if (const rtapi::Status added = add_mesh(device, queue, scene, i, glass[i], out); !added) {
+    if (const rtapi::Status added = add_mesh(device, scene, i, glass[i], out); !added) {
       return added.error();
     }
   }
-  out.statistics.bottom_level_ms = milliseconds_since(bottom_start);
-  const auto top_start = Clock::now();
-  if (const rtapi::Status added = add_top_level(device, queue, scene, origin, out); !added) {
-    return added.error();
-  }
-  out.statistics.top_level_ms = milliseconds_since(top_start);
-
   std::vector<MaterialConstants> constants;
   for (const Material& material : scene.materials) {
     constants.push_back(material.constants);
@@ -223,6 +231,31 @@ rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& que
   if (const rtapi::Status added = add_textures(device, queue, scene, out); !added) {
     return added.error();
   }
+  const std::vector<PreviousInstance> unmoved(std::max<std::size_t>(scene.instances.size(), 1));
+  auto previous = CreateUploadBuffer(device, unmoved, "previous instances");
+  if (!previous) return previous.error();
+  out.previous_instances = *previous;
+  return out;
+}
+
+rtapi::Result<GpuScene> create_gpu_scene(const Device& device, CommandQueue& queue,
+                                         const Scene& scene, const glm::dvec3& origin) {
+  auto uploaded = upload_scene(device, queue, scene);
+  if (!uploaded) return uploaded.error();
+  GpuScene out = std::move(*uploaded);
+  const auto bottom_start = Clock::now();
+  std::size_t record = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    if (const rtapi::Status added = add_bottom_level(device, queue, mesh, record, out); !added) {
+      return added.error();
+    }
+  }
+  out.statistics.bottom_level_ms = milliseconds_since(bottom_start);
+  const auto top_start = Clock::now();
+  if (const rtapi::Status added = add_top_level(device, queue, scene, origin, out); !added) {
+    return added.error();
+  }
+  out.statistics.top_level_ms = milliseconds_since(top_start);
   return out;
 }
 

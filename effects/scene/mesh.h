@@ -66,9 +66,17 @@ struct Bounds {
   glm::dvec3 size() const { return empty() ? glm::dvec3(0.0) : max - min; }
 };
 
+/// Which joints of its instance's skin move a vertex. Weights sum to 1; unused ones are 0.
+struct SkinVertex {
+  glm::u16vec4 joints{0};
+  glm::vec4 weights{1, 0, 0, 0};
+};
+static_assert(sizeof(SkinVertex) == 24);
+
 struct Mesh {
   std::string name;
   std::vector<Vertex> vertices;
+  std::vector<SkinVertex> skin;       ///< one per vertex where the mesh is skinned, else empty
   std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian
   std::vector<Geometry> geometries;
 

@@ -97,6 +97,9 @@ class Checker {
   void material(const Material& material);
   void image(const TextureImage& image);
   void instance(const Instance& instance);
+  void motion(const Instance& instance, const std::string& where);
+  void animation(const Animation& animation);
+  void skeleton();
   void rest();
   void require(bool rule, const std::string& where, const std::string& what) {
     if (!rule && first_.empty()) first_ = where + ": " + what;
@@ -139,6 +142,9 @@ void Checker::geometry(const Mesh& mesh, const Geometry& g, const std::string& w
 void Checker::mesh(const Mesh& mesh) {
   const std::string where = quoted("mesh", mesh.name);
   require(!mesh.geometries.empty(), where, "has no geometry");
+  require(mesh.skin.empty() || mesh.skin.size() == mesh.vertices.size(), where,
+          std::to_string(mesh.skin.size()) + " skinned vertices of " +
+              std::to_string(mesh.vertices.size()));
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i)
     geometry(mesh, mesh.geometries[i], where + ", geometry " + std::to_string(i));
 }
@@ -175,6 +181,79 @@ void Checker::instance(const Instance& instance) {
   const glm::dmat4& m = instance.transform;
   require(m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0, where,
           "transform is not affine");
+  motion(instance, where);
+}
+
+std::string of(std::int64_t id, std::size_t count) {
+  return std::to_string(id) + " of " + std::to_string(count);
+}
+
+void Checker::motion(const Instance& instance, const std::string& where) {
+  const Motion& m = instance.motion;
+  const auto in_range = [](std::int32_t id, std::size_t count) {
+    return id == kNone || (id >= 0 && static_cast<std::size_t>(id) < count);
+  };
+  require(in_range(m.skin, scene_.skins.size()), where, "skin " + of(m.skin, scene_.skins.size()));
+  require(in_range(m.animation, scene_.animations.size()), where,
+          "animation " + of(m.animation, scene_.animations.size()));
+  require(in_range(m.node, scene_.nodes.size()), where, "node " + of(m.node, scene_.nodes.size()));
+  require(std::isfinite(m.start), where, "its animation's start is not finite");
+  if (!first_.empty() || m.skin == kNone) return;
+  const Mesh& mesh = scene_.meshes[instance.mesh];
+  require(!mesh.skin.empty(), where, "has a skin, and its mesh has no joints and weights");
+  const std::size_t joints = scene_.skins[static_cast<std::size_t>(m.skin)].joints.size();
+  for (const SkinVertex& v : mesh.skin) {
+    for (int k = 0; k < 4; ++k) {
+      if (v.joints[k] >= joints) return require(false, where, "joint " + of(v.joints[k], joints));
+    }
+  }
+}
+
+void Checker::animation(const Animation& animation) {
+  const std::string where = quoted("animation", animation.name);
+  require(std::isfinite(animation.duration) && animation.duration >= 0, where,
+          "duration is not finite or negative");
+  for (const Channel& channel : animation.channels) {
+    require(channel.node < scene_.nodes.size(), where,
+            "node " + of(channel.node, scene_.nodes.size()));
+    const std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
+    require(!channel.times.empty() && channel.values.size() == per_key * channel.times.size(),
+            where,
+            "a channel has " + std::to_string(channel.times.size()) + " times and " +
+                std::to_string(channel.values.size()) + " values, " + std::to_string(per_key) +
+                " per time expected");
+    for (std::size_t i = 0; i < channel.times.size(); ++i) {
+      require(
+          std::isfinite(channel.times[i]) && (i == 0 || channel.times[i] > channel.times[i - 1]),
+          where, "the times of a channel do not rise");
+    }
+    for (const glm::vec4& value : channel.values) {
+      require(std::isfinite(value.x + value.y + value.z + value.w), where,
+              "a value of a channel is not finite");
+    }
+  }
+}
+
+void Checker::skeleton() {
+  for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    const Node& node = scene_.nodes[i];
+    const std::string where = quoted("node", node.name);
+    require(node.parent == kNone || (node.parent >= 0 && static_cast<std::size_t>(node.parent) < i),
+            where, "its parent " + std::to_string(node.parent) + " does not stand before it");
+    require(!node.matrix || finite(*node.matrix), where, "transform is not finite");
+  }
+  for (const Skin& skin : scene_.skins) {
+    const std::string where = quoted("skin", skin.name);
+    require(skin.joints.size() == skin.inverse_binds.size(), where,
+            std::to_string(skin.joints.size()) + " joints and " +
+                std::to_string(skin.inverse_binds.size()) + " inverse bind matrices");
+    for (const std::uint32_t joint : skin.joints) {
+      require(joint < scene_.nodes.size(), where, "node " + of(joint, scene_.nodes.size()));
+    }
+    for (const glm::dmat4& bind : skin.inverse_binds) {
+      require(finite(bind), where, "an inverse bind matrix is not finite");
+    }
+  }
 }
 
 void Checker::rest() {
@@ -198,6 +277,8 @@ Status Checker::run() {
   for (const Mesh& item : scene_.meshes) mesh(item);
   for (const Material& item : scene_.materials) material(item);
   for (const TextureImage& item : scene_.images) image(item);
+  skeleton();
+  for (const Animation& item : scene_.animations) animation(item);
   for (const Instance& item : scene_.instances) instance(item);
   rest();
   return first_.empty() ? Status() : Status::failure("scene \"" + scene_.name + "\": " + first_);

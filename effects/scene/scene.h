@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "effects/common/result.h"
+#include "effects/scene/animation.h"
 #include "effects/scene/material.h"
 #include "effects/scene/mesh.h"
 #include "effects/scene/texture_image.h"
@@ -27,11 +28,22 @@ enum InstanceMask : std::uint8_t {
   kMaskEmissiveProxy = 0x10,
 };
 
+/// What an acceleration structure is built for. [Northlight deck: Build Flags]
+enum class BuildClass : std::uint8_t {
+  kStatic,      ///< FAST_TRACE, compacted, shared by all instances of the mesh
+  kDeformable,  ///< FAST_BUILD | ALLOW_UPDATE
+  kHero,        ///< FAST_TRACE | ALLOW_UPDATE
+  kEveryFrame,  ///< FAST_BUILD, never updated: built anew whenever it changed
+};
+
 struct Instance {
   std::string name;
   std::uint32_t mesh = 0;           ///< in Scene::meshes
   glm::dmat4 transform{1.0};        ///< object to world, affine
   std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
+  Motion motion = {};
+  /// Of skinned instances; kStatic counts as kDeformable there.
+  BuildClass build_class = BuildClass::kStatic;
 };
 
 enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
@@ -105,6 +117,9 @@ struct Scene {
   std::vector<Camera> cameras;    ///< at least one; the first is the default
   std::optional<Sun> sun;
   std::vector<Light> lights;
+  std::vector<Node> nodes;  ///< parents first; only what skins and animations need
+  std::vector<Skin> skins;
+  std::vector<Animation> animations;
   Sky sky;
   float exposure = 1.0f;  ///< radiance times this goes to the tone curve
 };

@@ -49,12 +49,23 @@ struct PassConstants {
   uint first_row;     // of the picture: a dispatch takes a band of rows
 };
 
+// Where an instance was one frame ago. [effects/scene/gpu_scene.h]
+struct PreviousInstance {
+  float4 rows[3];  // object to world then, relative to the camera of then
+  uint flags;      // 0: nothing moved
+  uint3 padding;
+};
+static const uint kPreviousMoved = 1;
+static const uint kPreviousDeformed = 2;  // vertices hold their previous positions
+static const uint kPreviousPositionOffset = 48;  // bytes, of those vertices
+
 ConstantBuffer<FrameConstants> frame : register(b0);
 ConstantBuffer<PassConstants> pass_constants : register(b1);
 RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<MaterialConstants> materials : register(t1);
 StructuredBuffer<float2> blue_noise : register(t2);
 StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
+StructuredBuffer<PreviousInstance> previous_instances : register(t4);  // by InstanceIndex()
 Texture2D<float4> textures[] : register(t0, space1);
 SamplerState samplers[] : register(s0, space1);
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// What moves in a scene: a hierarchy of nodes, skins whose joints are nodes, and animations of the
+// nodes' translations, rotations and scales. The host evaluates poses; vertices are deformed on the
+// device. [glTF 2.0: Skins, Animations]
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "effects/scene/mesh.h"
+
+namespace kaamos::effects {
+
+struct Scene;
+
+inline constexpr std::int32_t kNone = -1;
+
+struct Node {
+  std::string name;
+  std::int32_t parent = kNone;  ///< in Scene::nodes, before this one
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1, 0, 0, 0};  ///< unit
+  glm::dvec3 scale{1.0};
+  /// In place of the three above; such a node is not animated.
+  std::optional<glm::dmat4> matrix;
+};
+
+struct Skin {
+  std::string name;
+  std::vector<std::uint32_t> joints;      ///< nodes
+  std::vector<glm::dmat4> inverse_binds;  ///< as many
+};
+
+enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale };
+enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
+
+/// One property of one node over time.
+struct Channel {
+  std::uint32_t node = 0;
+  ChannelPath path = ChannelPath::kRotation;
+  Interpolation interpolation = Interpolation::kLinear;
+  std::vector<float> times;  ///< seconds, rising
+  /// One per time; rotations are x, y, z, w. With kCubicSpline three: in-tangent, value,
+  /// out-tangent.
+  std::vector<glm::vec4> values;
+};
+
+struct Animation {
+  std::string name;
+  std::vector<Channel> channels;
+  double duration = 0.0;  ///< seconds; then it begins anew
+};
+
+/// How an instance moves.
+struct Motion {
+  std::int32_t skin = kNone;       ///< in Scene::skins; its mesh has SkinVertices
+  std::int32_t animation = kNone;  ///< in Scene::animations; none: the nodes' rest
+  double start = 0.0;              ///< seconds, added to the scene's time
+  /// The instance is fixed to this node: object to world = transform * node's.
+  std::int32_t node = kNone;
+  bool operator==(const Motion&) const = default;
+};
+
+/// Upper three rows, as a shader has a float3x4.
+using JointMatrix = glm::mat3x4;
+
+/// An instance at one moment.
+struct InstanceState {
+  glm::dmat4 transform{1.0};        ///< object to world
+  std::vector<JointMatrix> joints;  ///< bind pose to object space; empty: not skinned
+};
+
+/// Node to scene transforms at `seconds`, which wraps at the animation's end.
+std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds);
+/// Of a valid scene: one per instance.
+std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds);
+
+/// What the skinning shader computes, on the host: blended matrices move positions, their cofactors
+/// turn normals.
+std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints);
+
+}  // namespace kaamos::effects

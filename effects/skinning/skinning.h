@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Deforming the vertices of skinned meshes by a compute shader. Indices are not touched, so that an
+// acceleration structure can be updated.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <span>
+
+#include "effects/scene/animation.h"
+#include "effects/scene/mesh.h"
+
+namespace kaamos::effects {
+
+/// Vertices that the shader writes: a Vertex, its position one frame ago, 4 bytes unused. Hit
+/// shaders know them by their stride. [effects/gbuffer/gbuffer.hlsl]
+inline constexpr std::uint32_t kSkinnedVertexStride = 64;
+inline constexpr std::uint32_t kPreviousPositionOffset = sizeof(Vertex);
+
+/// Buffers of one deformed mesh.
+struct SkinnedMesh {
+  std::uint32_t vertex_count = 0;
+  rtapi::GpuVirtualAddress bind_vertices = 0;
+  rtapi::GpuVirtualAddress skin = 0;
+  rtapi::Buffer joints;    ///< JointMatrix each, upload heap
+  rtapi::Buffer vertices;  ///< non-pixel shader resource outside of the skinning
+};
+
+class SkinningPass {
+ public:
+  static rtapi::Result<SkinningPass> create(const rtapi::Device& device);
+  /// Buffers for `mesh`, whose bind pose and SkinVertices stand at the two addresses.
+  static rtapi::Result<SkinnedMesh> create_mesh(const rtapi::Device& device, const Mesh& mesh,
+                                                rtapi::GpuVirtualAddress bind_vertices,
+                                                rtapi::GpuVirtualAddress skin,
+                                                std::uint32_t joint_count);
+  /// Records the dispatches, without barriers: the meshes' vertices must be unordered access.
+  /// `keep_history`: the buffer holds the frame before.
+  void begin(rtapi::CommandList& list) const;
+  void dispatch(rtapi::CommandList& list, const SkinnedMesh& mesh, bool keep_history) const;
+
+ private:
+  rtapi::RootSignature root_signature_;
+  rtapi::PipelineState pipeline_;
+};
+
+}  // namespace kaamos::effects

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
+// level. [effects-spec B1.1, Northlight deck: Build Flags]
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "effects/scene/animation.h"
+#include "effects/scene/gpu_scene.h"
+#include "effects/scene/scene.h"
+#include "effects/skinning/skinning.h"
+
+namespace kaamos::effects {
+
+struct StructureOptions {
+  /// A structure that is updated is built anew once in so many frames, because updates make it
+  /// slower to trace; never two of a class in one frame while there are fewer than frames. At
+  /// least 1, which never updates.
+  std::uint32_t deformable_period = 8;
+  std::uint32_t hero_period = 30;
+  bool compact = true;  ///< static structures
+};
+
+/// Of the last frame unless it says otherwise.
+struct StructureStatistics {
+  // Of the scene.
+  std::uint32_t static_structures = 0;
+  std::uint32_t skinned_structures = 0;  ///< instances in the same pose share one
+  std::uint64_t static_bytes = 0;
+  std::uint64_t static_bytes_before_compaction = 0;
+  std::uint64_t skinned_bytes = 0;  ///< structures
+  std::uint64_t vertex_bytes = 0;   ///< deformed vertices
+  std::uint64_t scratch_bytes = 0;
+  std::uint64_t top_level_bytes = 0;
+  double create_ms = 0;
+  // Of the frame.
+  std::uint32_t frame = 0;    ///< frames recorded before this one
+  std::uint32_t skinned = 0;  ///< dispatches
+  std::uint64_t skinned_vertices = 0;
+  std::uint32_t updated = 0;
+  std::uint32_t rebuilt = 0;  ///< the first build counts too
+  std::uint32_t skipped = 0;  ///< no joint moved
+  std::uint32_t moved_instances = 0;
+  std::uint32_t barriers = 0;  ///< batches
+  // Only by execute().
+  double skinning_ms = 0;
+  double bottom_level_ms = 0;
+  double top_level_ms = 0;
+};
+
+class StructureManager {
+ public:
+  /// Uploads a valid scene and builds the static structures. There is no top level before the first
+  /// frame.
+  static rtapi::Result<StructureManager> create(const rtapi::Device& device,
+                                                rtapi::CommandQueue& queue, const Scene& scene,
+                                                const StructureOptions& options = {});
+
+  /// Records all that has to happen before the rays of a frame: skinning, one barrier, bottom
+  /// levels, one barrier, top level, one barrier; what has nothing to do is left out together with
+  /// its barrier. Positions become relative to `origin`, the camera. The list of the frame before
+  /// must have finished: what the device reads is written now.
+  /// Error: not one state per instance, or not one matrix per joint.
+  rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
+                       const glm::dvec3& origin);
+  /// The same, executed stage by stage and measured.
+  rtapi::Status execute(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                        std::span<const InstanceState> states, const glm::dvec3& origin);
+
+  /// For passes and Frame; its resources stay the same over all frames.
+  const GpuScene& scene() const { return gpu_; }
+  const StructureStatistics& statistics() const { return statistics_; }
+  /// What an instance's vertices became, kSkinnedVertexStride apart. Empty where it has no skin.
+  rtapi::Buffer skinned_vertices(std::uint32_t instance) const;
+
+ private:
+  // Skinned instances in the same pose: deformed vertices and their structure.
+  struct Body {
+    std::uint32_t mesh = 0;
+    Motion motion;
+    BuildClass build_class = BuildClass::kDeformable;
+    std::uint32_t rank = 0;  // among those of its class
+    std::uint32_t joint_count = 0;
+    std::size_t first_record = 0;
+    SkinnedMesh skinned;
+    std::vector<rtapi::RaytracingGeometryDesc> geometries;
+    rtapi::Buffer structure;
+    rtapi::Buffer scratch;
+    std::vector<JointMatrix> joints;  // of the last frame; empty before the first
+    std::uint32_t updates = 0;        // since it was built
+    bool moved = false;
+    bool has_history = false;  // vertices hold the frame before
+  };
+  struct Placement {
+    std::int32_t body = kNone;
+    std::size_t first_record = 0;
+    bool force_opaque = true;
+    glm::dmat4 transform{1.0};  // of the last frame
+  };
+
+  rtapi::Status build_static(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                             const Scene& scene);
+  rtapi::Status compact(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                        const rtapi::Buffer& sizes, const std::vector<std::uint32_t>& built);
+  rtapi::Status add_instances(const rtapi::Device& device, const Scene& scene);
+  rtapi::Result<std::int32_t> add_body(const rtapi::Device& device, const Scene& scene,
+                                       const Instance& instance);
+  rtapi::Status create_top_level(const rtapi::Device& device);
+  rtapi::Status begin_frame(std::span<const InstanceState> states);
+  void record_skinning(rtapi::CommandList& list);
+  void record_bottom_levels(rtapi::CommandList& list);
+  void record_top_level(rtapi::CommandList& list, std::span<const InstanceState> states,
+                        const glm::dvec3& origin);
+  void write_instances(std::span<const InstanceState> states, const glm::dvec3& origin);
+  bool must_rebuild(const Body& body) const;
+  rtapi::BuildRaytracingAccelerationStructureInputs inputs(const Body& body) const;
+  void barrier(rtapi::CommandList& list);
+
+  StructureOptions options_;
+  GpuScene gpu_;
+  std::vector<Instance> instances_;
+  std::vector<Placement> placements_;
+  std::vector<Body> bodies_;
+  std::optional<SkinningPass> skinning_;
+  std::vector<rtapi::Buffer> bind_skins_;  // per mesh; empty handles where it has none
+  rtapi::Buffer top_scratch_;
+  glm::dvec3 previous_origin_{0.0};
+  std::uint32_t frame_ = 0;
+  StructureStatistics statistics_;
+};
+
+}  // namespace kaamos::effects
