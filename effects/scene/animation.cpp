@@ -93,14 +93,15 @@ std::vector<JointMatrix> joint_matrices(const Skin& skin, const std::vector<glm:
 
 std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds) {
   std::vector<Node> nodes = scene.nodes;
-  if (animation != kNone) {
+  if (animation != kNoIndex) {
     apply(scene.animations[static_cast<std::size_t>(animation)], seconds, nodes);
   }
   std::vector<glm::dmat4> transforms;
   for (const Node& node : nodes) {
     const glm::dmat4 local = local_transform(node);
-    transforms.push_back(
-        node.parent == kNone ? local : transforms[static_cast<std::size_t>(node.parent)] * local);
+    transforms.push_back(node.parent == kNoIndex
+                             ? local
+                             : transforms[static_cast<std::size_t>(node.parent)] * local);
   }
   return transforms;
 }
@@ -112,13 +113,13 @@ std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds
     const Motion& motion = instance.motion;
     InstanceState state;
     state.transform = instance.transform;
-    if (motion.skin != kNone || motion.node != kNone) {
+    if (motion.skin != kNoIndex || motion.node != kNoIndex) {
       auto& nodes = poses[{motion.animation, motion.start}];
       if (nodes.empty()) nodes = evaluate_nodes(scene, motion.animation, seconds + motion.start);
-      if (motion.node != kNone) {
+      if (motion.node != kNoIndex) {
         state.transform = instance.transform * nodes[static_cast<std::size_t>(motion.node)];
       }
-      if (motion.skin != kNone) {
+      if (motion.skin != kNoIndex) {
         state.joints = joint_matrices(scene.skins[static_cast<std::size_t>(motion.skin)], nodes);
       }
     }

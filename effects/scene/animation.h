@@ -18,11 +18,11 @@ namespace kaamos::effects {
 
 struct Scene;
 
-inline constexpr std::int32_t kNone = -1;
+inline constexpr std::int32_t kNoIndex = -1;
 
 struct Node {
   std::string name;
-  std::int32_t parent = kNone;  ///< in Scene::nodes, before this one
+  std::int32_t parent = kNoIndex;  ///< in Scene::nodes, before this one
   glm::dvec3 translation{0.0};
   glm::dquat rotation{1, 0, 0, 0};  ///< unit
   glm::dvec3 scale{1.0};
@@ -58,11 +58,11 @@ struct Animation {
 
 /// How an instance moves.
 struct Motion {
-  std::int32_t skin = kNone;       ///< in Scene::skins; its mesh has SkinVertices
-  std::int32_t animation = kNone;  ///< in Scene::animations; none: the nodes' rest
-  double start = 0.0;              ///< seconds, added to the scene's time
+  std::int32_t skin = kNoIndex;       ///< in Scene::skins; its mesh has SkinVertices
+  std::int32_t animation = kNoIndex;  ///< in Scene::animations; none: the nodes' rest
+  double start = 0.0;                 ///< seconds, added to the scene's time
   /// The instance is fixed to this node: object to world = transform * node's.
-  std::int32_t node = kNone;
+  std::int32_t node = kNoIndex;
   bool operator==(const Motion&) const = default;
 };
 

@@ -191,14 +191,14 @@ std::string of(std::int64_t id, std::size_t count) {
 void Checker::motion(const Instance& instance, const std::string& where) {
   const Motion& m = instance.motion;
   const auto in_range = [](std::int32_t id, std::size_t count) {
-    return id == kNone || (id >= 0 && static_cast<std::size_t>(id) < count);
+    return id == kNoIndex || (id >= 0 && static_cast<std::size_t>(id) < count);
   };
   require(in_range(m.skin, scene_.skins.size()), where, "skin " + of(m.skin, scene_.skins.size()));
   require(in_range(m.animation, scene_.animations.size()), where,
           "animation " + of(m.animation, scene_.animations.size()));
   require(in_range(m.node, scene_.nodes.size()), where, "node " + of(m.node, scene_.nodes.size()));
   require(std::isfinite(m.start), where, "its animation's start is not finite");
-  if (!first_.empty() || m.skin == kNone) return;
+  if (!first_.empty() || m.skin == kNoIndex) return;
   const Mesh& mesh = scene_.meshes[instance.mesh];
   require(!mesh.skin.empty(), where, "has a skin, and its mesh has no joints and weights");
   const std::size_t joints = scene_.skins[static_cast<std::size_t>(m.skin)].joints.size();
@@ -238,8 +238,9 @@ void Checker::skeleton() {
   for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
     const Node& node = scene_.nodes[i];
     const std::string where = quoted("node", node.name);
-    require(node.parent == kNone || (node.parent >= 0 && static_cast<std::size_t>(node.parent) < i),
-            where, "its parent " + std::to_string(node.parent) + " does not stand before it");
+    require(
+        node.parent == kNoIndex || (node.parent >= 0 && static_cast<std::size_t>(node.parent) < i),
+        where, "its parent " + std::to_string(node.parent) + " does not stand before it");
     require(!node.matrix || finite(*node.matrix), where, "transform is not finite");
   }
   for (const Skin& skin : scene_.skins) {

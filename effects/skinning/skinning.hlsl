@@ -19,6 +19,7 @@ static const uint kSkinStride = 24;
 static const uint kDeformedStride = 64;
 static const uint kPreviousOffset = 48;
 
+[shader("compute")]
 [numthreads(64, 1, 1)]
 void SkinVertices(uint3 thread : SV_DispatchThreadID) {
   if (thread.x >= constants.vertex_count) {

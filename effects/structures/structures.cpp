@@ -64,8 +64,6 @@ rtapi::Result<StructureManager> StructureManager::create(const Device& device, C
   const auto start = Clock::now();
   StructureManager manager;
   manager.options_ = options;
-  manager.options_.deformable_period = std::max(options.deformable_period, 1u);
-  manager.options_.hero_period = std::max(options.hero_period, 1u);
   auto uploaded = upload_scene(device, queue, scene);
   if (!uploaded) return uploaded.error();
   manager.gpu_ = std::move(*uploaded);
@@ -86,7 +84,7 @@ rtapi::Status StructureManager::build_static(const Device& device, CommandQueue&
                                              const Scene& scene) {
   std::vector<bool> wanted(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {
-    if (instance.motion.skin == kNone) wanted[instance.mesh] = true;
+    if (instance.motion.skin == kNoIndex) wanted[instance.mesh] = true;
   }
   gpu_.bottom_levels.resize(scene.meshes.size());
   BufferDesc sizes_desc;
@@ -174,7 +172,7 @@ rtapi::Status StructureManager::add_instances(const Device& device, const Scene&
     placement.transform = instance.transform;
     placement.force_opaque = !any_alpha_tested(scene.meshes[instance.mesh]);
     placement.first_record = first_record(scene, instance.mesh);
-    if (instance.motion.skin != kNone) {
+    if (instance.motion.skin != kNoIndex) {
       const auto body = add_body(device, scene, instance);
       if (!body) return body.error();
       placement.body = *body;
@@ -191,7 +189,7 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
   Body body;
   body.mesh = instance.mesh;
   body.motion = instance.motion;
-  body.motion.node = kNone;  // moves the instance, not the shape
+  body.motion.node = kNoIndex;  // moves the instance, not the shape
   if (instance.build_class != BuildClass::kStatic) body.build_class = instance.build_class;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& other = bodies_[i];
@@ -277,7 +275,7 @@ BuildRaytracingAccelerationStructureInputs StructureManager::inputs(const Body& 
 
 Buffer StructureManager::skinned_vertices(std::uint32_t instance) const {
   const std::int32_t body = placements_[instance].body;
-  return body == kNone ? Buffer() : bodies_[static_cast<std::size_t>(body)].skinned.vertices;
+  return body == kNoIndex ? Buffer() : bodies_[static_cast<std::size_t>(body)].skinned.vertices;
 }
 
 }  // namespace kaamos::effects

@@ -20,8 +20,8 @@ namespace kaamos::effects {
 
 struct StructureOptions {
   /// A structure that is updated is built anew once in so many frames, because updates make it
-  /// slower to trace; never two of a class in one frame while there are fewer than frames. At
-  /// least 1, which never updates.
+  /// slower to trace; never two of a class in one frame while there are fewer than frames. 1: never
+  /// updated. 0: only updated.
   std::uint32_t deformable_period = 8;
   std::uint32_t hero_period = 30;
   bool compact = true;  ///< static structures
@@ -98,7 +98,7 @@ class StructureManager {
     bool has_history = false;  // vertices hold the frame before
   };
   struct Placement {
-    std::int32_t body = kNone;
+    std::int32_t body = kNoIndex;
     std::size_t first_record = 0;
     bool force_opaque = true;
     glm::dmat4 transform{1.0};  // of the last frame

@@ -69,7 +69,7 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
     return mismatch("states of instances", states.size(), placements_.size());
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (placements_[i].body == kNone) continue;
+    if (placements_[i].body == kNoIndex) continue;
     const std::uint32_t wanted = bodies_[static_cast<std::size_t>(placements_[i].body)].joint_count;
     if (states[i].joints.size() != wanted) {
       return mismatch("joints of instance \"" + instances_[i].name + "\"", states[i].joints.size(),
@@ -83,7 +83,7 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
   statistics_.skinning_ms = statistics_.bottom_level_ms = statistics_.top_level_ms = 0;
   std::vector<bool> seen(bodies_.size(), false);
   for (std::size_t i = 0; i < states.size(); ++i) {
-    if (placements_[i].body == kNone) continue;
+    if (placements_[i].body == kNoIndex) continue;
     const std::size_t id = static_cast<std::size_t>(placements_[i].body);
     if (seen[id]) continue;
     seen[id] = true;
@@ -137,6 +137,7 @@ bool StructureManager::must_rebuild(const Body& body) const {
   if (!body.has_history || body.build_class == BuildClass::kEveryFrame) return true;
   const std::uint32_t period =
       body.build_class == BuildClass::kHero ? options_.hero_period : options_.deformable_period;
+  if (period == 0) return false;
   return frame_ % period == body.rank % period || body.updates + 1 >= period;
 }
 
@@ -176,7 +177,7 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     Instance now = instances_[i];
     now.transform = states[i].transform;
     const Body* body =
-        placement.body == kNone ? nullptr : &bodies_[static_cast<std::size_t>(placement.body)];
+        placement.body == kNoIndex ? nullptr : &bodies_[static_cast<std::size_t>(placement.body)];
     RaytracingInstanceDesc desc;
     const glm::mat3x4 rows = transform_3x4(now, origin);
     std::memcpy(desc.Transform, &rows, sizeof desc.Transform);

@@ -22,7 +22,7 @@
 namespace kaamos::effects {
 namespace {
 
-constexpr std::uint32_t kEachFrame = 1, kNever = 1u << 30;
+constexpr std::uint32_t kEachFrame = 1, kNever = 0;
 
 // A scene in motion and its G-buffer.
 struct Stage {
@@ -283,7 +283,7 @@ TEST_P(Structures, MotionIsWhereTheHostProjectsThePreviousPosition) {
     std::vector<std::vector<Vertex>> now(scene.instances.size()), before(scene.instances.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
       const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
-      const bool skinned = scene.instances[i].motion.skin != kNone;
+      const bool skinned = scene.instances[i].motion.skin != kNoIndex;
       now[i] = skinned ? skin_vertices(mesh, stage.states[i].joints) : mesh.vertices;
       before[i] = skinned ? skin_vertices(mesh, stage.previous_states[i].joints) : mesh.vertices;
     }
