@@ -170,7 +170,8 @@ rtapi::Status StructureManager::add_instances(const Device& device, const Scene&
   for (const Instance& instance : scene.instances) {
     Placement placement;
     placement.transform = instance.transform;
-    placement.force_opaque = !any_alpha_tested(scene.meshes[instance.mesh]);
+    placement.force_opaque =
+        !any_alpha_tested(scene.meshes[instance.mesh]) && !(instance.mask & kMaskTransparent);
     placement.first_record = first_record(scene, instance.mesh);
     if (instance.motion.skin != kNoIndex) {
       const auto body = add_body(device, scene, instance);
