@@ -336,7 +336,7 @@ TEST(Transparent, MirrorRaysEndAtSixtyMetres) {
   }
 }
 
-// More layers with their own rays: nearer to the reference. [issue: deck's N]
+// More layers with their own rays: nearer to the reference. [Northlight deck: Transparent]
 TEST(Transparent, MoreLayersAreNearerToTheReference) {
   const Scene scene = make_glass_stack({.panes = 6});
   const std::vector<Seen> seen = look(
