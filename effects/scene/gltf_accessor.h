@@ -18,8 +18,8 @@ namespace kaamos::effects {
 
 /// Most elements that an accessor may have.
 inline constexpr std::size_t kMaxAccessorElements = std::size_t{1} << 27;
-/// The same for one without a buffer view: it is all zeros, so a file of 200 bytes could ask for any
-/// amount of memory.
+/// The same for one without a buffer view: it is all zeros, so a file of 200 bytes could ask for
+/// any amount of memory.
 inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 22;
 
 /// Elements of an accessor as floats, `components` per element. Integers are converted, normalised

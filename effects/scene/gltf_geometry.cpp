@@ -13,6 +13,7 @@ namespace {
 /// Triangles of one primitive, before they become a geometry.
 struct Piece {
   std::vector<Vertex> vertices;
+  std::vector<SkinVertex> skin;  // empty, or one per vertex
   std::vector<std::uint32_t> indices;
   std::uint32_t material = 0;
   bool has_normals = false;
@@ -152,12 +153,18 @@ Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& pri
 
 void finish(const Scene& scene, Piece& piece, Mesh& mesh) {
   if (!piece.has_normals) {
+    if (!piece.skin.empty()) {
+      std::vector<SkinVertex> skin;
+      for (const std::uint32_t i : piece.indices) skin.push_back(piece.skin[i]);
+      piece.skin = std::move(skin);
+    }
     make_flat_normals(piece.vertices, piece.indices);
     piece.has_tangents = false;
   }
   if (!piece.has_tangents) make_tangents(piece.vertices, piece.indices);
   const bool alpha_tested =
       (scene.materials[piece.material].constants.flags & kMaterialAlphaTested) != 0;
+  mesh.skin.insert(mesh.skin.end(), piece.skin.begin(), piece.skin.end());
   mesh.add_geometry(piece.vertices, piece.indices, piece.material, alpha_tested);
 }
 
@@ -206,6 +213,34 @@ Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
   return {};
 }
 
+/// Joints and weights as they are; weights are made to sum to 1. Vertices without any go with the
+/// first joint.
+Status read_skin(const GltfReader& reader, const tinygltf::Primitive& primitive,
+                 const std::string& where, Piece& piece) {
+  std::vector<float> ids, weights;
+  const std::size_t count = piece.vertices.size();
+  Status status = optional_attribute(reader, primitive, "JOINTS_0", 4, count, where, ids);
+  if (status.ok())
+    status = optional_attribute(reader, primitive, "WEIGHTS_0", 4, count, where, weights);
+  if (!status.ok() || ids.empty() || weights.empty()) return status;
+  piece.skin.resize(count);
+  for (std::size_t v = 0; v < count; ++v) {
+    SkinVertex& to = piece.skin[v];
+    float sum = 0.0f;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float weight = weights[4 * v + k];
+      const bool used = weight > 0.0f && std::isfinite(weight);
+      const int lane = static_cast<int>(k);
+      to.weights[lane] = used ? weight : 0.0f;
+      to.joints[lane] =
+          used ? static_cast<std::uint16_t>(std::clamp(ids[4 * v + k], 0.0f, 65535.0f)) : 0;
+      sum += to.weights[lane];
+    }
+    to.weights = sum > 0.0f && std::isfinite(sum) ? to.weights / sum : glm::vec4(1, 0, 0, 0);
+  }
+  return {};
+}
+
 Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm::dmat4>* joints) {
   const tinygltf::Mesh& from = reader.model.meshes[id];
   const std::string mesh_where = gltf_part("mesh", id, from.name);
@@ -228,9 +263,12 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
     if (status.ok()) status = read_triangles(reader, primitive, where, piece);
     if (status.ok()) status = read_material_id(reader, primitive, where, piece);
     if (status.ok() && joints) status = pose(reader, primitive, *joints, where, piece);
+    if (status.ok() && !joints && reader.animated)
+      status = read_skin(reader, primitive, where, piece);
     if (!status.ok()) return status;
     if (!piece.indices.empty()) finish(reader.scene, piece, mesh);
   }
+  if (mesh.skin.size() != mesh.vertices.size()) mesh.skin.clear();  // not all pieces have one
   return mesh;
 }
 

@@ -168,7 +168,7 @@ void drop_unused_meshes(Scene& scene) {
 }
 
 Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name,
-                         const std::string& folder) {
+                         const std::string& folder, const GltfOptions& options) {
   LoadedScene loaded;
   loaded.scene.name = name;
   tinygltf::Model model;
@@ -176,13 +176,16 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
   Status status = parse(bytes, folder, model, images, loaded.warnings);
   if (status.ok()) status = check_extensions(model);
   GltfReader reader{model, images, loaded.scene, loaded.warnings};
+  reader.animated = options.animated;
   if (status.ok()) status = read_gltf_materials(reader);
   if (status.ok()) status = read_gltf_meshes(reader);
   if (status.ok()) status = read_gltf_nodes(reader);
+  if (status.ok()) status = read_gltf_animations(reader);
   if (!status.ok()) return status;
   if (loaded.scene.instances.empty())
     return Status::failure("shows no triangles: no node of its scene has a mesh made of triangles");
-  if (!model.animations.empty()) loaded.warnings.push_back("animations are left out");
+  if (!model.animations.empty() && !options.animated)
+    loaded.warnings.push_back("animations are left out");
   drop_unused_meshes(loaded.scene);
   complete(loaded.scene);
   status = validate(loaded.scene);
@@ -199,13 +202,13 @@ std::string gltf_part(const char* noun, std::size_t index, const std::string& na
 }
 
 Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const std::string& name,
-                                     const std::string& folder) {
+                                     const std::string& folder, const GltfOptions& options) {
   const auto failed = [&](const std::string& text) {
     return Status::failure("cannot load \"" + name + "\": " + text);
   };
   // The parser throws on JSON of the wrong kind and when memory runs out.
   try {
-    Result<LoadedScene> loaded = load(bytes, name, folder);
+    Result<LoadedScene> loaded = load(bytes, name, folder, options);
     if (!loaded.ok()) return failed(loaded.error());
     return loaded;
   } catch (const std::exception& error) {
@@ -213,12 +216,12 @@ Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const 
   }
 }
 
-Result<LoadedScene> load_gltf(const std::string& path) {
+Result<LoadedScene> load_gltf(const std::string& path, const GltfOptions& options) {
   const Result<std::vector<std::uint8_t>> bytes = read_file(path);
   if (!bytes.ok()) return Status::failure(bytes.error());
   const std::size_t slash = path.find_last_of('/');
   return load_gltf_memory(bytes.value(), path,
-                          slash == std::string::npos ? "." : path.substr(0, slash + 1));
+                          slash == std::string::npos ? "." : path.substr(0, slash + 1), options);
 }
 
 }  // namespace kaamos::effects

@@ -4,8 +4,8 @@
 // Read: triangle lists, strips and fans, indexed or not, with every component type, normalised and
 // sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
 // KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; skins in the pose of
-// the file. What is left out (points, lines, morph targets, animation, vertex colours) is named in
-// the warnings.
+// the file, or, where it is asked for, skins and animations as they are. What is left out (points,
+// lines, morph targets, vertex colours) is named in the warnings.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,24 @@ struct LoadedScene {
   std::vector<std::string> warnings;
 };
 
+struct GltfOptions {
+  /// Skinned meshes keep their bind pose, joints and weights, nodes their hierarchy, and the first
+  /// animation drives all instances: for a StructureManager. Else everything stands in the pose of
+  /// the file, as create_gpu_scene needs it.
+  bool animated = false;
+};
+
 /// Loads a .gltf or .glb file; which of both it is shows in its first bytes. The scene passes
 /// validate(). Where the file has none, it gets a camera that frames it, a sun and a sky; the first
 /// directional light is the sun. Errors name the file, the place in it, the actual and the allowed
 /// value: missing or cut files, bad JSON, ids and byte ranges outside what is there, positions that
 /// are not finite, node cycles, a required extension that is not supported, no triangles.
-Result<LoadedScene> load_gltf(const std::string& path);
+Result<LoadedScene> load_gltf(const std::string& path, const GltfOptions& options = {});
 
 /// The same from memory. `name` stands for the file in messages; external parts are looked for in
 /// `folder`.
 Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const std::string& name,
-                                     const std::string& folder = ".");
+                                     const std::string& folder = ".",
+                                     const GltfOptions& options = {});
 
 }  // namespace kaamos::effects

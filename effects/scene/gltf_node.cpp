@@ -21,8 +21,14 @@ class NodeReader {
   Status local_transform(const tinygltf::Node& node, const std::string& where,
                          glm::dmat4& out) const;
   Status contents(std::size_t id);
-  Status mesh(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
+  Status mesh(const tinygltf::Node& node, std::size_t id, const std::string& where,
+              const glm::dmat4& world);
   Status skinned(const tinygltf::Node& node, const std::string& where);
+  Status animated_skin(const tinygltf::Node& node, const std::string& where,
+                       const std::vector<glm::dmat4>& inverse_binds);
+  Status inverse_binds(const tinygltf::Skin& skin, const std::string& where,
+                       std::vector<glm::dmat4>& out) const;
+  void keep_nodes();
   Status joint_matrices(const tinygltf::Skin& skin, const std::string& where,
                         std::vector<glm::dmat4>& out) const;
   Status camera(const tinygltf::Node& node, const std::string& where, const glm::dmat4& world);
@@ -34,6 +40,8 @@ class NodeReader {
   std::vector<glm::dmat4> world_;
   std::vector<bool> visited_;
   std::vector<std::size_t> order_;
+  std::vector<bool> moves_;  // by the first animation, itself or a node above; where `animated`
+  std::vector<std::int32_t> skin_ids_;
 };
 
 Status id_error(const std::string& where, const char* noun, int id, std::size_t count) {
@@ -143,7 +151,7 @@ std::uint8_t mask_of(const Scene& scene, const Mesh& mesh) {
   return kMaskTransparent;
 }
 
-Status NodeReader::mesh(const tinygltf::Node& node, const std::string& where,
+Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const std::string& where,
                         const glm::dmat4& world) {
   if (!in_range(node.mesh, model_.meshes.size()))
     return id_error(where, "mesh", node.mesh, model_.meshes.size());
@@ -160,12 +168,17 @@ Status NodeReader::mesh(const tinygltf::Node& node, const std::string& where,
     reader_.warn(where + ": its transform is singular; the instance is left out");
     return {};
   }
+  if (reader_.animated && moves_[node_id]) {
+    instance.transform = glm::dmat4(1.0);
+    instance.motion.node = reader_.node_ids[node_id];
+    instance.motion.animation = 0;
+  }
   reader_.scene.instances.push_back(std::move(instance));
   return {};
 }
 
-Status NodeReader::joint_matrices(const tinygltf::Skin& skin, const std::string& where,
-                                  std::vector<glm::dmat4>& out) const {
+Status NodeReader::inverse_binds(const tinygltf::Skin& skin, const std::string& where,
+                                 std::vector<glm::dmat4>& out) const {
   std::vector<float> inverse;
   if (skin.inverseBindMatrices >= 0) {
     Result<std::vector<float>> read =
@@ -184,18 +197,113 @@ Status NodeReader::joint_matrices(const tinygltf::Skin& skin, const std::string&
     if (!inverse.empty())
       for (int i = 0; i < 16; ++i)
         bind[i / 4][i % 4] = static_cast<double>(inverse[16 * j + static_cast<std::size_t>(i)]);
-    out.push_back(world_[static_cast<std::size_t>(skin.joints[j])] * bind);
+    out.push_back(bind);
   }
+  return {};
+}
+
+// The nodes of the scene, parents first, and which of them the first animation moves.
+void NodeReader::keep_nodes() {
+  reader_.node_ids.assign(model_.nodes.size(), kNoIndex);
+  moves_.assign(model_.nodes.size(), false);
+  if (!model_.animations.empty()) {
+    for (const tinygltf::AnimationChannel& channel : model_.animations.front().channels) {
+      if (in_range(channel.target_node, moves_.size()))
+        moves_[static_cast<std::size_t>(channel.target_node)] = true;
+    }
+  }
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    reader_.node_ids[order_[i]] = static_cast<std::int32_t>(i);
+  reader_.scene.nodes.resize(order_.size());
+  for (const std::size_t id : order_) {
+    const tinygltf::Node& from = model_.nodes[id];
+    Node& to = reader_.scene.nodes[static_cast<std::size_t>(reader_.node_ids[id])];
+    to.name = from.name.empty() ? where(id) : from.name;
+    if (!from.matrix.empty()) {
+      // local_transform has looked at it.
+      if (local_transform(from, to.name, to.matrix.emplace(1.0)).ok()) moves_[id] = false;
+    } else {
+      for (int c = 0; c < 3; ++c) {
+        const std::size_t k = static_cast<std::size_t>(c);
+        if (!from.translation.empty()) to.translation[c] = from.translation[k];
+        if (!from.scale.empty()) to.scale[c] = from.scale[k];
+      }
+      if (!from.rotation.empty()) {
+        const auto& r = from.rotation;
+        const glm::dquat q(r[3], r[0], r[1], r[2]);
+        const double length = glm::length(q);
+        if (length > 0.0 && std::isfinite(length)) to.rotation = q / length;
+      }
+    }
+  }
+  for (const std::size_t id : order_) {
+    for (const int child : model_.nodes[id].children) {
+      const std::size_t below = static_cast<std::size_t>(child);
+      reader_.scene.nodes[static_cast<std::size_t>(reader_.node_ids[below])].parent =
+          reader_.node_ids[id];
+      if (moves_[id]) moves_[below] = true;
+    }
+  }
+}
+
+// The instance keeps its skin: the mesh stays in its bind pose.
+Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& where,
+                                 const std::vector<glm::dmat4>& binds) {
+  const tinygltf::Skin& from = model_.skins[static_cast<std::size_t>(node.skin)];
+  Scene& scene = reader_.scene;
+  std::int32_t& id = skin_ids_[static_cast<std::size_t>(node.skin)];
+  if (id == kNoIndex) {
+    id = static_cast<std::int32_t>(scene.skins.size());
+    Skin skin;
+    skin.name = from.name.empty() ? "skin " + std::to_string(node.skin) : from.name;
+    skin.inverse_binds = binds;
+    for (const int joint : from.joints) {
+      std::int32_t& to = reader_.node_ids[static_cast<std::size_t>(joint)];
+      // A joint outside of the scene that is shown does not move.
+      if (to == kNoIndex) {
+        to = static_cast<std::int32_t>(scene.nodes.size());
+        scene.nodes.emplace_back().name = "joint " + std::to_string(joint);
+      }
+      skin.joints.push_back(static_cast<std::uint32_t>(to));
+    }
+    scene.skins.push_back(std::move(skin));
+  }
+  Instance instance;
+  instance.name = node.name.empty() ? where : node.name;
+  instance.mesh = static_cast<std::uint32_t>(reader_.mesh_ids[static_cast<std::size_t>(node.mesh)]);
+  instance.mask = mask_of(scene, scene.meshes[instance.mesh]);
+  instance.motion.skin = id;
+  if (!model_.animations.empty()) instance.motion.animation = 0;
+  instance.build_class = BuildClass::kHero;
+  for (const SkinVertex& v : scene.meshes[instance.mesh].skin) {
+    for (int k = 0; k < 4; ++k) {
+      if (v.joints[k] >= from.joints.size())
+        return Status::failure(where + ", JOINTS_0: names joint " + std::to_string(v.joints[k]) +
+                               " of " + std::to_string(from.joints.size()));
+    }
+  }
+  scene.instances.push_back(std::move(instance));
   return {};
 }
 
 Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where) {
   if (!in_range(node.skin, model_.skins.size()))
     return id_error(where, "skin", node.skin, model_.skins.size());
+  const tinygltf::Skin& skin = model_.skins[static_cast<std::size_t>(node.skin)];
   std::vector<glm::dmat4> joints;
-  const Status status = joint_matrices(model_.skins[static_cast<std::size_t>(node.skin)],
-                                       where + ", skin " + std::to_string(node.skin), joints);
+  const Status status = inverse_binds(skin, where + ", skin " + std::to_string(node.skin), joints);
   if (!status.ok()) return status;
+  if (reader_.animated) {
+    const int mesh = reader_.mesh_ids[static_cast<std::size_t>(node.mesh)];
+    const Mesh& bind = reader_.scene.meshes[static_cast<std::size_t>(mesh)];
+    if (!joints.empty() && bind.skin.size() == bind.vertices.size())
+      return animated_skin(node, where, joints);
+    reader_.warn(where +
+                 ": its mesh has primitives without joints and weights; it stays in the "
+                 "pose of the file");
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j)
+    joints[j] = world_[static_cast<std::size_t>(skin.joints[j])] * joints[j];
   Result<Mesh> posed = read_skinned_mesh(reader_, node.mesh, joints);
   if (!posed.ok()) return Status::failure(posed.error());
   Instance instance;
@@ -272,7 +380,7 @@ Status NodeReader::contents(std::size_t id) {
   const tinygltf::Node& node = model_.nodes[id];
   const std::string place = where(id);
   Status status;
-  if (node.mesh >= 0) status = mesh(node, place, world_[id]);
+  if (node.mesh >= 0) status = mesh(node, id, place, world_[id]);
   if (status.ok() && node.camera >= 0) status = camera(node, place, world_[id]);
   if (status.ok()) status = light(node, place, world_[id]);
   return status;
@@ -284,6 +392,8 @@ Status NodeReader::run() {
   std::vector<int> start;
   Status status = roots(start);
   if (status.ok()) status = walk(start);
+  skin_ids_.assign(model_.skins.size(), kNoIndex);
+  if (status.ok() && reader_.animated) keep_nodes();
   for (std::size_t i = 0; status.ok() && i < order_.size(); ++i) status = contents(order_[i]);
   return status;
 }

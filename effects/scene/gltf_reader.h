@@ -22,6 +22,10 @@ struct GltfReader {
   std::vector<std::string>& warnings;
   /// Per mesh of the file: its place in Scene::meshes, or -1 where it has no triangles.
   std::vector<int> mesh_ids = {};
+  /// Keep what moves, instead of the pose of the file.
+  bool animated = false;
+  /// Per node of the file: its place in Scene::nodes, or kNoIndex where the scene does not have it.
+  std::vector<std::int32_t> node_ids = {};
 
   void warn(std::string text) { warnings.push_back(std::move(text)); }
 };
@@ -35,6 +39,9 @@ Status read_gltf_materials(GltfReader& reader);
 Status read_gltf_meshes(GltfReader& reader);
 /// Instances, lights and cameras of the default scene's nodes.
 Status read_gltf_nodes(GltfReader& reader);
+
+/// Where `animated`: Scene::animations, one per animation of the file.
+Status read_gltf_animations(GltfReader& reader);
 
 /// A mesh in the pose that the joints have in the file, in world space. `joints` are the nodes'
 /// object-to-world transforms times the inverse bind matrices.

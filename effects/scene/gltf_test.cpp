@@ -269,5 +269,69 @@ TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
   expect_error(load(file("[1,9]")), "names joint node 9 of 3");
 }
 
+// The quad above, its second joint lifted by 2 m in a second; a second node turns with a parent.
+TEST(GltfLoad, SkinsAndAnimationsAreKept) {
+  Glb glb;
+  glb.add(kQuad);
+  const std::size_t joints =
+      glb.add(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
+  const std::size_t weights =
+      glb.add(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0.5f, 0.5f, 0, 0});
+  const std::size_t times = glb.add(std::vector<float>{0, 1});
+  const std::size_t lifts = glb.add(std::vector<float>{0, 4, 0, 0, 6, 0});
+  const auto view = [](std::size_t offset, std::size_t bytes) {
+    return R"({"buffer":0,"byteOffset":)" + std::to_string(offset) + R"(,"byteLength":)" +
+           std::to_string(bytes) + "}";
+  };
+  const auto file = [&](const std::string& sampler, const std::string& skin_joints = "[1,2]") {
+    return glb.bytes(
+        R"("accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+        R"({"bufferView":1,"componentType":5121,"count":4,"type":"VEC4"},)"
+        R"({"bufferView":2,"componentType":5126,"count":4,"type":"VEC4"},)"
+        R"({"bufferView":3,"componentType":5126,"count":2,"type":"SCALAR"},)"
+        R"({"bufferView":4,"componentType":5126,"count":2,"type":"VEC3"}],"bufferViews":[)" +
+        view(0, 48) + "," + view(joints, 16) + "," + view(weights, 64) + "," + view(times, 8) +
+        "," + view(lifts, 24) +
+        R"(],"meshes":[{"primitives":[{"mode":5,"attributes":{"POSITION":0,"JOINTS_0":1,)"
+        R"("WEIGHTS_0":2}}]},{"primitives":[{"mode":5,"attributes":{"POSITION":0}}]}],)"
+        R"("skins":[{"joints":)" +
+        skin_joints +
+        R"(}],"nodes":[{"mesh":0,"skin":0,"translation":[50,0,0]},{"translation":[0,0,1]},)"
+        R"({"translation":[0,4,0],"children":[3]},{"mesh":1,"translation":[7,0,0]}],)"
+        R"("animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}}],)"
+        R"("samplers":[)" +
+        sampler + "]}]");
+  };
+  const auto load_animated = [](const std::vector<std::uint8_t>& bytes) {
+    return load_gltf_memory(bytes, "test.glb", ".", {.animated = true});
+  };
+  const auto loaded = load_animated(file(R"({"input":3,"output":4})"));
+  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  const Scene& scene = loaded.value().scene;
+  ASSERT_EQ(scene.instances.size(), 2u);
+  EXPECT_EQ(scene.skins.at(0).joints.size(), 2u);
+  EXPECT_EQ(scene.animations.at(0).duration, 1.0);
+  const Bounds box = scene_bounds(scene);
+  EXPECT_EQ(box.min, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(box.max, glm::dvec3(8, 5, 1));  // the second quad, on the second joint
+  for (const double seconds : {0.0, 0.5, 1.75}) {
+    const auto states = evaluate_instances(scene, seconds);
+    const double lift = 4 + 2 * (seconds - std::floor(seconds));
+    double top = 0;
+    for (const Vertex& v : skin_vertices(scene.meshes[0], states[0].joints)) {
+      top = std::max(top, static_cast<double>(v.position.y));
+    }
+    EXPECT_NEAR(top, 1 + 0.5 * lift, 1e-6) << seconds;
+    EXPECT_EQ(states[1].transform[3], glm::dvec4(7, lift, 0, 1));
+  }
+  expect_error(load_animated(file(R"({"input":3,"output":4})", "[1]")), "names joint 1 of 1");
+  expect_error(load_animated(file(R"({"input":4,"output":4})")), "animation 0");
+  expect_error(load_animated(file(R"({"input":3,"output":4,"interpolation":"CUBICSPLINE"})")),
+               "2 times");
+  const auto stepped = load_animated(file(R"({"input":3,"output":4,"interpolation":"STEP"})"));
+  ASSERT_TRUE(stepped.ok()) << stepped.error();
+  EXPECT_EQ(evaluate_instances(stepped.value().scene, 0.9)[1].transform[3].y, 4.0);
+}
+
 }  // namespace
 }  // namespace kaamos::effects

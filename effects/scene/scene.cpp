@@ -71,13 +71,20 @@ Bounds scene_bounds(const Scene& scene) {
   std::vector<Bounds> boxes;
   for (const Mesh& mesh : scene.meshes) boxes.push_back(mesh.bounds());
   Bounds all;
-  for (const Instance& instance : scene.instances) {
-    const Bounds& box = boxes[instance.mesh];
+  const std::vector<InstanceState> states = evaluate_instances(scene, 0.0);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    Bounds box = boxes[instance.mesh];
+    if (!states[i].joints.empty()) {
+      box = Bounds();
+      for (const Vertex& v : skin_vertices(scene.meshes[instance.mesh], states[i].joints))
+        box.add(glm::dvec3(v.position));
+    }
     if (box.empty()) continue;
     for (int corner = 0; corner < 8; ++corner) {
       const glm::dvec4 p((corner & 1) ? box.max.x : box.min.x, (corner & 2) ? box.max.y : box.min.y,
                          (corner & 4) ? box.max.z : box.min.z, 1.0);
-      all.add(glm::dvec3(instance.transform * p));
+      all.add(glm::dvec3(states[i].transform * p));
     }
   }
   return all;

@@ -128,7 +128,7 @@ struct Scene {
 std::uint64_t instanced_triangle_count(const Scene& scene);
 /// Triangles of the meshes, each counted once.
 std::uint64_t unique_triangle_count(const Scene& scene);
-/// World bounds of all instances: exact to the transformed boxes of the meshes, so never too small.
+/// World bounds of all instances, at time 0: exact to the transformed boxes of the meshes, so never too small.
 Bounds scene_bounds(const Scene& scene);
 
 /// First broken rule of the data, named by place and value: ids in range, index ranges inside their
