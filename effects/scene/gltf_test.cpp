@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
+#include "effects/common/sampling.h"
 #include "effects/scene/gltf_test_support.h"
 
 namespace kaamos::effects {
@@ -331,6 +333,24 @@ TEST(GltfLoad, SkinsAndAnimationsAreKept) {
   const auto stepped = load_animated(file(R"({"input":3,"output":4,"interpolation":"STEP"})"));
   ASSERT_TRUE(stepped.ok()) << stepped.error();
   EXPECT_EQ(evaluate_instances(stepped.value().scene, 0.9)[1].transform[3].y, 4.0);
+
+  // Cut and changed files are refused or valid.
+  const std::vector<std::uint8_t> good = file(R"({"input":3,"output":4})");
+  int refused = 0;
+  for (std::uint32_t i = 0; i < 3000; ++i) {
+    std::vector<std::uint8_t> bytes = good;
+    for (std::uint32_t k = 0; k <= i % 3; ++k) {
+      const std::uint32_t h = hash_combine(i, k);
+      bytes[h % bytes.size()] = static_cast<std::uint8_t>(pcg_hash(h) >> 24);
+    }
+    const auto changed = load_animated(bytes);
+    refused += !changed.ok();
+    if (!changed.ok()) continue;
+    ASSERT_TRUE(validate(changed.value().scene).ok()) << i;
+    EXPECT_EQ(evaluate_instances(changed.value().scene, 0.3).size(),
+              changed.value().scene.instances.size());
+  }
+  EXPECT_GT(refused, 500);
 }
 
 }  // namespace
