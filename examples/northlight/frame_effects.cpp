@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame_effects.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
@@ -47,7 +48,8 @@ rtapi::Result<ShaderLibraries> built_in_libraries() {
                      {contact_shadow_library(), &out.contact_shadow},
                      {volume_bake_library(), &out.volume_bake},
                      {indirect_diffuse_library(), &out.indirect_diffuse},
-                     {reflections_library(), &out.reflections}};
+                     {reflections_library(), &out.reflections},
+                     {transparent_library(), &out.transparent}};
   for (const auto& part : parts) {
     if (!part.loaded) return part.loaded.error();
     *part.library = *part.loaded;
@@ -78,6 +80,11 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
       if (const auto s = add_contact(); !s) return s;
     }
   }
+  if (options.transparent) {
+    has_glass_ = std::any_of(scene.instances.begin(), scene.instances.end(),
+                             [](const Instance& i) { return (i.mask & kMaskTransparent) != 0; });
+    if (!has_glass_) left_out_.push_back("glass: the scene has none");
+  }
   // Hits of reflections and of indirect rays see the volume too.
   rtapi::CommandList list = device.CreateCommandList().value();
   lighting_->update(list, frame);
@@ -92,6 +99,9 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
   }
   if (options.reflections) {
     if (const auto s = add_reflections(); !s) return s;
+  }
+  if (has_glass_) {
+    if (const auto s = add_transparent(); !s) return s;
   }
   if (options.ao) {
     if (const auto s = add_signal("ao", frame.texture(kAmbientOcclusionSum), options.ao_samples);
@@ -193,11 +203,36 @@ rtapi::Status FrameEffects::add_reflections() {
   return add_signal("reflection", *sum, given_.options.reflection_samples);
 }
 
+// One ray a pixel and no noise: nothing to denoise.
+rtapi::Status FrameEffects::add_transparent() {
+  const Frame& frame = *given_.frame;
+  const auto glass = frame.create_picture(given_.device, "glass", kSignalFormat);
+  if (!glass) return glass.error();
+  glass_ = *glass;
+  const auto transmittance = frame.create_picture(given_.device, "transmittance", kSignalFormat);
+  if (!transmittance) return transmittance.error();
+  transmittance_ = *transmittance;
+  const auto views = frame.create_pass_views(given_.device);
+  if (!views) return views.error();
+  glass_views_ = *views;
+  if (const auto s = glass_views_.set_unordered_access(0, glass_); !s) return s;
+  if (const auto s = glass_views_.set_unordered_access(1, transmittance_); !s) return s;
+  if (const auto s = lighting_->bind(glass_views_); !s) return s;
+  if (const auto s = volume_.bind(glass_views_); !s) return s;
+  const auto compose =
+      transparent_compose_pass(given_.device, frame, given_.libraries->transparent);
+  if (!compose) return compose.error();
+  glass_compose_ = *compose;
+  steps_.push_back({transparent_pass(given_.libraries->transparent), 1,
+                    PassArguments(glass_views_, deck_layers(given_.options.glass_layers))});
+  return {};
+}
+
 rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
                                                    const std::function<void(double)>& bake_progress,
                                                    const std::atomic<bool>& stop) {
   const Options& options = given_.options;
-  if (!options.gi && !options.reflections) {
+  if (!options.gi && !options.reflections && !has_glass_) {
     left_out_.push_back("the volume of indirect light: no effect reads it");
     return IndirectVolume{};
   }
@@ -251,6 +286,10 @@ std::vector<FrameEffects::Filter> FrameEffects::filters(const Frame& frame) {
 void FrameEffects::compose(rtapi::CommandList& list, const Frame& frame) const {
   if (contact_) direct_->add_strongest(list, frame);
   compose_->dispatch(list, frame);
+  if (has_glass_) {
+    glass_compose_.dispatch(list, frame, {}, PassArguments(glass_views_), frame.width(),
+                            frame.height());
+  }
 }
 
 std::vector<FrameEffects::Layer> FrameEffects::layers() const {
@@ -261,6 +300,10 @@ std::vector<FrameEffects::Layer> FrameEffects::layers() const {
       out.push_back({signal->name, signal->sum, 1.0f / static_cast<float>(signal->samples)});
     }
     out.push_back({signal->name + "_denoised", signal->denoiser.result(), 1});
+  }
+  if (has_glass_) {
+    out.push_back({"glass", glass_, 1});
+    out.push_back({"glass_transmittance", transmittance_, 1});
   }
   if (direct_) {
     out.push_back({"local_lights", contact_ ? direct_->total() : direct_->direct(), 1});

@@ -21,6 +21,7 @@
 #include "effects/indirect_diffuse/indirect_diffuse.h"
 #include "effects/lights/lighting.h"
 #include "effects/reflections/reflections.h"
+#include "effects/transparent/transparent.h"
 #include "options.h"
 
 namespace northlight {
@@ -37,6 +38,7 @@ struct ShaderLibraries {
   rtapi::ShaderLibrary volume_bake;
   rtapi::ShaderLibrary indirect_diffuse;
   rtapi::ShaderLibrary reflections;
+  rtapi::ShaderLibrary transparent;
   kaamos::effects::DenoiseLibraries denoise;
 };
 rtapi::Result<ShaderLibraries> built_in_libraries();
@@ -98,6 +100,7 @@ class FrameEffects {
   rtapi::Status add_contact();
   rtapi::Status add_indirect();
   rtapi::Status add_reflections();
+  rtapi::Status add_transparent();
   rtapi::Result<kaamos::effects::IndirectVolume> volume(
       const kaamos::effects::Scene& scene, const std::function<void(double)>& bake_progress,
       const std::atomic<bool>& stop);
@@ -116,7 +119,10 @@ class FrameEffects {
   std::optional<kaamos::effects::Lighting> lighting_;
   std::optional<kaamos::effects::DirectLighting> direct_;
   kaamos::effects::GpuVolume volume_;
-  kaamos::effects::PassViews contact_views_, indirect_views_, reflection_views_;
+  kaamos::effects::PassViews contact_views_, indirect_views_, reflection_views_, glass_views_;
+  rtapi::Texture glass_, transmittance_;  // null: no glass
+  kaamos::effects::ComputePass glass_compose_;
+  bool has_glass_ = false;
   std::vector<RayStep> steps_;
   std::vector<std::unique_ptr<Signal>> signals_;
   std::optional<kaamos::effects::ComposePass> compose_;

@@ -7,9 +7,12 @@
 #include <cstdio>
 #include <string>
 
+#include "effects/scene/glass_scenes.h"
 #include "effects/scene/gltf_load.h"
 #include "effects/scene/gltf_write.h"
 #include "effects/scene/lounge.h"
+#include "effects/scene/material_override.h"
+#include "effects/scene/mirror_hall.h"
 #include "effects/scene/staging.h"
 #include "inspect.h"
 #include "options.h"
@@ -38,6 +41,14 @@ bool load_scene(const Options& options, Scene& scene) {
     scene = kaamos::effects::make_lounge();
     return true;
   }
+  if (options.scene == "glass-stack") {
+    scene = kaamos::effects::make_glass_stack({.thick = true});
+    return true;
+  }
+  if (options.scene == "mirror-hall") {
+    scene = kaamos::effects::make_mirror_hall();
+    return true;
+  }
   auto loaded = kaamos::effects::load_gltf(options.scene);
   if (!loaded.ok()) {
     say_error(loaded.error());
@@ -49,6 +60,22 @@ bool load_scene(const Options& options, Scene& scene) {
   scene = std::move(loaded.value().scene);
   // A tree on its own has nothing to cast its shadow on.
   if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
+  return true;
+}
+
+bool override_materials(const Options& options, Scene& scene) {
+  for (const std::string& text : options.materials) {
+    const auto change = kaamos::effects::parse_material_override(text);
+    if (!change.ok()) {
+      say_error(change.error());
+      return false;
+    }
+    const auto changed = kaamos::effects::override_material(scene, change.value());
+    if (!changed.ok()) {
+      say_error(changed.error());
+      return false;
+    }
+  }
   return true;
 }
 
@@ -141,7 +168,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   Scene scene;
-  if (!load_scene(*options, scene)) return 1;
+  if (!load_scene(*options, scene) || !override_materials(*options, scene)) return 1;
   if (!options->write_glb.empty()) {
     if (const auto written = kaamos::effects::write_glb(options->write_glb, scene); !written.ok()) {
       say_error(written.error());

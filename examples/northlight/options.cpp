@@ -8,6 +8,8 @@
 #include <sstream>
 #include <tuple>
 
+#include "effects/transparent/transparent.h"
+
 namespace northlight {
 namespace {
 
@@ -43,10 +45,14 @@ std::string parse_pixel(const std::string& text,
 
 std::string parse_effects(const std::string& text, Options& options) {
   options.ao = options.sun = options.local = options.contact = options.gi = options.reflections =
-      false;
-  const std::pair<const char*, bool*> effects[] = {
-      {"ao", &options.ao},           {"sun", &options.sun}, {"local", &options.local},
-      {"contact", &options.contact}, {"gi", &options.gi},   {"reflections", &options.reflections}};
+      options.transparent = false;
+  const std::pair<const char*, bool*> effects[] = {{"ao", &options.ao},
+                                                   {"sun", &options.sun},
+                                                   {"local", &options.local},
+                                                   {"contact", &options.contact},
+                                                   {"gi", &options.gi},
+                                                   {"reflections", &options.reflections},
+                                                   {"transparent", &options.transparent}};
   std::stringstream list(text);
   for (std::string name; std::getline(list, name, ',');) {
     bool known = name == "all";
@@ -56,9 +62,8 @@ std::string parse_effects(const std::string& text, Options& options) {
     }
     if (!known) {
       return "\"" + name +
-             "\" is not an effect: there are ao, sun, local, contact, gi, reflections and all, as "
-             "in "
-             "ao,sun";
+             "\" is not an effect: there are ao, sun, local, contact, gi, reflections, transparent "
+             "and all, as in ao,sun";
     }
   }
   options.local = options.local || options.contact;  // it shades what local lights light
@@ -99,8 +104,13 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "the whole frame with --effects all.\n"
       "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
       "northlight");
-  app.add_option("--scene", options.scene, "lounge (built in), or a .gltf or .glb file")
+  app.add_option("--scene", options.scene,
+                 "built in: lounge, glass-stack, mirror-hall; or a .gltf or .glb file")
       ->capture_default_str();
+  app.add_option("--material", options.materials,
+                 "changes a material, as in Window:alpha=0.3,roughness=0; can be given again")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--backend", options.backend, "the backend that runs the shaders: embree, vulkan")
       ->capture_default_str();
   app.add_flag("--checked", options.checked, "checked mode: says what DXR leaves undefined");
@@ -112,8 +122,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(parsed_by(parse_size, options));
   app.add_option("--effects", effects,
-                 "comma-separated: ao, sun, local (lights), contact (shadows), gi, reflections; "
-                 "or all")
+                 "comma-separated: ao, sun, local (lights), contact (shadows), gi, reflections, "
+                 "transparent (glass); or all")
       ->capture_default_str()
       ->check(parsed_by(parse_effects, options));
   app.add_option("--ao-samples", options.ao_samples, "ambient occlusion rays per pixel")
@@ -162,6 +172,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "luminance that a reflection's sample is clamped to; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e30f));
+  app.add_option("--glass-layers", options.glass_layers,
+                 "nearest layers of glass that reflect; those behind are blended without an order")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, kaamos::effects::kMaxSortedLayers));
   app.add_option("--seed", options.seed, "the same seed gives the same picture")
       ->capture_default_str();
   app.add_option("--threads", options.threads, "0: all; the picture does not depend on it")

@@ -6,11 +6,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace northlight {
 
 struct Options {
-  std::string scene = "lounge";  // or a .gltf or .glb file
+  std::string scene = "lounge";        // or glass-stack, mirror-hall, a .gltf or .glb file
+  std::vector<std::string> materials;  // overrides, NAME:KEY=VALUE[,KEY=VALUE...]
   std::string backend = "embree";
   std::string precision = "robust";  // of traversals: fast, robust, exact
   bool checked = false;              // checked mode: what it finds is printed
@@ -22,8 +24,9 @@ struct Options {
   bool contact = false;  // contact shadows of the strongest of them
   bool gi = false;       // indirect diffuse light
   bool reflections = false;
+  bool transparent = false;  // glass and what it reflects
   // Whether any effect besides ambient occlusion and the sun is rendered.
-  bool whole_frame() const { return local || gi || reflections; }
+  bool whole_frame() const { return local || gi || reflections || transparent; }
   std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, svgf
   std::uint32_t contact_samples = 1;
   float contact_length = 1.0f;         // metres
@@ -33,7 +36,8 @@ struct Options {
   std::uint32_t gi_bake_samples = 256;
   std::string gi_volume;  // file that holds it, or will; empty: baked each time
   std::uint32_t reflection_samples = 1;
-  float firefly_limit = 0;  // luminance; 0: none
+  float firefly_limit = 0;         // luminance; 0: none
+  std::uint32_t glass_layers = 1;  // nearest ones, each with a reflection
   std::uint32_t ao_samples = 4;
   float ao_radius = 4.0f;  // metres; infinity: no limit
   std::uint32_t sun_samples = 2;

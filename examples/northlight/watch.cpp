@@ -38,6 +38,7 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
       {"indirect_diffuse/volume_bake", &libraries.volume_bake},
       {"indirect_diffuse/indirect_diffuse", &libraries.indirect_diffuse},
       {"reflections/reflections", &libraries.reflections},
+      {"transparent/transparent", &libraries.transparent},
       {"denoise/spatial", &libraries.denoise.spatial},
       {"denoise/svgf", &libraries.denoise.svgf}};
   if (whole_frame_) parts.insert(parts.end(), std::begin(more), std::end(more));
