@@ -57,6 +57,13 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   std::string load(const ir::Expr& expr);
+  // The resource operand of an access to memory, in a checked library with the check around it.
+  // `element`: null for raw and constant buffers. write: 0 read, 1 write, 2 atomic.
+  std::string accessed(const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
+                       const ir::Type* type, ir::Layout layout, bool row_major, int write,
+                       const ir::Location& location);
+  // CheckReport::site, of the expression or else of the statement that is being printed.
+  std::string site(const ir::Location& location) const;
   std::string typed_load(const ir::Expr& expr);
   std::string sample(const ir::Expr& expr);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
@@ -78,6 +85,7 @@ class CppEmitter {
   void query(const ir::Stmt& stmt);
   void loop(const ir::Stmt& stmt);
   void switch_(const ir::Stmt& stmt);
+  void payload_check(const ir::EntryPoint& entry);
   void end_shader();  // return from the function with any value
 
   // emit_cpp.cpp
@@ -141,6 +149,7 @@ class CppEmitter {
   std::unordered_map<const ir::Function*, uint32_t> stack_;
   std::unordered_set<const ir::Function*> hit_kind_readers_;  // and what calls them
   const ir::Function* current_ = nullptr;
+  ir::Location statement_location_;
   // The innermost loops: number of the label that `continue` jumps to.
   std::vector<int> loops_;
   std::unordered_set<int> used_labels_;

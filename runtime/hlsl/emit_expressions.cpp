@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
 
 namespace kaamos::hlsl {
@@ -13,6 +14,13 @@ namespace kaamos::hlsl {
 using namespace ir;
 
 namespace {
+
+// What a descriptor of it must be, as two arguments.
+std::string descriptor_words(ResourceKind kind) {
+  const ResourceClass c = class_of(kind);
+  return "ks::DescriptorKind(" + std::to_string(static_cast<int>(c.kind)) +
+         "), ks::DescriptorAccess(" + std::to_string(static_cast<int>(c.access)) + ")";
+}
 
 bool is_float(Scalar scalar) {
   return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64;
@@ -293,6 +301,10 @@ std::string CppEmitter::system_value(const Expr& expr) {
 
 std::string CppEmitter::binding(const Expr& expr) {
   const std::string index = expr.operands.empty() ? "0u" : value(expr.operands[0]);
+  if (module_.check_access) {
+    return "ks::checked::resource(ctx.invocation, " + site(expr.location) + ", " +
+           std::to_string(expr.index) + "u, " + index + ")";
+  }
   return "ks::resource(ctx.invocation, " + std::to_string(expr.index) + "u, " + index + ")";
 }
 
@@ -414,6 +426,10 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kBinding:
       return binding(expr);
     case ExprKind::kHeapResource: {
+      if (module_.check_access) {
+        return "ks::checked::heap_resource(ctx.invocation, " + site(expr.location) + ", " +
+               value(expr.operands[0]) + ", " + descriptor_words(expr.type->resource) + ")";
+      }
       const bool sampler = expr.type->resource == ResourceKind::kSampler ||
                            expr.type->resource == ResourceKind::kSamplerComparison;
       return "ks::heap_resource(ctx.invocation, " + value(expr.operands[0]) +

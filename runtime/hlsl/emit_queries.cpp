@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // RayQuery: its methods, and the values that it has.
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
 
 namespace kaamos::hlsl {
@@ -8,7 +9,14 @@ namespace kaamos::hlsl {
 using namespace ir;
 
 std::string CppEmitter::query_value(const Expr& expr) {
-  const std::string query = place(expr.operands[0]);
+  std::string query = place(expr.operands[0]);
+  const QueryNeed need = need_of(expr);
+  if (module_.check_access && need.hit) {
+    query = std::string(expr.index == 1 ? "ks::checked::committed" : "ks::checked::candidate") +
+            "(ctx.invocation, " + site(expr.location) + ", " + query + ", " +
+            std::to_string(need.type) + "u, " +
+            std::to_string(static_cast<int>(expr.query_value)) + "u)";
+  }
   const std::string hit = query + (expr.index == 1 ? ".committed" : ".candidate");
   switch (expr.query_value) {
     case QueryValue::kType:
@@ -59,9 +67,12 @@ void CppEmitter::query(const Stmt& stmt) {
   constexpr const char* kNames[] = {"trace_ray_inline", "query_proceed", "query_abort",
                                     "query_commit_triangle", "query_commit_procedural"};
   const bool searches = stmt.query == QueryOp::kTrace || stmt.query == QueryOp::kProceed;
+  const bool checked = module_.check_access && stmt.query != QueryOp::kProceed &&
+                       stmt.query != QueryOp::kAbort;
   std::string text = stmt.result != nullptr ? variable(stmt.result) + " = ks::" : "ks::";
-  text += std::string(kNames[static_cast<int>(stmt.query)]) + "(" +
-          (searches ? "ctx.invocation, " : "") + place(stmt.place);
+  text += std::string(checked ? "checked::" : "") + kNames[static_cast<int>(stmt.query)] + "(" +
+          (searches || checked ? "ctx.invocation, " : "") +
+          (checked ? site(stmt.location) + ", " : "") + place(stmt.place);
   for (const Expr* operand : stmt.operands) {
     text += ", " + value(operand);
   }

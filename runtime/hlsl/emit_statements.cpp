@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Statements: everything that has an effect.
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
 
 namespace kaamos::hlsl {
@@ -103,11 +104,17 @@ void CppEmitter::atomic(const Stmt& stmt) {
       address = "&" + place(stmt.place);
       break;
     case AtomicTarget::kMemory:
-      address = "ks::memory_address<" + t + ">(" + value(stmt.operands[0]) + ", " +
+      address = "ks::memory_address<" + t + ">(" +
+                accessed(stmt.operands[0], nullptr, stmt.operands[1], v->type,
+                         Layout::kStructured, false, 2, stmt.location) +
+                ", " +
                 value(stmt.operands[1]) + ")";
       break;
     case AtomicTarget::kElement:
-      address = "ks::element_address<" + t + ">(" + value(stmt.operands[0]) + ", " +
+      address = "ks::element_address<" + t + ">(" +
+                accessed(stmt.operands[0], stmt.operands[1], stmt.operands[2], v->type,
+                         Layout::kStructured, false, 2, stmt.location) +
+                ", " +
                 value(stmt.operands[1]) + ", " + value(stmt.operands[2]) + ")";
       break;
     case AtomicTarget::kTyped: {
@@ -143,8 +150,29 @@ void CppEmitter::call_function(const Stmt& stmt) {
   }
 }
 
+std::string CppEmitter::site(const Location& location) const {
+  return std::to_string(site_of(location.line != 0 ? location : statement_location_)) + "u";
+}
+
+std::string CppEmitter::accessed(const Expr* resource, const Expr* element, const Expr* offset,
+                                 const Type* type, Layout layout, bool row_major, int write,
+                                 const Location& location) {
+  if (!module_.check_access) return value(resource);
+  const Access access = access_of(type, layout, row_major);
+  return std::string(element != nullptr ? "ks::checked::access_element(ctx.invocation, "
+                                        : "ks::checked::access(ctx.invocation, ") +
+         site(location) + ", " + value(resource) + ", " +
+         (element != nullptr ? value(element) + ", " : "") + value(offset) + ", " +
+         std::to_string(access.bytes) + "u, " + std::to_string(access.alignment) + "u, " +
+         std::to_string(write) + "u)";
+}
+
 void CppEmitter::trace_ray(const Stmt& stmt) {
   std::string text = "ks::trace_ray(ctx.invocation";
+  if (module_.check_access) {
+    text = "ks::checked::trace_ray(ctx.invocation, " + site(stmt.location) + ", " +
+           std::to_string(type_hash(stmt.place->type)) + "u";
+  }
   for (const Expr* operand : stmt.operands) {
     text += ", " + value(operand);
   }
@@ -153,6 +181,9 @@ void CppEmitter::trace_ray(const Stmt& stmt) {
 
 void CppEmitter::report_hit(const Stmt& stmt) {
   std::string text = "ks::report_hit(ctx.invocation, ctx.ended";
+  if (module_.check_access) {
+    text = "ks::checked::report_hit(ctx.invocation, " + site(stmt.location) + ", ctx.ended";
+  }
   for (const Expr* operand : stmt.operands) {
     text += ", " + value(operand);
   }
@@ -215,6 +246,7 @@ void CppEmitter::switch_(const Stmt& stmt) {
 void CppEmitter::statement(const Stmt& stmt) {
   if (stmt.kind != StmtKind::kBlock) {
     at(stmt.location);
+    statement_location_ = stmt.location;
   }
   switch (stmt.kind) {
     case StmtKind::kBlock:
@@ -258,7 +290,10 @@ void CppEmitter::statement(const Stmt& stmt) {
       report_hit(stmt);
       break;
     case StmtKind::kCallShader:
-      line("ks::call_shader(ctx.invocation, " + value(stmt.operands[0]) + ", " + place(stmt.place) +
+      line((module_.check_access ? "ks::checked::call_shader(ctx.invocation, " +
+                                       std::to_string(type_hash(stmt.place->type)) + "u, "
+                                 : std::string("ks::call_shader(ctx.invocation, ")) +
+           value(stmt.operands[0]) + ", " + place(stmt.place) +
            ");");
       break;
     case StmtKind::kIgnoreHit:

@@ -2,6 +2,7 @@
 #include "frontend.h"
 
 #include "ast_arena.h"
+#include "embedded_source.h"
 #include "parse.h"
 #include "preprocess.h"
 
@@ -94,7 +95,12 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   check_options.hlsl_version = options.hlsl_version;
   check_options.payload_qualifiers = options.payload_qualifiers.value_or(minor >= 7);
   check_options.strict = options.strict;
-  return check(*unit, check_options, sources, diagnostics);
+  auto module = check(*unit, check_options, sources, diagnostics);
+  if (module != nullptr) {
+    module->check_access = options.check_access;
+    if (options.embed_source) module->source = embed_source(options, sources);
+  }
+  return module;
 }
 
 }  // namespace kaamos::hlsl

@@ -66,8 +66,10 @@ const Action* Compiler::action(const Stmt& stmt) {
     case StmtKind::kStore:
     case StmtKind::kStoreElement:
       out.moves = moves_of(stmt.value->type, stmt.layout, stmt.row_major);
+      out.access = access_of(stmt.value->type, stmt.layout, stmt.row_major);
       break;
     case StmtKind::kAtomic:
+      out.access = access_of(stmt.value->type, Layout::kStructured, false);
       out.atomic = find_atomic(stmt.atomic, stmt.value->type->scalar);
       break;
     case StmtKind::kCall:
@@ -181,6 +183,7 @@ std::unique_ptr<Program> make_program(std::shared_ptr<const Module> module,
   auto program = std::make_unique<Program>();
   program->module = std::move(module);
   program->options = options;
+  program->checked = program->module->check_access;
   Compiler(*program).run();
   return program;
 }

@@ -254,6 +254,7 @@ void Compiler::compile(Node& node) {
     case ExprKind::kLoad:
     case ExprKind::kLoadElement:
       node.moves = moves_of(expr.type, expr.layout, expr.row_major);
+      node.access = access_of(expr.type, expr.layout, expr.row_major);
       return in_slot(node,
                      expr.kind == ExprKind::kLoad ? evaluate_load() : evaluate_load_element());
     case ExprKind::kTypedLoad:

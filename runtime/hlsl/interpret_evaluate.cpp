@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/interpret_evaluate.h"
 
+#include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
@@ -174,6 +175,13 @@ const std::byte* system_value(const Node& node, Frame& frame) {
 const std::byte* query_value(const Node& node, Frame& frame) {
   const auto& query = *reinterpret_cast<const shader::RayQuery*>(
       node.operands[0]->locate(*node.operands[0], frame));
+  const QueryNeed need = need_of(*node.expr);
+  if (frame.context->program->checked && need.hit) {
+    const auto look = node.expr->index == 1 ? shader::checked::committed
+                                            : shader::checked::candidate;
+    look(*frame.context->invocation, site_of(node.expr->location), query, need.type,
+         static_cast<uint32_t>(node.expr->query_value));
+  }
   const shader::RayQueryHit& hit = node.expr->index == 1 ? query.committed : query.candidate;
   const auto rows_of = [&](const float* transform) {
     return keep(node, frame, shader::load_transform(transform));
@@ -229,6 +237,11 @@ const std::byte* query_value(const Node& node, Frame& frame) {
 const std::byte* binding(const Node& node, Frame& frame) {
   const uint32_t index =
       node.operands.empty() ? 0 : evaluate_as<uint32_t>(*node.operands[0], frame);
+  if (frame.context->program->checked) {
+    return keep(node, frame,
+                shader::checked::resource(*frame.context->invocation, site_of(node.expr->location),
+                                          node.expr->index, index));
+  }
   return keep(node, frame, shader::resource(*frame.context->invocation, node.expr->index, index));
 }
 
@@ -237,6 +250,13 @@ const std::byte* heap_resource(const Node& node, Frame& frame) {
   const bool sampler =
       kind == ir::ResourceKind::kSampler || kind == ir::ResourceKind::kSamplerComparison;
   const auto index = evaluate_as<uint32_t>(*node.operands[0], frame);
+  if (frame.context->program->checked) {
+    const ResourceClass wanted = class_of(kind);
+    return keep(node, frame,
+                shader::checked::heap_resource(*frame.context->invocation,
+                                               site_of(node.expr->location), index, wanted.kind,
+                                               wanted.access));
+  }
   return keep(node, frame, shader::heap_resource(*frame.context->invocation, index, sampler));
 }
 

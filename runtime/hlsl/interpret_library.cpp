@@ -22,6 +22,7 @@ struct InterpretedLibrary::Tables {
   std::deque<shader::ComputeDesc> compute;
   std::deque<std::string> layouts;
   std::deque<ReachedCalls> calls;
+  std::vector<const char*> files;
   shader::LibraryDesc library = {};
 };
 
@@ -192,11 +193,19 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
   }
   for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));
   for (const ir::Subobject& s : m.subobjects) tables.subobjects.push_back(describe(s));
+  for (const std::string& file : m.files) tables.files.push_back(file.c_str());
   const auto count = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
   tables.library = {shader::kAbiVersion,     sizeof(shader::LibraryDesc), m.name.c_str(),
                     m.target.c_str(),        tables.exports.data(),       count(tables.exports),
                     tables.bindings.data(),  count(tables.bindings),      tables.subobjects.data(),
                     count(tables.subobjects)};
+  tables.library.flags = m.check_access ? shader::kLibraryChecked : 0u;
+  tables.library.files = tables.files.data();
+  tables.library.file_count = count(tables.files);
+  if (!m.source.empty()) {
+    tables.library.source = m.source.data();
+    tables.library.source_bytes = m.source.size();
+  }
   return out;
 }
 

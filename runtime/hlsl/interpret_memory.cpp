@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Buffers: loads, stores and atomics on memory. Bounds hold for each scalar, as in memory.h.
+#include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 #include <kaamos/shader/views.h>
 
@@ -89,22 +90,38 @@ void store_to(const Action& action, Frame& frame, const MemoryView& view) {
   }
 }
 
-MemoryView element_of(const Node& buffer, const Node& index, Frame& frame) {
-  const auto descriptor = evaluate_as<Descriptor>(buffer, frame);
-  return shader::element_view(descriptor, evaluate_as<uint32_t>(index, frame));
+// The buffer of an access; checked libraries look at where it goes. `operands` as in the IR.
+Descriptor accessed(const std::vector<const Node*>& operands, const Access& access,
+                    const ir::Location& location, uint32_t write, Frame& frame) {
+  const auto buffer = evaluate_as<Descriptor>(*operands[0], frame);
+  if (!frame.context->program->checked) return buffer;
+  shader::Invocation& invocation = *frame.context->invocation;
+  const auto first = evaluate_as<uint32_t>(*operands[1], frame);
+  if (operands.size() == 2) {
+    return shader::checked::access(invocation, site_of(location), buffer, first, access.bytes,
+                                   access.alignment, write);
+  }
+  return shader::checked::access_element(invocation, site_of(location), buffer, first,
+                                         evaluate_as<uint32_t>(*operands[2], frame), access.bytes,
+                                         access.alignment, write);
 }
 
 const std::byte* load(const Node& node, Frame& frame) {
-  return load_from(node, frame,
-                   shader::memory_view(evaluate_as<Descriptor>(*node.operands[0], frame)));
+  const Descriptor buffer =
+      accessed(node.operands, node.access, node.expr->location, 0, frame);
+  return load_from(node, frame, shader::memory_view(buffer));
 }
 const std::byte* load_element(const Node& node, Frame& frame) {
-  return load_from(node, frame, element_of(*node.operands[0], *node.operands[1], frame));
+  const Descriptor buffer =
+      accessed(node.operands, node.access, node.expr->location, 0, frame);
+  return load_from(node, frame,
+                   shader::element_view(buffer, evaluate_as<uint32_t>(*node.operands[1], frame)));
 }
 
 template <class T>
 void* memory_place(const Action& action, Frame& frame) {
-  const auto buffer = evaluate_as<Descriptor>(*action.operands[0], frame);
+  const Descriptor buffer =
+      accessed(action.operands, action.access, action.stmt->location, 2, frame);
   const auto first = evaluate_as<uint32_t>(*action.operands[1], frame);
   if (action.stmt->target == ir::AtomicTarget::kMemory) {
     return shader::memory_address<T>(buffer, first);
@@ -135,10 +152,15 @@ Evaluate evaluate_load_element() {
 }
 
 void store(const Action& action, Frame& frame) {
-  store_to(action, frame, shader::memory_view(evaluate_as<Descriptor>(*action.operands[0], frame)));
+  const Descriptor buffer =
+      accessed(action.operands, action.access, action.stmt->location, 1, frame);
+  store_to(action, frame, shader::memory_view(buffer));
 }
 void store_element(const Action& action, Frame& frame) {
-  store_to(action, frame, element_of(*action.operands[0], *action.operands[1], frame));
+  const Descriptor buffer =
+      accessed(action.operands, action.access, action.stmt->location, 1, frame);
+  const auto index = evaluate_as<uint32_t>(*action.operands[1], frame);
+  store_to(action, frame, shader::element_view(buffer, index));
 }
 
 void run_atomic(const Action& action, Frame& frame) {

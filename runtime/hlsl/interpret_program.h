@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <kaamos/shader/abi.h>
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/interpret.h"
 #include "runtime/hlsl/interpret_layout.h"
 #include "runtime/hlsl/ir.h"
@@ -71,6 +72,7 @@ struct Node {
   std::vector<uint32_t> offsets;    // construct: of each part
   const std::byte* data = nullptr;  // literals, constants
   std::vector<Move> moves;          // loads
+  Access access;                    // loads, in checked libraries
 };
 
 // Atomic operation on a place that may be null; result may be null.
@@ -105,6 +107,7 @@ struct Action {
   Actions step;
   std::vector<ActionCase> cases;
   std::vector<Move> moves;  // stores
+  Access access;            // stores and atomics, in checked libraries
   Atomic atomic = nullptr;
 };
 
@@ -151,6 +154,7 @@ struct Program {
   uint32_t static_bytes = 0;
   uint32_t shared_bytes = 0;
   std::string error;  // of a module that breaks the rules of the IR
+  bool checked = false;  // Module::check_access
 };
 
 // interpret_compile.cpp

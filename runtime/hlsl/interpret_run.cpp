@@ -2,6 +2,7 @@
 //
 // The stages: an invocation's context, its static globals, its entry point's parameters.
 #include <alloca.h>
+#include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
@@ -116,6 +117,11 @@ shader::AnyHitResult run_ray_entry(const Program& program, const EntryCode& entr
   Context context;
   context.program = &program;
   context.invocation = &invocation;
+  if (program.checked && entry.entry->payload != nullptr && payload != nullptr) {
+    shader::checked::check_payload(invocation, site_of(entry.entry->function->location), payload,
+                                   type_hash(entry.entry->payload), entry.payload_bytes,
+                                   entry.entry->stage == ir::kStageCallable);
+  }
   run_entry(entry, context, {payload, attributes, nullptr, nullptr});
   return context.any_hit;
 }

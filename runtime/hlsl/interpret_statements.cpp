@@ -3,6 +3,7 @@
 // Statements and calls. Activations lie on the stack of the thread or fiber, because a backend may
 // leave a shader by a jump: nothing may wait for a destructor here.
 #include <alloca.h>
+#include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
@@ -82,6 +83,27 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
   run_body(callee, inner);
 }
 
+// A payload, or callable data, with the header in front that the shader which gets it reads, and
+// room behind it. On the stack: it must not be inlined into a loop.
+template <class Call>
+[[gnu::noinline]] void call_with_header(const Action& action, Frame& frame, const Call& call) {
+  using shader::checked::PayloadHeader;
+  std::byte* place = action.place->locate(*action.place, frame);
+  if (!frame.context->program->checked) return call(place);
+  const uint32_t bytes = action.place->bytes;
+  auto* box = static_cast<std::byte*>(
+      alloca(sizeof(PayloadHeader) + bytes + shader::checked::kPayloadSlack + 16));
+  box += -reinterpret_cast<uintptr_t>(box) & 15u;
+  const PayloadHeader header = {shader::checked::kPayloadMagic,
+                                type_hash(action.place->expr->type), bytes, 0};
+  std::byte* data = box + sizeof(header);
+  std::memcpy(box, &header, sizeof(header));
+  std::memcpy(data, place, bytes);
+  std::memset(data + bytes, 0, shader::checked::kPayloadSlack);
+  call(data);
+  std::memcpy(place, data, bytes);
+}
+
 void trace_ray(const Action& action, Frame& frame) {
   shader::Invocation& invocation = *frame.context->invocation;
   const auto& operands = action.operands;
@@ -97,17 +119,30 @@ void trace_ray(const Action& action, Frame& frame) {
   arguments.miss_shader_index = number(5) & 0xFFFFu;
   arguments.payload_bytes = action.place->bytes;
   const auto ray = evaluate_as<shader::RayDesc>(*operands[6], frame);
-  invocation.dispatch->services->trace_ray(invocation, arguments,
-                                           action.place->locate(*action.place, frame),
-                                           shader::origin_t_min(ray), shader::direction_t_max(ray));
+  if (frame.context->program->checked) {
+    shader::checked::check_trace(invocation, site_of(action.stmt->location), arguments.ray_flags,
+                                 ray);
+  }
+  call_with_header(action, frame, [&](void* payload) {
+    invocation.dispatch->services->trace_ray(invocation, arguments, payload,
+                                             shader::origin_t_min(ray),
+                                             shader::direction_t_max(ray));
+  });
 }
 
 void run_query(const Action& action, Frame& frame) {
   shader::Invocation& invocation = *frame.context->invocation;
   auto& query = *reinterpret_cast<shader::RayQuery*>(action.place->locate(*action.place, frame));
   const auto& operands = action.operands;
+  const bool checked = frame.context->program->checked;
+  const uint32_t site = site_of(action.stmt->location);
   switch (action.stmt->query) {
     case ir::QueryOp::kTrace:
+      if (checked) {
+        shader::checked::check_query_trace(invocation, site,
+                                           evaluate_as<uint32_t>(*operands[1], frame),
+                                           evaluate_as<shader::RayDesc>(*operands[3], frame));
+      }
       shader::begin_query(invocation, query, evaluate_as<shader::Descriptor>(*operands[0], frame),
                           evaluate_as<uint32_t>(*operands[1], frame),
                           evaluate_as<uint32_t>(*operands[2], frame),
@@ -123,8 +158,13 @@ void run_query(const Action& action, Frame& frame) {
     case ir::QueryOp::kAbort:
       return shader::query_abort(query);
     case ir::QueryOp::kCommitTriangle:
+      if (checked) return shader::checked::query_commit_triangle(invocation, site, query);
       return shader::query_commit_triangle(query);
     case ir::QueryOp::kCommitProcedural:
+      if (checked) {
+        return shader::checked::query_commit_procedural(invocation, site, query,
+                                                        evaluate_as<float>(*operands[0], frame));
+      }
       return shader::query_commit_procedural(query, evaluate_as<float>(*operands[0], frame));
   }
 }
@@ -134,6 +174,9 @@ void report_hit(const Action& action, Frame& frame) {
   const auto t = evaluate_as<float>(*action.operands[0], frame);
   const auto kind = evaluate_as<uint32_t>(*action.operands[1], frame);
   const std::byte* attributes = evaluate(*action.operands[2], frame);
+  if (context.program->checked) {
+    shader::checked::check_hit_kind(*context.invocation, site_of(action.stmt->location), kind);
+  }
   const shader::ReportHitResult result = context.invocation->dispatch->services->report_hit(
       *context.invocation, t, kind, attributes, action.operands[2]->bytes);
   if (result == shader::ReportHitResult::kEndSearch) context.ended = true;
@@ -145,9 +188,10 @@ void report_hit(const Action& action, Frame& frame) {
 
 void call_shader(const Action& action, Frame& frame) {
   shader::Invocation& invocation = *frame.context->invocation;
-  invocation.dispatch->services->call_shader(
-      invocation, evaluate_as<uint32_t>(*action.operands[0], frame),
-      action.place->locate(*action.place, frame), action.place->bytes);
+  const auto index = evaluate_as<uint32_t>(*action.operands[0], frame);
+  call_with_header(action, frame, [&](void* data) {
+    invocation.dispatch->services->call_shader(invocation, index, data, action.place->bytes);
+  });
 }
 
 // { prelude; if (!value) leave }. Flow is kNext, kBreak to leave, or kReturn.

@@ -470,6 +470,9 @@ struct Module {
   std::vector<const Struct*> structs;  // used ones, members before users
   std::vector<Binding> bindings;       // reachable ones
   std::vector<Subobject> subobjects;
+  // Emitters instrument what DXR leaves undefined [-check-access].
+  bool check_access = false;
+  std::string source;  // all source files and options (embedded_source.h); empty: unknown
   const Struct* ray_desc = nullptr;  // the built-in RayDesc {Origin, TMin, Direction, TMax}
 
   // Owners; addresses stay valid as long as the module lives.

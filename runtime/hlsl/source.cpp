@@ -156,4 +156,13 @@ std::vector<std::string> SourceManager::loaded_paths() const {
   return paths;
 }
 
+std::vector<std::pair<std::string, const SourceText*>> SourceManager::loaded_files() const {
+  std::vector<std::pair<std::string, const SourceText*>> files;
+  for (const auto& [path, text] : by_path_) {
+    if (text != nullptr) files.emplace_back(path, text);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 }  // namespace kaamos::hlsl

@@ -99,6 +99,8 @@ class SourceManager {
   std::string_view keep(std::string text);
   // Paths of all files that were read, in the order of reading.
   std::vector<std::string> loaded_paths() const;
+  // The same with their texts, by the path that each was asked for, in the order of these.
+  std::vector<std::pair<std::string, const SourceText*>> loaded_files() const;
 
  private:
   struct LineOverride {

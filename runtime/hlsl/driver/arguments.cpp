@@ -114,6 +114,8 @@ const std::vector<Option>& options() {
       {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
       {"-Zi", false, flag(&Arguments::debug), ""},
       {"-no-spirv", false, flag(&Arguments::no_spirv), ""},
+      {"-no-source", false, flag(&Arguments::no_source), ""},
+      {"-check-access", false, flag(&Arguments::check_access), ""},
       {"-check", false, flag(&Arguments::check_only), ""},
       {"-emit", true, parse_emit, "cpp, ir, reflection, object, glsl or spirv"},
       {"-Fo", true, text(&Arguments::output), ""},
@@ -222,6 +224,10 @@ Of its own:
                             and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
                             the GLSL of every export, or the SPIR-V of the only one
   -no-spirv                 C++ and objects without SPIR-V: they run on the CPU only
+  -check-access             code that looks for what DXR leaves undefined, and tells the device:
+                            root descriptors that are left, wrong descriptors, NaN rays; slower
+  -no-source                leaves out the source, from which a checked device makes that code of
+                            a library that was compiled without -check-access
   --strict                  refuses what DXC refuses, also where Kaamos could go on
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes the files that were read as a make rule

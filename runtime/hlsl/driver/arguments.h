@@ -31,6 +31,8 @@ struct Arguments {
   bool debug = false;
   bool check_only = false;
   bool no_spirv = false;
+  bool check_access = false;
+  bool no_source = false;
   Emit emit = Emit::kCpp;
   std::string output;           // empty: standard output; kObject: required
   std::string dependency_file;  // -MF: a makefile rule for ninja and make

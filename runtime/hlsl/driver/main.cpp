@@ -46,6 +46,8 @@ FrontendOptions frontend_options(const Arguments& arguments) {
   options.row_major = arguments.row_major;
   options.payload_qualifiers = arguments.payload_qualifiers;
   options.strict = arguments.strict;
+  options.check_access = arguments.check_access;
+  options.embed_source = !arguments.no_source;
   return options;
 }
 

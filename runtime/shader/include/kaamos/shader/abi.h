@@ -43,9 +43,12 @@ struct alignas(8) Descriptor {
   uint64_t address = 0;       // GPU virtual address, or the backend's object
   uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
   uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
-  uint32_t reserved = 0;
+  // 0 in a heap. In a shader of a checked library: 1 + the library's binding that it came from, and
+  // kFromRoot: a root descriptor, whose bytes are those to the end of its allocation.
+  uint32_t origin = 0;
 };
 static_assert(sizeof(Descriptor) == 32);
+inline constexpr uint32_t kFromRoot = 0x80000000u;
 
 // ---------------------------------------------------------------------------------------------
 // Bindings: which root argument feeds which HLSL register. Fixed when a state object is created.
@@ -77,6 +80,12 @@ struct BindingSlot {
 
 struct Services;
 
+// Memory that an allocation holds.
+struct AddressRange {
+  uint64_t address = 0;
+  uint64_t size_bytes = 0;
+};
+
 // One per DispatchRays or Dispatch; shared by all its threads and constant while it runs.
 struct Dispatch {
   const Services* services = nullptr;
@@ -88,6 +97,11 @@ struct Dispatch {
   const Descriptor* sampler_heap_begin = nullptr;
   const Descriptor* sampler_heap_end = nullptr;
   void* backend = nullptr;  // the backend's own dispatch state
+  // For checked libraries: every allocation, by rising address. Both null: root descriptors have no
+  // bounds.
+  const AddressRange* ranges_begin = nullptr;
+  const AddressRange* ranges_end = nullptr;
+  uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
 };
 
 // HLSL's RayDesc. [DXR: RayDesc structure]
@@ -261,6 +275,47 @@ struct RayQueryArguments {
   uint32_t instance_inclusion_mask;  // low 8 bits count
 };
 
+// ---------------------------------------------------------------------------------------------
+// Checked libraries: what DXR leaves undefined is looked for at the instruction, and told.
+
+enum class Finding : uint32_t {
+  kNone = 0,
+  // Of buffers; values: address of the view, offset, bytes, bytes that there are.
+  kOutOfBounds,   // of a root descriptor
+  kNotAllocated,  // a root descriptor's address lies in no buffer
+  kMisaligned,    // value 3: the alignment asked for
+  // Of descriptors; values: index, limit.
+  kOutsideBinding,  // an index past the elements of the binding
+  kOutsideHeap,     // a handle, or an index into the heap; values: address or index, descriptors
+  kWrongDescriptor,  // values: kind and access found, kind and access declared
+  // Of rays; values: bits of origin, TMin, direction, TMax, two to a value.
+  kRayNotANumber,
+  kRayInterval,  // TMin < 0, or TMin > TMax
+  kRayFlags,     // values: the flags
+  kQueryFlags,   // the same of a RayQuery, which must not skip closest-hit shaders either
+  kRecursion,    // values: depth of the caller, depth declared
+  kHitKind,      // values: of ReportHit
+  kPayloadMismatch,   // values: bytes that the caller gave, bytes of the shader, 1: callable data
+  // Of RayQuery. Values: QueryValue or QueryOp of the IR, CANDIDATE_TYPE or COMMITTED_STATUS
+  kNoCandidate,       // what Proceed has not found, or of another type, was read or committed
+  kNoCommittedHit,    // hit data read without a hit
+  kCommitOutOfRange,  // values: bits of t, of TMin and of the committed t
+  kCount
+};
+
+struct CheckReport {
+  Finding finding = Finding::kNone;
+  uint32_t site = 0;     // index into LibraryDesc::files << 20 | line; line 0: unknown
+  uint32_t binding = 0;  // 1 + index into LibraryDesc::bindings; 0: none
+  uint32_t write = 0;    // 1: a write, 2: an atomic
+  uint64_t local_arguments = 0;  // of the shader's record; 0: none
+  uint64_t values[5] = {};
+};
+static_assert(sizeof(CheckReport) == 64);
+constexpr uint32_t make_site(uint32_t file, uint32_t line) {
+  return (file < 0xFFFu ? file : 0xFFFu) << 20 | (line < 0xFFFFFu ? line : 0);
+}
+
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
                     RayLanes direction_t_max);
@@ -290,6 +345,7 @@ struct Services {
 
   void (*group_barrier)(ComputeGroup&);  // fibers only
   void (*remove_device)(Invocation&, RemovalReason);
+  void (*report)(Invocation&, const CheckReport&);  // null: nobody listens
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -418,6 +474,10 @@ struct SubobjectDesc {
   uint32_t values[2];
 };
 
+enum LibraryFlags : uint32_t {
+  kLibraryChecked = 1,  // made with -check-access
+};
+
 struct LibraryDesc {
   uint32_t abi_version;
   uint32_t struct_bytes;  // sizeof(LibraryDesc): a second guard against a mismatch
@@ -429,6 +489,13 @@ struct LibraryDesc {
   uint32_t binding_count;
   const SubobjectDesc* subobjects;
   uint32_t subobject_count;
+  uint32_t flags = 0;                   // LibraryFlags
+  const char* const* files = nullptr;   // source files, for CheckReport::site
+  uint32_t file_count = 0;
+  // Every source file and the options, to make the library's other variant of; null: unknown.
+  // [runtime/hlsl/embedded_source.h]
+  const char* source = nullptr;
+  uint64_t source_bytes = 0;
 };
 
 // The one symbol of a library that is compiled at run time.
