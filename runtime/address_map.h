@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <kaamos/shader/abi.h>
 #include <rtapi/resource.h>
 
 namespace kaamos::runtime {
@@ -69,6 +70,11 @@ class AddressMap {
     std::shared_lock lock(mutex_);
     std::vector<Allocation> out;
     for (const auto& [address, allocation] : allocations_) out.push_back(allocation);
+  // All of them, by rising address.
+  std::vector<shader::AddressRange> ranges() const {
+    std::shared_lock lock(mutex_);
+    std::vector<shader::AddressRange> out;
+    for (const auto& [address, a] : allocations_) out.push_back({address, a.size_bytes});
     return out;
   }
   // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "rtapi/src/device_impl.h"
+#include "runtime/checked_library.h"
 #include "runtime/dispatch_checks.h"
 
 namespace rtapi {
@@ -83,6 +84,17 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
     }
   }
   return host == 0 ? std::nullopt : FindSlot(CpuDescriptorHandle{host});
+}
+
+ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
+  if (!reporter) return library;
+  runtime::CheckedLibrary found = runtime::checked_variant(library, desc.Backend == "vulkan");
+  if (!found.note.empty()) {
+    reporter->report(found.checked ? kaamos::checks::Id::kCodeInterpreted
+                                   : kaamos::checks::Id::kCodeNotChecked,
+                     found.note);
+  }
+  return found.library;
 }
 
 ShaderIdentifier DeviceImpl::MakeIdentifier(std::string_view name) {

@@ -57,6 +57,9 @@ struct DeviceImpl {
   // The same by GPU handle; shader-visible heaps only.
   std::optional<HeapSlot> FindSlot(GpuDescriptorHandle handle) const;
 
+  // On a checked device the library's checked variant.
+  ShaderLibrary LibraryToRun(const ShaderLibrary& library) const;
+
   ShaderIdentifier MakeIdentifier(std::string_view name);
 
   // "buffer \"x\" (416 bytes)" of a live address, else "no live buffer".

@@ -51,9 +51,11 @@ const std::string& PipelineState::name() const {
 }
 
 Result<PipelineState> Device::CreateComputePipelineState(
-    const ComputePipelineStateDesc& desc) const {
+    const ComputePipelineStateDesc& given) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateComputePipelineState on an empty device");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
+  ComputePipelineStateDesc desc = given;
+  if (desc.CS) desc.CS = impl_->LibraryToRun(desc.CS);
   if (!desc.CS) return MakeError(Id::kNullHandle, "CS is an empty shader library handle");
   if (Status s = CheckHandle(impl_, desc.pRootSignature, "pRootSignature"); !s.ok()) {
     return s.error();

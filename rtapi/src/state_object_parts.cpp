@@ -239,7 +239,14 @@ void Gatherer::GatherDefaults() {
   }
 }
 Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc) {
-  return Gatherer(device, desc).Run();
+  if (!device->desc.Checked) return Gatherer(device, desc).Run();
+  StateObjectDesc checked = desc;
+  for (StateSubobject& sub : checked.Subobjects) {
+    if (auto* library = std::get_if<DxilLibraryDesc>(&sub); library && library->DXILLibrary) {
+      library->DXILLibrary = device->LibraryToRun(library->DXILLibrary);
+    }
+  }
+  return Gatherer(device, checked).Run();
 }
 
 }  // namespace detail

@@ -176,9 +176,8 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label) {
   const auto& pipeline = static_cast<const ComputePipeline&>(*command.pipeline);
   DispatchState dispatch;
-  begin_dispatch(command.state, dispatch);
+  begin_dispatch(environment, command.state, dispatch);
   std::memcpy(dispatch.abi.dimensions, command.groups, sizeof(command.groups));
-  dispatch.memory = environment.memory;
   dispatch.label = label.c_str();
   const uint64_t count = uint64_t{command.groups[0]} * command.groups[1] * command.groups[2];
   const ComputeJob job = {&dispatch, &pipeline, command.groups};

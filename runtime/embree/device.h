@@ -58,7 +58,7 @@ class Device final : public runtime::BackendDevice {
   // Bytes that Embree holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
   runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
-  DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get()}; }
+  DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get(), &context_}; }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);
   void warn(const char* id, const std::string& text) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "runtime/backend.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
@@ -137,7 +138,15 @@ FloatMode::~FloatMode() {
   _mm_setcsr(saved_);
 }
 
-void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch) {
+void begin_dispatch(const DispatchEnvironment& environment, const runtime::DispatchState& state,
+                    DispatchState& dispatch) {
+  dispatch.memory = environment.memory;
+  if (environment.context != nullptr && environment.context->reporter != nullptr) {
+    dispatch.context = environment.context;
+    dispatch.ranges = environment.context->addresses->ranges();
+    dispatch.abi.ranges_begin = dispatch.ranges.data();
+    dispatch.abi.ranges_end = dispatch.ranges.data() + dispatch.ranges.size();
+  }
   shader::Dispatch& abi = dispatch.abi;
   abi.services = &services();
   abi.root_arguments = state.root_arguments->bytes.data();
@@ -194,7 +203,8 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   const auto& pipeline = static_cast<const RaytracingPipeline&>(*command.pipeline);
   const rtapi::DispatchRaysDesc& desc = command.desc;
   DispatchState dispatch;
-  begin_dispatch(command.state, dispatch);
+  begin_dispatch(environment, command.state, dispatch);
+  dispatch.tables = &desc;
   dispatch.abi.dimensions[0] = desc.Width;
   dispatch.abi.dimensions[1] = desc.Height;
   dispatch.abi.dimensions[2] = desc.Depth;
@@ -205,9 +215,9 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   dispatch.callable_table = table_of(pipeline, desc.CallableShaderTable, RecordKind::kCallable,
                                      &dispatch.callable_problems);
   dispatch.max_recursion_depth = pipeline.linked().max_recursion_depth;
+  dispatch.abi.max_recursion_depth = dispatch.max_recursion_depth;
   dispatch.pipeline_flags = static_cast<uint32_t>(pipeline.linked().flags);
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
-  dispatch.memory = environment.memory;
   dispatch.label = label.c_str();
 
   // The tables may lie anywhere: even the first read of one is guarded.

@@ -20,6 +20,7 @@ namespace kaamos::embree {
 struct DispatchEnvironment {
   tbb::task_arena* arena = nullptr;
   const Memory* memory = nullptr;
+  const runtime::Context* context = nullptr;
 };
 
 // What came of it. An error removes the device: KA0890 to KA0893, KA0897.
@@ -43,7 +44,8 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label);
 
 // Common to both: fills in what shaders see of the list's state.
-void begin_dispatch(const runtime::DispatchState& state, DispatchState& dispatch);
+void begin_dispatch(const DispatchEnvironment& environment, const runtime::DispatchState& state,
+                    DispatchState& dispatch);
 DispatchResult end_dispatch(DispatchState& dispatch);
 // Of one thread's share of a dispatch: its worker, and the worker's counters to the dispatch.
 void begin_worker(DispatchState& dispatch, Worker& worker);

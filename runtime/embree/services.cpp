@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/services.h"
 
+#include "runtime/backend.h"
+#include "runtime/checks/code_findings.h"
 #include "runtime/embree/compute.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/inline_query.h"
@@ -15,6 +17,20 @@ void remove(shader::Invocation& invocation, shader::RemovalReason reason) {
   remove_device(worker_of(invocation), reason);
 }
 
+void report(shader::Invocation& invocation, const shader::CheckReport& found) {
+  const Worker& worker = worker_of(invocation);
+  const DispatchState& dispatch = *worker.dispatch;
+  if (dispatch.context == nullptr) return;
+  checks::CodePlace place;
+  if (worker.running != nullptr) place.shader = worker.running->linked;
+  for (int i = 0; i < 3; ++i) {
+    place.index[i] = worker.index[i];
+    place.dimensions[i] = dispatch.abi.dimensions[i];
+  }
+  place.tables = dispatch.tables;
+  checks::report_finding(*dispatch.context->reporter, *dispatch.context->addresses, place, found);
+}
+
 shader::Services make_services() {
   shader::Services table = {};
   table.trace_ray = trace_ray;
@@ -24,6 +40,7 @@ shader::Services make_services() {
   table.proceed = proceed;
   table.group_barrier = group_barrier;
   table.remove_device = remove;
+  table.report = report;
   shader::set_texture_services(table);
   return table;
 }

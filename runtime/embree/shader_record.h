@@ -12,6 +12,10 @@
 
 #include "kaamos/shader/abi.h"
 
+namespace kaamos::runtime {
+struct LinkedShader;
+}
+
 namespace kaamos::embree {
 
 // Bytes of a shader identifier, at the start of every record. [DXR: Shader identifier]
@@ -24,6 +28,7 @@ struct Shader {
   const shader::BindingSlot* slots = nullptr;
   uint32_t stack_bytes = 0;  // what it takes of the pipeline's stack
   bool reads_hit_kind = false;
+  const runtime::LinkedShader* linked = nullptr;  // for messages; may be null
 
   template <typename Function>
   Function as() const {

@@ -11,9 +11,17 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "kaamos/shader/abi.h"
 #include "runtime/embree/shader_record.h"
+
+namespace kaamos::runtime {
+struct Context;
+}
+namespace rtapi {
+struct DispatchRaysDesc;
+}
 
 namespace kaamos::embree {
 
@@ -62,6 +70,10 @@ struct DispatchState {
   uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
   const Memory* memory = nullptr;
+  // Checked mode; null without.
+  const runtime::Context* context = nullptr;
+  const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
+  std::vector<shader::AddressRange> ranges;
   const char* label = "";  // "DispatchRays 3 of the command list": for messages
 
   // Set when all else is, and read first by each thread: with the mutex that end_worker and

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/hlsl/build_library.h"
 
+#include <kaamos/shader/abi.h>
+
 #include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/emit_glsl.h"
 #include "runtime/hlsl/spirv.h"
@@ -9,7 +11,9 @@ namespace kaamos::hlsl {
 
 SharedObject build_library(const HostCompiler& compiler, const ir::Module& module,
                            const BuildOptions& options) {
-  std::string content = emit_cpp(module, {});
+  const uint32_t flags =
+      options.optimisation == Optimisation::kDebug ? uint32_t{shader::kLibraryDebug} : 0u;
+  std::string content = emit_cpp(module, {.flags = flags});
   if (!options.spirv) {
     return build_shared_object(compiler, content, options.optimisation, options.cache);
   }
@@ -30,7 +34,7 @@ SharedObject build_library(const HostCompiler& compiler, const ir::Module& modul
       }
       modules.push_back(std::move(spirv.words));
     }
-    return emit_cpp(module, {.spirv = modules});
+    return emit_cpp(module, {.spirv = modules, .flags = flags});
   };
   return build_shared_object(compiler, content, make_source, options.optimisation, options.cache);
 }

@@ -57,9 +57,10 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   std::string load(const ir::Expr& expr);
-  // The resource operand of an access to memory, in a checked library with the check around it.
-  // `element`: null for raw and constant buffers. write: 0 read, 1 write, 2 atomic.
-  std::string accessed(const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
+  // The resource operand of an access to memory, in a checked library with the check around it, or
+  // with `result` "_view" what is read or written. `element`: null for raw and constant buffers.
+  // write: 0 read, 1 write, 2 atomic.
+  std::string accessed(const char* result, const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
                        const ir::Type* type, ir::Layout layout, bool row_major, int write,
                        const ir::Location& location);
   // CheckReport::site, of the expression or else of the statement that is being printed.

@@ -457,7 +457,7 @@ void CppEmitter::emit_tables() {
        quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
        number(module_.entry_points.size() + module_.library_functions.size()) + ", bindings, " +
        number(module_.bindings.size()) + ", subobjects, " + number(module_.subobjects.size()) +
-       ", " + (module_.check_access ? "1u" : "0u") + ", files, " + number(module_.files.size()) +
+       ", " + number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " + number(module_.files.size()) +
        ", " + (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + "};");
 }
 

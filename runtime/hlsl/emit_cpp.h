@@ -21,6 +21,7 @@ struct EmitCppOptions {
   bool line_directives = true;  // `#line`: a debugger and a profiler show the HLSL source
   // The SPIR-V of each entry point (spirv.h), for the table; empty: a library without it.
   std::span<const std::vector<uint32_t>> spirv = {};
+  uint32_t flags = 0;        // shader::LibraryFlags besides kLibraryChecked
   bool split_groups = true;  // compute: cut at barriers where possible, else fibers
 };
 

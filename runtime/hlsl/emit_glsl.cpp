@@ -4,6 +4,7 @@
 #include "runtime/hlsl/emit_glsl.h"
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 #include "runtime/hlsl/glsl_prelude.h"
 #include "runtime/hlsl/ir_visit.h"
@@ -193,6 +194,12 @@ void GlslEmitter::emit_main() {
   if (incoming) {
     payload_block(payload ? "rayPayloadInEXT" : "callableDataInEXT", 0, entry_.payload, "g_in");
     line("g_depths = g_in.depths;");
+    if (module_.check_access) {
+      line("if (g_in.type != " + glsl::number(type_hash(entry_.payload)) + ") k_tell(13u, " +
+           site(entry_.function->location) + ", 0u, 0u, uint64_t(g_in.bytes), " +
+           std::to_string(4 * glsl::words(entry_.payload)) + "UL, " + (callable ? "1UL" : "0UL") +
+           ", 0UL);");
+    }
     line(type(entry_.payload) + " g_argument = " + convert_wire(entry_.payload, false) +
          "(g_in.data);");
   }
@@ -210,6 +217,21 @@ void GlslEmitter::emit_main() {
     line("if (g_ended == 2u) terminateRayEXT;");
   }
   out_ = std::move(functions) + "void main() {\n" + start_ + out_ + "}\n";
+}
+
+// For k_tell: which shader of the pipeline runs, and for which pixel or thread group.
+void GlslEmitter::define_check_place() {
+  Expr index;
+  index.kind = ExprKind::kSystemValue;
+  index.system_value = SystemValue::kDispatchRaysIndex;
+  const std::string text =
+      entry_.stage == kStageCompute
+          ? std::string("gl_WorkGroupID + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
+                        "k_dispatch.base[2])")
+          : system_value(index);
+  constant(shader::spirv::kShaderConstant, "g_shader");
+  helpers_ += "uint g_check_shader() { return g_shader; }\nuvec3 g_check_index() { return " + text +
+              "; }\n";
 }
 
 GlslShader GlslEmitter::run() {
@@ -239,6 +261,7 @@ GlslShader GlslEmitter::run() {
     }
   }
   emit_main();
+  if (module_.check_access) define_check_place();
 
   std::string head = std::string("#version 460\n") + kExtensions;
   std::string layout;

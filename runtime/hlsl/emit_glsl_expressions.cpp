@@ -2,6 +2,7 @@
 //
 // Expressions. GLSL's own operators where they mean the same as HLSL's, else the prelude's
 // functions.
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -312,6 +313,12 @@ std::string GlslEmitter::value(const Expr* e) {
     case ExprKind::kBinding:
       return binding(expr);
     case ExprKind::kHeapResource: {
+      if (module_.check_access) {
+        const ResourceClass c = class_of(expr.type->resource);
+        return "k_heap_resource_checked(" + value(expr.operands[0]) + ", " +
+               glsl::number(static_cast<uint32_t>(c.kind)) + ", " +
+               glsl::number(static_cast<uint32_t>(c.access)) + ", " + site(expr.location) + ")";
+      }
       const bool sampler = expr.type->resource == ResourceKind::kSampler ||
                            expr.type->resource == ResourceKind::kSamplerComparison;
       return "k_heap_resource(" + value(expr.operands[0]) + (sampler ? ", true)" : ", false)");

@@ -3,6 +3,7 @@
 // How values travel between variables and buffers: scalars and short vectors through the prelude's
 // k_read_ and k_write_ functions, everything else by generated functions at HLSL's offsets. The
 // twin of <kaamos/shader/memory.h> and views.h.
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 #include "runtime/hlsl/ir_layout.h"
 
@@ -177,8 +178,25 @@ std::string GlslEmitter::write_function(const Type* t, Layout layout, bool row_m
 
 // The window that an access of a `t` goes through, from its operands: the resource, the element of
 // a structured buffer, the offset, whose low bits do not count.
+std::string GlslEmitter::site(const Location& location) const {
+  return glsl::number(site_of(location.line != 0 ? location : statement_location_));
+}
+
+std::string GlslEmitter::access_arguments(const Type* t, Layout layout, bool row_major, int write,
+                                          const Location& location) const {
+  const Access access = access_of(t, layout, row_major);
+  return ", " + glsl::number(access.bytes) + ", " + glsl::number(access.alignment) + ", " +
+         std::to_string(write) + "u, " + site(location);
+}
+
+// `access`: in a checked library, access_arguments.
 std::string GlslEmitter::window(const std::vector<const Expr*>& operands, bool element,
-                                const Type* t) {
+                                const Type* t, const std::string& access) {
+  if (!access.empty()) {
+    std::string text = element ? "k_element_window_checked(" : "k_window_checked(";
+    for (size_t i = 0; i < operands.size(); ++i) text += (i == 0 ? "" : ", ") + value(operands[i]);
+    return text + access + ")";
+  }
   const Expr* offset = operands.back();
   const Type* leaf = innermost(t);
   // A struct's members are at offsets of their own; those of 16 bits need two bytes only.
@@ -200,13 +218,22 @@ std::string GlslEmitter::window(const std::vector<const Expr*>& operands, bool e
 }
 
 std::string GlslEmitter::load(const Expr& expr) {
-  const std::string w = window(expr.operands, expr.kind == ExprKind::kLoadElement, expr.type);
+  const std::string access =
+      module_.check_access
+          ? access_arguments(expr.type, expr.layout, expr.row_major, 0, expr.location)
+          : "";
+  const std::string w =
+      window(expr.operands, expr.kind == ExprKind::kLoadElement, expr.type, access);
   return memory_read(expr.type, expr.layout, expr.row_major, w, "0u");
 }
 
 void GlslEmitter::store(const Stmt& stmt) {
+  const std::string access =
+      module_.check_access
+          ? access_arguments(stmt.value->type, stmt.layout, stmt.row_major, 1, stmt.location)
+          : "";
   const std::string w =
-      window(stmt.operands, stmt.kind == StmtKind::kStoreElement, stmt.value->type);
+      window(stmt.operands, stmt.kind == StmtKind::kStoreElement, stmt.value->type, access);
   line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, w, "0u", value(stmt.value)) +
        ";");
 }

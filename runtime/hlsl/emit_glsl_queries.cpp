@@ -3,6 +3,7 @@
 // RayQuery. Beside each rayQueryEXT goes what GLSL does not tell, or not at every time: the ray,
 // and whether the query runs and has a candidate. A driver is asked for nothing that is not there.
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -48,6 +49,32 @@ constexpr char kCommitProcedural[] =
     "  if ((s.flags & 4u) != 0u) s.state &= ~g_query_runs;\n"
     "}\n";
 
+// Checked libraries; `type`: the only one that may be, if it is not 0xFFFFFFFF.
+constexpr char kCheckCandidate[] =
+    "void g_check_candidate(rayQueryEXT q, g_Query s, uint type, uint what, uint site) {\n"
+    "  bool has = (s.state & g_query_has_candidate) != 0u;\n"
+    "  uint found = has ? rayQueryGetIntersectionTypeEXT(q, false) : 0u;\n"
+    "  if (has && (type == 0xFFFFFFFFu || type == found)) return;\n"
+    "  k_tell(14u, site, 0u, 0u, uint64_t(what), has ? 1UL : 0UL, uint64_t(found), "
+    "uint64_t(type));\n"
+    "}\n";
+constexpr char kCheckCommitted[] =
+    "void g_check_committed(rayQueryEXT q, g_Query s, uint type, uint what, uint site) {\n"
+    "  bool begun = (s.state & g_query_begun) != 0u;\n"
+    "  uint found = begun ? rayQueryGetIntersectionTypeEXT(q, true) : 0u;\n"
+    "  if (found != 0u && (type == 0xFFFFFFFFu || type == found)) return;\n"
+    "  k_tell(15u, site, 0u, 0u, uint64_t(what), uint64_t(found), uint64_t(type), 0UL);\n"
+    "}\n";
+constexpr char kCheckCommit[] =
+    "void g_check_commit(rayQueryEXT q, g_Query s, float t, uint site) {\n"
+    "  if ((s.state & g_query_has_candidate) == 0u) return;\n"
+    "  float t_max = rayQueryGetIntersectionTypeEXT(q, true) != 0u\n"
+    "      ? rayQueryGetIntersectionTEXT(q, true) : s.t_max;\n"
+    "  if (t >= s.t_min && t <= t_max) return;\n"
+    "  k_tell(16u, site, 0u, 0u, uint64_t(floatBitsToUint(t)), uint64_t(floatBitsToUint(s.t_min)), "
+    "uint64_t(floatBitsToUint(t_max)), 0UL);\n"
+    "}\n";
+
 }  // namespace
 
 void GlslEmitter::declare_query() {
@@ -82,7 +109,12 @@ std::string GlslEmitter::query_trace_function() {
       "g_query_trace",
       "void g_query_trace(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
       "mask, " +
-          ray + " ray) {\n  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " +
+          ray + " ray" +
+          (module_.check_access
+               ? ", uint site) {\n  k_check_ray(" + origin + ", " + t_min + ", " + direction + ", " +
+                     t_max + ", flags, true, site);\n"
+               : std::string(") {\n")) +
+          "  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " +
           origin + ", " + direction +
           ");\n"
           "  uint64_t top = g_top_level(scene);\n"
@@ -109,6 +141,7 @@ void GlslEmitter::query(const Stmt& stmt) {
       for (const Expr* operand : stmt.operands) {
         text += ", " + value(operand);
       }
+      if (module_.check_access) text += ", " + site(stmt.location);
       return line(text + ");");
     }
     case QueryOp::kProceed:
@@ -117,8 +150,18 @@ void GlslEmitter::query(const Stmt& stmt) {
     case QueryOp::kAbort:
       return line(generated("g_query_abort", kAbort) + "(" + object + ");");
     case QueryOp::kCommitTriangle:
+      if (module_.check_access) {
+        line(generated("g_check_candidate", kCheckCandidate) + "(" + object +
+             ", 0u, 0xFFFFFFFFu, " + site(stmt.location) + ");");
+      }
       return line(generated("g_query_commit_triangle", kCommitTriangle) + "(" + object + ");");
     case QueryOp::kCommitProcedural:
+      if (module_.check_access) {
+        line(generated("g_check_candidate", kCheckCandidate) + "(" + object +
+             ", 1u, 0xFFFFFFFFu, " + site(stmt.location) + ");");
+        line(generated("g_check_commit", kCheckCommit) + "(" + object + ", " +
+             value(stmt.operands[0]) + ", " + site(stmt.location) + ");");
+      }
       return line(generated("g_query_commit_procedural", kCommitProcedural) + "(" + object + ", " +
                   value(stmt.operands[0]) + ");");
   }
@@ -239,9 +282,19 @@ std::string GlslEmitter::query_value(const Expr& expr) {
       break;
   }
   const std::string result = query_result(expr);
-  generated(name, type(expr.type) + " " + name + "(rayQueryEXT q, g_Query s) {\n  if (!(" + guard +
+  const QueryNeed need = need_of(expr);
+  std::string check;
+  if (module_.check_access && need.hit) {
+    check = committed ? generated("g_check_committed", kCheckCommitted)
+                      : generated("g_check_candidate", kCheckCandidate);
+    check = "  " + check + "(q, s, " + glsl::number(need.type) + ", " +
+            std::to_string(static_cast<int>(expr.query_value)) + "u, site);\n";
+  }
+  generated(name, type(expr.type) + " " + name + "(rayQueryEXT q, g_Query s" +
+                      (check.empty() ? "" : ", uint site") + ") {\n" + check + "  if (!(" + guard +
                       ")) return " + otherwise + ";\n  " + result + "\n}\n");
-  return name + "(" + query_arguments(expr.operands[0]) + ")";
+  return name + "(" + query_arguments(expr.operands[0]) +
+         (check.empty() ? "" : ", " + site(expr.location)) + ")";
 }
 
 }  // namespace kaamos::hlsl

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -179,10 +180,17 @@ void GlslEmitter::declare_remove_device() {
 std::string GlslEmitter::payload_block(const char* qualifier, int location, const Type* t,
                                        const std::string& name) {
   const std::string block = name + "_type";
-  declarations_ += "struct " + block + " { uint depths; " + wire_type(t) + " data; };\n" +
+  declarations_ += "struct " + block + " { uint depths; " +
+                   (module_.check_access ? "uint type; uint bytes; " : "") + wire_type(t) + " data; };\n" +
                    "layout(location = " + std::to_string(location) + ") " + qualifier + " " +
                    block + " " + name + ";\n";
   return name;
+}
+
+// What the shader that gets the payload compares, in checked libraries.
+std::string GlslEmitter::header(const std::string& payload, const Type* t) const {
+  return "  " + payload + ".type = " + glsl::number(type_hash(t)) + ";\n  " + payload +
+         ".bytes = " + glsl::number(4 * glsl::words(t)) + ";\n";
 }
 
 // Which acceleration structure a resource means.
@@ -228,11 +236,18 @@ std::string GlslEmitter::trace_function(const Type* payload) {
   declare_remove_device();
   declare_top_level();
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
+  const bool checked = module_.check_access;
   helpers_ += "void " + function +
               "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
               "uint miss, " +
               ray + " ray, inout " + type(payload) +
-              " payload) {\n"
+              " payload" + (checked ? ", uint site" : "") + ") {\n" +
+              (checked ? "  k_check_ray(" + member(0) + ", " + member(1) + ", " + member(2) + ", " +
+                             member(3) +
+                             ", flags, false, site);\n"
+                             "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
+                             header(out, payload)
+                       : "") +
               "  if ((g_depths & 0xFFFFu) >= g_max_trace_depth) {\n"
               "    g_remove_device(0u);\n"
               "    return;\n"
@@ -265,7 +280,8 @@ void GlslEmitter::trace_ray(const Stmt& stmt) {
   const std::string function = trace_function(stmt.place->type);
   std::string text = call(function, stmt.operands);
   text.pop_back();
-  line(text + ", " + path(stmt.place).text + ");");
+  line(text + ", " + path(stmt.place).text +
+       (module_.check_access ? ", " + site(stmt.location) : "") + ");");
 }
 
 std::string GlslEmitter::call_shader_function(const Type* data) {
@@ -283,7 +299,8 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
   constant(kMaxCallableDepthConstant, "g_max_callable_depth");
   declare_remove_device();
   helpers_ += "void " + function + "(uint shader, inout " + type(data) +
-              " data) {\n"
+              " data) {\n" +
+              (module_.check_access ? header(out, data) : "") +
               "  if ((g_depths >> 16) >= g_max_callable_depth) {\n"
               "    g_remove_device(1u);\n"
               "    return;\n"
@@ -481,6 +498,13 @@ std::string GlslEmitter::reported_t() {
 void GlslEmitter::report_hit(const Stmt& stmt) {
   const std::string function = report_function(stmt.operands[2]->type);
   const std::string result = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
+  if (module_.check_access) {
+    generated("g_check_kind",
+              "void g_check_kind(uint kind, uint site) {\n"
+              "  if (kind > 127u) k_tell(12u, site, 0u, 0u, uint64_t(kind), 0UL, 0UL, 0UL);\n"
+              "}\n");
+    line("g_check_kind(" + value(stmt.operands[1]) + ", " + site(stmt.location) + ");");
+  }
   line(result + call(function, stmt.operands) + ";");
   return_if_ended();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -153,24 +154,34 @@ std::string GlslEmitter::constant(uint32_t id, const std::string& name) {
   return name;
 }
 
-std::string GlslEmitter::resolved(uint32_t binding, const std::string& index) {
+// The four constants of a binding and the index in it, as arguments.
+std::string GlslEmitter::binding_arguments(uint32_t binding, const std::string& index) {
   const std::string prefix = "g_b" + std::to_string(binding) + "_";
-  std::string text = "k_resolve(";
+  std::string text;
   for (uint32_t i = 0; i < 4; ++i) {
     text += constant(binding * 4 + i, prefix + kConstantNames[i]) + ", ";
   }
-  return text + index + ")";
+  text += index;
+  return module_.check_access ? text + ", " + glsl::number(binding + 1) : text;
 }
 
 // What is no array is looked up once, when the shader starts.
 std::string GlslEmitter::binding(const Expr& expr) {
+  const bool checked = module_.check_access;
   if (!expr.operands.empty() && module_.bindings[expr.index].is_array) {
-    return resolved(expr.index, value(expr.operands[0]));
+    const std::string arguments = binding_arguments(expr.index, value(expr.operands[0]));
+    return checked ? "k_resolve_used(" + arguments + ", " + site(expr.location) + ")"
+                   : "k_resolve(" + arguments + ")";
   }
   const std::string name = "g_b" + std::to_string(expr.index);
   if (made_.insert(name).second) {
     declarations_ += "k_Descriptor " + name + ";\n";
-    start_ += "  " + name + " = " + resolved(expr.index, "0u") + ";\n";
+    start_ += "  " + name + (checked ? " = k_resolve_checked(" : " = k_resolve(") +
+              binding_arguments(expr.index, "0u") + ");\n";
+  }
+  if (checked) {
+    return "k_used(" + name + ", " + binding_arguments(expr.index, "0u") + ", " +
+           site(expr.location) + ")";
   }
   return name;
 }
@@ -351,9 +362,13 @@ void GlslEmitter::atomic(const Stmt& stmt) {
         "k_typed_address(" + value(stmt.operands[0]) + ", uint(" + value(stmt.operands[1]) + "))";
   } else {
     const bool element = stmt.target == AtomicTarget::kElement;
-    std::string window = element ? "k_element_window(" : "k_window(";
+    std::string window = element ? "k_element_window" : "k_window";
+    window += module_.check_access ? "_checked(" : "(";
     for (size_t i = 0; i < stmt.operands.size(); ++i) {
       window += (i == 0 ? "" : ", ") + value(stmt.operands[i]);
+    }
+    if (module_.check_access) {
+      window += access_arguments(stmt.value->type, Layout::kStructured, false, 2, stmt.location);
     }
     address = std::string("k_atomic_address_") + bits + "(" + window + "))";
   }

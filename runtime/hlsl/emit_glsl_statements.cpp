@@ -195,6 +195,7 @@ void GlslEmitter::barrier(uint32_t flags) {
 }
 
 void GlslEmitter::statement(const Stmt& stmt) {
+  if (stmt.kind != StmtKind::kBlock) statement_location_ = stmt.location;
   switch (stmt.kind) {
     case StmtKind::kBlock:
       open("{");

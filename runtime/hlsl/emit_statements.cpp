@@ -105,14 +105,14 @@ void CppEmitter::atomic(const Stmt& stmt) {
       break;
     case AtomicTarget::kMemory:
       address = "ks::memory_address<" + t + ">(" +
-                accessed(stmt.operands[0], nullptr, stmt.operands[1], v->type,
+                accessed("", stmt.operands[0], nullptr, stmt.operands[1], v->type,
                          Layout::kStructured, false, 2, stmt.location) +
                 ", " +
                 value(stmt.operands[1]) + ")";
       break;
     case AtomicTarget::kElement:
       address = "ks::element_address<" + t + ">(" +
-                accessed(stmt.operands[0], stmt.operands[1], stmt.operands[2], v->type,
+                accessed("", stmt.operands[0], stmt.operands[1], stmt.operands[2], v->type,
                          Layout::kStructured, false, 2, stmt.location) +
                 ", " +
                 value(stmt.operands[1]) + ", " + value(stmt.operands[2]) + ")";
@@ -154,13 +154,13 @@ std::string CppEmitter::site(const Location& location) const {
   return std::to_string(site_of(location.line != 0 ? location : statement_location_)) + "u";
 }
 
-std::string CppEmitter::accessed(const Expr* resource, const Expr* element, const Expr* offset,
+std::string CppEmitter::accessed(const char* result, const Expr* resource, const Expr* element, const Expr* offset,
                                  const Type* type, Layout layout, bool row_major, int write,
                                  const Location& location) {
   if (!module_.check_access) return value(resource);
   const Access access = access_of(type, layout, row_major);
-  return std::string(element != nullptr ? "ks::checked::access_element(ctx.invocation, "
-                                        : "ks::checked::access(ctx.invocation, ") +
+  return std::string(element != nullptr ? "ks::checked::access_element" : "ks::checked::access") +
+         result + "(ctx.invocation, " +
          site(location) + ", " + value(resource) + ", " +
          (element != nullptr ? value(element) + ", " : "") + value(offset) + ", " +
          std::to_string(access.bytes) + "u, " + std::to_string(access.alignment) + "u, " +

@@ -237,23 +237,33 @@ void CppEmitter::emit_memory_functions() {
 
 std::string CppEmitter::load(const Expr& expr) {
   const bool element = expr.kind == ExprKind::kLoadElement;
-  const std::string buffer =
-      accessed(expr.operands[0], element ? expr.operands[1] : nullptr, expr.operands.back(),
-               expr.type, expr.layout, expr.row_major, 0, expr.location);
-  const std::string view = element
-                               ? "ks::element_view(" + buffer + ", " + value(expr.operands[1]) + ")"
-                               : "ks::memory_view(" + buffer + ")";
+  if (module_.check_access) {
+    const std::string view =
+        accessed("_view", expr.operands[0], element ? expr.operands[1] : nullptr,
+                 expr.operands.back(), expr.type, expr.layout, expr.row_major, 0, expr.location);
+    return memory_read(expr.type, expr.layout, expr.row_major, view, "0u");
+  }
+  const std::string view =
+      element ? "ks::element_view(" + value(expr.operands[0]) + ", " + value(expr.operands[1]) + ")"
+              : "ks::memory_view(" + value(expr.operands[0]) + ")";
   return memory_read(expr.type, expr.layout, expr.row_major, view, value(expr.operands.back()));
 }
 
 void CppEmitter::store(const Stmt& stmt) {
   const bool element = stmt.kind == StmtKind::kStoreElement;
-  const std::string buffer =
-      accessed(stmt.operands[0], element ? stmt.operands[1] : nullptr, stmt.operands.back(),
-               stmt.value->type, stmt.layout, stmt.row_major, 1, stmt.location);
-  const std::string view = element
-                               ? "ks::element_view(" + buffer + ", " + value(stmt.operands[1]) + ")"
-                               : "ks::memory_view(" + buffer + ")";
+  if (module_.check_access) {
+    const std::string view = accessed("_view", stmt.operands[0],
+                                      element ? stmt.operands[1] : nullptr, stmt.operands.back(),
+                                      stmt.value->type, stmt.layout, stmt.row_major, 1,
+                                      stmt.location);
+    line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, view, "0u",
+                      value(stmt.value)) +
+         ";");
+    return;
+  }
+  const std::string view =
+      element ? "ks::element_view(" + value(stmt.operands[0]) + ", " + value(stmt.operands[1]) + ")"
+              : "ks::memory_view(" + value(stmt.operands[0]) + ")";
   line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, view,
                     value(stmt.operands.back()), value(stmt.value)) +
        ";");

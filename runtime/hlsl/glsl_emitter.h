@@ -70,7 +70,7 @@ class GlslEmitter {
   std::string read_function(const ir::Type* type, ir::Layout layout, bool row_major);
   std::string write_function(const ir::Type* type, ir::Layout layout, bool row_major);
   std::string window(const std::vector<const ir::Expr*>& operands, bool element,
-                     const ir::Type* type);
+                     const ir::Type* type, const std::string& access);
   std::string load(const ir::Expr& expr);
   void store(const ir::Stmt& stmt);
 
@@ -104,7 +104,12 @@ class GlslEmitter {
 
   // emit_glsl_resources.cpp
   std::string binding(const ir::Expr& expr);
-  std::string resolved(uint32_t binding, const std::string& index);
+  std::string binding_arguments(uint32_t binding, const std::string& index);
+  // Checked libraries: CheckReport::site; what the checked windows take more; what k_tell asks for.
+  std::string site(const ir::Location& location) const;
+  std::string access_arguments(const ir::Type* type, ir::Layout layout, bool row_major, int write,
+                               const ir::Location& location) const;
+  void define_check_place();
   std::string constant(uint32_t id, const std::string& name);
   std::string typed_load(const ir::Expr& expr);
   void typed_store(const ir::Stmt& stmt);
@@ -140,6 +145,7 @@ class GlslEmitter {
   std::string count(uint32_t what);
   std::string payload_block(const char* qualifier, int location, const ir::Type* type,
                             const std::string& name);
+  std::string header(const std::string& payload, const ir::Type* type) const;
   std::string trace_function(const ir::Type* payload);
   void declare_top_level();
   void trace_ray(const ir::Stmt& stmt);
@@ -210,6 +216,7 @@ class GlslEmitter {
   };
 
   const ir::Module& module_;
+  ir::Location statement_location_;
   const ir::EntryPoint& entry_;
   GlslShader shader_;
 

@@ -4,6 +4,7 @@
 // their part begins.
 #include <algorithm>
 
+#include "runtime/vulkan/checks.h"
 #include "runtime/vulkan/dispatch.h"
 #include "runtime/vulkan/state_object.h"
 
@@ -32,7 +33,9 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
   if (!buffer) return buffer.error();
   shader::spirv::DispatchBlock block = dispatch_block(command.state, *scene);
   std::copy(command.groups, command.groups + 3, block.dimensions);
-  write_blocks(block, parts, **buffer);
+  auto checks = begin_checks(environment, 0);
+  if (!checks) return checks.error();
+  write_blocks(block, parts, **buffer, *checks);
   auto commands = stream.record(label);
   if (!commands) return commands.error();
   pipeline.layout().bind(*commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
@@ -40,7 +43,12 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
     pipeline.layout().push(*commands, address_of_block(**buffer, i));
     gpu.vk().vkCmdDispatch(*commands, parts[i].size[0], parts[i].size[1], parts[i].size[2]);
   }
-  return run_dispatch(stream, **buffer, 0, 0, label);
+  auto status = run_dispatch(stream, **buffer, 0, 0, label);
+  checks::CodePlace place;
+  std::copy(command.groups, command.groups + 3, place.dimensions);
+  const runtime::LinkedShader* const shader = &pipeline.shader();
+  tell_checks(environment, {&shader, 1}, place);
+  return status;
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class Device final : public runtime::BackendDevice {
   AccelerationStructures& structures() { return *structures_; }
   TextureStore& textures() { return *textures_; }
   DispatchEnvironment dispatch_environment() {
-    return {stream_.get(), memory_.get(), structures_.get(), &scratch_};
+    return {stream_.get(), memory_.get(), structures_.get(), &scratch_, {}, &check_memory_, &context_};
   }
   void add(const rtapi::RaytracingStatistics& statistics);
   void warn(const char* id, const std::string& text) const;
@@ -79,6 +79,7 @@ class Device final : public runtime::BackendDevice {
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<AccelerationStructures> structures_;
   DispatchMemory scratch_;
+  DispatchMemory check_memory_;  // checked devices only
   size_t validation_position_ = 0;
   mutable std::mutex statistics_mutex_;  // guards:
   rtapi::RaytracingStatistics statistics_;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/vulkan/checks.h"
 #include "runtime/vulkan/fault_guard.h"
 #include "runtime/vulkan/state_object.h"
 
@@ -229,7 +230,9 @@ rtapi::Status RaysDispatch::execute() {
   block.dimensions[0] = desc.Width;
   block.dimensions[1] = desc.Height;
   block.dimensions[2] = desc.Depth;
-  write_blocks(block, parts, *buffer_);
+  auto checks = begin_checks(environment_, pipeline_.linked().max_recursion_depth);
+  if (!checks) return checks.error();
+  write_blocks(block, parts, *buffer_, *checks);
   return trace(parts);
 }
 
@@ -250,6 +253,13 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   auto status = run_dispatch(*environment_.stream, *buffer_, pipeline_.linked().max_recursion_depth,
                              pipeline_.max_trace_depth(), label_);
   add_counts(*buffer_, result_.statistics);
+  const rtapi::DispatchRaysDesc& desc = command_.desc;
+  checks::CodePlace place;
+  place.dimensions[0] = desc.Width;
+  place.dimensions[1] = desc.Height;
+  place.dimensions[2] = desc.Depth;
+  place.tables = &desc;
+  tell_checks(environment_, pipeline_.stage_shaders(), place);
   warn_of_structure();
   return status;
 }
@@ -346,8 +356,9 @@ uint64_t address_of_block(const GpuBuffer& buffer, size_t part) {
 }
 
 void write_blocks(const DispatchBlock& block, const std::vector<GridPart>& parts,
-                  const GpuBuffer& buffer) {
-  const DispatchStatus status;
+                  const GpuBuffer& buffer, uint64_t checks) {
+  DispatchStatus status;
+  status.checks = checks;
   std::memcpy(buffer.host(), &status, sizeof(status));
   DispatchBlock own = block;
   own.status = buffer.address();

@@ -14,6 +14,10 @@
 #include "runtime/vulkan/dispatch_split.h"
 #include "runtime/vulkan/memory.h"
 
+namespace kaamos::runtime {
+struct Context;
+}
+
 namespace kaamos::vulkan {
 
 // Memory that one dispatch after another uses for its tables and blocks.
@@ -34,6 +38,8 @@ struct DispatchEnvironment {
   DispatchMemory* scratch = nullptr;
   // Grids over these or over the device's limits run in parts.
   GridLimits limits = {};
+  DispatchMemory* checks = nullptr;
+  const runtime::Context* context = nullptr;
 };
 
 // What came of it. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader,
@@ -62,9 +68,9 @@ DispatchResult dispatch_compute(const DispatchEnvironment& environment,
 // Common to both: what shaders see of the list's state and of the scene.
 shader::spirv::DispatchBlock dispatch_block(const runtime::DispatchState& state,
                                             const SceneTables& scene);
-// Writes the status and a block for each part to the start of `buffer`.
+// Writes the status and a block for each part to the start of `buffer`. checks: DispatchStatus's.
 void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<GridPart>& parts,
-                  const GpuBuffer& buffer);
+                  const GpuBuffer& buffer, uint64_t checks);
 uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
 // Submits what was recorded and waits. Ok, or why the device is removed.

@@ -77,6 +77,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
   constants.add(shader::spirv::kWorkaroundsConstant, workaround_bits);
   constants.add(shader::spirv::kMaxTraceDepthConstant, options.max_trace_depth);
   constants.add(shader::spirv::kMaxCallableDepthConstant, options.max_callable_depth);
+  constants.add(shader::spirv::kShaderConstant, options.shader);
   if (options.count) constants.add(shader::spirv::kCountConstant, 1);
   return std::move(constants.result);
 }
@@ -119,8 +120,11 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool
   }
   auto made = module(shader);
   if (!made) return made.error();
+  StageOptions options = options_;
+  options.shader = static_cast<uint32_t>(stages_.size() + 1);
+  shaders_.push_back(&shader);
   const StageConstants& constants =
-      constants_.emplace_back(stage_constants(shader, gpu_.workarounds().shader_bits(), options_));
+      constants_.emplace_back(stage_constants(shader, gpu_.workarounds().shader_bits(), options));
   infos_.push_back({static_cast<uint32_t>(constants.entries.size()), constants.entries.data(),
                     constants.values.size() * sizeof(uint32_t), constants.values.data()});
   VkPipelineShaderStageCreateInfo stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};

@@ -18,7 +18,8 @@ namespace kaamos::vulkan {
 struct StageOptions {
   uint32_t max_trace_depth = 0;
   uint32_t max_callable_depth = 0;
-  bool count = false;  // for statistics
+  bool count = false;   // for statistics
+  uint32_t shader = 0;  // CheckEntry::shader
 };
 
 VkShaderStageFlagBits stage_of(shader::Stage stage);
@@ -43,6 +44,8 @@ class StageList {
   // for it, KA0952.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
+  // Of each stage.
+  const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:
   rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
@@ -50,6 +53,7 @@ class StageList {
   Gpu& gpu_;
   StageOptions options_;
   std::vector<VkPipelineShaderStageCreateInfo> stages_;
+  std::vector<const runtime::LinkedShader*> shaders_;
   std::deque<StageConstants> constants_;  // do not move: the infos point to them
   std::deque<VkSpecializationInfo> infos_;
   std::map<const shader::ExportDesc*, VkShaderModule> modules_;

@@ -140,6 +140,7 @@ rtapi::Status RaytracingPipeline::start() {
     if (auto s = add_group(*record, own_intersection, stages, groups); !s) return s;
     runs |= record->kind == runtime::RecordKind::kRayGeneration;
   }
+  stage_shaders_ = stages.shaders();
   if (!runs) return {};
   VkRayTracingPipelineCreateInfoKHR info = {VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
   info.flags = create_flags(linked_->flags);

@@ -57,6 +57,8 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   void bind(VkCommandBuffer commands) const;
   // Traces nested in each other that it was made for: what it declares, or the device's limit.
   uint32_t max_trace_depth() const { return max_trace_depth_; }
+  // By kShaderConstant - 1.
+  const std::vector<const runtime::LinkedShader*>& stage_shaders() const { return stage_shaders_; }
 
  private:
   RaytracingPipeline(std::shared_ptr<PipelineLayout> layout,
@@ -68,6 +70,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   std::shared_ptr<PipelineLayout> layout_;
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
   VkPipeline handle_ = VK_NULL_HANDLE;
+  std::vector<const runtime::LinkedShader*> stage_shaders_;
   uint32_t max_trace_depth_ = 0;
   uint32_t stack_bytes_ = 0;  // 0: what Vulkan takes by default
   GroupHandles groups_;
@@ -81,6 +84,7 @@ class ComputePipeline final : public runtime::BackendPipeline {
 
   const PipelineLayout& layout() const { return *layout_; }
   VkPipeline handle() const { return handle_; }
+  const runtime::LinkedShader& shader() const { return linked_->shader; }
 
  private:
   ComputePipeline(std::shared_ptr<PipelineLayout> layout,

@@ -476,6 +476,8 @@ struct SubobjectDesc {
 
 enum LibraryFlags : uint32_t {
   kLibraryChecked = 1,  // made with -check-access
+  kLibraryInterpreted = 2,
+  kLibraryDebug = 4,  // -Od -Zi
 };
 
 struct LibraryDesc {

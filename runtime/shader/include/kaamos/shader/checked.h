@@ -9,6 +9,7 @@
 #include "kaamos/shader/memory.h"
 #include "kaamos/shader/ray_query.h"
 #include "kaamos/shader/stage.h"
+#include "kaamos/shader/views.h"
 
 namespace kaamos::shader::checked {
 
@@ -154,6 +155,23 @@ KAAMOS_INLINE const Descriptor& access_element(Invocation& invocation, uint32_t 
            alignment);
   }
   return buffer;
+}
+
+// Where the value of an access lies: the view that emitted code reads or writes at offset 0.
+KAAMOS_INLINE MemoryView access_view(Invocation& invocation, uint32_t site,
+                                     const Descriptor& buffer, uint32_t offset, uint32_t bytes,
+                                     uint32_t alignment, uint32_t write) {
+  access(invocation, site, buffer, offset, bytes, alignment, write);
+  const memory::Window window = memory::window(buffer, offset & ~(alignment - 1));
+  return {reinterpret_cast<uintptr_t>(window.base), window.bytes};
+}
+KAAMOS_INLINE MemoryView access_element_view(Invocation& invocation, uint32_t site,
+                                             const Descriptor& buffer, uint32_t index,
+                                             uint32_t offset, uint32_t bytes, uint32_t alignment,
+                                             uint32_t write) {
+  access_element(invocation, site, buffer, index, offset, bytes, alignment, write);
+  const memory::Window window = memory::element_window(buffer, index, offset);
+  return {reinterpret_cast<uintptr_t>(window.base), window.bytes};
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -47,6 +47,8 @@ inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // traces ne
 inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls nested
 // Not 0: shaders count in DispatchStatus::counts.
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
+// Checked libraries: CheckEntry::shader.
+inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
 
 // Faults of drivers that generated code works around; each is off unless its bit is set. The
 // numbers are those of the list in runtime/vulkan/README.md.
@@ -143,7 +145,28 @@ struct DispatchStatus {
   uint32_t reserved = 0;
   uint32_t counts[kCountCount][2] = {};  // low and high half; added to with wrap-around
   uint64_t unknown_structure = 0;        // an address that rays were traced against for nothing
+  uint64_t checks = 0;                   // CheckState of a checked device; 0: nobody listens
 };
+static_assert(offsetof(DispatchStatus, checks) == 72);
+
+// What shaders of checked libraries read, and where they tell what they found.
+struct CheckState {
+  uint64_t ranges = 0;   // AddressRange[range_count], by rising address
+  uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table that starts with zeros
+  uint32_t range_count = 0;
+  uint32_t max_recursion_depth = 0;
+};
+inline constexpr uint32_t kCheckEntries = 256;
+struct CheckEntry {
+  uint32_t key = 0;  // 0: free
+  uint32_t count = 0;
+  CheckReport report;  // of one of `count` invocations
+  uint32_t index[3] = {0, 0, 0};
+  uint32_t shader = 0;  // kShaderConstant
+  uint64_t reserved = 0;
+};
+static_assert(sizeof(CheckEntry) == 96);
+static_assert(offsetof(CheckEntry, index) == 72);
 
 // ---------------------------------------------------------------------------------------------
 // Payloads, callable data and attributes

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// What shaders of checked libraries found, in words. The backends hand over a CheckReport and where
+// it came from.
+#pragma once
+
+#include <cstdint>
+
+#include <kaamos/shader/abi.h>
+#include <rtapi/raytracing.h>
+
+#include "runtime/address_map.h"
+#include "runtime/checks/report.h"
+#include "runtime/linked_pipeline.h"
+
+namespace kaamos::checks {
+
+struct CodePlace {
+  const runtime::LinkedShader* shader = nullptr;  // null: unknown
+  uint32_t index[3] = {0, 0, 0};                  // DispatchRaysIndex, or the thread group
+  uint32_t dimensions[3] = {1, 1, 1};
+  const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
+};
+
+// `count`: of how many invocations this one stands for.
+void report_finding(Reporter& reporter, const runtime::AddressMap& addresses,
+                    const CodePlace& place, const shader::CheckReport& report, uint64_t count = 1);
+
+}  // namespace kaamos::checks

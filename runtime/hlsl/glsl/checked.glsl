@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// What shaders of checked libraries do where others trust the application; the twin of
+// kaamos/shader/checked.h. The entry point defines g_check_shader and g_check_index.
+
+//@ k_CheckEntry
+// shader::spirv::CheckEntry
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer k_CheckEntry {
+  uint key;
+  uint count;
+  uint finding;
+  uint site;
+  uint binding;
+  uint write;
+  uint64_t local_arguments;
+  uint64_t values[5];
+  uint index[3];
+  uint shader;
+};
+//@ k_CheckState
+// shader::spirv::CheckState
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_CheckState {
+  uint64_t ranges;
+  uint64_t entries;
+  uint range_count;
+  uint max_recursion_depth;
+};
+//@ k_CheckStatus
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_CheckStatus {
+  uint64_t before[9];
+  uint64_t checks;
+};
+//@ k_AddressRange
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_AddressRange {
+  uint64_t address;
+  uint64_t size;
+};
+//@ k_checks
+uint64_t k_checks() { return k_CheckStatus(k_dispatch.status).checks; }
+
+// One entry for each kind of finding at a place; of those alike only the first is told.
+//@ k_tell
+uint g_check_shader();
+uvec3 g_check_index();
+void k_tell(uint finding, uint site, uint origin, uint write, uint64_t a, uint64_t b, uint64_t c,
+            uint64_t d) {
+  uint64_t checks = k_checks();
+  if (checks == 0UL) return;
+  uint64_t entries = k_CheckState(checks).entries;
+  uint key = ((site * 0x9E3779B1u ^ finding) * 0x85EBCA6Bu ^ (g_check_shader() << 10) ^ origin) | 1u;
+  for (uint i = 0u; i < 32u; ++i) {
+    k_CheckEntry entry = k_CheckEntry(entries + uint64_t(((key >> 1) + i) & 255u) * 96UL);
+    uint old = atomicCompSwap(entry.key, 0u, key);
+    if (old == 0u) {
+      entry.finding = finding;
+      entry.site = site;
+      entry.binding = origin & 0x7FFFFFFFu;
+      entry.write = write;
+      entry.local_arguments = k_local_arguments();
+      entry.values[0] = a;
+      entry.values[1] = b;
+      entry.values[2] = c;
+      entry.values[3] = d;
+      uvec3 index = g_check_index();
+      entry.index[0] = index.x;
+      entry.index[1] = index.y;
+      entry.index[2] = index.z;
+      entry.shader = g_check_shader();
+    }
+    if (old == 0u || old == key) {
+      atomicAdd(entry.count, 1u);
+      return;
+    }
+  }
+}
+
+//@ k_bytes_from
+uint64_t k_bytes_from(uint64_t address) {
+  uint64_t checks = k_checks();
+  if (checks == 0UL) return ~0UL;
+  uint64_t first = k_CheckState(checks).ranges;
+  uint count = k_CheckState(checks).range_count;
+  if (count == 0u) return ~0UL;
+  while (count > 1u) {
+    uint part = count / 2u;
+    uint64_t middle = first + uint64_t(part) * 16UL;
+    if (k_AddressRange(middle).address <= address) first = middle;
+    count -= part;
+  }
+  uint64_t begin = k_AddressRange(first).address;
+  uint64_t size = k_AddressRange(first).size;
+  return address >= begin && address - begin < size ? size - (address - begin) : 0UL;
+}
+
+//@ k_explain_missing
+void k_explain_missing(uint site, uint binding, uint source, uint offset, uint index, uint count,
+                       uint array_index) {
+  if (array_index >= count && count != 0xFFFFFFFFu) {
+    k_tell(4u, site, binding, 0u, uint64_t(array_index), uint64_t(count), 0UL, 0UL);
+    return;
+  }
+  bool local = (source & 0x100u) != 0u;
+  uint64_t arguments = local ? k_local_arguments() : k_global_arguments();
+  if (local && arguments == 0UL) return;
+  uint kind = source >> 16 & 0xFFu;
+  uint64_t table = k_read_argument(arguments + offset);
+  uint64_t address = table + (uint64_t(index) + array_index) * 32UL;
+  uint64_t begin = kind == 6u ? k_dispatch.sampler_heap_begin : k_dispatch.view_heap_begin;
+  uint64_t end = kind == 6u ? k_dispatch.sampler_heap_end : k_dispatch.view_heap_end;
+  uint64_t found = k_heap_slot(address, begin, end);
+  if (found == 0UL) {
+    k_tell(5u, site, binding, 0u, address, (end - begin) / 32UL, 1UL, table);
+    return;
+  }
+  uint has = k_DescriptorSlot(found).d.kind_access;
+  if ((has & 0xFFFFu) == 0u) return;
+  k_tell(6u, site, binding, 0u, uint64_t(has & 0xFFFFu), uint64_t(has >> 16), uint64_t(kind),
+         uint64_t(source >> 24));
+}
+
+//@ k_resolve_checked
+k_Descriptor k_resolve_checked(uint source, uint offset, uint index, uint count, uint array_index,
+                               uint binding) {
+  k_Descriptor d = k_resolve(source, offset, index, count, array_index);
+  uint from = source & 0xFFu;
+  uint kind = source >> 16 & 0xFFu;
+  d.reserved = binding;
+  if (from == 2u && kind != 7u) {
+    d.kind_access = kind | (source >> 24) << 16;
+    d.stride = count;
+    d.reserved = binding | 0x80000000u;
+    if (d.address != 0UL) d.size = k_bytes_from(d.address);
+  }
+  return d;
+}
+// A descriptor that is used, now.
+//@ k_used
+k_Descriptor k_used(k_Descriptor d, uint source, uint offset, uint index, uint count,
+                    uint array_index, uint binding, uint site) {
+  uint from = source & 0xFFu;
+  if (from == 3u && (d.kind_access & 0xFFFFu) == 0u) {
+    k_explain_missing(site, binding, source, offset, index, count, array_index);
+  }
+  if (from == 2u && (source >> 16 & 0xFFu) == 1u && (d.address & 255UL) != 0UL) {
+    k_tell(3u, site, binding, 0u, d.address, 0UL, 0UL, 256UL);
+  }
+  return d;
+}
+//@ k_resolve_used
+k_Descriptor k_resolve_used(uint source, uint offset, uint index, uint count, uint array_index,
+                            uint binding, uint site) {
+  k_Descriptor d = k_resolve_checked(source, offset, index, count, array_index, binding);
+  return k_used(d, source, offset, index, count, array_index, binding, site);
+}
+
+//@ k_heap_resource_checked
+k_Descriptor k_heap_resource_checked(uint index, uint kind, uint access, uint site) {
+  bool of_samplers = kind == 6u;
+  uint64_t begin = of_samplers ? k_dispatch.sampler_heap_begin : k_dispatch.view_heap_begin;
+  uint64_t end = of_samplers ? k_dispatch.sampler_heap_end : k_dispatch.view_heap_end;
+  uint64_t count = (end - begin) / 32UL;
+  k_Descriptor d = k_heap_resource(index, of_samplers);
+  if (uint64_t(index) >= count) {
+    k_tell(5u, site, 0u, 0u, uint64_t(index), count, 0UL, 0UL);
+  } else if ((d.kind_access & 0xFFFFu) != 0u && !k_matches(d, kind, access)) {
+    k_tell(6u, site, 0u, 0u, uint64_t(d.kind_access & 0xFFFFu), uint64_t(d.kind_access >> 16),
+           uint64_t(kind), uint64_t(access));
+  }
+  return d;
+}
+
+// `at`: from the start of the buffer.
+//@ k_check_access
+void k_check_access(k_Descriptor d, uint64_t at, uint bytes, uint alignment, uint write, uint site) {
+  if ((d.reserved & 0x80000000u) != 0u && at + bytes > d.size) {
+    k_tell(d.address == 0UL || d.size == 0UL ? 2u : 1u, site, d.reserved, write, d.address, at,
+           uint64_t(bytes), d.size);
+  }
+  if (((d.address + at) & uint64_t(alignment - 1u)) != 0UL) {
+    k_tell(3u, site, d.reserved, write, d.address, at, uint64_t(bytes), uint64_t(alignment));
+  }
+}
+//@ k_window_checked
+k_Window k_window_checked(k_Descriptor d, uint offset, uint bytes, uint alignment, uint write,
+                          uint site) {
+  k_check_access(d, uint64_t(offset), bytes, alignment, write, site);
+  return k_window(d, offset & ~(alignment - 1u));
+}
+//@ k_element_window_checked
+k_Window k_element_window_checked(k_Descriptor d, uint index, uint offset, uint bytes,
+                                  uint alignment, uint write, uint site) {
+  k_check_access(d, uint64_t(index) * d.stride + offset, bytes, alignment, write, site);
+  return k_element_window(d, index, offset);
+}
+
+//@ k_legal_ray_flags
+bool k_legal_ray_flags(uint flags) {
+  return bitCount(flags & 0xC3u) <= 1 && (flags & 0x30u) != 0x30u &&
+         ((flags & 0x100u) == 0u || (flags & 0x230u) == 0u) && (flags & ~0x3FFu) == 0u;
+}
+//@ k_check_ray
+void k_check_ray(vec3 origin, float t_min, vec3 direction, float t_max, uint flags, bool inline_ray,
+                 uint site) {
+  bool nan = any(isnan(origin)) || any(isnan(direction)) || isnan(t_min) || isnan(t_max);
+  if (nan || t_min < 0.0 || t_min > t_max) {
+    k_tell(nan ? 7u : 8u, site, 0u, 0u, packUint2x32(floatBitsToUint(origin.xy)),
+           packUint2x32(floatBitsToUint(vec2(origin.z, t_min))),
+           packUint2x32(floatBitsToUint(direction.xy)),
+           packUint2x32(floatBitsToUint(vec2(direction.z, t_max))));
+  }
+  if (!k_legal_ray_flags(flags) || (inline_ray && (flags & 8u) != 0u)) {
+    k_tell(inline_ray ? 10u : 9u, site, 0u, 0u, uint64_t(flags), 0UL, 0UL, 0UL);
+  }
+}
+//@ k_check_depth
+void k_check_depth(uint depth, uint site) {
+  uint64_t checks = k_checks();
+  if (checks == 0UL) return;
+  uint most = k_CheckState(checks).max_recursion_depth;
+  if (depth >= most) k_tell(11u, site, 0u, 0u, uint64_t(depth), uint64_t(most), 0UL, 0UL);
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "rtapi/src/shader_library_impl.h"
+#include "runtime/checked_library.h"
+#include "runtime/hlsl/build_library.h"
+#include "runtime/hlsl/embedded_source.h"
+#include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/spirv.h"
+
+namespace kaamos::runtime {
+namespace {
+
+// The IR of the library's source with checks; null with `error`.
+std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
+                                                       std::string& error) {
+  if (library.source == nullptr) {
+    error = "it carries no source (-no-source)";
+    return nullptr;
+  }
+  auto source = hlsl::read_embedded_source({library.source, library.source_bytes});
+  if (!source) {
+    error = "its source cannot be read; was it made by another version of kaamos-hlsl?";
+    return nullptr;
+  }
+  source->options.check_access = true;
+  hlsl::SourceManager sources(source->files);
+  hlsl::DiagnosticEngine diagnostics({.strict = source->options.strict});
+  std::shared_ptr<const hlsl::ir::Module> module =
+      hlsl::compile_to_ir(source->options, sources, diagnostics);
+  if (!module) error = "its source does not compile:\n" + render_all(diagnostics, sources);
+  return module;
+}
+
+rtapi::ShaderLibrary interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv,
+                               std::string& error) {
+  hlsl::InterpretOptions options;
+  if (spirv) {
+    hlsl::SpirvLibrary compiled = hlsl::compile_spirv(*module);
+    error = compiled.error;
+    if (!error.empty()) return {};
+    options.spirv = std::move(compiled.modules);
+  }
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options, error);
+  if (interpreted == nullptr) return {};
+  const auto library = rtapi::LoadShaderLibrary(&interpreted->desc(), interpreted);
+  if (library.ok()) return *library;
+  error = library.error().message;
+  return {};
+}
+
+rtapi::ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& module,
+                           bool spirv, bool debug, std::string& error) {
+  hlsl::BuildOptions options;
+  options.spirv = spirv;
+  // A Vulkan device runs the SPIR-V; the native code beside it only has to be there.
+  options.optimisation = debug   ? hlsl::Optimisation::kDebug
+                         : spirv ? hlsl::Optimisation::kNone
+                                 : hlsl::Optimisation::kFull;
+  const hlsl::SharedObject object = hlsl::build_library(compiler, module, options);
+  error = object.error;
+  if (!error.empty()) return {};
+  const auto library = rtapi::LoadShaderLibraryFromFile(object.path.string());
+  if (library.ok()) return *library;
+  error = library.error().message;
+  return {};
+}
+
+CheckedLibrary make(const rtapi::ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  std::string error;
+  const auto module = checked_module(desc, error);
+  if (module == nullptr) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  CheckedLibrary out;
+  out.checked = true;
+  const bool interpreted = (desc.flags & shader::kLibraryInterpreted) != 0;
+  const bool debug = (desc.flags & shader::kLibraryDebug) != 0;
+  std::string missing;
+  if (!interpreted) {
+    if (const auto compiler = hlsl::find_host_compiler(missing)) {
+      out.library = build(*compiler, *module, spirv, debug, missing);
+    }
+  }
+  if (!out.library) {
+    out.library = interpret(module, spirv, error);
+    if (!interpreted && !spirv) {
+      out.note = "\"" + library.name() + "\" is interpreted, about a hundred times slower: " +
+                 missing;
+    }
+  }
+  if (!out.library) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  return out;
+}
+
+}  // namespace
+
+CheckedLibrary checked_variant(const rtapi::ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
+  // The variants that are in use; the cache on the disk has the others.
+  struct Known {
+    std::weak_ptr<const rtapi::detail::ShaderLibraryImpl> original;
+    std::weak_ptr<const rtapi::detail::ShaderLibraryImpl> variant;
+    std::string note;
+  };
+  static std::mutex mutex;
+  static std::map<std::pair<const shader::LibraryDesc*, bool>, Known> known;
+  const std::lock_guard lock(mutex);
+  Known& entry = known[{&desc, spirv}];
+  // The address of a table may be that of a library that is gone.
+  if (auto variant = entry.variant.lock(); variant && !entry.original.expired()) {
+    return {rtapi::ShaderLibrary(std::move(variant)), entry.note, true};
+  }
+  CheckedLibrary out = make(library, spirv);
+  if (out.checked) entry = {library.impl(), out.library.impl(), out.note};
+  return out;
+}
+
+}  // namespace kaamos::runtime
