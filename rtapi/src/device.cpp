@@ -90,9 +90,9 @@ ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
   if (!reporter) return library;
   runtime::CheckedLibrary found = runtime::checked_variant(library, desc.Backend == "vulkan");
   if (!found.note.empty()) {
-    reporter->report(found.checked ? kaamos::checks::Id::kCodeInterpreted
-                                   : kaamos::checks::Id::kCodeNotChecked,
-                     found.note);
+    reporter->report(
+        found.checked ? kaamos::checks::Id::kCodeInterpreted : kaamos::checks::Id::kCodeNotChecked,
+        found.note);
   }
   return found.library;
 }

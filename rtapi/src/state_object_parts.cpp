@@ -241,12 +241,16 @@ void Gatherer::GatherDefaults() {
 Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc) {
   if (!device->desc.Checked) return Gatherer(device, desc).Run();
   StateObjectDesc checked = desc;
+  bool all = true;
   for (StateSubobject& sub : checked.Subobjects) {
-    if (auto* library = std::get_if<DxilLibraryDesc>(&sub); library && library->DXILLibrary) {
-      library->DXILLibrary = device->LibraryToRun(library->DXILLibrary);
-    }
+    auto* library = std::get_if<DxilLibraryDesc>(&sub);
+    if (!library || !library->DXILLibrary) continue;
+    library->DXILLibrary = device->LibraryToRun(library->DXILLibrary);
+    all &= (library->DXILLibrary.impl()->desc->flags & kaamos::shader::kLibraryChecked) != 0;
   }
-  return Gatherer(device, checked).Run();
+  // In SPIR-V the header of a payload is part of its type: shaders of both kinds do not meet.
+  const bool mixed_is_safe = device->desc.Backend != "vulkan";
+  return Gatherer(device, all || mixed_is_safe ? checked : desc).Run();
 }
 
 }  // namespace detail

@@ -32,15 +32,16 @@ std::string site_name(const shader::LibraryDesc& library, uint32_t site) {
 }
 
 const char* kind_name(uint64_t kind) {
-  constexpr const char* kNames[] = {"nothing",      "a constant buffer", "a raw buffer",
-                                    "a structured buffer", "a typed buffer",    "a texture",
-                                    "a sampler",    "an acceleration structure"};
+  constexpr const char* kNames[] = {
+      "nothing",        "a constant buffer", "a raw buffer", "a structured buffer",
+      "a typed buffer", "a texture",         "a sampler",    "an acceleration structure"};
   return kind < std::size(kNames) ? kNames[kind] : "an unknown kind";
 }
 std::string descriptor_name(uint64_t kind, uint64_t access) {
   const bool has_access = kind >= 2 && kind <= 5;
-  return std::string(kind_name(kind)) +
-         (!has_access || access > 1 ? "" : access == 0 ? " to read (SRV)" : " to write (UAV)");
+  return std::string(kind_name(kind)) + (!has_access || access > 1 ? ""
+                                         : access == 0             ? " to read (SRV)"
+                                                                   : " to write (UAV)");
 }
 
 // Of ERR-18's rules the first that `flags` break.
@@ -70,13 +71,22 @@ std::string ray_text(const CheckReport& r) {
 
 // Names of the IR's QueryValue.
 std::string query_value_name(uint64_t value, bool committed) {
-  constexpr const char* kNames[] = {
-      "Type",          "RayT",          "InstanceIndex",
-      "InstanceID",    "InstanceContributionToHitGroupIndex",
-      "GeometryIndex", "PrimitiveIndex", "ObjectRayOrigin",
-      "ObjectRayDirection", "ObjectToWorld3x4", "ObjectToWorld4x3",
-      "WorldToObject3x4", "WorldToObject4x3", "TriangleBarycentrics",
-      "TriangleFrontFace", "ProceduralPrimitiveNonOpaque"};
+  constexpr const char* kNames[] = {"Type",
+                                    "RayT",
+                                    "InstanceIndex",
+                                    "InstanceID",
+                                    "InstanceContributionToHitGroupIndex",
+                                    "GeometryIndex",
+                                    "PrimitiveIndex",
+                                    "ObjectRayOrigin",
+                                    "ObjectRayDirection",
+                                    "ObjectToWorld3x4",
+                                    "ObjectToWorld4x3",
+                                    "WorldToObject3x4",
+                                    "WorldToObject4x3",
+                                    "TriangleBarycentrics",
+                                    "TriangleFrontFace",
+                                    "ProceduralPrimitiveNonOpaque"};
   if (value >= std::size(kNames)) return "the commit";
   return std::string(committed ? "Committed" : "Candidate") + kNames[value] + "()";
 }
@@ -87,8 +97,8 @@ std::string candidate_text(const CheckReport& r) {
     return what + " has no candidate: Proceed() has not returned true, or has returned false since";
   }
   return what + " is for " + (r.values[3] == 0 ? "triangle" : "procedural") +
-         " candidates, and this one is a " + (r.values[2] == 0 ? "triangle" : "procedural primitive") +
-         ". Test CandidateType() before";
+         " candidates, and this one is a " +
+         (r.values[2] == 0 ? "triangle" : "procedural primitive") + ". Test CandidateType() before";
 }
 
 std::string committed_text(const CheckReport& r) {
@@ -167,37 +177,38 @@ std::string describe(const runtime::AddressMap& addresses, const CheckReport& r)
     case Finding::kOutOfBounds:
       return bounds_text(addresses, r);
     case Finding::kNotAllocated:
-      return "is set to " + (v[0] == 0 ? std::string("address 0")
-                                        : "address " + hex(v[0]) + ", which is in no live buffer") +
-                  ", and the shader goes to its byte " + text_of(v[1]) +
-                  ". Was the root argument, or the record, written, and is the buffer alive?";
+      return "is set to " +
+             (v[0] == 0 ? std::string("address 0")
+                        : "address " + hex(v[0]) + ", which is in no live buffer") +
+             ", and the shader goes to its byte " + text_of(v[1]) +
+             ". Was the root argument, or the record, written, and is the buffer alive?";
     case Finding::kMisaligned:
       return (v[2] == 0 ? "is set to " : "goes to byte " + text_of(v[1]) + " from ") +
-                  address_name(addresses, v[0]) + ": " + hex(v[0] + v[1]) +
-                  " is no multiple of " + text_of(v[3]) +
-                  (v[2] == 0 ? ". Constant buffers begin at multiples of 256"
-                             : ". The low bits of the offset are ignored or the read is slow; "
-                               "align it");
+             address_name(addresses, v[0]) + ": " + hex(v[0] + v[1]) + " is no multiple of " +
+             text_of(v[3]) +
+             (v[2] == 0 ? ". Constant buffers begin at multiples of 256"
+                        : ". The low bits of the offset are ignored or the read is slow; "
+                          "align it");
     case Finding::kOutsideBinding:
       return "index " + text_of(v[0]) + " of " + text_of(v[1]) +
-                                       " elements; it reads as a null descriptor";
+             " elements; it reads as a null descriptor";
     case Finding::kOutsideHeap:
       if (v[2] == 0) {
         return "index " + text_of(v[0]) + " into a heap of " + text_of(v[1]) +
-                                      " descriptors; it reads as a null descriptor";
+               " descriptors; it reads as a null descriptor";
       }
       return "handle " + hex(v[0]) + " (the table starts at " + hex(v[3]) +
-                  ") is no slot of the heap that is set, which has " + text_of(v[1]) +
-                  " descriptors. Was the table set, and SetDescriptorHeaps called with its heap?";
+             ") is no slot of the heap that is set, which has " + text_of(v[1]) +
+             " descriptors. Was the table set, and SetDescriptorHeaps called with its heap?";
     case Finding::kWrongDescriptor:
-      return "the slot holds " + descriptor_name(v[0], v[1]) +
-                                        ", the shader declares " + descriptor_name(v[2], v[3]) +
-                                        "; it reads as a null descriptor. Is the order of the "
-                                        "views that of the registers?";
+      return "the slot holds " + descriptor_name(v[0], v[1]) + ", the shader declares " +
+             descriptor_name(v[2], v[3]) +
+             "; it reads as a null descriptor. Is the order of the "
+             "views that of the registers?";
     case Finding::kRayNotANumber:
       return ray_text(r) +
-                                      "; the ray misses everything. A normal of length 0, or one "
-                                      "that was never written, makes such rays";
+             "; the ray misses everything. A normal of length 0, or one "
+             "that was never written, makes such rays";
     case Finding::kRayInterval:
       return ray_text(r) + "; TMin must be 0 or more and not above TMax";
     case Finding::kRayFlags:
@@ -206,21 +217,21 @@ std::string describe(const runtime::AddressMap& addresses, const CheckReport& r)
       return "flags " + hex(v[0]) + ": " + flags_problem(static_cast<uint32_t>(v[0]), true);
     case Finding::kRecursion:
       return "the caller is at depth " + text_of(v[0]) + ", MaxTraceRecursionDepth is " +
-                  text_of(v[1]) + ", and the device is removed. Raise it, or end the recursion";
+             text_of(v[1]) + ", and the device is removed. Raise it, or end the recursion";
     case Finding::kHitKind:
       return "ReportHit with kind " + text_of(v[0]) +
-                                "; 0 to 127 are the application's, 254 and 255 mean triangles";
+             "; 0 to 127 are the application's, 254 and 255 mean triangles";
     case Finding::kPayloadMismatch:
       return "the caller gave " + text_of(v[0]) + " bytes, the shader's type has " + text_of(v[1]) +
-                  (v[0] == v[1] ? " of other scalars" : "") +
-                  ". Caller and shader must have the same type. Is it the record that was meant?";
+             (v[0] == v[1] ? " of other scalars" : "") +
+             ". Caller and shader must have the same type. Is it the record that was meant?";
     case Finding::kNoCandidate:
       return candidate_text(r);
     case Finding::kNoCommittedHit:
       return committed_text(r);
     case Finding::kCommitOutOfRange:
       return "t " + float_text(v[0]) + " is outside of TMin " + float_text(v[1]) +
-                  " to the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
+             " to the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
     default:
       return "a finding of an unknown kind";
   }
@@ -263,8 +274,8 @@ void report_finding(Reporter& reporter, const runtime::AddressMap& addresses,
       place.index[0] + uint64_t{place.dimensions[0]} *
                            (place.index[1] + uint64_t{place.dimensions[1]} * place.index[2]);
   uint64_t key = reinterpret_cast<uintptr_t>(place.shader);
-  for (const uint64_t part : {uint64_t{report.site}, uint64_t{report.binding},
-                              static_cast<uint64_t>(report.finding)}) {
+  for (const uint64_t part :
+       {uint64_t{report.site}, uint64_t{report.binding}, static_cast<uint64_t>(report.finding)}) {
     key = (key ^ part) * 0x9E3779B97F4A7C15u;
     key ^= key >> 29;
   }

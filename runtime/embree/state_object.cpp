@@ -21,9 +21,12 @@ RecordKind kind_of(runtime::RecordKind kind) {
 }
 
 Shader flatten(const runtime::LinkedShader& shader) {
-  return {shader.name.c_str(), shader.code->entry, shader.slots.data(),
+  return {shader.name.c_str(),
+          shader.code->entry,
+          shader.slots.data(),
           static_cast<uint32_t>(shader.stack_bytes),
-          (shader.code->flags & shader::kExportReadsHitKind) != 0, &shader};
+          (shader.code->flags & shader::kExportReadsHitKind) != 0,
+          &shader};
 }
 
 }  // namespace

@@ -60,9 +60,9 @@ class CppEmitter {
   // The resource operand of an access to memory, in a checked library with the check around it, or
   // with `result` "_view" what is read or written. `element`: null for raw and constant buffers.
   // write: 0 read, 1 write, 2 atomic.
-  std::string accessed(const char* result, const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
-                       const ir::Type* type, ir::Layout layout, bool row_major, int write,
-                       const ir::Location& location);
+  std::string accessed(const char* result, const ir::Expr* resource, const ir::Expr* element,
+                       const ir::Expr* offset, const ir::Type* type, ir::Layout layout,
+                       bool row_major, int write, const ir::Location& location);
   // CheckReport::site, of the expression or else of the statement that is being printed.
   std::string site(const ir::Location& location) const;
   std::string typed_load(const ir::Expr& expr);

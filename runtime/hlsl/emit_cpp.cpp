@@ -310,9 +310,9 @@ void CppEmitter::emit_compute_entry(size_t index) {
 
 void CppEmitter::payload_check(const EntryPoint& entry) {
   if (!module_.check_access || entry.payload == nullptr) return;
-  line("ks::checked::check_payload(invocation, " + site(entry.function->location) +
-       ", payload, " + std::to_string(type_hash(entry.payload)) + "u, sizeof(" +
-       type(entry.payload) + "), " + (entry.stage == kStageCallable ? "true" : "false") + ");");
+  line("ks::checked::check_payload(invocation, " + site(entry.function->location) + ", payload, " +
+       std::to_string(type_hash(entry.payload)) + "u, sizeof(" + type(entry.payload) + "), " +
+       (entry.stage == kStageCallable ? "true" : "false") + ");");
 }
 
 void CppEmitter::emit_entry(size_t index) {
@@ -457,8 +457,9 @@ void CppEmitter::emit_tables() {
        quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
        number(module_.entry_points.size() + module_.library_functions.size()) + ", bindings, " +
        number(module_.bindings.size()) + ", subobjects, " + number(module_.subobjects.size()) +
-       ", " + number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " + number(module_.files.size()) +
-       ", " + (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + "};");
+       ", " + number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " +
+       number(module_.files.size()) + ", " +
+       (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + "};");
 }
 
 std::string CppEmitter::run() {

@@ -226,8 +226,9 @@ void GlslEmitter::define_check_place() {
   index.system_value = SystemValue::kDispatchRaysIndex;
   const std::string text =
       entry_.stage == kStageCompute
-          ? std::string("gl_WorkGroupID + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
-                        "k_dispatch.base[2])")
+          ? std::string(
+                "gl_WorkGroupID + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
+                "k_dispatch.base[2])")
           : system_value(index);
   constant(shader::spirv::kShaderConstant, "g_shader");
   helpers_ += "uint g_check_shader() { return g_shader; }\nuvec3 g_check_index() { return " + text +

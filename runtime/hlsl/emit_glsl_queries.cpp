@@ -110,12 +110,11 @@ std::string GlslEmitter::query_trace_function() {
       "void g_query_trace(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
       "mask, " +
           ray + " ray" +
-          (module_.check_access
-               ? ", uint site) {\n  k_check_ray(" + origin + ", " + t_min + ", " + direction + ", " +
-                     t_max + ", flags, true, site);\n"
-               : std::string(") {\n")) +
-          "  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " +
-          origin + ", " + direction +
+          (module_.check_access ? ", uint site) {\n  k_check_ray(" + origin + ", " + t_min + ", " +
+                                      direction + ", " + t_max + ", flags, true, site);\n"
+                                : std::string(") {\n")) +
+          "  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
+          direction +
           ");\n"
           "  uint64_t top = g_top_level(scene);\n"
           "  vec3 o = " +

@@ -181,9 +181,9 @@ std::string GlslEmitter::payload_block(const char* qualifier, int location, cons
                                        const std::string& name) {
   const std::string block = name + "_type";
   declarations_ += "struct " + block + " { uint depths; " +
-                   (module_.check_access ? "uint type; uint bytes; " : "") + wire_type(t) + " data; };\n" +
-                   "layout(location = " + std::to_string(location) + ") " + qualifier + " " +
-                   block + " " + name + ";\n";
+                   (module_.check_access ? "uint type; uint bytes; " : "") + wire_type(t) +
+                   " data; };\n" + "layout(location = " + std::to_string(location) + ") " +
+                   qualifier + " " + block + " " + name + ";\n";
   return name;
 }
 
@@ -237,42 +237,42 @@ std::string GlslEmitter::trace_function(const Type* payload) {
   declare_top_level();
   const auto member = [&](uint32_t i) { return "ray." + field(module_.ray_desc, i); };
   const bool checked = module_.check_access;
-  helpers_ += "void " + function +
-              "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
-              "uint miss, " +
-              ray + " ray, inout " + type(payload) +
-              " payload" + (checked ? ", uint site" : "") + ") {\n" +
-              (checked ? "  k_check_ray(" + member(0) + ", " + member(1) + ", " + member(2) + ", " +
-                             member(3) +
-                             ", flags, false, site);\n"
-                             "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
-                             header(out, payload)
-                       : "") +
-              "  if ((g_depths & 0xFFFFu) >= g_max_trace_depth) {\n"
-              "    g_remove_device(0u);\n"
-              "    return;\n"
-              "  }\n"
-              "  " +
-              count(shader::spirv::kTraceRayCalls) +
-              "\n"
-              "  if ((flags & 8u) != 0u && (flags & 5u) != 0u) " +
-              count(shader::spirv::kVisibilityRays) +
-              "\n"
-              "  " +
-              out +
-              ".depths = g_depths + 1u;\n"
-              "  " +
-              out + ".data = " + to +
-              "(payload);\n"
-              "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x3FFu, "
-              "mask & 0xFFu, "
-              "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
-              member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number +
-              ");\n"
-              "  payload = " +
-              from + "(" + out +
-              ".data);\n"
-              "}\n";
+  helpers_ +=
+      "void " + function +
+      "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
+      "uint miss, " +
+      ray + " ray, inout " + type(payload) + " payload" + (checked ? ", uint site" : "") + ") {\n" +
+      (checked
+           ? "  k_check_ray(" + member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) +
+                 ", flags, false, site);\n"
+                 "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
+                 header(out, payload)
+           : "") +
+      "  if ((g_depths & 0xFFFFu) >= g_max_trace_depth) {\n"
+      "    g_remove_device(0u);\n"
+      "    return;\n"
+      "  }\n"
+      "  " +
+      count(shader::spirv::kTraceRayCalls) +
+      "\n"
+      "  if ((flags & 8u) != 0u && (flags & 5u) != 0u) " +
+      count(shader::spirv::kVisibilityRays) +
+      "\n"
+      "  " +
+      out +
+      ".depths = g_depths + 1u;\n"
+      "  " +
+      out + ".data = " + to +
+      "(payload);\n"
+      "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x3FFu, "
+      "mask & 0xFFu, "
+      "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
+      member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number +
+      ");\n"
+      "  payload = " +
+      from + "(" + out +
+      ".data);\n"
+      "}\n";
   return function;
 }
 
@@ -298,8 +298,7 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
   const std::string from = convert_wire(data, false);
   constant(kMaxCallableDepthConstant, "g_max_callable_depth");
   declare_remove_device();
-  helpers_ += "void " + function + "(uint shader, inout " + type(data) +
-              " data) {\n" +
+  helpers_ += "void " + function + "(uint shader, inout " + type(data) + " data) {\n" +
               (module_.check_access ? header(out, data) : "") +
               "  if ((g_depths >> 16) >= g_max_callable_depth) {\n"
               "    g_remove_device(1u);\n"

@@ -14,8 +14,8 @@ std::string CppEmitter::query_value(const Expr& expr) {
   if (module_.check_access && need.hit) {
     query = std::string(expr.index == 1 ? "ks::checked::committed" : "ks::checked::candidate") +
             "(ctx.invocation, " + site(expr.location) + ", " + query + ", " +
-            std::to_string(need.type) + "u, " +
-            std::to_string(static_cast<int>(expr.query_value)) + "u)";
+            std::to_string(need.type) + "u, " + std::to_string(static_cast<int>(expr.query_value)) +
+            "u)";
   }
   const std::string hit = query + (expr.index == 1 ? ".committed" : ".candidate");
   switch (expr.query_value) {
@@ -67,8 +67,8 @@ void CppEmitter::query(const Stmt& stmt) {
   constexpr const char* kNames[] = {"trace_ray_inline", "query_proceed", "query_abort",
                                     "query_commit_triangle", "query_commit_procedural"};
   const bool searches = stmt.query == QueryOp::kTrace || stmt.query == QueryOp::kProceed;
-  const bool checked = module_.check_access && stmt.query != QueryOp::kProceed &&
-                       stmt.query != QueryOp::kAbort;
+  const bool checked =
+      module_.check_access && stmt.query != QueryOp::kProceed && stmt.query != QueryOp::kAbort;
   std::string text = stmt.result != nullptr ? variable(stmt.result) + " = ks::" : "ks::";
   text += std::string(checked ? "checked::" : "") + kNames[static_cast<int>(stmt.query)] + "(" +
           (searches || checked ? "ctx.invocation, " : "") +

@@ -107,15 +107,13 @@ void CppEmitter::atomic(const Stmt& stmt) {
       address = "ks::memory_address<" + t + ">(" +
                 accessed("", stmt.operands[0], nullptr, stmt.operands[1], v->type,
                          Layout::kStructured, false, 2, stmt.location) +
-                ", " +
-                value(stmt.operands[1]) + ")";
+                ", " + value(stmt.operands[1]) + ")";
       break;
     case AtomicTarget::kElement:
       address = "ks::element_address<" + t + ">(" +
                 accessed("", stmt.operands[0], stmt.operands[1], stmt.operands[2], v->type,
                          Layout::kStructured, false, 2, stmt.location) +
-                ", " +
-                value(stmt.operands[1]) + ", " + value(stmt.operands[2]) + ")";
+                ", " + value(stmt.operands[1]) + ", " + value(stmt.operands[2]) + ")";
       break;
     case AtomicTarget::kTyped: {
       const Type* resource = stmt.operands[0]->type;
@@ -154,14 +152,13 @@ std::string CppEmitter::site(const Location& location) const {
   return std::to_string(site_of(location.line != 0 ? location : statement_location_)) + "u";
 }
 
-std::string CppEmitter::accessed(const char* result, const Expr* resource, const Expr* element, const Expr* offset,
-                                 const Type* type, Layout layout, bool row_major, int write,
-                                 const Location& location) {
+std::string CppEmitter::accessed(const char* result, const Expr* resource, const Expr* element,
+                                 const Expr* offset, const Type* type, Layout layout,
+                                 bool row_major, int write, const Location& location) {
   if (!module_.check_access) return value(resource);
   const Access access = access_of(type, layout, row_major);
   return std::string(element != nullptr ? "ks::checked::access_element" : "ks::checked::access") +
-         result + "(ctx.invocation, " +
-         site(location) + ", " + value(resource) + ", " +
+         result + "(ctx.invocation, " + site(location) + ", " + value(resource) + ", " +
          (element != nullptr ? value(element) + ", " : "") + value(offset) + ", " +
          std::to_string(access.bytes) + "u, " + std::to_string(access.alignment) + "u, " +
          std::to_string(write) + "u)";
@@ -293,8 +290,7 @@ void CppEmitter::statement(const Stmt& stmt) {
       line((module_.check_access ? "ks::checked::call_shader(ctx.invocation, " +
                                        std::to_string(type_hash(stmt.place->type)) + "u, "
                                  : std::string("ks::call_shader(ctx.invocation, ")) +
-           value(stmt.operands[0]) + ", " + place(stmt.place) +
-           ");");
+           value(stmt.operands[0]) + ", " + place(stmt.place) + ");");
       break;
     case StmtKind::kIgnoreHit:
     case StmtKind::kAcceptHitAndEndSearch:

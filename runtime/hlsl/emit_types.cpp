@@ -252,13 +252,12 @@ std::string CppEmitter::load(const Expr& expr) {
 void CppEmitter::store(const Stmt& stmt) {
   const bool element = stmt.kind == StmtKind::kStoreElement;
   if (module_.check_access) {
-    const std::string view = accessed("_view", stmt.operands[0],
-                                      element ? stmt.operands[1] : nullptr, stmt.operands.back(),
-                                      stmt.value->type, stmt.layout, stmt.row_major, 1,
-                                      stmt.location);
-    line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, view, "0u",
-                      value(stmt.value)) +
-         ";");
+    const std::string view = accessed(
+        "_view", stmt.operands[0], element ? stmt.operands[1] : nullptr, stmt.operands.back(),
+        stmt.value->type, stmt.layout, stmt.row_major, 1, stmt.location);
+    line(
+        memory_write(stmt.value->type, stmt.layout, stmt.row_major, view, "0u", value(stmt.value)) +
+        ";");
     return;
   }
   const std::string view =

@@ -177,8 +177,8 @@ const std::byte* query_value(const Node& node, Frame& frame) {
       node.operands[0]->locate(*node.operands[0], frame));
   const QueryNeed need = need_of(*node.expr);
   if (frame.context->program->checked && need.hit) {
-    const auto look = node.expr->index == 1 ? shader::checked::committed
-                                            : shader::checked::candidate;
+    const auto look =
+        node.expr->index == 1 ? shader::checked::committed : shader::checked::candidate;
     look(*frame.context->invocation, site_of(node.expr->location), query, need.type,
          static_cast<uint32_t>(node.expr->query_value));
   }
@@ -252,10 +252,10 @@ const std::byte* heap_resource(const Node& node, Frame& frame) {
   const auto index = evaluate_as<uint32_t>(*node.operands[0], frame);
   if (frame.context->program->checked) {
     const ResourceClass wanted = class_of(kind);
-    return keep(node, frame,
-                shader::checked::heap_resource(*frame.context->invocation,
-                                               site_of(node.expr->location), index, wanted.kind,
-                                               wanted.access));
+    return keep(
+        node, frame,
+        shader::checked::heap_resource(*frame.context->invocation, site_of(node.expr->location),
+                                       index, wanted.kind, wanted.access));
   }
   return keep(node, frame, shader::heap_resource(*frame.context->invocation, index, sampler));
 }

@@ -199,8 +199,8 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
                     m.target.c_str(),        tables.exports.data(),       count(tables.exports),
                     tables.bindings.data(),  count(tables.bindings),      tables.subobjects.data(),
                     count(tables.subobjects)};
-  tables.library.flags = shader::kLibraryInterpreted |
-                         (m.check_access ? shader::kLibraryChecked : 0u);
+  tables.library.flags =
+      shader::kLibraryInterpreted | (m.check_access ? shader::kLibraryChecked : 0u);
   tables.library.files = tables.files.data();
   tables.library.file_count = count(tables.files);
   if (!m.source.empty()) {

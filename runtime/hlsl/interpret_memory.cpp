@@ -107,13 +107,11 @@ Descriptor accessed(const std::vector<const Node*>& operands, const Access& acce
 }
 
 const std::byte* load(const Node& node, Frame& frame) {
-  const Descriptor buffer =
-      accessed(node.operands, node.access, node.expr->location, 0, frame);
+  const Descriptor buffer = accessed(node.operands, node.access, node.expr->location, 0, frame);
   return load_from(node, frame, shader::memory_view(buffer));
 }
 const std::byte* load_element(const Node& node, Frame& frame) {
-  const Descriptor buffer =
-      accessed(node.operands, node.access, node.expr->location, 0, frame);
+  const Descriptor buffer = accessed(node.operands, node.access, node.expr->location, 0, frame);
   return load_from(node, frame,
                    shader::element_view(buffer, evaluate_as<uint32_t>(*node.operands[1], frame)));
 }

@@ -153,7 +153,7 @@ struct Program {
   std::vector<std::byte> zeros;                  // as long as the longest value
   uint32_t static_bytes = 0;
   uint32_t shared_bytes = 0;
-  std::string error;  // of a module that breaks the rules of the IR
+  std::string error;     // of a module that breaks the rules of the IR
   bool checked = false;  // Module::check_access
 };
 

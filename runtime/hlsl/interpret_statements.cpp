@@ -94,8 +94,8 @@ template <class Call>
   auto* box = static_cast<std::byte*>(
       alloca(sizeof(PayloadHeader) + bytes + shader::checked::kPayloadSlack + 16));
   box += -reinterpret_cast<uintptr_t>(box) & 15u;
-  const PayloadHeader header = {shader::checked::kPayloadMagic,
-                                type_hash(action.place->expr->type), bytes, 0};
+  const PayloadHeader header = {shader::checked::kPayloadMagic, type_hash(action.place->expr->type),
+                                bytes, 0};
   std::byte* data = box + sizeof(header);
   std::memcpy(box, &header, sizeof(header));
   std::memcpy(data, place, bytes);
@@ -124,9 +124,8 @@ void trace_ray(const Action& action, Frame& frame) {
                                  ray);
   }
   call_with_header(action, frame, [&](void* payload) {
-    invocation.dispatch->services->trace_ray(invocation, arguments, payload,
-                                             shader::origin_t_min(ray),
-                                             shader::direction_t_max(ray));
+    invocation.dispatch->services->trace_ray(
+        invocation, arguments, payload, shader::origin_t_min(ray), shader::direction_t_max(ray));
   });
 }
 

@@ -90,8 +90,8 @@ CheckedLibrary make(const rtapi::ShaderLibrary& library, bool spirv) {
   if (!out.library) {
     out.library = interpret(module, spirv, error);
     if (!interpreted && !spirv) {
-      out.note = "\"" + library.name() + "\" is interpreted, about a hundred times slower: " +
-                 missing;
+      out.note =
+          "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + missing;
     }
   }
   if (!out.library) {

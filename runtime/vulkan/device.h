@@ -56,7 +56,8 @@ class Device final : public runtime::BackendDevice {
   AccelerationStructures& structures() { return *structures_; }
   TextureStore& textures() { return *textures_; }
   DispatchEnvironment dispatch_environment() {
-    return {stream_.get(), memory_.get(), structures_.get(), &scratch_, {}, &check_memory_, &context_};
+    return {stream_.get(),  memory_.get(), structures_.get(), &scratch_, {},
+            &check_memory_, &context_};
   }
   void add(const rtapi::RaytracingStatistics& statistics);
   void warn(const char* id, const std::string& text) const;

@@ -145,6 +145,30 @@ Case exact_case(RaySet set, float distance, const char* suffix) {
           }};
 }
 
+// A checked device over the usual one, both through DispatchRays.
+template <typename T>
+Line compare_checked(const std::string& name, Fixtures& f, const Measure& measure, Program program,
+                     RaySet set) {
+  const RayGrid& grid = f.rays(set);
+  DxrDispatch usual(f.scene_of(rtapi::TraversalPrecision::kRobust), program, grid);
+  bool read = false;  // by the run that warms up
+  return compare<T>(name, f, measure, f.checked_scene(), program, grid,
+                    [&](const RayGrid&, std::vector<T>& out) {
+                      usual.run();
+                      if (!std::exchange(read, true)) out = usual.results<T>();
+                    });
+}
+
+Case checked_case(RaySet set) {
+  const std::string name = std::string("checked/embree/") + name_of(set);
+  return {name, [=](Fixtures& f, const Measure& measure) {
+            if (is_visibility(set)) {
+              return compare_checked<uint32_t>(name, f, measure, Program::kVisible, set);
+            }
+            return compare_checked<ClosestResult>(name, f, measure, Program::kClosest, set);
+          }};
+}
+
 Line alpha_sun(Fixtures& f, const Measure& measure) {
   const EmbreeScene& embree = f.embree_scene(true);
   return compare<uint32_t>(
@@ -172,6 +196,7 @@ std::vector<Case> dispatch_cases() {
   for (RaySet set : kRaySets) cases.push_back(exact_case(set, 0, ""));
   for (RaySet set : kRaySets) cases.push_back(exact_case(set, 1e4f, "-at-1e4"));
   for (RaySet set : kRaySets) cases.push_back(exact_case(set, 1e6f, "-at-1e6"));
+  for (RaySet set : kRaySets) cases.push_back(checked_case(set));
   return cases;
 }
 

@@ -18,11 +18,13 @@ Buffer default_buffer(const Device& device, uint64_t bytes, const char* name) {
   return device.CreateBuffer(desc).value();
 }
 
-Device make_device(uint32_t threads, const std::string& backend, TraversalPrecision precision) {
+Device make_device(uint32_t threads, const std::string& backend, TraversalPrecision precision,
+                   bool checked) {
   DeviceDesc desc;
   desc.Backend = backend;
   desc.Threads = threads;
   desc.Precision = precision;
+  desc.Checked = checked;
   return CreateDevice(desc).value();
 }
 
@@ -49,9 +51,10 @@ void build_structure(const Device& device, CommandQueue& queue,
 }
 
 DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
-                   const std::string& backend, TraversalPrecision precision, float distance)
+                   const std::string& backend, TraversalPrecision precision, float distance,
+                   bool checked)
     : data_(data),
-      device_(make_device(threads, backend, precision)),
+      device_(make_device(threads, backend, precision, checked)),
       queue_(device_.CreateCommandQueue().value()) {
   meshes_.resize(data.meshes.size());
   for (size_t i = 0; i < meshes_.size(); ++i) build_mesh(data.meshes[i], alpha_tested, meshes_[i]);

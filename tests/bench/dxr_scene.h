@@ -29,7 +29,7 @@ class DxrScene {
   DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
            const std::string& backend = "embree",
            rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust,
-           float distance = 0);
+           float distance = 0, bool checked = false);
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }

@@ -71,6 +71,14 @@ DxrScene& Fixtures::scene_of(rtapi::TraversalPrecision precision, float distance
   return *made;
 }
 
+DxrScene& Fixtures::checked_scene() {
+  if (!checked_) {
+    checked_ = std::make_unique<DxrScene>(scene(), threads(), false, "embree",
+                                          rtapi::TraversalPrecision::kRobust, 0.0f, true);
+  }
+  return *checked_;
+}
+
 DxrScene& Fixtures::vulkan_scene() {
   if (!vulkan_) vulkan_ = std::make_unique<DxrScene>(scene(), threads(), false, "vulkan");
   return *vulkan_;

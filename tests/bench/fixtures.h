@@ -35,6 +35,7 @@ class Fixtures {
   DxrScene& dxr_scene(bool alpha_tested);
   // Everything opaque. Scenes at a distance replace each other.
   DxrScene& scene_of(rtapi::TraversalPrecision precision, float distance = 0);
+  DxrScene& checked_scene();  // on a checked device, everything opaque
   const OwnTopLevel& own_top_level();
   DxrScene& vulkan_scene();  // everything opaque
   bool has_vulkan_scene() const { return vulkan_ != nullptr; }
@@ -52,6 +53,7 @@ class Fixtures {
     std::unique_ptr<DxrScene> scene;
   };
   Distant distant_[3];
+  std::unique_ptr<DxrScene> checked_;
   std::unique_ptr<OwnTopLevel> own_;
   std::unique_ptr<DxrScene> vulkan_;
   std::unique_ptr<HandVulkan> hand_;

@@ -285,17 +285,17 @@ enum class Finding : uint32_t {
   kNotAllocated,  // a root descriptor's address lies in no buffer
   kMisaligned,    // value 3: the alignment asked for
   // Of descriptors; values: index, limit.
-  kOutsideBinding,  // an index past the elements of the binding
-  kOutsideHeap,     // a handle, or an index into the heap; values: address or index, descriptors
+  kOutsideBinding,   // an index past the elements of the binding
+  kOutsideHeap,      // a handle, or an index into the heap; values: address or index, descriptors
   kWrongDescriptor,  // values: kind and access found, kind and access declared
   // Of rays; values: bits of origin, TMin, direction, TMax, two to a value.
   kRayNotANumber,
-  kRayInterval,  // TMin < 0, or TMin > TMax
-  kRayFlags,     // values: the flags
-  kQueryFlags,   // the same of a RayQuery, which must not skip closest-hit shaders either
-  kRecursion,    // values: depth of the caller, depth declared
-  kHitKind,      // values: of ReportHit
-  kPayloadMismatch,   // values: bytes that the caller gave, bytes of the shader, 1: callable data
+  kRayInterval,      // TMin < 0, or TMin > TMax
+  kRayFlags,         // values: the flags
+  kQueryFlags,       // the same of a RayQuery, which must not skip closest-hit shaders either
+  kRecursion,        // values: depth of the caller, depth declared
+  kHitKind,          // values: of ReportHit
+  kPayloadMismatch,  // values: bytes that the caller gave, bytes of the shader, 1: callable data
   // Of RayQuery. Values: QueryValue or QueryOp of the IR, CANDIDATE_TYPE or COMMITTED_STATUS
   kNoCandidate,       // what Proceed has not found, or of another type, was read or committed
   kNoCommittedHit,    // hit data read without a hit
@@ -305,9 +305,9 @@ enum class Finding : uint32_t {
 
 struct CheckReport {
   Finding finding = Finding::kNone;
-  uint32_t site = 0;     // index into LibraryDesc::files << 20 | line; line 0: unknown
-  uint32_t binding = 0;  // 1 + index into LibraryDesc::bindings; 0: none
-  uint32_t write = 0;    // 1: a write, 2: an atomic
+  uint32_t site = 0;             // index into LibraryDesc::files << 20 | line; line 0: unknown
+  uint32_t binding = 0;          // 1 + index into LibraryDesc::bindings; 0: none
+  uint32_t write = 0;            // 1: a write, 2: an atomic
   uint64_t local_arguments = 0;  // of the shader's record; 0: none
   uint64_t values[5] = {};
 };
@@ -491,8 +491,8 @@ struct LibraryDesc {
   uint32_t binding_count;
   const SubobjectDesc* subobjects;
   uint32_t subobject_count;
-  uint32_t flags = 0;                   // LibraryFlags
-  const char* const* files = nullptr;   // source files, for CheckReport::site
+  uint32_t flags = 0;                  // LibraryFlags
+  const char* const* files = nullptr;  // source files, for CheckReport::site
   uint32_t file_count = 0;
   // Every source file and the options, to make the library's other variant of; null: unknown.
   // [runtime/hlsl/embedded_source.h]

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What shaders of a checked library (kaamos-hlsl -check-access) do where others trust the
-// application: the same results wherever DXR defines them, and a CheckReport to the backend where it
-// does not. Root descriptors end with their allocation here: nothing outside is read or written.
+// application: the same results wherever DXR defines them, and a CheckReport to the backend where
+// it does not. Root descriptors end with their allocation here: nothing outside is read or written.
 #pragma once
 
 #include "kaamos/shader/bindings.h"
@@ -20,7 +20,10 @@ namespace kaamos::shader::checked {
                                                 uint64_t value2 = 0, uint64_t value3 = 0) {
   const auto tell = invocation.dispatch->services->report;
   if (tell == nullptr) return;
-  const CheckReport text = {finding, site, origin & ~kFromRoot, write,
+  const CheckReport text = {finding,
+                            site,
+                            origin & ~kFromRoot,
+                            write,
                             reinterpret_cast<uintptr_t>(invocation.local_arguments),
                             {value0, value1, value2, value3, 0}};
   tell(invocation, text);

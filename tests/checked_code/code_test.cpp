@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rtapi/rtapi.h>
+#include <rtapi/shader_compiler.h>
+#include <rtapi/shader_table.h>
+#include <rtapi/upload.h>
+#include <shaders/code.h>
+
+#include <bit>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/vulkan/support.h"
+
+namespace kaamos::checks {
+namespace {
+
+using namespace rtapi;
+using testing::HasSubstr;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Settings {
+  uint32_t index = 0;
+  uint32_t flags = 0;
+  float number = 1;
+  float t_min = 0;
+};
+
+ShaderLibrary interpreted_library() {
+  static const ShaderLibrary library = [] {
+    ShaderCompileOptions options;
+    options.File = KAAMOS_CODE_HLSL;
+    options.Interpret = true;
+    options.Spirv = false;
+    const ShaderCompilation out = CompileShaderLibrary(options);
+    out.Status.value();
+    return out.Library;
+  }();
+  return library;
+}
+
+class CheckedCode : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const std::string executor = GetParam();
+    if (executor == "vulkan") KAAMOS_NEED_VULKAN();
+    DeviceDesc desc;
+    desc.Backend = executor == "vulkan" ? "vulkan" : "embree";
+    desc.Checked = true;
+    desc.OnMessage = [this](const Message& message) { messages_.push_back(message.Text); };
+    device_ = CreateDevice(desc).value();
+    queue_ = device_.CreateCommandQueue().value();
+    library_ = executor == "interpreted" ? interpreted_library()
+                                         : LoadShaderLibrary(kaamos_shaders_code()).value();
+    vertices_ = upload(std::vector<float>(104, 1.0f), "sofa.vb");  // 26 of 16 bytes
+    leaf_ = upload(std::vector<uint32_t>(8, 4), "leaf.mask");
+    result_ = buffer(64, "result");
+    build_scene();
+    build_heap();
+  }
+
+  template <class T>
+  Buffer upload(const std::vector<T>& elements, const std::string& name) {
+    keep_.push_back(CreateUploadBuffer(device_, elements, name).value());
+    return keep_.back();
+  }
+  Buffer buffer(uint64_t bytes, const std::string& name,
+                ResourceStates state = ResourceStates::kUnorderedAccess) {
+    BufferDesc desc;
+    desc.SizeInBytes = bytes;
+    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+    desc.InitialState = state;
+    desc.Name = name;
+    keep_.push_back(device_.CreateBuffer(desc).value());
+    return keep_.back();
+  }
+  Buffer build(const BuildRaytracingAccelerationStructureInputs& inputs, const std::string& name) {
+    const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
+    const Buffer out = buffer(sizes.ResultDataMaxSizeInBytes, name,
+                              ResourceStates::kRaytracingAccelerationStructure);
+    BuildRaytracingAccelerationStructureDesc desc;
+    desc.Inputs = inputs;
+    desc.DestAccelerationStructureData = out.GetGPUVirtualAddress();
+    desc.ScratchAccelerationStructureData =
+        buffer(std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256), "scratch")
+            .GetGPUVirtualAddress();
+    CommandList list = device_.CreateCommandList().value();
+    list.BuildRaytracingAccelerationStructure(desc);
+    queue_.ExecuteAndWait(list).value();
+    return out;
+  }
+  Buffer bottom_level(const RaytracingGeometryDesc& geometry, const std::string& name) {
+    BuildRaytracingAccelerationStructureInputs inputs;
+    inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
+    inputs.NumDescs = 1;
+    inputs.pGeometryDescs = &geometry;
+    return build(inputs, name);
+  }
+  // A triangle around (0, 0, 0), with hit record 0; a box around (10, 0, 0), with record 1.
+  void build_scene() {
+    RaytracingGeometryDesc triangle;
+    const std::vector<float> corners = {-1, -1, 0, 0, 2, 0, 1, -1, 0};
+    triangle.Triangles.VertexFormat = Format::kR32G32B32Float;
+    triangle.Triangles.VertexCount = 3;
+    triangle.Triangles.VertexBuffer = {upload(corners, "corners").GetGPUVirtualAddress(), 12};
+    RaytracingGeometryDesc box;
+    box.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
+    const std::vector<RaytracingAabb> boxes = {{9, -1, 0, 11, 1, 1}};
+    box.AABBs.AABBCount = 1;
+    box.AABBs.AABBs = {upload(boxes, "boxes").GetGPUVirtualAddress(), sizeof(RaytracingAabb)};
+    const Buffer levels[] = {bottom_level(triangle, "triangle"), bottom_level(box, "box")};
+    std::vector<RaytracingInstanceDesc> instances(2);
+    for (uint32_t i = 0; i < 2; ++i) {
+      instances[i].Transform[0][0] = instances[i].Transform[1][1] = instances[i].Transform[2][2] =
+          1;
+      instances[i].InstanceMask = 0xFF;
+      instances[i].InstanceContributionToHitGroupIndex = i;
+      instances[i].AccelerationStructure = levels[i].GetGPUVirtualAddress();
+    }
+    BuildRaytracingAccelerationStructureInputs inputs;
+    inputs.NumDescs = 2;
+    inputs.InstanceDescs = upload(instances, "instances").GetGPUVirtualAddress();
+    scene_ = build(inputs, "scene");
+  }
+  // Slot 0: "raw" as it should be; slot 1: a typed buffer.
+  void build_heap() {
+    DescriptorHeapDesc desc;
+    desc.NumDescriptors = 4;
+    desc.Flags = DescriptorHeapFlags::kShaderVisible;
+    heap_ = device_.CreateDescriptorHeap(desc).value();
+    raw_ = upload(std::vector<uint32_t>(8, 5), "raw");
+    ShaderResourceViewDesc view;
+    view.ViewDimension = SrvDimension::kBuffer;
+    view.Format = Format::kR32Typeless;
+    view.Buffer.NumElements = 8;
+    view.Buffer.Flags = BufferSrvFlags::kRaw;
+    device_.CreateShaderResourceView(raw_, view, heap_.GetCPUDescriptorHandle(0)).value();
+    view.Format = Format::kR32Uint;
+    view.Buffer.Flags = BufferSrvFlags::kNone;
+    device_.CreateShaderResourceView(raw_, view, heap_.GetCPUDescriptorHandle(1)).value();
+  }
+
+  void run(const char* raygen, const Settings& settings = {}) {
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{library_, {}});
+    HitGroupDesc triangles;
+    triangles.HitGroupExport = "Triangles";
+    triangles.ClosestHitShaderImport = "Hit";
+    triangles.AnyHitShaderImport = "Leaf";
+    desc.Add(triangles);
+    HitGroupDesc boxes;
+    boxes.HitGroupExport = "Boxes";
+    boxes.Type = HitGroupType::kProceduralPrimitive;
+    boxes.ClosestHitShaderImport = "BoxHit";
+    boxes.IntersectionShaderImport = "Box";
+    desc.Add(boxes);
+    const RootSignature global =
+        device_
+            .CreateRootSignature(
+                "RootFlags(CBV_SRV_UAV_HEAP_DIRECTLY_INDEXED), SRV(t0), SRV(t1), UAV(u0), "
+                "DescriptorTable(SRV(t2)), RootConstants(b0, num32BitConstants = 4)")
+            .value();
+    desc.Add(GlobalRootSignature{global});
+    const RootSignature local =
+        device_.CreateRootSignature("RootFlags(LOCAL_ROOT_SIGNATURE), SRV(t0, space = 1)").value();
+    desc.Associate(desc.Add(LocalRootSignature{local}), {"Triangles"});
+    desc.Add(RaytracingShaderConfig{32, 8});
+    desc.Add(RaytracingPipelineConfig1{2});
+    const StateObject pipeline = device_.CreateStateObject(desc).value();
+    ShaderTable generation(pipeline), miss(pipeline), hit(pipeline), callable(pipeline);
+    generation.AddRecord(raygen).value();
+    miss.AddRecord("Miss").value();
+    hit.AddRecord("Triangles", {LocalArgument::Address(leaf_address_ != 0
+                                                           ? leaf_address_
+                                                           : leaf_.GetGPUVirtualAddress())})
+        .value();
+    hit.AddRecord("Boxes").value();
+    callable.AddRecord(callable_).value();
+    for (ShaderTable* table : {&generation, &miss, &hit, &callable}) table->Build(device_).value();
+    DispatchRaysDesc rays;
+    rays.RayGenerationShaderRecord = generation.GetRecord(0);
+    rays.MissShaderTable = miss.GetTable();
+    rays.HitGroupTable = hit.GetTable();
+    rays.CallableShaderTable = callable.GetTable();
+    rays.Width = width_;
+    rays.Height = rays.Depth = 1;
+    CommandList list = device_.CreateCommandList().value();
+    list.SetDescriptorHeaps({&heap_, 1});
+    list.SetComputeRootSignature(global);
+    list.SetPipelineState1(pipeline);
+    list.SetComputeRootShaderResourceView(0, scene_.GetGPUVirtualAddress());
+    list.SetComputeRootShaderResourceView(1, vertices_address_ != 0
+                                                 ? vertices_address_
+                                                 : vertices_.GetGPUVirtualAddress());
+    list.SetComputeRootUnorderedAccessView(2, result_.GetGPUVirtualAddress());
+    list.SetComputeRootDescriptorTable(3, heap_.GetGPUDescriptorHandle(table_slot_));
+    list.SetComputeRoot32BitConstants(4, 4, &settings, 0);
+    list.DispatchRays(rays);
+    messages_.clear();
+    status_ = queue_.ExecuteAndWait(list);
+  }
+
+  // What was told under this id; empty: nothing.
+  std::string told(const std::string& id) const {
+    for (const std::string& message : messages_) {
+      if (message.starts_with(id)) return message;
+    }
+    return "";
+  }
+  std::string all() const {
+    std::string out;
+    for (const std::string& message : messages_) out += message + "\n";
+    return out;
+  }
+  // The message of this id has these parts in this order, and no other one of code was told.
+  void expect(const std::string& id, const std::vector<std::string>& parts) {
+    const std::string text = told(id);
+    ASSERT_NE(text, "") << "no " << id << " among:\n" << all();
+    size_t at = 0;
+    for (const std::string& part : parts) {
+      const size_t found = text.find(part, at);
+      ASSERT_NE(found, std::string::npos) << "no \"" << part << "\" in\n" << text;
+      at = found + part.size();
+    }
+    for (const std::string& message : messages_) {
+      if (message < "KA0425") EXPECT_EQ(message.substr(0, 6), id) << message;
+    }
+  }
+
+  Device device_;
+  CommandQueue queue_;
+  ShaderLibrary library_;
+  Buffer vertices_, leaf_, result_, scene_, raw_;
+  DescriptorHeap heap_;
+  std::vector<Buffer> keep_;
+  std::vector<std::string> messages_;
+  Status status_;
+  // What a test spoils.
+  uint64_t leaf_address_ = 0;
+  uint64_t vertices_address_ = 0;
+  uint32_t table_slot_ = 0;
+  uint32_t width_ = 1;
+  const char* callable_ = "Call";
+};
+
+TEST_P(CheckedCode, CleanCodeIsSilent) {
+  width_ = 64;
+  run("Clean", {127});
+  EXPECT_TRUE(status_.ok()) << status_.error().message;
+  EXPECT_EQ(all(), "");
+}
+
+TEST_P(CheckedCode, ReadPastARootBuffer) {
+  width_ = 4;
+  run("ReadVertex", {26});
+  expect("KA0417", {"KA0417 root descriptor out of bounds: ray generation \"ReadVertex\" at pixel (",
+                    ",0), ", "code.hlsl:", ", ray generation record",
+                    ", parameter t1 \"vertices\": reads bytes 416..432 of buffer \"sofa.vb\" (416 "
+                    "bytes); it reads 0 here",
+                    "[and 3 times more]", "(DispatchRays, command "});
+}
+
+TEST_P(CheckedCode, ReadFromTheMiddleOfARootBuffer) {
+  vertices_address_ = vertices_.GetGPUVirtualAddress() + 400;
+  run("ReadVertex", {1});
+  expect("KA0417", {"bytes 416..432 of buffer \"sofa.vb\" (416 bytes), offset 16 from byte 400"});
+}
+
+TEST_P(CheckedCode, WriteAndAtomicPastARootBuffer) {
+  run("WriteResult", {16});
+  expect("KA0417", {"parameter u0 \"result\": writes bytes 64..68 of buffer \"result\" (64 bytes); "
+                    "nothing is written here"});
+  run("AddToResult", {1u << 28});
+  expect("KA0417", {"parameter u0 \"result\": changes bytes 1073741824..1073741828 of buffer"});
+}
+
+TEST_P(CheckedCode, RootAddressOfNoBuffer) {
+  const uint64_t end = vertices_.GetGPUVirtualAddress() + vertices_.GetDesc().SizeInBytes;
+  vertices_address_ = end + 16 - end % 16;
+  run("ReadVertex", {2});
+  expect("KA0419", {"parameter t1 \"vertices\": is set to address 0x", "which is in no live buffer",
+                    "goes to its byte 32"});
+}
+
+TEST_P(CheckedCode, AnyHitFollowsABadAddressInItsRecord) {
+  leaf_address_ = leaf_.GetGPUVirtualAddress() + 16;
+  run("Clean", {127});
+  expect("KA0417", {"any-hit \"Leaf\" at pixel (0,0), ", "code.hlsl:", ", hit group table record 0",
+                    ", parameter t0, space 1 \"leaf\": reads bytes 32..36 of buffer \"leaf.mask\" "
+                    "(32 bytes), offset 16 from byte 16"});
+}
+
+TEST_P(CheckedCode, MisalignedOffset) {
+  run("ReadRaw", {6});
+  expect("KA0418", {"parameter t2 \"raw\": goes to byte 6", "is no multiple of 4"});
+}
+
+TEST_P(CheckedCode, ReadPastAViewIsLegal) {
+  run("ReadRaw", {4096});
+  EXPECT_EQ(all(), "");
+}
+
+TEST_P(CheckedCode, WrongDescriptorInATable) {
+  table_slot_ = 1;
+  run("ReadRaw");
+  expect("KA0422", {"parameter t2 \"raw\": the slot holds a typed buffer to read (SRV), the shader "
+                    "declares a raw buffer to read (SRV)"});
+}
+
+TEST_P(CheckedCode, HeapIndex) {
+  run("ReadHeap", {4});
+  expect("KA0421", {"index 4 into a heap of 4 descriptors"});
+  run("ReadHeap", {1});
+  expect("KA0422", {"the slot holds a typed buffer"});
+}
+
+TEST_P(CheckedCode, NanNormalsMakeNanRays) {
+  run("Trace", {0, 0, kNan});
+  expect("KA0401", {"ray generation \"Trace\" at pixel (0,0), ", "code.hlsl:",
+                    "Origin (0,0,-1), TMin 0, Direction (", "nan", "TMax 100; the ray misses"});
+}
+
+TEST_P(CheckedCode, RayInterval) {
+  run("Trace", {0, 0, 1, -1});
+  expect("KA0402", {"TMin -1", "TMin must be 0 or more"});
+  run("Trace", {0, 0, 1, 200});
+  expect("KA0402", {"TMin 200", "TMax 100"});
+}
+
+TEST_P(CheckedCode, RayFlags) {
+  for (const uint32_t flags : {0x3u, 0x41u, 0x30u, 0x110u, 0x300u, 0x800u}) {
+    run("Trace", {0, flags});
+    expect("KA0403", {"flags 0x"});
+  }
+  for (const uint32_t flags : {0x1u, 0x8u, 0x24u, 0x214u}) {
+    run("Trace", {0, flags});
+    EXPECT_EQ(all(), "") << flags;
+  }
+}
+
+TEST_P(CheckedCode, OneRayForTraceRayAndAQuery) {
+  run("TraceTwice", {0, 8});
+  expect("KA0404", {"flags 0x8: a RayQuery runs no closest-hit shader"});
+}
+
+TEST_P(CheckedCode, TransformReadAfterAMiss) {
+  run("ReadTransform", {0, 0, 50});
+  expect("KA0410", {"CommittedObjectToWorld3x4() was read after a miss"});
+  run("ReadTransform", {0, 0, 0});
+  EXPECT_EQ(all(), "");
+}
+
+TEST_P(CheckedCode, CandidateReadWithoutOne) {
+  run("ReadCandidate", {0, 0, 50});
+  expect("KA0409", {"CandidatePrimitiveIndex() has no candidate"});
+}
+
+TEST_P(CheckedCode, CommitOutOfRange) {
+  run("CommitBox", {0, 0, 200});
+  expect("KA0411", {"t 200 is outside of TMin 0", "100"});
+}
+
+TEST_P(CheckedCode, PayloadOfAnotherType) {
+  run("TraceOther");
+  expect("KA0407", {"miss \"Miss\"", "the caller gave 8 bytes, the shader's type has 16"});
+}
+
+TEST_P(CheckedCode, CallableDataOfAnotherType) {
+  callable_ = "CallWide";
+  run("CallOther");
+  expect("KA0408", {"callable \"CallWide\"", "the caller gave 8 bytes"});
+}
+
+TEST_P(CheckedCode, HitKindOutOfRange) {
+  run("TraceBox", {200});
+  expect("KA0406", {"intersection \"Box\"", "kind 200"});
+}
+
+TEST_P(CheckedCode, RecursionPastTheDeclaredDepth) {
+  run("Trace", {5});
+  EXPECT_FALSE(status_.ok());
+  expect("KA0405", {"closest-hit \"Hit\"", "depth 2, MaxTraceRecursionDepth is 2"});
+}
+
+INSTANTIATE_TEST_SUITE_P(, CheckedCode, testing::Values("native", "interpreted", "vulkan"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace kaamos::checks
