@@ -70,7 +70,9 @@ class AddressMap {
     std::shared_lock lock(mutex_);
     std::vector<Allocation> out;
     for (const auto& [address, allocation] : allocations_) out.push_back(allocation);
-  // All of them, by rising address.
+    return out;
+  }
+  // Their places only, by rising address.
   std::vector<shader::AddressRange> ranges() const {
     std::shared_lock lock(mutex_);
     std::vector<shader::AddressRange> out;
