@@ -81,6 +81,7 @@ std::string embed_source(const FrontendOptions& options, const SourceManager& so
         uint32_t{options.native_16bit}, uint32_t{options.row_major}, uint32_t{options.strict}}) {
     out.add(number);
   }
+  out.add(options.payload_qualifiers ? 1u + (*options.payload_qualifiers ? 1u : 0u) : 0u);
   const auto files = sources.loaded_files();
   out.add(files.size());
   for (const auto& [path, text] : files) {
@@ -109,6 +110,7 @@ std::optional<EmbeddedSource> read_embedded_source(std::string_view text) {
   options.native_16bit = in.number() != 0;
   options.row_major = in.number() != 0;
   options.strict = in.number() != 0;
+  if (const uint32_t given = in.number()) options.payload_qualifiers = given == 2;
   for (uint32_t left = in.number(); left > 0 && in.ok(); --left) {
     std::string path = normalize_path(in.text());
     out.files.add(std::move(path), in.text());
