@@ -423,7 +423,6 @@ struct EntryPoint {
   const Type* attributes = nullptr;
   // It has access qualifiers, in shader model 6.7 or higher: MaxPayloadSizeInBytes is no limit.
   bool unbounded_payload = false;
-  uint32_t payload_bytes = 0;  // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t payload_bytes = 0;    // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
   uint32_t thread_group[3] = {1, 1, 1};
