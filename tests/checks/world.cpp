@@ -204,10 +204,13 @@ void World::copy_bytes(const Buffer& dest, const Buffer& source) {
   execute(commands).value();
 }
 
+// Without KA0401 to KA0429: shaders that meet what a test spoiled say so too, and that has its
+// tests in tests/checked_code. Where a test spoils nothing, they must be silent as well.
 std::vector<std::string> World::told() {
   std::vector<std::string> out;
   for (const Message& m : messages_) {
-    if (m.Id >= "KA0400" && m.Id < "KA0500") out.push_back(m.Text);
+    const bool by_code = m.Id > "KA0400" && m.Id < "KA0430";
+    if (m.Id >= "KA0400" && m.Id < "KA0500" && !by_code) out.push_back(m.Text);
   }
   messages_.clear();
   return out;
@@ -226,6 +229,9 @@ void World::expect_one(const std::string& id, const std::vector<std::string>& pa
 }
 
 void World::expect_none() {
+  for (const Message& m : messages_) {
+    if (m.Id > "KA0400" && m.Id < "KA0430") ADD_FAILURE() << m.Text;
+  }
   for (const std::string& text : told()) ADD_FAILURE() << text;
 }
 
