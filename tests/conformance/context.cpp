@@ -39,12 +39,43 @@ RaytracingInstanceDesc instance(const Buffer& bottom_level, float x, uint32_t co
   return out;
 }
 
-Context::Context(const DeviceDesc& desc, const Target& target) : target_(target) {
-  device_ = CreateDevice(desc).value();
+namespace {
+
+// Of this process, by Target::name(). Never taken down: at exit a driver may be gone first.
+using Pool = std::map<std::string, std::vector<std::unique_ptr<SharedDevice>>>;
+Pool& pool() {
+  static Pool& devices = *new Pool;
+  return devices;
+}
+
+std::unique_ptr<SharedDevice> new_device(const DeviceDesc& desc) {
+  return std::make_unique<SharedDevice>(SharedDevice{CreateDevice(desc).value()});
+}
+
+std::unique_ptr<SharedDevice> take_device(const Target& target) {
+  auto& free = pool()[target.name()];
+  if (free.empty()) return new_device(target.device_desc());
+  auto out = std::move(free.back());
+  free.pop_back();
+  return out;
+}
+
+}  // namespace
+
+Context::Context(std::unique_ptr<SharedDevice> shared, const Target& target, bool goes_on)
+    : target_(target), shared_(std::move(shared)), goes_on_(goes_on), device_(shared_->device) {
   queue_ = device_.CreateCommandQueue().value();
 }
 
-Context::Context(const Target& target) : Context(target.device_desc(), target) {}
+Context::Context(const DeviceDesc& desc, const Target& target)
+    : Context(new_device(desc), target, false) {}
+
+Context::Context(const Target& target) : Context(take_device(target), target, true) {}
+
+Context::~Context() {
+  if (!goes_on_ || !device_.GetDeviceRemovedReason()) return;
+  pool()[target_.name()].push_back(std::move(shared_));
+}
 
 DeviceDesc Target::device_desc() const {
   DeviceDesc desc;

@@ -9,6 +9,8 @@
 #include <concepts>
 #include <cstring>
 #include <initializer_list>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,16 +37,31 @@ Geometry triangle(float z, float x = 0,
 Geometry box(float z, float x = 0,
              rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
 
+// A device with the pipelines that tests share: both take a driver longer than most tests.
+struct SharedDevice {
+  struct Pipeline {
+    rtapi::StateObject object;
+    rtapi::RootSignature global;
+  };
+  rtapi::Device device;
+  std::map<std::string, Pipeline> pipelines = {};  // by Program's name for them
+};
+
 class Context {
  public:
-  // Errors here and below leave as rtapi::ResultError and fail the rule.
+  // Errors here and below leave as rtapi::ResultError and fail the rule. The device is this
+  // context's alone while it lives; a later one goes on with it, unless it was removed.
   explicit Context(const Target& target);
-  // On a device with further options; `desc` has the target's backend.
+  // On a new device with further options; `desc` has the target's backend.
   Context(const rtapi::DeviceDesc& desc, const Target& target);
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
 
   const Target& target() const { return target_; }
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }
+  std::map<std::string, SharedDevice::Pipeline>& pipelines() { return shared_->pipelines; }
 
   // Checks: each that does not hold fails the rule with what was found and expected.
   template <class T>
@@ -90,6 +107,7 @@ class Context {
   rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs);
 
  private:
+  Context(std::unique_ptr<SharedDevice> shared, const Target& target, bool goes_on);
   rtapi::Buffer keep(rtapi::Buffer buffer);
   static std::string show(std::integral auto value) { return std::to_string(value); }
   static std::string show(std::floating_point auto value) { return show_float(value); }
@@ -102,6 +120,8 @@ class Context {
   static std::string show_float(double value);
 
   Target target_;
+  std::unique_ptr<SharedDevice> shared_;
+  bool goes_on_ = false;  // a later context may have the device
   rtapi::Device device_;
   rtapi::CommandQueue queue_;
   std::vector<rtapi::Buffer> keep_;
@@ -115,6 +135,10 @@ rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom_level, float 
 struct RuleTest {
   const char* rules;
   void (*run)(Context& t);
+};
+struct Section {
+  const char* name;  // "sbt_undefined"
+  std::vector<RuleTest> tests;
 };
 std::vector<RuleTest> sbt_tests();
 std::vector<RuleTest> sbt_undefined_tests();

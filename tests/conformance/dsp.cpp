@@ -417,7 +417,7 @@ std::vector<RuleTest> dsp_tests() {
           {"DSP-09", three_commands_of_which_two_count},
           {"DSP-09", indirect_views_and_the_state_afterwards},
           {"DSP-09", indirect_groups},
-          {"DSP-09", signatures_that_are_refused},
+          {"DSP-09, ERR-30", signatures_that_are_refused},
           {"DSP-10", arguments_written_by_a_shader},
           {"DSP-10", bad_indirect_arguments},
           {"DSP-11", dimensions_are_those_of_the_desc}};

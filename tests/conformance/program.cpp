@@ -49,12 +49,43 @@ void Program::local(const std::string& signature, const std::vector<std::string>
   desc.Associate(desc.Add(LocalRootSignature{root}), exports);
 }
 
+namespace {
+
+// The only subobjects that tests change in place.
+std::string configs_of(const StateObjectDesc& desc) {
+  std::string out;
+  for (const StateSubobject& each : desc.Subobjects) {
+    if (const auto* shader = std::get_if<RaytracingShaderConfig>(&each)) {
+      out += ", payload " + std::to_string(shader->MaxPayloadSizeInBytes) + ", attributes " +
+             std::to_string(shader->MaxAttributeSizeInBytes);
+    } else if (const auto* config = std::get_if<RaytracingPipelineConfig1>(&each)) {
+      out += ", depth " + std::to_string(config->MaxTraceRecursionDepth) + ", flags " +
+             std::to_string(static_cast<uint32_t>(config->Flags));
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
 void Program::create() {
   if (pipeline) return;
-  pipeline = try_create().value();
+  if (shared_name_.empty() || desc.Subobjects.size() != shared_size_) {
+    pipeline = try_create().value();
+  } else {
+    SharedDevice::Pipeline& shared = context_->pipelines()[shared_name_ + configs_of(desc)];
+    if (!shared.object) shared = {try_create().value(), global};
+    pipeline = shared.object;
+    global = shared.global;
+  }
   for (const char* name : {"ray generation", "miss", "hit", "callable"}) {
     shader_tables.emplace_back(pipeline, name);
   }
+}
+
+void Program::share_as(const std::string& name) {
+  shared_name_ = name;
+  shared_size_ = desc.Subobjects.size();
 }
 
 uint32_t Program::add(size_t table, const std::string& name,
@@ -129,7 +160,7 @@ std::vector<std::string> with_standard_exports(std::vector<std::string> exports)
 Standard::Standard(Context& t, const shader::LibraryDesc* library,
                    std::vector<std::string> more_exports, const char* global_signature)
     : Program(t, library == nullptr ? kaamos_shaders_standard() : library,
-              with_standard_exports(std::move(more_exports)), global_signature),
+              with_standard_exports(more_exports), global_signature),
       context_(&t) {
   group("Plain", "Closest");
   group("Counted", "Closest", "Count");
@@ -139,6 +170,9 @@ Standard::Standard(Context& t, const shader::LibraryDesc* library,
   group("BoxIgnored", "BoxClosest", "BoxIgnore", "Boxed");
   local(kRecordSignature,
         {"Plain", "Counted", "Ignored", "Box", "BoxCounted", "BoxIgnored", "Miss", "WriteOrdinal"});
+  if (library == nullptr && more_exports.empty()) {
+    share_as(std::string("standard, ") + global_signature);
+  }
 }
 
 void Standard::set_pipeline_flags(RaytracingPipelineFlags flags) {

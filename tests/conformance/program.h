@@ -106,10 +106,16 @@ class Program {
   std::function<void(rtapi::CommandList&)> bind = {};
   std::vector<rtapi::ShaderTable> shader_tables;  // ray generation, miss, hit, callable
 
+ protected:
+  // Later programs of this device with the same name and nothing added to `desc` get the pipeline.
+  void share_as(const std::string& name);
+
  private:
   uint32_t add(size_t table, const std::string& name,
                const std::vector<rtapi::LocalArgument>& arguments);
   Context* context_;
+  std::string shared_name_ = {};  // empty: not shared
+  size_t shared_size_ = 0;        // subobjects when it was named
 };
 
 // standard.hlsl: hit groups Plain, Counted, Ignored, Box, BoxCounted, BoxIgnored. Hit record i has

@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstring>
 #include <functional>
-#include <map>
 
 namespace kaamos::conformance {
 
@@ -16,36 +15,57 @@ namespace {
 
 constexpr unsigned kLimitSeconds = 120;
 
-struct Child {
-  std::string text = {};
-  int status = 0;  // waitpid's
-};
+bool write_all(int to, const void* data, size_t bytes) {
+  for (const char* at = static_cast<const char*>(data); bytes > 0;) {
+    const ssize_t count = write(to, at, bytes);
+    if (count <= 0) return false;
+    at += count;
+    bytes -= static_cast<size_t>(count);
+  }
+  return true;
+}
 
-// Runs `work` in a forked process; its text comes back through a pipe.
-Child fork_and_run(const std::function<std::string()>& work) {
+bool read_all(int from, void* data, size_t bytes) {
+  for (char* at = static_cast<char*>(data); bytes > 0;) {
+    const ssize_t count = read(from, at, bytes);
+    if (count <= 0) return false;
+    at += count;
+    bytes -= static_cast<size_t>(count);
+  }
+  return true;
+}
+
+// Runs works `first` to `count` - 1 in a forked process; their texts come back through a pipe, each
+// behind its size. Returns the number of texts that came and waitpid's status.
+struct End {
+  size_t done = 0;
+  int status = 0;
+};
+End fork_and_run(size_t count, const std::function<std::string(size_t)>& work,
+                 const std::function<void(size_t, const std::string&)>& on_text) {
   int ends[2];
-  if (pipe(ends) != 0) return {"no pipe to a process of its own", 0};
+  if (pipe(ends) != 0) return {};
   const pid_t child = fork();
-  if (child < 0) return {"no process of its own", 0};
   if (child == 0) {
     close(ends[0]);
-    alarm(kLimitSeconds);
-    const std::string text = work();
-    for (size_t done = 0; done < text.size();) {
-      const ssize_t count = write(ends[1], text.data() + done, text.size() - done);
-      if (count <= 0) _exit(1);
-      done += static_cast<size_t>(count);
+    for (size_t i = 0; i < count; ++i) {
+      alarm(kLimitSeconds);
+      const std::string text = work(i);
+      const uint64_t size = text.size();
+      if (!write_all(ends[1], &size, sizeof size) || !write_all(ends[1], text.data(), size)) break;
     }
     _exit(0);
   }
   close(ends[1]);
-  Child out;
-  char buffer[4096];
-  for (ssize_t count; (count = read(ends[0], buffer, sizeof buffer)) > 0;) {
-    out.text.append(buffer, static_cast<size_t>(count));
+  End out;
+  uint64_t size = 0;
+  while (child > 0 && out.done < count && read_all(ends[0], &size, sizeof size)) {
+    std::string text(size, '\0');
+    if (!read_all(ends[0], text.data(), size)) break;
+    on_text(out.done++, text);
   }
   close(ends[0]);
-  waitpid(child, &out.status, 0);
+  if (child > 0) waitpid(child, &out.status, 0);
   return out;
 }
 
@@ -54,7 +74,7 @@ std::string describe_end(int status) {
     return "did not end within " + std::to_string(kLimitSeconds) + " s\n";
   }
   if (WIFSIGNALED(status)) return std::string("ended by ") + strsignal(WTERMSIG(status)) + "\n";
-  return "";
+  return "its process ended without a result\n";
 }
 
 RuleResult result_without_run(const Rule& rule) {
@@ -67,18 +87,38 @@ RuleResult result_without_run(const Rule& rule) {
 
 }  // namespace
 
+std::vector<Section> all_sections() {
+  return {{"sbt", sbt_tests()},
+          {"sbt_undefined", sbt_undefined_tests()},
+          {"root", root_tests()},
+          {"flg", flg_tests()},
+          {"flg_legality", flg_legality_tests()},
+          {"trv", trv_tests()},
+          {"trv_any_hit", trv_any_hit_tests()},
+          {"trv_inactive", trv_inactive_tests()},
+          {"trv_random", trv_random_tests()},
+          {"trv_report", trv_report_tests()},
+          {"trv_edge", trv_edge_tests()},
+          {"sv", sv_tests()},
+          {"pay", pay_tests()},
+          {"pay_qualifier", pay_qualifier_tests()},
+          {"rq", rq_tests()},
+          {"so", so_tests()},
+          {"so_collection", so_collection_tests()},
+          {"so_object", so_object_tests()},
+          {"dsp", dsp_tests()},
+          {"as_build", as_build_tests()},
+          {"as_memory", as_memory_tests()},
+          {"as_info", as_info_tests()},
+          {"as_update", as_update_tests()},
+          {"as_copy", as_copy_tests()},
+          {"err", err_tests()}};
+}
+
 std::vector<RuleTest> all_tests() {
   std::vector<RuleTest> out;
-  for (const auto& section : {sbt_tests(),         sbt_undefined_tests(), root_tests(),
-                              flg_tests(),         flg_legality_tests(),  trv_tests(),
-                              trv_any_hit_tests(), trv_inactive_tests(),  trv_random_tests(),
-                              trv_report_tests(),  trv_edge_tests(),      sv_tests(),
-                              pay_tests(),         pay_qualifier_tests(), rq_tests(),
-                              so_tests(),          so_collection_tests(), so_object_tests(),
-                              dsp_tests(),         as_build_tests(),      as_memory_tests(),
-                              as_info_tests(),     as_update_tests(),     as_copy_tests(),
-                              err_tests()}) {
-    out.insert(out.end(), section.begin(), section.end());
+  for (const Section& section : all_sections()) {
+    out.insert(out.end(), section.tests.begin(), section.tests.end());
   }
   return out;
 }
@@ -106,52 +146,105 @@ std::string run_here(const RuleTest& test, const Target& target) {
   return out;
 }
 
-std::string run_apart(const RuleTest& test, const Target& target) {
-  const auto work = [&] { return run_here(test, target); };
-  Child child = fork_and_run(work);
-  if (target.backend == "vulkan" && WIFSIGNALED(child.status)) child = fork_and_run(work);
-  return child.text + describe_end(child.status);
+void run_apart(const std::vector<RuleTest>& tests, const Target& target,
+               const std::function<void(size_t index, const std::string& failures)>& on_result) {
+  size_t next = 0;
+  bool repeated = false;
+  while (next < tests.size()) {
+    const End end = fork_and_run(
+        tests.size() - next, [&](size_t i) { return run_here(tests[next + i], target); },
+        [&](size_t i, const std::string& text) { on_result(next + i, text); });
+    next += end.done;
+    if (next == tests.size()) break;
+    if (end.done > 0) repeated = false;
+    if (target.backend == "vulkan" && WIFSIGNALED(end.status) && !repeated) {
+      repeated = true;
+      continue;
+    }
+    repeated = false;
+    on_result(next++, describe_end(end.status));
+  }
 }
 
 DeviceCheck check_device(const Target& target) {
-  const Child child = fork_and_run([&]() -> std::string {
-    rtapi::DeviceDesc desc;
-    desc.Backend = target.backend;
-    desc.Precision = target.precision;
-    const auto device = rtapi::CreateDevice(desc);
-    return device ? "+" + device->GetInfo().Name : "-" + device.error().message;
-  });
-  if (child.text.empty()) return {"", describe_end(child.status)};
-  if (child.text[0] == '-') return {"", child.text.substr(1)};
-  return {child.text.substr(1), ""};
+  std::string text;
+  const End end = fork_and_run(
+      1,
+      [&](size_t) -> std::string {
+        const auto device = rtapi::CreateDevice(target.device_desc());
+        return device ? "+" + device->GetInfo().Name : "-" + device.error().message;
+      },
+      [&](size_t, const std::string& found) { text = found; });
+  if (text.empty()) return {"", describe_end(end.status)};
+  if (text[0] == '-') return {"", text.substr(1)};
+  return {text.substr(1), ""};
 }
+
+namespace {
+
+bool chosen(const Rule& rule, const std::string& filter) {
+  return std::string_view(rule.id).substr(0, filter.size()) == filter;
+}
+
+// Of all tests of the chosen rules, in the rules' order: each once, though one may cover several.
+std::vector<RuleTest> tests_of(const std::string& filter) {
+  std::vector<RuleTest> out;
+  const std::vector<RuleTest> tests = all_tests();
+  for (const Rule& rule : all_rules()) {
+    if (!chosen(rule, filter)) continue;
+    for (const RuleTest& test : tests) {
+      const auto same = [&](const RuleTest& each) { return each.run == test.run; };
+      if (test_covers(test, rule.id) && std::none_of(out.begin(), out.end(), same)) {
+        out.push_back(test);
+      }
+    }
+  }
+  return out;
+}
+
+RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
+                     const std::vector<std::string>& failures, const Target& target,
+                     const std::string& device_name) {
+  RuleResult result = result_without_run(rule);
+  for (size_t i = 0; i < tests.size(); ++i) {
+    if (!test_covers(tests[i], rule.id)) continue;
+    if (result.outcome != Outcome::kFailed) result.outcome = Outcome::kPassed;
+    if (!failures[i].empty()) result.outcome = Outcome::kFailed;
+    result.detail += failures[i];
+  }
+  if (result.outcome != Outcome::kFailed) return result;
+  if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {
+    result.outcome = Outcome::kKnownDeviation;
+    result.detail = std::string(known->reason) + "\n" + result.detail;
+  }
+  return result;
+}
+
+}  // namespace
 
 std::vector<RuleResult> run_rules(const Target& target, const std::string& device_name,
                                   const std::string& filter,
                                   void (*on_result)(const RuleResult& result)) {
-  const std::vector<RuleTest> tests = all_tests();
-  std::map<void (*)(Context&), std::string> done;  // one test may cover several rules
+  const std::vector<RuleTest> tests = tests_of(filter);
+  std::vector<std::string> failures(tests.size());
   std::vector<RuleResult> out;
-  for (const Rule& rule : all_rules()) {
-    if (std::string_view(rule.id).substr(0, filter.size()) != filter) continue;
-    RuleResult result = result_without_run(rule);
-    for (const RuleTest& test : tests) {
-      if (!test_covers(test, rule.id)) continue;
-      const auto [entry, first] = done.try_emplace(test.run);
-      if (first) entry->second = run_apart(test, target);
-      if (result.outcome != Outcome::kFailed) result.outcome = Outcome::kPassed;
-      if (!entry->second.empty()) result.outcome = Outcome::kFailed;
-      result.detail += entry->second;
-    }
-    if (result.outcome == Outcome::kFailed) {
-      if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {
-        result.outcome = Outcome::kKnownDeviation;
-        result.detail = std::string(known->reason) + "\n" + result.detail;
+  auto rule = all_rules().begin();
+  // Rules all of whose tests are done, of which there are `done`.
+  const auto tell = [&](size_t done) {
+    for (; rule != all_rules().end(); ++rule) {
+      if (!chosen(*rule, filter)) continue;
+      for (size_t i = done; i < tests.size(); ++i) {
+        if (test_covers(tests[i], rule->id)) return;
       }
+      out.push_back(result_of(*rule, tests, failures, target, device_name));
+      if (on_result != nullptr) on_result(out.back());
     }
-    if (on_result != nullptr) on_result(result);
-    out.push_back(std::move(result));
-  }
+  };
+  run_apart(tests, target, [&](size_t index, const std::string& text) {
+    failures[index] = text;
+    tell(index + 1);
+  });
+  tell(tests.size());
   return out;
 }
 

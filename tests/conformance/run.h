@@ -3,6 +3,7 @@
 // Running the rules' tests, and what came of each rule.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,14 +13,17 @@
 
 namespace kaamos::conformance {
 
+std::vector<Section> all_sections();
 std::vector<RuleTest> all_tests();
 bool test_covers(const RuleTest& test, std::string_view rule);
 
 // In this process. What was expected and found, one a line; empty: the rules hold.
 std::string run_here(const RuleTest& test, const Target& target);
-// In a process of its own, so that a driver that crashes or hangs fails one test. On Vulkan a
-// crash is repeated once: drivers have faults that come and go.
-std::string run_apart(const RuleTest& test, const Target& target);
+// In order, in another process, so that a driver that crashes or hangs fails one test: the next
+// one gets a new process. On Vulkan a crash is repeated once: drivers have faults that come and go.
+// `on_result` gets each test's index and what run_here() says, as they end.
+void run_apart(const std::vector<RuleTest>& tests, const Target& target,
+               const std::function<void(size_t index, const std::string& failures)>& on_result);
 
 // The device's name, or why there is none.
 struct DeviceCheck {

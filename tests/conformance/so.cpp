@@ -377,9 +377,9 @@ std::vector<RuleTest> so_tests() {
           {"SO-14", two_definitions_for_one},
           {"SO-15", state_objects_override_libraries},
           {"SO-16", hit_group_associations},
-          {"SO-17", required_subobjects},
-          {"SO-18", duplicates_and_ties},
-          {"SO-19", missing_objects}};
+          {"SO-17, ERR-25", required_subobjects},
+          {"SO-18, ERR-25", duplicates_and_ties},
+          {"SO-19, ERR-25", missing_objects}};
 }
 
 }  // namespace kaamos::conformance

@@ -338,7 +338,7 @@ void both_positions_agree(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> sv_tests() {
-  return {{"SV-01", intrinsics_by_stage},
+  return {{"SV-01, ERR-32", intrinsics_by_stage},
           {"SV-02", dispatch_values_at_any_depth},
           {"SV-03", world_ray_is_unmodified},
           {"SV-04", object_ray_is_transformed},
