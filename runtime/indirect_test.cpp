@@ -48,7 +48,7 @@ class Indirect : public ::testing::Test {
     RootArguments inherited;
     inherited.bytes.fill(9);
     command_.state.root_arguments = std::make_shared<RootArguments>(inherited);
-    for (uint32_t i = 0; i < 3; ++i) set(i, 10 + i, 256 * i ? kTable + 256 * i : 0, rays(i + 1));
+    for (uint32_t i = 0; i < 3; ++i) set(i, 10 + i, i > 0 ? kTable + 256 * i : 0, rays(i + 1));
   }
   static rtapi::DispatchRaysDesc rays(uint32_t width) {
     rtapi::DispatchRaysDesc desc;
