@@ -165,7 +165,7 @@ TEST_F(Indirect, GroupsHaveALimit) {
 }
 
 TEST_F(Indirect, ZeroesLaunchNothing) {
-  set(0, 0, 0, {});
+  set(0, 0, 0, rays(0));
   auto desc = rays(5);
   desc.Height = 0;
   desc.HitGroupTable = {0xDEAD, 1, 1};
