@@ -227,7 +227,9 @@ class CheckedCode : public testing::TestWithParam<const char*> {
       at = found + part.size();
     }
     for (const std::string& message : messages_) {
-      if (message < "KA0425") EXPECT_EQ(message.substr(0, 6), id) << message;
+      if (message < "KA0425") {
+        EXPECT_EQ(message.substr(0, 6), id) << message;
+      }
     }
   }
 

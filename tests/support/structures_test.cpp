@@ -76,7 +76,7 @@ using SerializedHeader = SerializedRaytracingAccelerationStructureHeader;
 
 SerializedHeader header_of(const std::vector<uint32_t>& bytes) {
   SerializedHeader header;
-  std::memcpy(&header, bytes.data(), sizeof(header));
+  std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof(header));
   return header;
 }
 
@@ -141,8 +141,8 @@ TEST_P(AccelerationStructures, Copy_tools_visualization) {
   KAAMOS_BYTES(built, CopyMode::kVisualizationDecodeForTools, InfoType::kToolsVisualization, bytes);
   BuildRaytracingAccelerationStructureToolsVisualizationHeader header;
   RaytracingGeometryDesc geometry;
-  std::memcpy(&header, bytes.data(), sizeof(header));
-  std::memcpy(&geometry, &bytes[sizeof(header) / 4], sizeof(geometry));
+  std::memcpy(static_cast<void*>(&header), bytes.data(), sizeof(header));
+  std::memcpy(static_cast<void*>(&geometry), &bytes[sizeof(header) / 4], sizeof(geometry));
   ASSERT_EQ(header.NumDescs, 1u);
   EXPECT_EQ(geometry.Triangles.VertexCount, 6u);
   ASSERT_EQ(bytes.size() * 4, sizeof(header) + sizeof(geometry) + 6 * 12);
