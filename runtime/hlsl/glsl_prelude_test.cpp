@@ -93,7 +93,10 @@ TEST(GlslPrelude, EveryFunctionIsValidSpirv) {
   const std::string calls = calls_of(prelude);
   EXPECT_GT(std::count(calls.begin(), calls.end(), '\n'), 2000);
   GlslShader shader;
-  shader.text = "#version 460\n" + prelude + "void main() {\n" + calls + "}\n";
+  // What an entry point defines for checked.glsl.
+  const std::string entry =
+      "uint g_check_shader() { return 0u; }\nuvec3 g_check_index() { return uvec3(0); }\n";
+  shader.text = "#version 460\n" + prelude + entry + "void main() {\n" + calls + "}\n";
   shader.stage = ir::kStageCompute;
   const SpirvModule module = compile_spirv(shader, "test");
   ASSERT_EQ(module.error, "");

@@ -38,7 +38,7 @@ static int Probe(const char* shader) {
   StateObjectDesc desc;
   desc.Add(DxilLibraryDesc{compiled.Library, {}});
   desc.Add(HitGroupDesc{.HitGroupExport = "Group", .AnyHitShaderImport = "ProbeAnyHit"});
-  desc.Add(RaytracingShaderConfig{8, 8});
+  desc.Add(RaytracingShaderConfig{16, 8});
   desc.Add(RaytracingPipelineConfig{1});
   desc.Add(GlobalRootSignature{root_signature});
   const StateObject pipeline = device.CreateStateObject(desc).value();

@@ -7,6 +7,7 @@ RWByteAddressBuffer results : register(u0);
 struct Payload {
   float transmittance;
   uint layers;
+  float2 seen;  // in memory wherever the debugger stops
 };
 
 static const float kOpacity = 0.25;
@@ -27,6 +28,7 @@ void ProbeRayGen() {
   Payload payload;
   payload.transmittance = 1.0;
   payload.layers = 0;
+  payload.seen = float2(0, 0);
   TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, ray, payload);  // CALLED FROM HERE
   results.Store(0, asuint(payload.transmittance));
   results.Store(4, payload.layers);
@@ -34,6 +36,7 @@ void ProbeRayGen() {
 
 [shader("anyhit")]
 void ProbeAnyHit(inout Payload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  payload.seen = hit.barycentrics;
   Attenuate(payload, hit.barycentrics);
   IgnoreHit();
 }
