@@ -27,10 +27,11 @@ Scene empty_scene(const char* name) {
   return scene;
 }
 
-void add(Scene& scene, const char* name, Shape shape, const glm::dvec3& at = glm::dvec3(0.0)) {
+void add(Scene& scene, const char* name, Shape shape, const glm::dvec3& at = glm::dvec3(0.0),
+         std::uint32_t material = 0) {
   Mesh mesh;
   mesh.name = name;
-  add_shape(mesh, std::move(shape), 0);
+  add_shape(mesh, std::move(shape), material);
   Instance instance;
   instance.name = name;
   instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
@@ -51,6 +52,16 @@ Shape floor(double x0, double x1, double half_z) {
   return patch({x0, 0, half_z}, {x1 - x0, 0, 0}, {0, 0, -2.0 * half_z}, 1, 1);
 }
 
+Shape sphere(double radius, int segments, int rings) {
+  std::vector<glm::dvec2> profile;
+  for (int i = 0; i <= rings; ++i) {
+    const double angle = -0.5 * kPi + kPi * i / rings;
+    profile.emplace_back(i == 0 || i == rings ? 0.0 : radius * std::cos(angle),
+                         radius * std::sin(angle));
+  }
+  return revolve(profile, segments);
+}
+
 double clamped_acos(double x) {
   return std::acos(std::clamp(x, -1.0, 1.0));
 }
@@ -61,13 +72,7 @@ Scene make_sphere_oracle(double radius, double height) {
   Scene scene = empty_scene("sphere-oracle");
   add(scene, "plane", floor(-100.0 * height, 100.0 * height, 100.0 * height));
   // 512 x 256 faces lie at most 2e-5 radii inside the sphere: far below the noise of 4096 rays.
-  std::vector<glm::dvec2> profile;
-  for (int i = 0; i <= 256; ++i) {
-    const double angle = -0.5 * kPi + kPi * i / 256;
-    profile.emplace_back(i == 0 || i == 256 ? 0.0 : radius * std::cos(angle),
-                         radius * std::sin(angle));
-  }
-  add(scene, "sphere", revolve(profile, 512), {0, height, 0});
+  add(scene, "sphere", sphere(radius, 512, 256), {0, height, 0});
   add_camera(scene, {0, 4.0 * height, 5.0 * height}, {0, 0.3 * height, 0});
   return scene;
 }
@@ -107,6 +112,29 @@ Scene make_penumbra_oracle(double height, double angular_radius) {
   // From the lit side, under the sheet's height, so that the sheet hides nothing of the edge's
   // shadow.
   add_camera(scene, {2.0 * height, 0.8 * height, 0}, {0, 0, 0});
+  return scene;
+}
+
+Scene make_oracle_box() {
+  Scene scene = empty_scene("oracle-box");
+  Material mirror;
+  mirror.name = "mirror";
+  mirror.constants = {
+      .base_color = glm::vec4(0.95f, 0.95f, 0.95f, 1), .metallic = 1, .roughness = 0};
+  scene.materials.push_back(mirror);
+  add(scene, "plane", floor(-100.0, 100.0, 100.0));
+  add(scene, "sphere", sphere(0.5, 64, 32), {0, 0.6, 0});
+  add(scene, "wall 1", box({0.05, 0.5, 1.0}), {-2.0, 0.5, 0});
+  add(scene, "wall 3", box({1.5, 1.5, 0.05}), {-0.5, 1.5, -2.5});
+  add(scene, "sheet", box({0.8, 0.005, 0.6}), {1.9, 1.0, 1.0});
+  add(scene, "mirror", box({0.02, 0.8, 0.7}), {2.6, 0.8, -1.2}, 1);
+  Light lamp;
+  lamp.name = "disk";
+  lamp.position = {1.6, 2.0, 1.0};
+  lamp.intensity = 3.0f;
+  lamp.radius = 0.2f;
+  scene.lights.push_back(lamp);
+  add_camera(scene, {0.6, 2.4, 5.0}, {0.2, 0.6, 0});
   return scene;
 }
 

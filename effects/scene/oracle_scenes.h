@@ -27,4 +27,9 @@ Scene make_penumbra_oracle(double height, double angular_radius);
 /// Visible share of the sun's disk at `x` on the plane (x > 0 is the lit side).
 double penumbra_visibility(double height, double angular_radius, double x);
 
+/// All of them on one plane, for pictures: a sphere of 0.5 m whose centre stands 0.6 m high, walls
+/// of 1 m and 3 m, a sheet whose straight edge a lamp and the sun shine past, a mirror. The things
+/// stand too close together for the formulas above. [effects-spec D.2: SC0]
+Scene make_oracle_box();
+
 }  // namespace kaamos::effects

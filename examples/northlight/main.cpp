@@ -7,12 +7,10 @@
 #include <cstdio>
 #include <string>
 
-#include "effects/scene/glass_scenes.h"
+#include "effects/scene/built_in.h"
 #include "effects/scene/gltf_load.h"
 #include "effects/scene/gltf_write.h"
-#include "effects/scene/lounge.h"
 #include "effects/scene/material_override.h"
-#include "effects/scene/mirror_hall.h"
 #include "effects/scene/staging.h"
 #include "inspect.h"
 #include "options.h"
@@ -37,16 +35,8 @@ void say_error(const std::string& text) {
 }
 
 bool load_scene(const Options& options, Scene& scene) {
-  if (options.scene == "lounge") {
-    scene = kaamos::effects::make_lounge();
-    return true;
-  }
-  if (options.scene == "glass-stack") {
-    scene = kaamos::effects::make_glass_stack({.thick = true});
-    return true;
-  }
-  if (options.scene == "mirror-hall") {
-    scene = kaamos::effects::make_mirror_hall();
+  if (const auto* built_in = kaamos::effects::find_built_in_scene(options.scene)) {
+    scene = built_in->make();
     return true;
   }
   auto loaded = kaamos::effects::load_gltf(options.scene);

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "effects/scene/built_in.h"
 #include "effects/transparent/transparent.h"
 
 namespace northlight {
@@ -104,8 +105,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "the whole frame with --effects all.\n"
       "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
       "northlight");
-  app.add_option("--scene", options.scene,
-                 "built in: lounge, glass-stack, mirror-hall; or a .gltf or .glb file")
+  app.add_option(
+         "--scene", options.scene,
+         "built in: " + kaamos::effects::built_in_scene_names() + "; or a .gltf or .glb file")
       ->capture_default_str();
   app.add_option("--material", options.materials,
                  "changes a material, as in Window:alpha=0.3,roughness=0; can be given again")

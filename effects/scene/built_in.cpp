@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "effects/scene/built_in.h"
+
+#include "effects/scene/glass_scenes.h"
+#include "effects/scene/leak_scenes.h"
+#include "effects/scene/lounge.h"
+#include "effects/scene/mirror_hall.h"
+#include "effects/scene/oracle_scenes.h"
+
+namespace kaamos::effects {
+namespace {
+
+constexpr BuiltInScene kScenes[] = {
+    {"lounge", [] { return make_lounge(); }},
+    {"glass-stack", [] { return make_glass_stack({.thick = true}); }},
+    {"mirror-hall", [] { return make_mirror_hall(); }},
+    {"oracle-box", [] { return make_oracle_box(); }},
+    {"sealed-cells", [] { return make_sealed_cells({}); }},
+    {"thin-dome", [] { return make_thin_dome({}); }},
+};
+
+}  // namespace
+
+std::span<const BuiltInScene> built_in_scenes() {
+  return kScenes;
+}
+
+const BuiltInScene* find_built_in_scene(std::string_view name) {
+  for (const BuiltInScene& scene : kScenes) {
+    if (name == scene.name) return &scene;
+  }
+  return nullptr;
+}
+
+std::string built_in_scene_names() {
+  std::string names;
+  for (const BuiltInScene& scene : kScenes) {
+    if (!names.empty()) names += ", ";
+    names += scene.name;
+  }
+  return names;
+}
+
+}  // namespace kaamos::effects
