@@ -200,7 +200,8 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
       const float4 tap = signal[other];
       const float difference = abs(Luminance(tap.rgb) - luminance);
       // Without variance there is no noise: only equal light is mixed.
-      const float by_luminance = exp(-difference / (denoise.sigma_l * deviation + 1e-10));
+      const float by_luminance =
+          exp(-difference / (denoise.sigma_l * deviation + 1e-8 * luminance + 1e-30));
       const float weight = kernel[abs(x)] * kernel[abs(y)] * by_luminance *
                            GuideWeight(guide, other, offset);
       color += weight * tap.rgb;

@@ -21,8 +21,6 @@ struct BakeConstants {
 };
 ConstantBuffer<BakeConstants> constants : register(b0, space3);
 
-static const float kSunDistance = 1e4;  // metres
-
 // What a path needs of a hit to go on.
 struct PathPayload {
   float3 position;

@@ -104,6 +104,10 @@ static const uint kRayTypeCount = 2;
 // effects look through it. [effects/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
 
+// Length of a ray to the sun: nothing is too far away to cast a shadow. A number of metres would be
+// one that a scene in other units outgrows.
+static const float kSunDistance = 1e30;
+
 // Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
 static const uint kAmbientOcclusionPair = 0;
 static const uint kSunPair = 1;

@@ -10,8 +10,6 @@
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
-static const float kHitSunDistance = 1e4;  // metres
-
 // The sun's light by a surface, shadowed by one ray to its middle.
 float3 SunAtHit(Surface surface, Brdf brdf, float3 view) {
   const float3 unshadowed = frame.sun_irradiance *
@@ -19,7 +17,7 @@ float3 SunAtHit(Surface surface, Brdf brdf, float3 view) {
   if (!(RadianceLuminance(unshadowed) > 0.0)) return float3(0, 0, 0);
   if (!(dot(surface.normal, frame.direction_to_sun) > 0.0)) return float3(0, 0, 0);
   return unshadowed * TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
-                                      frame.direction_to_sun, kHitSunDistance);
+                                      frame.direction_to_sun, kSunDistance);
 }
 
 // Radiance from a hit towards where the ray came from, without indirect light.

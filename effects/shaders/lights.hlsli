@@ -23,6 +23,10 @@ struct LightSample {
   float3 irradiance;   // on a surface that faces the light
 };
 
+// A light without a radius is taken for one that small against its range, so that it is not infinite
+// in its own place: the range is that of 1e-3 lux where a scene names none, so this is 1e11 lux.
+static const float kLeastRadius = 1e-7f;
+
 // Inverse square law, cut off at the range smoothly. A point inside the light's sphere sees it from
 // its surface. [KHR_lights_punctual; effects-spec B1.3]
 LightSample SampleLight(LightConstants light, float3 position) {
@@ -36,9 +40,9 @@ LightSample SampleLight(LightConstants light, float3 position) {
   const float window = saturate(1.0f - ratio_squared * ratio_squared);
   const float cone =
       saturate(dot(-result.direction, light.direction) * light.spot_scale + light.spot_offset);
-  const float floor_squared = max(light.radius * light.radius, 1e-8f);
+  const float least = max(light.radius, kLeastRadius * light.range);
   result.irradiance =
-      light.intensity * (window * window * cone * cone / max(distance_squared, floor_squared));
+      light.intensity * (window * window * cone * cone / max(distance_squared, least * least));
   return result;
 }
 

@@ -3,8 +3,6 @@
 #include "visibility.hlsli"
 #include "sampling.hlsli"
 
-static const float kSunDistance = 1e4;  // metres: further away nothing casts a shadow
-
 [shader("raygeneration")]
 void SunShadowRayGen() {
   const uint2 pixel = FramePixel();

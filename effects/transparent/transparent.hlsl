@@ -226,7 +226,7 @@ void TransparentClosestHit(inout GlassPayload payload,
   const float coverage = Coverage(surface.opacity);
   if (constants.sun != 0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     payload.sun_visibility = TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
-                                             frame.direction_to_sun, kHitSunDistance);
+                                             frame.direction_to_sun, kSunDistance);
   }
   float3 radiance =
       coverage * Contain(LayerLight(surface, brdf, -direction, payload.sun_visibility));
