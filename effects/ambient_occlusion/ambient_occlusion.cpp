@@ -14,6 +14,7 @@ RayPassDesc ambient_occlusion_pass(rtapi::ShaderLibrary library) {
   desc.name = "ambient occlusion";
   desc.library = std::move(library);
   desc.ray_generation = "AmbientOcclusionRayGen";
+  desc.key_generation = "AmbientOcclusionKeys";
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
   return desc;

@@ -2,7 +2,13 @@
 // Ambient occlusion: the part of the hemisphere, weighted by its cosine, that is open up to a
 // radius. [effects-spec B3.6]
 #include "visibility.hlsli"
+#include "ray_key.hlsli"
 #include "sampling.hlsli"
+
+float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
+  const float2 u = PixelSample(tile, index, kAmbientOcclusionPair, frame.seed);
+  return ToWorld(SampleCosineHemisphere(u), shading_normal);
+}
 
 [shader("raygeneration")]
 void AmbientOcclusionRayGen() {
@@ -20,12 +26,24 @@ void AmbientOcclusionRayGen() {
 
   float open = 0.0;
   for (uint i = 0; i < count; ++i) {
-    const float2 u = PixelSample(tile, pass_constants.first_sample + i, kAmbientOcclusionPair, frame.seed);
-    const float3 direction = ToWorld(SampleCosineHemisphere(u), shading_normal);
+    const float3 direction = OcclusionDirection(tile, pass_constants.first_sample + i, shading_normal);
     // Below the true surface there is nothing to see: such a ray counts as blocked.
     if (dot(direction, normal) > 0.0) {
       open += TraceVisibility(origin, direction, pass_constants.radius);
     }
   }
   ambient_occlusion_sum[pixel] += open;
+}
+
+[shader("raygeneration")]
+void AmbientOcclusionKeys() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) {
+    WriteNoRayKey(pixel);
+    return;
+  }
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kAmbientOcclusionPair, frame.seed)];
+  WriteRayKey(pixel, g_position[pixel].xyz,
+              OcclusionDirection(tile, pass_constants.first_sample,
+                                 OctahedralDecode(g_shading_normal[pixel])));
 }

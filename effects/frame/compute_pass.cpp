@@ -21,9 +21,15 @@ rtapi::Result<ComputePass> ComputePass::create(const rtapi::Device& device, cons
 void ComputePass::dispatch(rtapi::CommandList& list, const Frame& frame,
                            const PassConstants& constants, const PassArguments& arguments,
                            std::uint32_t width, std::uint32_t height) const {
+  dispatch_groups(list, frame, constants, arguments, (width + 7) / 8, (height + 7) / 8);
+}
+
+void ComputePass::dispatch_groups(rtapi::CommandList& list, const Frame& frame,
+                                  const PassConstants& constants, const PassArguments& arguments,
+                                  std::uint32_t groups_x, std::uint32_t groups_y) const {
   frame.bind(list, constants, arguments);
   list.SetPipelineState(pipeline_);
-  list.Dispatch((width + 7) / 8, (height + 7) / 8, 1);
+  list.Dispatch(groups_x, groups_y, 1);
   list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
 }
 

@@ -21,6 +21,11 @@ class ComputePass {
   void dispatch(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
                 const PassArguments& arguments, std::uint32_t width, std::uint32_t height) const;
 
+  /// The same for shaders with thread groups of another size.
+  void dispatch_groups(rtapi::CommandList& list, const Frame& frame, const PassConstants& constants,
+                       const PassArguments& arguments, std::uint32_t groups_x,
+                       std::uint32_t groups_y) const;
+
  private:
   rtapi::PipelineState pipeline_;
 };

@@ -37,9 +37,11 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"motion", Format::kR32G32B32A32Float},
 };
 
-// Descriptors of the view heap: t0..t4, then u0.., then the scene's textures, then the passes' own.
-constexpr std::uint32_t kFirstPicture = 5;
-constexpr std::uint32_t kFirstSceneTexture = kFirstPicture + kFrameTextureCount;
+// Descriptors of the view heap: t0..t5, then u0.., then the scene's textures, then the passes' own.
+constexpr std::uint32_t kRayOrder = 5;
+constexpr std::uint32_t kFirstPicture = kRayOrder + 1;
+constexpr std::uint32_t kRayKeys = kFirstPicture + kFrameTextureCount;
+constexpr std::uint32_t kFirstSceneTexture = kRayKeys + 1;
 
 TextureAddressMode address_mode(Wrap wrap) {
   switch (wrap) {
@@ -98,7 +100,7 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
   RootSignatureDesc global;
   std::vector<DescriptorRange> views;
   views.push_back({.RangeType = DescriptorRangeType::kSrv, .NumDescriptors = kFirstPicture});
-  views.push_back({.RangeType = DescriptorRangeType::kUav, .NumDescriptors = kFrameTextureCount});
+  views.push_back({.RangeType = DescriptorRangeType::kUav, .NumDescriptors = kFirstSceneTexture - kFirstPicture});
   views.push_back({.RangeType = DescriptorRangeType::kSrv,
                    .NumDescriptors = kUnboundedDescriptors,
                    .RegisterSpace = 1});
@@ -255,6 +257,18 @@ rtapi::Status Frame::set_scene(const Device& device, const GpuScene& gpu) {
     return s;
   }
   return write_structured_view(device, gpu.previous_instances, sizeof(PreviousInstance), 4);
+}
+
+rtapi::Status Frame::set_ray_order(const Device& device, const Buffer& keys,
+                                   const Buffer& order) const {
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kBuffer;
+  view.Buffer.StructureByteStride = sizeof(std::uint32_t);
+  view.Buffer.NumElements = static_cast<std::uint32_t>(keys.size() / sizeof(std::uint32_t));
+  const auto written =
+      device.CreateUnorderedAccessView(keys, view, views_.GetCPUDescriptorHandle(kRayKeys));
+  if (!written) return written;
+  return write_structured_view(device, order, sizeof(std::uint32_t), kRayOrder);
 }
 
 rtapi::Status Frame::write_structured_view(const Device& device, const Buffer& buffer,

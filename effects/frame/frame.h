@@ -54,6 +54,7 @@ struct PassConstants {
   std::uint32_t sample_count = 0;
   float radius = 0;
   std::uint32_t first_row = 0;
+  std::uint32_t sorted = 0;  ///< 1: in the order that a RaySorter made
 };
 
 /// Pictures of a frame in the order of their registers u0, u1, ...
@@ -124,6 +125,10 @@ class Frame {
   /// textures and materials must be those that the frame was made with. No dispatch of this frame
   /// may run meanwhile.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
+  /// A word per pixel each: what rays are sorted by (u13), and the pixels in that order (t5).
+  /// [effects/ray_order]
+  rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
+                              const rtapi::Buffer& order) const;
   /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
   /// A picture of the frame's size.

@@ -58,6 +58,14 @@ rtapi::Status add_hit_records(ShaderTable& table, const GpuScene& scene) {
 
 }  // namespace
 
+RayPassDesc key_pass(const RayPassDesc& desc) {
+  RayPassDesc keys;
+  keys.name = desc.name + " keys";
+  keys.library = desc.library;
+  keys.ray_generation = desc.key_generation;
+  return keys;
+}
+
 rtapi::Result<RayPass> RayPass::create(const Device& device, const Frame& frame,
                                        const GpuScene& scene, const RayPassDesc& desc) {
   const auto pipeline = create_pipeline(device, frame, desc);

@@ -25,12 +25,18 @@ struct RayPassDesc {
   std::string name;
   rtapi::ShaderLibrary library;
   std::string ray_generation;
+  /// A ray generation shader that traces nothing and writes what each pixel's first ray is sorted
+  /// by (WriteRayKey of ray_key.hlsli). Empty: the pass's rays cannot be sorted.
+  std::string key_generation;
   /// By ray type; an empty name makes a record that runs nothing.
   std::array<std::string, kRayTypeCount> miss;
   std::array<HitShaders, kRayTypeCount> hit;
   std::uint32_t payload_bytes = 4;
   std::uint32_t max_recursion_depth = 1;
 };
+
+/// The pass that writes the keys of another's rays; it takes the same arguments.
+RayPassDesc key_pass(const RayPassDesc& desc);
 
 class RayPass {
  public:

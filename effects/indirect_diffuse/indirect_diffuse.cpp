@@ -14,6 +14,7 @@ RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library) {
   desc.name = "indirect diffuse";
   desc.library = std::move(library);
   desc.ray_generation = "IndirectRayGen";
+  desc.key_generation = "IndirectKeys";
   desc.miss[kRayTypeSurface] = "IndirectMiss";
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"IndirectAnyHit", "IndirectClosestHit"};

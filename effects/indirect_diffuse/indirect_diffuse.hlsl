@@ -3,6 +3,7 @@
 // B5.4]
 #include "hit_shading.hlsli"
 #include "indirect_volume.hlsli"
+#include "ray_key.hlsli"
 #include "sampling.hlsli"
 
 // Sums over the samples: irradiance over pi, and the rays' length.
@@ -73,6 +74,11 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
   return float4(lerp(payload.radiance, from_volume, far), payload.distance);
 }
 
+float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
+  const float2 u = PixelSample(tile, index, kIndirectPair, frame.seed);
+  return ToWorld(SampleCosineHemisphere(u), shading_normal);
+}
+
 [shader("raygeneration")]
 void IndirectRayGen() {
   const uint2 pixel = FramePixel();
@@ -92,8 +98,7 @@ void IndirectRayGen() {
   float4 sum = float4(0, 0, 0, 0);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const uint index = pass_constants.first_sample + i;
-    const float2 u = PixelSample(tile, index, kIndirectPair, frame.seed);
-    const float3 direction = ToWorld(SampleCosineHemisphere(u), shading_normal);
+    const float3 direction = IndirectDirection(tile, index, shading_normal);
     if (!(dot(direction, normal) > 0.0)) continue;
     // Half a cell to each side hides the cells' steps.
     const uint key = HashCombine(pixel_seed, index * 8 + kIndirectPair + 1);
@@ -102,4 +107,17 @@ void IndirectRayGen() {
     sum += Gather(origin, direction, jitter);
   }
   indirect[pixel] += sum;
+}
+
+[shader("raygeneration")]
+void IndirectKeys() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) {
+    WriteNoRayKey(pixel);
+    return;
+  }
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
+  WriteRayKey(pixel, g_position[pixel].xyz,
+              IndirectDirection(tile, pass_constants.first_sample,
+                                OctahedralDecode(g_shading_normal[pixel])));
 }

@@ -14,6 +14,7 @@ RayPassDesc reflections_pass(rtapi::ShaderLibrary library) {
   desc.name = "reflections";
   desc.library = std::move(library);
   desc.ray_generation = "ReflectionRayGen";
+  desc.key_generation = "ReflectionKeys";
   desc.miss[kRayTypeSurface] = "ReflectionMiss";
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};

@@ -3,6 +3,7 @@
 // choose, shaded where it hits. [effects-spec B4.10; Control]
 #include "hit_shading.hlsli"
 #include "indirect_volume.hlsli"
+#include "ray_key.hlsli"
 #include "sampling.hlsli"
 
 // Sums over the samples: radiance over the specular albedo, and the ray's length (0: no ray).
@@ -57,40 +58,63 @@ float ReflectionLength(float roughness, float u) {
   return length * (1.0 - constants.length_jitter * u);
 }
 
+// What a pixel's rays have in common.
+struct ReflectionPoint {
+  float3 origin;
+  float3 normal;
+  float3 shading_normal;
+  float roughness;
+  Brdf brdf;
+  float cosine_view;
+  float3 local_view;
+};
+
+ReflectionPoint LoadReflectionPoint(uint2 pixel) {
+  const float4 position = g_position[pixel];
+  const float3 view = normalize(-position.xyz);
+  ReflectionPoint point;
+  point.normal = OctahedralDecode(g_normal[pixel]);
+  point.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
+  point.origin = position.xyz + point.normal * position.w;
+  point.roughness = g_material[pixel].x;
+  point.brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, point.roughness);
+  point.cosine_view = max(dot(point.shading_normal, view), 1e-4);
+  point.local_view = ToLocal(view, point.shading_normal);
+  return point;
+}
+
+// In the surface's frame.
+float3 SampleHalfVector(ReflectionPoint point, float2 u) {
+  if (point.roughness <= kMirrorRoughness) return float3(0, 0, 1);
+  return SampleGgxHalfVector(u, point.local_view, point.brdf.alpha);
+}
+
 [shader("raygeneration")]
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
   if (g_ids[pixel].x == 0) return;
-  const float4 position = g_position[pixel];
-  const float3 normal = OctahedralDecode(g_normal[pixel]);
-  const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
-  const float3 view = normalize(-position.xyz);
-  const float roughness = g_material[pixel].x;
-  const Brdf brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
-  const float cosine_view = max(dot(shading_normal, view), 1e-4);
-  const float3 albedo = SpecularAlbedo(brdf.f0, roughness, cosine_view);
-  const float3 local_view = ToLocal(view, shading_normal);
+  const ReflectionPoint point = LoadReflectionPoint(pixel);
+  const float3 albedo = SpecularAlbedo(point.brdf.f0, point.roughness, point.cosine_view);
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
   const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, frame.seed)];
 
   float4 sum = float4(0, 0, 0, 0);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const uint index = pass_constants.first_sample + i;
-    const float2 u = PixelSample(tile, index, kReflectionPair, frame.seed);
-    const float3 half_vector = roughness <= kMirrorRoughness
-                                   ? float3(0, 0, 1)
-                                   : SampleGgxHalfVector(u, local_view, brdf.alpha);
-    const float3 local_light = reflect(-local_view, half_vector);
-    const float3 weight = GgxSampleWeight(brdf, cosine_view, local_light.z, dot(local_view, half_vector));
-    const float3 direction = ToWorld(local_light, shading_normal);
+    const float3 half_vector =
+        SampleHalfVector(point, PixelSample(tile, index, kReflectionPair, frame.seed));
+    const float3 local_light = reflect(-point.local_view, half_vector);
+    const float3 weight = GgxSampleWeight(point.brdf, point.cosine_view, local_light.z,
+                                          dot(point.local_view, half_vector));
+    const float3 direction = ToWorld(local_light, point.shading_normal);
     // Under the surface, the true one or the bent one: no light comes from there.
-    if (!(local_light.z > 0.0) || !(dot(direction, normal) > 0.0)) continue;
+    if (!(local_light.z > 0.0) || !(dot(direction, point.normal) > 0.0)) continue;
     const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, frame.seed);
     RayDesc ray;
-    ray.Origin = position.xyz + normal * position.w;
+    ray.Origin = point.origin;
     ray.TMin = 0.0;
     ray.Direction = direction;
-    ray.TMax = ReflectionLength(roughness, v.x);
+    ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
     payload.radiance = float3(0, 0, 0);
     payload.distance = -1.0;
@@ -104,4 +128,18 @@ void ReflectionRayGen() {
     sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
   }
   reflection[pixel] += sum;
+}
+
+[shader("raygeneration")]
+void ReflectionKeys() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) {
+    WriteNoRayKey(pixel);
+    return;
+  }
+  const ReflectionPoint point = LoadReflectionPoint(pixel);
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
+  const float2 u = PixelSample(tile, pass_constants.first_sample, kReflectionPair, frame.seed);
+  const float3 local_light = reflect(-point.local_view, SampleHalfVector(point, u));
+  WriteRayKey(pixel, point.origin, ToWorld(local_light, point.shading_normal));
 }

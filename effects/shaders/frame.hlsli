@@ -47,6 +47,7 @@ struct PassConstants {
   uint sample_count;  // [first_sample, first_sample + sample_count)
   float radius;       // metres; of ambient occlusion
   uint first_row;     // of the picture: a dispatch takes a band of rows
+  uint sorted;        // 1: the pixels are taken in the order of ray_order
 };
 
 // Where an instance was one frame ago. [effects/scene/gpu_scene.h]
@@ -66,6 +67,8 @@ StructuredBuffer<MaterialConstants> materials : register(t1);
 StructuredBuffer<float2> blue_noise : register(t2);
 StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of them
 StructuredBuffer<PreviousInstance> previous_instances : register(t4);  // by InstanceIndex()
+// By place in the dispatch, rows first: its pixel, x + 65536 * y. [effects/ray_order]
+StructuredBuffer<uint> ray_order : register(t5);
 Texture2D<float4> textures[] : register(t0, space1);
 SamplerState samplers[] : register(s0, space1);
 
@@ -90,6 +93,9 @@ RWTexture2D<float4> radiance : register(u11);
 // Where the pixel's surface was one frame ago: picture widths and heights from here, and the change
 // of its view depth in metres. Without jitter.
 RWTexture2D<float4> g_motion : register(u12);
+
+// What the rays of each pixel are sorted by. [effects/ray_order]
+RWStructuredBuffer<uint> ray_keys : register(u13);
 
 // Hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
 ByteAddressBuffer vertices : register(t0, space2);
@@ -117,7 +123,10 @@ static const uint kSunPair = 1;
 // The pixel of this invocation.
 uint2 FramePixel() {
   const uint2 index = DispatchRaysIndex().xy;
-  return uint2(index.x, index.y + pass_constants.first_row);
+  const uint2 place = uint2(index.x, index.y + pass_constants.first_row);
+  if (pass_constants.sorted == 0) return place;
+  const uint pixel = ray_order[place.y * DispatchRaysDimensions().x + place.x];
+  return uint2(pixel & 0xFFFFu, pixel >> 16);
 }
 
 #endif

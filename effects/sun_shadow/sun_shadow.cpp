@@ -14,6 +14,7 @@ RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library) {
   desc.name = "sun shadow";
   desc.library = std::move(library);
   desc.ray_generation = "SunShadowRayGen";
+  desc.key_generation = "SunShadowKeys";
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
   return desc;

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Visible part of the sun's disk. [effects-spec B2.11]
 #include "visibility.hlsli"
+#include "ray_key.hlsli"
 #include "sampling.hlsli"
+
+float3 SunDirection(float2 tile, uint index) {
+  return SampleSun(PixelSample(tile, index, kSunPair, frame.seed), frame.direction_to_sun,
+                   frame.tan_sun_radius);
+}
 
 [shader("raygeneration")]
 void SunShadowRayGen() {
@@ -18,12 +24,22 @@ void SunShadowRayGen() {
 
   float visible = 0.0;
   for (uint i = 0; i < count; ++i) {
-    const float2 u = PixelSample(tile, pass_constants.first_sample + i, kSunPair, frame.seed);
-    const float3 direction = SampleSun(u, frame.direction_to_sun, frame.tan_sun_radius);
+    const float3 direction = SunDirection(tile, pass_constants.first_sample + i);
     // A surface that faces away from the point of the sun needs no ray to be dark.
     if (dot(direction, normal) > 0.0) {
       visible += TraceVisibility(origin, direction, kSunDistance);
     }
   }
   sun_visibility_sum[pixel] += visible;
+}
+
+[shader("raygeneration")]
+void SunShadowKeys() {
+  const uint2 pixel = FramePixel();
+  if (g_ids[pixel].x == 0) {
+    WriteNoRayKey(pixel);
+    return;
+  }
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)];
+  WriteRayKey(pixel, g_position[pixel].xyz, SunDirection(tile, pass_constants.first_sample));
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The order in which a dispatch takes the pixels of a frame: by direction or origin of their rays.
+// A permutation: the picture stays the same, bit for bit. [effects-spec A21, B1.5]
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include "effects/frame/compute_pass.h"
+#include "effects/frame/frame.h"
+#include "effects/frame/pass_views.h"
+
+namespace kaamos::effects {
+
+enum class RayOrder : std::uint8_t {
+  kPixels,     ///< as they lie in the picture
+  kDirection,  ///< 256 octahedral cells of direction
+  kOrigin,     ///< cells of half a metre, then direction
+};
+
+rtapi::Result<rtapi::ShaderLibrary> ray_order_library();
+
+class RaySorter {
+ public:
+  /// Takes registers t5 and u13 of the frame, which must outlive it. A picture may have at most
+  /// 65,535 pixels on a side.
+  static rtapi::Result<RaySorter> create(const rtapi::Device& device, const Frame& frame,
+                                         const rtapi::ShaderLibrary& library);
+  /// Records the sorting of keys that a pass of key_pass wrote, in tiles of 64 x 128 pixels.
+  /// `order` is not kPixels. Dispatches with PassConstants::sorted = 1 take it.
+  void sort(rtapi::CommandList& list, const Frame& frame, RayOrder order) const;
+  /// A word for each pixel, rows first: the key; and by place in the dispatch x + 65536 * y.
+  const rtapi::Buffer& keys() const { return keys_; }
+  const rtapi::Buffer& order() const { return order_; }
+
+ private:
+  rtapi::Buffer keys_;
+  rtapi::Buffer order_;
+  rtapi::Buffer between_;  // after the first of two passes
+  ComputePass pass_;
+  PassViews once_;    // to order_
+  PassViews first_;   // to between_
+  PassViews second_;  // between_ to order_
+};
+
+}  // namespace kaamos::effects
