@@ -35,6 +35,7 @@ uint2 PlaceInTile(uint slot, uint2 size) {
   return uint2(block * kBlock + in_block % width, strip * kBlock + in_block / width);
 }
 
+[shader("compute")]
 [numthreads(kThreads, 1, 1)]
 void SortRays(uint3 group : SV_GroupID, uint thread : SV_GroupIndex) {
   const uint2 corner = group.xy * kTile;

@@ -18,7 +18,7 @@
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
 #include "effects/reflections/reflections.h"
-#include "effects/scene/mirror_hall.h"
+#include "effects/scene/lounge.h"
 #include "effects/sun_shadow/sun_shadow.h"
 
 namespace kaamos::effects {
@@ -32,14 +32,13 @@ constexpr std::uint32_t kHeight = 139;
 struct Bench {
   rtapi::Device device;
   rtapi::CommandQueue queue;
-  Scene scene = make_mirror_hall();
+  Scene scene = make_lounge();
   GpuScene gpu;
   Frame frame;
   std::optional<Lighting> lighting;
   GpuVolume volume;
 
   explicit Bench(const rtapi::DeviceDesc& desc) {
-    scene.sun = Sun{glm::normalize(glm::vec3(0.3f, 1, 0.2f)), glm::vec3(3), 0.05f};
     device = rtapi::CreateDevice(desc).value();
     queue = device.CreateCommandQueue().value();
     const Camera& camera = scene.cameras.front();
@@ -135,7 +134,7 @@ std::vector<std::uint32_t> sorted_pixels(Bench& bench, const std::vector<std::ui
   const rtapi::Buffer keys = rtapi::CreateUploadBuffer(bench.device, words, "keys").value();
   rtapi::BufferDesc desc;
   desc.SizeInBytes = keys.size();
-  desc.HeapType = rtapi::HeapType::kReadback;
+  desc.Heap = rtapi::HeapType::kReadback;
   const rtapi::Buffer read = bench.device.CreateBuffer(desc).value();
   rtapi::CommandList list = bench.device.CreateCommandList().value();
   list.CopyBufferRegion(sorter.keys(), 0, keys, 0, keys.size());
@@ -144,7 +143,7 @@ std::vector<std::uint32_t> sorted_pixels(Bench& bench, const std::vector<std::ui
   list.CopyBufferRegion(read, 0, sorter.order(), 0, read.size());
   bench.queue.ExecuteAndWait(list).value();
   std::vector<std::uint32_t> pixels(words.size());
-  std::memcpy(pixels.data(), read.Map().value(), read.size());
+  std::memcpy(pixels.data(), read.Map().value().data(), read.size());
   return pixels;
 }
 
