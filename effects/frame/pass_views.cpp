@@ -31,4 +31,13 @@ rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Buff
       buffer, view, heap_.GetCPUDescriptorHandle(first_ + kPassShaderResources + u));
 }
 
+void PassViews::clear(rtapi::CommandList& list, std::uint32_t u,
+                      const rtapi::Texture& texture) const {
+  const float zero[4] = {0, 0, 0, 0};
+  const std::uint32_t index = first_ + kPassShaderResources + u;
+  list.SetDescriptorHeaps({heap_});
+  list.ClearUnorderedAccessViewFloat(heap_.GetGPUDescriptorHandle(index),
+                                     heap_.GetCPUDescriptorHandle(index), texture, zero);
+}
+
 }  // namespace kaamos::effects

@@ -33,6 +33,8 @@ class PassViews {
   /// A structured buffer.
   rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Buffer& buffer,
                                      std::uint32_t stride);
+  /// Records that zero is written to a picture of floats, which register u holds.
+  void clear(rtapi::CommandList& list, std::uint32_t u, const rtapi::Texture& texture) const;
   rtapi::GpuDescriptorHandle table() const { return heap_.GetGPUDescriptorHandle(first_); }
 
  private:

@@ -157,7 +157,12 @@ rtapi::Result<GpuVolume> GpuVolume::create(const rtapi::Device& device,
   out.brick_starts_ = *start_buffer;
   out.cells_ = *cell_buffer;
   out.constants_ = *constant_buffer;
+  out.corner_ = volume.origin;
   return out;
+}
+
+void GpuVolume::set_origin(const glm::dvec3& origin) {
+  constants_.data<VolumeConstants>()[0].origin = glm::vec3(corner_ - origin);
 }
 
 rtapi::Status GpuVolume::bind(PassViews& views) const {

@@ -80,8 +80,11 @@ class GpuVolume {
   static rtapi::Result<GpuVolume> create(const rtapi::Device& device, const IndirectVolume& volume,
                                          const glm::dvec3& origin);
   rtapi::Status bind(PassViews& views) const;
+  /// The frame moved on to another origin. No dispatch that reads the volume may run meanwhile.
+  void set_origin(const glm::dvec3& origin);
 
  private:
+  glm::dvec3 corner_{0.0};  // of the volume, in the world
   rtapi::Buffer brick_starts_, cells_, constants_;
 };
 

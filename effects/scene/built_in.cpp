@@ -6,12 +6,14 @@
 #include "effects/scene/lounge.h"
 #include "effects/scene/mirror_hall.h"
 #include "effects/scene/oracle_scenes.h"
+#include "effects/scene/runner.h"
 
 namespace kaamos::effects {
 namespace {
 
 constexpr BuiltInScene kScenes[] = {
     {"lounge", [] { return make_lounge(); }},
+    {"runner", [] { return make_runner_scene(); }},
     {"glass-stack", [] { return make_glass_stack({.thick = true}); }},
     {"mirror-hall", [] { return make_mirror_hall(); }},
     {"oracle-box", [] { return make_oracle_box(); }},

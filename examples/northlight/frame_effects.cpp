@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
 #include "effects/sun_shadow/sun_shadow.h"
+#include "effects/taa/taa.h"
 
 namespace northlight {
 
@@ -26,6 +28,7 @@ DenoiseMethod denoise_method(const std::string& name) {
   if (name == "none") return DenoiseMethod::kNone;
   if (name == "gaussian") return DenoiseMethod::kGaussian;
   if (name == "bilateral") return DenoiseMethod::kBilateral;
+  if (name == "temporal") return DenoiseMethod::kTemporal;
   return DenoiseMethod::kSvgf;
 }
 
@@ -49,7 +52,8 @@ rtapi::Result<ShaderLibraries> built_in_libraries() {
                      {volume_bake_library(), &out.volume_bake},
                      {indirect_diffuse_library(), &out.indirect_diffuse},
                      {reflections_library(), &out.reflections},
-                     {transparent_library(), &out.transparent}};
+                     {transparent_library(), &out.transparent},
+                     {taa_library(), &out.taa}};
   for (const auto& part : parts) {
     if (!part.loaded) return part.loaded.error();
     *part.library = *part.loaded;
@@ -265,6 +269,29 @@ const rtapi::Texture* FrameEffects::denoised(const std::string& name) const {
     if (signal->name == name) return &signal->denoiser.result();
   }
   return nullptr;
+}
+
+std::vector<FrameEffects::SignalPictures> FrameEffects::signals() const {
+  std::vector<SignalPictures> out;
+  for (const auto& signal : signals_) {
+    out.push_back({signal->name, signal->mean, signal->denoiser.result()});
+  }
+  return out;
+}
+
+void FrameEffects::begin_frame(rtapi::CommandList& list, const glm::dvec3& origin, bool cut) {
+  volume_.set_origin(origin);
+  const std::tuple<const char*, const PassViews*, std::uint32_t> sums[] = {
+      {"contact", &contact_views_, 1},
+      {"indirect", &indirect_views_, 0},
+      {"reflection", &reflection_views_, 0}};
+  for (const auto& signal : signals_) {
+    if (cut) signal->denoiser.reset();
+    for (const auto& [name, views, u] : sums) {
+      if (signal->name == name) views->clear(list, u, signal->sum);
+    }
+  }
+  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
 }
 
 void FrameEffects::light(rtapi::CommandList& list, const Frame& frame) const {

@@ -39,6 +39,7 @@ struct ShaderLibraries {
   rtapi::ShaderLibrary indirect_diffuse;
   rtapi::ShaderLibrary reflections;
   rtapi::ShaderLibrary transparent;
+  rtapi::ShaderLibrary taa;
   kaamos::effects::DenoiseLibraries denoise;
 };
 rtapi::Result<ShaderLibraries> built_in_libraries();
@@ -65,6 +66,9 @@ class FrameEffects {
                        const std::function<void(double)>& bake_progress,
                        const std::atomic<bool>& stop);
 
+  // Goes on to a frame whose camera stands at `origin`: sums are empty again. `cut`: it has nothing
+  // to do with the frame before.
+  void begin_frame(rtapi::CommandList& list, const glm::dvec3& origin, bool cut);
   // Lights' lists and maps and the main lighting: behind the G-buffer.
   void light(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
   const std::vector<RayStep>& steps() const { return steps_; }
@@ -77,6 +81,12 @@ class FrameEffects {
   // Puts the frame together.
   void compose(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
 
+  // What a denoiser takes and gives, for each of them.
+  struct SignalPictures {
+    std::string name;
+    rtapi::Texture raw, denoised;
+  };
+  std::vector<SignalPictures> signals() const;
   // Pictures for files: a name, the picture, and what its values are divided by.
   struct Layer {
     std::string name;

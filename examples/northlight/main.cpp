@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The demo frame: Northlight's ray traced ambient occlusion and sun shadow over a scene.
+// The demo: Northlight's ray traced effects over a scene, one frame or a sequence of them.
 #include <unistd.h>
 
 #include <atomic>
@@ -16,6 +16,7 @@
 #include "options.h"
 #include "output.h"
 #include "renderer.h"
+#include "sequence.h"
 #include "watch.h"
 
 namespace {
@@ -39,7 +40,7 @@ bool load_scene(const Options& options, Scene& scene) {
     scene = built_in->make();
     return true;
   }
-  auto loaded = kaamos::effects::load_gltf(options.scene);
+  auto loaded = kaamos::effects::load_gltf(options.scene, {.animated = options.frames > 0});
   if (!loaded.ok()) {
     say_error(loaded.error());
     return false;
@@ -121,6 +122,29 @@ int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Opti
   return 0;
 }
 
+int render_frames(Renderer& renderer, const ShaderLibraries& libraries, const Options& options,
+                  const Scene& scene) {
+  StagedFiles files(options.out);
+  std::string error = files.create();
+  if (error.empty()) {
+    const auto sequence =
+        render_sequence(renderer, libraries, options, scene, show_progress, stop_requested, files);
+    if (!sequence) return report(sequence.error(), options);
+    error = add_results(options, scene, renderer, *sequence, files);
+    if (error.empty()) error = files.publish();
+    if (error.empty()) {
+      remove_later_frames(options.out, options.frames);
+      std::printf(
+          "%s\nwrote %s/frame_0000.png to frame_%04u.png, the last one's layers, "
+          "stats.json\n",
+          describe(renderer, *sequence).c_str(), options.out.c_str(), options.frames - 1);
+      return 0;
+    }
+  }
+  say_error(error);
+  return 1;
+}
+
 // Until Ctrl-C: an error in a shader is shown, and the next change tried.
 int watch(Renderer& renderer, const Options& options, const Scene& scene) {
   const auto folder = find_effects_folder();
@@ -178,5 +202,6 @@ int main(int argc, char** argv) {
     std::fputs(print_tables(*tables, options->tables == "json").c_str(), stdout);
     return 0;
   }
+  if (options->frames > 0) return render_frames(**renderer, *libraries, *options, scene);
   return render_once(**renderer, *libraries, *options, scene);
 }

@@ -9,12 +9,14 @@
 #include <tuple>
 
 #include "effects/scene/built_in.h"
+#include "effects/scene/camera_path.h"
 #include "effects/transparent/transparent.h"
 
 namespace northlight {
 namespace {
 
 constexpr std::uint32_t kMaxSamples = 65536;
+constexpr std::uint32_t kMaxFrames = 100000;
 constexpr std::uint32_t kMaxSide = 16384;  // of a texture [D3D12: resource limits]
 
 std::string parse_size(const std::string& text, Options& options) {
@@ -90,6 +92,36 @@ CLI::Validator parsed_by(Parse parse, Options& options) {
   return CLI::Validator([parse, &options](std::string& text) { return parse(text, options); }, "");
 }
 
+void add_sequence(CLI::App& app, Options& options) {
+  auto* frames = app.add_option("--frames", options.frames,
+                                "render a sequence: frame_0000.png ..., the last one's layers")
+                     ->check(CLI::Range(1u, kMaxFrames));
+  app.add_option("--camera-path", options.camera_path,
+                 std::string("of a sequence: ") + kaamos::effects::kCameraPaths +
+                     "; or a file, lines of seconds, eye x y z, target x y z [fov=DEGREES] [cut]; "
+                     "default: still where something moves, else dolly")
+      ->needs(frames);
+  app.add_option("--fps", options.frames_per_second, "frames per second of a sequence")
+      ->needs(frames)
+      ->capture_default_str()
+      ->check(CLI::Range(0.01, 10000.0));
+  app.add_flag("--taa", options.taa, "antialiasing over the frames of a sequence")->needs(frames);
+}
+
+// What shows one frame only, or renders anew for ever.
+std::string conflict_with_sequence(const Options& options) {
+  if (options.frames == 0) return {};
+  const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
+                                                {"--pixel", options.pixel.has_value()},
+                                                {"--explain", options.explain.has_value()},
+                                                {"--tables", !options.tables.empty()},
+                                                {"--heatmap", !options.heatmap.empty()}};
+  for (const auto& [name, chosen] : given) {
+    if (chosen) return std::string("--frames and ") + name + " exclude each other: leave one out";
+  }
+  return {};
+}
+
 }  // namespace
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
@@ -142,9 +174,9 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
   app.add_option("--denoise", options.denoise,
-                 "of the whole frame's effects: none, gaussian, bilateral, svgf")
+                 "of the whole frame's effects: none, gaussian, bilateral, temporal, svgf")
       ->capture_default_str()
-      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "svgf"}));
+      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf"}));
   app.add_option("--contact-samples", options.contact_samples,
                  "contact shadow rays per pixel and light")
       ->capture_default_str()
@@ -185,6 +217,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::Range(0u, 1024u));
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
+  add_sequence(app, options);
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
   app.add_option("--pixel", pixel,
                  "x,y: print what each layer holds there instead of writing files")
@@ -215,6 +248,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     }
     std::fprintf(stderr, "northlight: %s %s is outside of the picture (%ux%u)\n", name,
                  text->c_str(), options.width, options.height);
+    exit_code = 2;
+    return std::nullopt;
+  }
+  if (const std::string conflict = conflict_with_sequence(options); !conflict.empty()) {
+    std::fprintf(stderr, "northlight: %s\n", conflict.c_str());
     exit_code = 2;
     return std::nullopt;
   }

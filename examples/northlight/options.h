@@ -11,7 +11,7 @@
 namespace northlight {
 
 struct Options {
-  std::string scene = "lounge";        // or glass-stack, mirror-hall, a .gltf or .glb file
+  std::string scene = "lounge";        // or runner, glass-stack, mirror-hall, a .gltf or .glb file
   std::vector<std::string> materials;  // overrides, NAME:KEY=VALUE[,KEY=VALUE...]
   std::string backend = "embree";
   std::string precision = "robust";  // of traversals: fast, robust, exact
@@ -27,7 +27,7 @@ struct Options {
   bool transparent = false;  // glass and what it reflects
   // Whether any effect besides ambient occlusion and the sun is rendered.
   bool whole_frame() const { return local || gi || reflections || transparent; }
-  std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, svgf
+  std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, temporal, svgf
   std::uint32_t contact_samples = 1;
   float contact_length = 1.0f;         // metres
   std::string gi_mode = "near-field";  // direct, hit-black, near-field
@@ -45,7 +45,11 @@ struct Options {
   std::uint32_t seed = 0;
   std::uint32_t threads = 0;  // 0: all
   std::string out = "out/northlight";
-  std::string write_glb;  // empty: none
+  std::string write_glb;     // empty: none
+  std::uint32_t frames = 0;  // of a sequence; 0: a still
+  std::string camera_path;   // its name or file; empty: the scene's own
+  double frames_per_second = 30;
+  bool taa = false;
   bool watch = false;
   bool list_devices = false;
   std::optional<std::pair<std::uint32_t, std::uint32_t>>

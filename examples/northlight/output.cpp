@@ -134,28 +134,6 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
   return json;
 }
 
-struct File {
-  std::string name;
-  std::vector<std::uint8_t> bytes;  // empty: written already
-};
-
-std::string encode_pictures(const FrameResult& result, float exposure, std::vector<File>& files) {
-  const auto add = [&](const std::string& name, const ByteImage& image) -> std::string {
-    auto bytes = encode_png(image);
-    if (!bytes.ok()) return bytes.error();
-    files.push_back({name + ".png", std::move(bytes.value())});
-    return {};
-  };
-  if (auto error = add("frame", tonemap(first_channels(result.radiance, 3), exposure));
-      !error.empty()) {
-    return error;
-  }
-  for (const auto& [name, image] : result.layers) {
-    if (auto error = add(name, layer_picture(name, image, result)); !error.empty()) return error;
-  }
-  return {};
-}
-
 }  // namespace
 
 std::string prepare_folder(const std::string& folder) {
@@ -172,50 +150,81 @@ std::string prepare_folder(const std::string& folder) {
   return {};
 }
 
-std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
-                          const FrameResult& result) {
-  if (auto error = prepare_folder(options.out); !error.empty()) return error;
-  std::error_code failed;
-  std::vector<File> files;
-  if (auto error = encode_pictures(result, scene.exposure, files); !error.empty()) return error;
-  const std::string json = statistics(options, scene, renderer, result).dump(2) + "\n";
-  files.push_back({"stats.json", std::vector<std::uint8_t>(json.begin(), json.end())});
+StagedFiles::StagedFiles(const std::string& folder)
+    : folder_(folder), staging_((fs::path(folder) / ".northlight-new").string()) {}
 
-  // Everything goes to names of its own first: a full disk must not leave half of a new frame over
-  // the old one.
-  const fs::path staging = fs::path(options.out) / ".northlight-new";
-  fs::remove_all(staging, failed);
-  fs::create_directory(staging, failed);
-  if (failed) {
-    return fmt::format("cannot write into {}: {}; choose another folder with --out", options.out,
-                       failed.message());
+StagedFiles::~StagedFiles() {
+  std::error_code ignored;
+  fs::remove_all(staging_, ignored);
+}
+
+std::string StagedFiles::create() {
+  if (auto error = prepare_folder(folder_); !error.empty()) return error;
+  std::error_code failed;
+  fs::remove_all(staging_, failed);
+  fs::create_directory(staging_, failed);
+  if (!failed) return {};
+  return fmt::format("cannot write into {}: {}; choose another folder with --out", folder_,
+                     failed.message());
+}
+
+std::string StagedFiles::add_path(const std::string& name) {
+  names_.push_back(name);
+  return (fs::path(staging_) / name).string();
+}
+
+std::string StagedFiles::add(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+  const auto written = write_file_atomically(add_path(name), bytes);
+  return written.ok() ? "" : written.error();
+}
+
+std::string StagedFiles::add(const std::string& name, const ByteImage& image) {
+  const auto bytes = encode_png(image);
+  return bytes.ok() ? add(name, bytes.value()) : bytes.error();
+}
+
+std::string StagedFiles::publish() {
+  std::error_code failed;
+  for (const std::string& name : names_) {
+    fs::rename(fs::path(staging_) / name, fs::path(folder_) / name, failed);
+    if (failed) return fmt::format("cannot write {}/{}: {}", folder_, name, failed.message());
   }
+  return {};
+}
+
+ByteImage frame_picture(const FloatImage& radiance, float exposure) {
+  return tonemap(first_channels(radiance, 3), exposure);
+}
+
+std::string add_results(const Options& options, const Scene& scene, const Renderer& renderer,
+                        const FrameResult& result, const nlohmann::ordered_json& sequence,
+                        StagedFiles& files) {
+  std::string error = files.add("frame.png", frame_picture(result.radiance, scene.exposure));
+  for (const auto& [name, image] : result.layers) {
+    if (!error.empty()) return error;
+    error = files.add(name + ".png", layer_picture(name, image, result));
+  }
+  if (!error.empty()) return error;
+  nlohmann::ordered_json json = statistics(options, scene, renderer, result);
+  if (!sequence.is_null()) json["sequence"] = sequence;
+  const std::string text = json.dump(2) + "\n";
+  if (error = files.add("stats.json", {text.begin(), text.end()}); !error.empty()) return error;
   ExrFile exr;
   exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.seed)}};
   exr.layers.push_back({"", result.radiance, false, {}});
-  for (const auto& [name, image] : result.layers) {
-    exr.layers.push_back({name, image, false, {}});
+  for (const auto& [name, image] : result.layers) exr.layers.push_back({name, image, false, {}});
+  const auto written = write_exr(files.add_path("frame.exr"), exr);
+  return written.ok() ? "" : written.error();
+}
+
+std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
+                          const FrameResult& result) {
+  StagedFiles files(options.out);
+  if (auto error = files.create(); !error.empty()) return error;
+  if (auto error = add_results(options, scene, renderer, result, {}, files); !error.empty()) {
+    return error;
   }
-  std::string error;
-  if (const auto written = write_exr((staging / "frame.exr").string(), exr); !written.ok()) {
-    error = written.error();
-  }
-  for (const File& file : files) {
-    if (!error.empty()) break;
-    const auto written = write_file_atomically((staging / file.name).string(), file.bytes);
-    if (!written.ok()) error = written.error();
-  }
-  files.push_back({"frame.exr", {}});
-  for (const File& file : files) {
-    if (!error.empty()) break;
-    fs::rename(staging / file.name, fs::path(options.out) / file.name, failed);
-    if (failed) {
-      error = fmt::format("cannot write {}/{}: {}", options.out, file.name, failed.message());
-    }
-  }
-  std::error_code ignored;
-  fs::remove_all(staging, ignored);
-  return error;
+  return files.publish();
 }
 
 std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint32_t y) {

@@ -3,13 +3,38 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "effects/scene/scene.h"
 #include "options.h"
 #include "renderer.h"
 
 namespace northlight {
+
+// Files that wait beside the results until all of them are there: a full disk or Ctrl-C must not
+// leave half of a new run over the old one. What was not published goes with this object.
+class StagedFiles {
+ public:
+  explicit StagedFiles(const std::string& folder);
+  ~StagedFiles();
+  StagedFiles(const StagedFiles&) = delete;
+  StagedFiles& operator=(const StagedFiles&) = delete;
+
+  // Error texts are empty on success.
+  std::string create();
+  std::string add(const std::string& name, const std::vector<std::uint8_t>& bytes);
+  std::string add(const std::string& name, const kaamos::effects::ByteImage& image);
+  // For what writes its file itself: where to, before it is published.
+  std::string add_path(const std::string& name);
+  // Renames all of them into the folder.
+  std::string publish();
+
+ private:
+  std::string folder_, staging_;
+  std::vector<std::string> names_;
+};
 
 // Makes the folder and sees that files can be written there, before hours of rendering. The error
 // text is empty on success.
@@ -19,6 +44,13 @@ std::string prepare_folder(const std::string& folder);
 // them are written or none is touched; the error text is empty on success.
 std::string write_results(const Options& options, const kaamos::effects::Scene& scene,
                           const Renderer& renderer, const FrameResult& result);
+// The same into `files`, which may hold others; `sequence` becomes a part of stats.json.
+std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
+                        const Renderer& renderer, const FrameResult& result,
+                        const nlohmann::ordered_json& sequence, StagedFiles& files);
+// What frame.png shows.
+kaamos::effects::ByteImage frame_picture(const kaamos::effects::FloatImage& radiance,
+                                         float exposure);
 
 // What each layer holds at a pixel, a line for each.
 std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint32_t y);

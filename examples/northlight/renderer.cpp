@@ -47,29 +47,108 @@ rtapi::Result<std::unique_ptr<Renderer>> Renderer::create(
   if (!queue) return queue.error();
   out->queue_ = *queue;
 
-  const Camera& camera = scene.cameras.front();
-  auto gpu = create_gpu_scene(out->device_, out->queue_, scene, camera.position());
-  if (!gpu) return gpu.error();
-  out->gpu_ = std::move(*gpu);
-  FrameDesc frame_desc;
-  frame_desc.width = options.width;
-  frame_desc.height = options.height;
-  frame_desc.seed = options.seed;
-  if (options.sun_angle_degrees) {
-    frame_desc.sun_angular_radius = *options.sun_angle_degrees * 3.14159265f / 360.0f;
-  }
-  auto frame = Frame::create(out->device_, out->queue_, scene, out->gpu_, camera, frame_desc);
-  if (!frame) return frame.error();
-  out->frame_ = std::move(*frame);
+  if (const auto made = out->create_scene(); !made) return made.error();
   return out;
 }
 
-rtapi::Status Renderer::run_step(const RayStep& step, const Progress& progress,
+rtapi::Status Renderer::create_scene() {
+  const Camera& camera = scene_.cameras.front();
+  moment_.camera = camera;
+  if (options_.frames > 0 || !scene_.skins.empty()) {
+    auto manager = StructureManager::create(device_, queue_, scene_);
+    if (!manager) return manager.error();
+    structures_ = std::move(*manager);
+    gpu_ = structures_->scene();
+  } else {
+    auto gpu = create_gpu_scene(device_, queue_, scene_, camera.position());
+    if (!gpu) return gpu.error();
+    gpu_ = std::move(*gpu);
+  }
+  FrameDesc frame_desc;
+  frame_desc.width = options_.width;
+  frame_desc.height = options_.height;
+  frame_desc.seed = options_.seed;
+  if (options_.sun_angle_degrees) {
+    frame_desc.sun_angular_radius = *options_.sun_angle_degrees * 3.14159265f / 360.0f;
+  }
+  auto frame = Frame::create(device_, queue_, scene_, gpu_, camera, frame_desc);
+  if (!frame) return frame.error();
+  frame_ = std::move(*frame);
+  if (!structures_) return {};
+  FrameResult ignored;  // what is baked later meets the scene as it is at the beginning
+  return begin_frame(moment_, ignored);
+}
+
+rtapi::Status Renderer::add_passes(const std::vector<RayStep>& steps, std::vector<Pass>& out) {
+  out.clear();
+  for (const RayStep& step : steps) {
+    const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
+    if (!pass) return pass.error();
+    out.push_back({step, *pass});
+  }
+  return {};
+}
+
+rtapi::Status Renderer::prepare(const ShaderLibraries& libraries, const Progress& progress,
+                                const std::atomic<bool>& stop, FrameResult& result) {
+  effects_.reset();
+  taa_.reset();
+  if (options_.whole_frame()) {
+    effects_ = std::make_unique<FrameEffects>();
+    const auto bake_progress = [&](double done) { progress("indirect light", done); };
+    const auto start = Clock::now();
+    if (const auto created = effects_->create(device_, queue_, frame_, gpu_, scene_, options_,
+                                              libraries, bake_progress, stop);
+        !created) {
+      return created;
+    }
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    result.passes.push_back({"set-up and bake", ms, device_.GetStatistics()});
+    result.left_out = effects_->left_out();
+    if (const auto done = add_passes(effects_->steps(), effect_passes_); !done) return done;
+  } else {
+    const auto composite = CompositePass::create(device_, frame_, libraries.composite);
+    if (!composite) return composite.error();
+    composite_ = *composite;
+  }
+  if (options_.taa) {
+    const auto taa = TemporalAntialiasing::create(device_, frame_, libraries.taa);
+    if (!taa) return taa.error();
+    taa_ = *taa;
+  }
+  return add_passes(steps(libraries), passes_);
+}
+
+rtapi::Status Renderer::begin_frame(const Moment& moment, FrameResult& result) {
+  FrameTime time;
+  time.index = moment.index;
+  time.previous_camera = moment.index == 0 ? moment.camera : moment_.camera;
+  time.previous_jitter = jitter_;
+  jitter_ = options_.taa ? taa_jitter(moment.index) : glm::vec2(0.0f);
+  time.jitter = jitter_;
+  moment_ = moment;
+  const glm::dvec3 origin = moment.camera.position();
+  if (structures_) {
+    const auto start = Clock::now();
+    if (const auto done = structures_->execute(device_, queue_,
+                                               evaluate_instances(scene_, moment.seconds), origin);
+        !done) {
+      return done;
+    }
+    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    result.passes.push_back({"structures", ms, {}});
+  }
+  if (moment.cut && taa_) taa_->reset();
+  return frame_.set_camera(device_, scene_, moment.camera, time);
+}
+
+rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
                                  const std::atomic<bool>& stop, FrameResult& result) {
-  const std::string& name = step.desc.name;
-  const std::uint32_t samples = step.samples;
-  const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
-  if (!pass) return pass.error();
+  const std::string& name = pass.step.desc.name;
+  const std::uint32_t samples = pass.step.samples;
+  // Each frame of a sequence goes on in each pixel's sequence of samples: over frames it covers
+  // what it samples as evenly as over the samples of one frame.
+  const std::uint32_t first = moment_.index * samples;
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
   device_.ResetStatistics();
@@ -77,7 +156,7 @@ rtapi::Status Renderer::run_step(const RayStep& step, const Progress& progress,
   std::uint32_t rows = std::min<std::uint32_t>(32, options_.height);
   for (std::uint32_t sample = 0; sample < samples; sample += kSamplesPerDispatch) {
     PassConstants constants;
-    constants.first_sample = sample;
+    constants.first_sample = first + sample;
     constants.sample_count = std::min(kSamplesPerDispatch, samples - sample);
     constants.radius = options_.ao_radius;
     for (std::uint32_t row = 0; row < options_.height;) {
@@ -85,7 +164,7 @@ rtapi::Status Renderer::run_step(const RayStep& step, const Progress& progress,
       const std::uint32_t count = std::min(rows, options_.height - row);
       constants.first_row = row;
       if (const auto reset = list->Reset(); !reset) return reset;
-      pass->dispatch(*list, frame_, constants, count, step.arguments);
+      pass.pass.dispatch(*list, frame_, constants, count, pass.step.arguments);
       const auto before = Clock::now();
       if (const auto done = execute_band(*list, name, row, count, result); !done) return done;
       const double seconds = std::chrono::duration<double>(Clock::now() - before).count();
@@ -127,76 +206,69 @@ std::vector<RayStep> Renderer::steps(const ShaderLibraries& libraries) const {
   return out;
 }
 
-rtapi::Status Renderer::run_effects(FrameEffects& effects, const Progress& progress,
-                                    const std::atomic<bool>& stop, FrameResult& result) {
-  result.left_out = effects.left_out();
+rtapi::Status Renderer::run_effects(const Progress& progress, const std::atomic<bool>& stop,
+                                    FrameResult& result) {
   if (const auto done = run_compute(
-          "local lights", [&](rtapi::CommandList& list) { effects.light(list, frame_); }, result);
+          "local lights", [&](rtapi::CommandList& list) { effects_->light(list, frame_); }, result);
       !done) {
     return done;
   }
-  for (const RayStep& step : effects.steps()) {
-    if (const auto done = run_step(step, progress, stop, result); !done) return done;
+  for (const Pass& pass : effect_passes_) {
+    if (const auto done = run_pass(pass, progress, stop, result); !done) return done;
   }
-  for (const auto& filter : effects.filters(frame_)) {
+  for (const auto& filter : effects_->filters(frame_)) {
     if (const auto done = run_compute(filter.name, filter.record, result); !done) return done;
   }
-  if (const auto done = run_compute(
-          "composite", [&](rtapi::CommandList& list) { effects.compose(list, frame_); }, result);
-      !done) {
-    return done;
-  }
-  for (const FrameEffects::Layer& layer : effects.layers()) {
-    auto image = read_picture(device_, queue_, layer.picture);
-    if (!image) return image.error();
-    for (float& value : image->values) value *= layer.scale;
-    result.layers[layer.name] = std::move(*image);
-  }
-  return {};
+  return run_compute(
+      "composite", [&](rtapi::CommandList& list) { effects_->compose(list, frame_); }, result);
 }
 
-rtapi::Status Renderer::run_composite(const ShaderLibraries& libraries, FrameResult& result) {
+rtapi::Status Renderer::run_composite(FrameResult& result) {
   CompositeConstants weights;
   weights.ao_samples = options_.ao ? options_.ao_samples : 0;
   weights.sun_samples = options_.sun && scene_.sun ? options_.sun_samples : 0;
-  const auto composite = CompositePass::create(device_, frame_, libraries.composite);
-  if (!composite) return composite.error();
   return run_compute(
-      "composite", [&](rtapi::CommandList& list) { composite->dispatch(list, frame_, weights); },
+      "composite", [&](rtapi::CommandList& list) { composite_.dispatch(list, frame_, weights); },
       result);
+}
+
+rtapi::Status Renderer::render_frame(const Progress& progress, const std::atomic<bool>& stop,
+                                     FrameResult& result) {
+  auto list = device_.CreateCommandList();
+  if (!list) return list.error();
+  frame_.clear(*list, kAmbientOcclusionSum);
+  frame_.clear(*list, kSunVisibilitySum);
+  list->ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  if (effects_) effects_->begin_frame(*list, moment_.camera.position(), moment_.cut);
+  if (const auto done = queue_.ExecuteAndWait(*list); !done) return done;
+  for (const Pass& pass : passes_) {
+    if (const auto done = run_pass(pass, progress, stop, result); !done) return done;
+  }
+  const auto done = effects_ ? run_effects(progress, stop, result) : run_composite(result);
+  if (!done || !taa_) return done;
+  return run_compute(
+      "taa", [&](rtapi::CommandList& l) { taa_->dispatch(l, frame_); }, result);
 }
 
 rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,
                                             const Progress& progress,
                                             const std::atomic<bool>& stop) {
   FrameResult result;
-  auto list = device_.CreateCommandList();
-  if (!list) return list.error();
-  frame_.clear(*list, kAmbientOcclusionSum);
-  frame_.clear(*list, kSunVisibilitySum);
-  list->ResourceBarrier(rtapi::ResourceBarrier::Uav());
-  if (const auto done = queue_.ExecuteAndWait(*list); !done) return done.error();
-
-  FrameEffects effects;
-  if (options_.whole_frame()) {
-    const auto bake_progress = [&](double done) { progress("indirect light", done); };
-    const auto start = Clock::now();
-    if (const auto created = effects.create(device_, queue_, frame_, gpu_, scene_, options_,
-                                            libraries, bake_progress, stop);
-        !created) {
-      return created.error();
-    }
-    const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    result.passes.push_back({"set-up and bake", ms, device_.GetStatistics()});
-  }
-  for (const RayStep& step : steps(libraries)) {
-    if (const auto done = run_step(step, progress, stop, result); !done) return done.error();
-  }
-  const auto done = options_.whole_frame() ? run_effects(effects, progress, stop, result)
-                                           : run_composite(libraries, result);
-  if (!done) return done.error();
-  if (const auto read = read_layers(result); !read) return read.error();
+  if (const auto done = prepare(libraries, progress, stop, result); !done) return done.error();
+  if (const auto done = render_frame(progress, stop, result); !done) return done.error();
+  if (const auto done = read_layers(result); !done) return done.error();
   return result;
+}
+
+rtapi::Result<FloatImage> Renderer::read(const rtapi::Texture& picture) {
+  return read_picture(device_, queue_, picture);
+}
+
+rtapi::Status Renderer::read_radiance(FrameResult& result) {
+  auto radiance = read(taa_ ? taa_->result() : frame_.texture(kRadiance));
+  if (!radiance) return radiance.error();
+  result.radiance = std::move(*radiance);
+  return {};
 }
 
 rtapi::Status Renderer::read_layers(FrameResult& result) {
@@ -224,10 +296,15 @@ rtapi::Status Renderer::read_layers(FrameResult& result) {
     }
     result.layers[layer.name] = std::move(*image);
   }
-  auto radiance = frame_.read(device_, queue_, kRadiance);
-  if (!radiance) return radiance.error();
-  result.radiance = std::move(*radiance);
-  return {};
+  if (effects_) {
+    for (const FrameEffects::Layer& layer : effects_->layers()) {
+      auto image = read(layer.picture);
+      if (!image) return image.error();
+      for (float& value : image->values) value *= layer.scale;
+      result.layers[layer.name] = std::move(*image);
+    }
+  }
+  return read_radiance(result);
 }
 
 }  // namespace northlight

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "effects/composite/composite.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
+#include "effects/structures/structures.h"
+#include "effects/taa/taa.h"
 #include "frame_effects.h"
 #include "options.h"
 
@@ -45,6 +48,14 @@ struct FrameResult {
   std::vector<std::string> left_out;                 // effects and parts, and why
 };
 
+// A frame of a sequence.
+struct Moment {
+  std::uint32_t index = 0;
+  double seconds = 0;
+  kaamos::effects::Camera camera;
+  bool cut = false;  // the frame before has nothing to do with this one
+};
+
 // Done part of the pass, from 0 to 1.
 using Progress = std::function<void(const std::string& pass, double done)>;
 
@@ -54,9 +65,30 @@ class Renderer {
   static rtapi::Result<std::unique_ptr<Renderer>> create(
       const Options& options, const kaamos::effects::Scene& scene,
       std::function<void(const std::string&)> message);
-  // Renders with these shaders. An empty error id in the result means that `stop` was set.
+  // Renders with these shaders: prepare, one frame, read_layers. An empty error id in the result
+  // means that `stop` was set; so it does below.
   rtapi::Result<FrameResult> render(const ShaderLibraries& libraries, const Progress& progress,
                                     const std::atomic<bool>& stop);
+  // Makes all passes, pictures and histories with these shaders, and bakes what must be baked.
+  // `libraries` must live as long as what was made.
+  rtapi::Status prepare(const ShaderLibraries& libraries, const Progress& progress,
+                        const std::atomic<bool>& stop, FrameResult& result);
+  // Goes on to another frame of a sequence: poses, structures, camera.
+  rtapi::Status begin_frame(const Moment& moment, FrameResult& result);
+  rtapi::Status render_frame(const Progress& progress, const std::atomic<bool>& stop,
+                             FrameResult& result);
+  rtapi::Status read_layers(FrameResult& result);
+  rtapi::Status read_radiance(FrameResult& result);
+
+  rtapi::Result<kaamos::effects::FloatImage> read(const rtapi::Texture& picture);
+  const kaamos::effects::Frame& frame() const { return frame_; }
+  const FrameEffects* effects() const { return effects_.get(); }  // null: not the whole frame
+  // Null: no antialiasing over frames.
+  const kaamos::effects::TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
+  // Null: nothing moves.
+  const kaamos::effects::StructureStatistics* structures() const {
+    return structures_ ? &structures_->statistics() : nullptr;
+  }
 
   // The tables of each pass, by its name.
   rtapi::Result<std::vector<std::pair<std::string, rtapi::TableDescription>>> describe_tables(
@@ -66,19 +98,25 @@ class Renderer {
   const kaamos::effects::GpuSceneStatistics& scene_statistics() const { return gpu_.statistics; }
 
  private:
+  struct Pass {
+    RayStep step;
+    kaamos::effects::RayPass pass;
+  };
+
   Renderer(const Options& options, const kaamos::effects::Scene& scene)
       : options_(options), scene_(scene) {}
-  rtapi::Status run_step(const RayStep& step, const Progress& progress,
-                         const std::atomic<bool>& stop, FrameResult& result);
+  rtapi::Status create_scene();
+  rtapi::Status add_passes(const std::vector<RayStep>& steps, std::vector<Pass>& out);
+  rtapi::Status run_pass(const Pass& pass, const Progress& progress, const std::atomic<bool>& stop,
+                         FrameResult& result);
   // A pass without rays, timed.
   rtapi::Status run_compute(const std::string& name,
                             const std::function<void(rtapi::CommandList&)>& record,
                             FrameResult& result);
   // Local lights, indirect light, reflections, denoising and the composition of all.
-  rtapi::Status run_effects(FrameEffects& effects, const Progress& progress,
-                            const std::atomic<bool>& stop, FrameResult& result);
-  rtapi::Status run_composite(const ShaderLibraries& libraries, FrameResult& result);
-  rtapi::Status read_layers(FrameResult& result);
+  rtapi::Status run_effects(const Progress& progress, const std::atomic<bool>& stop,
+                            FrameResult& result);
+  rtapi::Status run_composite(FrameResult& result);
   // The G-buffer, ambient occlusion and the sun.
   std::vector<RayStep> steps(const ShaderLibraries& libraries) const;
   // Executes a band of rows, and looks at it as --explain and --heatmap ask. [inspect.cpp]
@@ -91,6 +129,14 @@ class Renderer {
   rtapi::CommandQueue queue_;
   kaamos::effects::GpuScene gpu_;
   kaamos::effects::Frame frame_;
+  std::optional<kaamos::effects::StructureManager> structures_;  // of scenes that move
+  Moment moment_;
+  glm::vec2 jitter_{0.0f};
+  // What prepare makes.
+  std::unique_ptr<FrameEffects> effects_;
+  std::vector<Pass> passes_, effect_passes_;
+  kaamos::effects::CompositePass composite_;
+  std::optional<kaamos::effects::TemporalAntialiasing> taa_;
 };
 
 }  // namespace northlight

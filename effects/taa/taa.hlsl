@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Temporal antialiasing: the frame's jittered radiance into what the frames before it added up to.
+// [effects-spec B7.1]
+#include "frame.hlsli"
+
+// effects/taa/taa.h: TaaConstants.
+struct TaaConstants {
+  float alpha;            // least weight of the new frame
+  float clip_gamma;       // history stays within mean +- gamma deviations of 3 x 3; 0: anywhere
+  float depth_tolerance;  // relative
+  uint history_valid;     // 0: there is no frame before
+};
+ConstantBuffer<TaaConstants> taa : register(b0, space3);
+
+RWTexture2D<float4> history : register(u0, space3);  // rgb, frames in it
+RWTexture2D<float4> result : register(u1, space3);
+RWTexture2D<float> previous_z : register(u2, space3);  // of the frame before, 0 nothing
+RWTexture2D<float> next_z : register(u3, space3);
+
+static const float kFar = 1e30;
+
+bool IsFinite(float3 color) { return isfinite(color.x) && isfinite(color.y) && isfinite(color.z); }
+
+float Largest(float3 color) { return max(abs(color.x), max(abs(color.y), abs(color.z))); }
+
+int2 Clamped(int2 pixel, int2 size) { return clamp(pixel, int2(0, 0), size - 1); }
+
+float3 ToYCoCg(float3 c) {
+  return float3(dot(c, float3(0.25, 0.5, 0.25)), dot(c, float3(0.5, 0.0, -0.5)),
+                dot(c, float3(-0.25, 0.5, -0.25)));
+}
+
+float3 FromYCoCg(float3 c) {
+  const float t = c.x - c.z;
+  return float3(t + c.y, c.x + c.z, t - c.y);
+}
+
+// The new frame about a pixel. All relative to the largest value in it, so that neither very bright
+// nor very dark frames leave the range of floats, and exposure changes nothing.
+struct Neighbourhood {
+  float scale;
+  float3 mean;  // YCoCg
+  float3 deviation;
+};
+
+Neighbourhood LookAround(int2 pixel, int2 size) {
+  Neighbourhood n;
+  n.scale = 0.0;
+  n.mean = float3(0, 0, 0);
+  n.deviation = float3(0, 0, 0);
+  float count = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
+    if (IsFinite(c)) n.scale = max(n.scale, Largest(c));
+  }
+  if (n.scale == 0.0) return n;  // black, or nothing finite
+  for (int i = 0; i < 9; ++i) {
+    const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
+    if (!IsFinite(c)) continue;
+    n.mean += ToYCoCg(c / n.scale);
+    count += 1.0;
+  }
+  n.mean /= count;
+  for (int i = 0; i < 9; ++i) {
+    const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
+    if (!IsFinite(c)) continue;
+    const float3 difference = ToYCoCg(c / n.scale) - n.mean;
+    n.deviation += difference * difference;
+  }
+  n.deviation = sqrt(n.deviation / count);
+  return n;
+}
+
+// Where the surface that a pixel belongs to was one frame ago: pixels from here, and its depth then.
+// At a silhouette that is the nearest surface of 3 x 3, so that its edge is smooth in motion too.
+struct Source {
+  float2 offset;
+  float view_z;  // kFar: sky
+  bool known;
+};
+
+Source FindSource(int2 pixel, int2 size) {
+  int2 nearest = pixel;
+  float nearest_z = kFar;
+  for (int i = 0; i < 9; ++i) {
+    const int2 other = Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size);
+    const float z = g_view_z[other];
+    if (z > 0.0 && z < nearest_z) {
+      nearest_z = z;
+      nearest = other;
+    }
+  }
+  Source source;
+  if (nearest_z < kFar) {
+    const float4 motion = g_motion[nearest];
+    source.offset = motion.xy * float2(size);
+    source.view_z = nearest_z + motion.z;
+  } else {
+    // The sky is as far as a direction: only the camera's turn moves it.
+    const float2 ndc = (float2(pixel) + 0.5) / float2(size) * 2.0 - 1.0;
+    const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+    const float along = dot(direction, frame.previous_forward);
+    const float2 before =
+        float2(dot(direction, frame.previous_right) / dot(frame.previous_right, frame.previous_right),
+               -dot(direction, frame.previous_up) / dot(frame.previous_up, frame.previous_up)) /
+        along;
+    source.offset = along > 0.0 ? 0.5 * (before - ndc) * float2(size) : float2(kFar, kFar);
+    source.view_z = kFar;
+  }
+  source.known = isfinite(source.offset.x) && isfinite(source.offset.y) && isfinite(source.view_z);
+  return source;
+}
+
+// Whether all that stood about that place was nearer than this: it was hidden.
+bool WasHidden(int2 center, float view_z, int2 size) {
+  float farthest = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    const float z = previous_z[Clamped(center + int2(i % 3 - 1, i / 3 - 1), size)];
+    farthest = max(farthest, z == 0.0 ? kFar : z);
+  }
+  return farthest < view_z * (1.0 - taa.depth_tolerance);
+}
+
+// Cubic weights through the four values about a place `t` behind the second. [Catmull & Rom 1974]
+void CubicWeights(float t, out float weights[4]) {
+  weights[0] = t * (-0.5 + t * (1.0 - 0.5 * t));
+  weights[1] = 1.0 + t * t * (-2.5 + 1.5 * t);
+  weights[2] = t * (0.5 + t * (2.0 - 1.5 * t));
+  weights[3] = t * t * (-0.5 + 0.5 * t);
+}
+
+float4 SampleHistory(float2 at, int2 size) {
+  const float2 corner = floor(at);
+  float wx[4], wy[4];
+  CubicWeights(at.x - corner.x, wx);
+  CubicWeights(at.y - corner.y, wy);
+  float3 color = float3(0, 0, 0);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      // Exactly on a pixel the others are not asked: huge values there would round it away.
+      const float weight = wx[x] * wy[y];
+      if (weight == 0.0) continue;
+      color += weight * history[Clamped(int2(corner) + int2(x - 1, y - 1), size)].rgb;
+    }
+  }
+  const float frames = history[Clamped(int2(at + 0.5), size)].w;
+  return float4(max(color, float3(0, 0, 0)), frames);
+}
+
+// Moves a history outside of the box towards its middle until it is inside.
+float3 Clip(float3 color, Neighbourhood n) {
+  const float3 from_mean = ToYCoCg(color) - n.mean;
+  const float3 box = taa.clip_gamma * n.deviation + 1e-6;
+  const float3 outside = abs(from_mean) / box;
+  const float most = max(outside.x, max(outside.y, outside.z));
+  return most > 1.0 ? max(FromYCoCg(n.mean + from_mean / most), float3(0, 0, 0)) : color;
+}
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void Resolve(uint3 id : SV_DispatchThreadID) {
+  uint width, height;
+  result.GetDimensions(width, height);
+  const int2 size = int2(width, height);
+  const int2 pixel = int2(id.xy);
+  if (any(pixel >= size)) return;
+  next_z[pixel] = g_view_z[pixel];
+  const Neighbourhood around = LookAround(pixel, size);
+  float3 color = radiance[pixel].rgb;
+  // What is no number is what its neighbours are.
+  if (!IsFinite(color)) color = max(FromYCoCg(around.mean), float3(0, 0, 0)) * around.scale;
+  result[pixel] = float4(color, 1.0);
+  if (taa.history_valid == 0) return;
+  const Source source = FindSource(pixel, size);
+  const float2 at = float2(pixel) + source.offset;
+  if (!source.known || !all(at >= float2(-0.5, -0.5)) || !all(at < float2(size) - 0.5)) return;
+  if (WasHidden(int2(floor(at + 0.5)), source.view_z, size)) return;
+  const float4 before = SampleHistory(at, size);
+  if (!IsFinite(before.rgb)) return;
+  float3 old = before.rgb;
+  if (taa.clip_gamma > 0.0) {
+    // In the dark there is only the dark.
+    old = around.scale > 0.0 ? Clip(old / around.scale, around) * around.scale : float3(0, 0, 0);
+    if (!IsFinite(old)) return;
+  }
+  const float frames = min(before.w + 1.0, 1024.0);
+  result[pixel] = float4(lerp(old, color, max(taa.alpha, 1.0 / frames)), frames);
+}
