@@ -14,8 +14,9 @@ float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
 void AmbientOcclusionRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
-  if (g_ids[pixel].x == 0) {
-    ambient_occlusion_sum[pixel] += float(count);  // the sky is open
+  // The sky is open, and so is everything as far as nothing. [effects-spec E.2]
+  if (g_ids[pixel].x == 0 || !(pass_constants.radius > 0.0)) {
+    ambient_occlusion_sum[pixel] += float(count);
     return;
   }
   const float4 position = g_position[pixel];

@@ -27,10 +27,15 @@ ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
 
 float Luminance(float3 color) { return dot(color, float3(0.2126, 0.7152, 0.0722)); }
 
+// The square of more light, summed over a filter, would not be finite.
+static const float kMostLight = 1e17;
+
 // Light that is not a number, or infinite, is no light: it may not spread. [effects-spec E.1]
+float FiniteOrZero(float light) {
+  return isfinite(light) ? clamp(light, -kMostLight, kMostLight) : 0.0;
+}
 float3 FiniteOrZero(float3 color) {
-  return float3(isfinite(color.x) ? color.x : 0.0, isfinite(color.y) ? color.y : 0.0,
-                isfinite(color.z) ? color.z : 0.0);
+  return float3(FiniteOrZero(color.x), FiniteOrZero(color.y), FiniteOrZero(color.z));
 }
 
 // Change of the view depth from one pixel to the next, on the smaller side, so that an edge of the

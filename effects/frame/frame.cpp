@@ -63,6 +63,25 @@ rtapi::Filter filter(const Sampler& sampler) {
                                     linear(sampler.min_filter) << 4);
 }
 
+// Of a sky or a sun that is no number: nothing of it shines, and nothing else is spoilt.
+glm::vec3 finite_or_black(const glm::vec3& color) {
+  return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z)
+             ? color
+             : glm::vec3(0.0f);
+}
+
+void set_sun(FrameConstants& c, const Sun& sun, float radius) {
+  // A flat disk does not get to half the sky.
+  constexpr float kLargestRadius = 1.5f;
+  c.tan_sun_radius = std::tan(radius > 0 ? std::min(radius, kLargestRadius) : 0.0f);
+  c.direction_to_sun = finite_or_black(sun.direction_to_sun);
+  c.sun_irradiance = finite_or_black(sun.irradiance);
+  if (c.direction_to_sun == glm::vec3(0.0f)) {
+    c.direction_to_sun = glm::vec3(0, 1, 0);
+    c.sun_irradiance = glm::vec3(0.0f);
+  }
+}
+
 }  // namespace
 
 FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
@@ -87,12 +106,10 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   c.seed = desc.seed;
   const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0.0f), 0.0f});
   const float radius = desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;
-  c.direction_to_sun = sun.direction_to_sun;
-  c.tan_sun_radius = std::tan(radius);
-  c.sun_irradiance = sun.irradiance;
-  c.sky_zenith = scene.sky.zenith;
-  c.sky_horizon = scene.sky.horizon;
-  c.sky_ground = scene.sky.ground;
+  set_sun(c, sun, radius);
+  c.sky_zenith = finite_or_black(scene.sky.zenith);
+  c.sky_horizon = finite_or_black(scene.sky.horizon);
+  c.sky_ground = finite_or_black(scene.sky.ground);
   return c;
 }
 

@@ -8,6 +8,31 @@ namespace kaamos::effects {
 
 namespace {
 
+// More than a sun as a point has (3e27 cd). With it the square of a range is still a float.
+constexpr float kStrongestIntensity = 1e30f;
+
+bool is_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_whole(const LightConstants& light) {
+  return is_finite(light.position) && is_finite(light.intensity) && is_finite(light.direction) &&
+         std::isfinite(light.radius) && std::isfinite(light.spot_scale) &&
+         std::isfinite(light.spot_offset);
+}
+
+// Makes a light dark that a broken number would make shine everywhere and as nothing. It stays in
+// the list: shadow maps go by places in it. [effects-spec E.1]
+void darken(LightConstants& light) {
+  light.position = light.intensity = glm::vec3(0.0f);
+  light.direction = glm::vec3(0, -1, 0);
+  light.radius = 0;
+  light.range = 1;
+  light.is_spot = 0;
+  light.spot_scale = 0;
+  light.spot_offset = light.cos_outer = 1;
+}
+
 // [KHR_lights_punctual: Inner and Outer Cone Angles]
 void set_cone(LightConstants& out, const Light& light) {
   const float inner = std::cos(light.inner_cone_angle);
@@ -27,13 +52,20 @@ std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3
     LightConstants out = {};
     out.position = glm::vec3(light.position - origin);
     out.intensity = light.color * light.intensity;
+    if (is_finite(light.color) && std::isfinite(light.intensity)) {
+      out.intensity = glm::min(out.intensity, glm::vec3(kStrongestIntensity));
+    }
     out.direction = light.direction;
-    out.radius = light.radius;
+    out.radius = std::isfinite(light.radius) ? std::max(light.radius, 0.0f) : light.radius;
     const float strongest =
         std::max({out.intensity.x, out.intensity.y, out.intensity.z, kCutOffIlluminance});
-    out.range = light.range > 0 ? light.range : std::sqrt(strongest / kCutOffIlluminance);
+    // At the strongest, strongest / cut-off is still a float.
+    out.range = light.range > 0 && std::isfinite(light.range)
+                    ? light.range
+                    : std::sqrt(strongest / kCutOffIlluminance);
     out.spot_offset = 1.0f;
     if (light.type == LightType::kSpot) set_cone(out, light);
+    if (!is_whole(out)) darken(out);
     lights.push_back(out);
   }
   return lights;

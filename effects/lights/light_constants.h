@@ -28,7 +28,8 @@ static_assert(sizeof(LightConstants) == 64);
 /// Illuminance, in lux, that a light without a range of its own is cut off at.
 inline constexpr float kCutOffIlluminance = 1e-3f;
 
-/// The point and spot lights of a scene, in its order; directional ones are left out.
+/// The point and spot lights of a scene, in its order; directional ones are left out. One with a
+/// number that is not finite is dark; a range that is not is taken for none.
 std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3& origin);
 
 }  // namespace kaamos::effects

@@ -6,12 +6,21 @@
 
 #include "frame.hlsli"
 
+static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
+
+// 0 for what is no number or negative, and no more than `largest`: a broken material is a black one,
+// in its own pixels and wherever it is seen. [effects-spec E.1]
+float Contain(float x, float largest) { return x > 0.0 ? min(x, largest) : 0.0; }
+float3 Contain(float3 x, float largest) {
+  return float3(Contain(x.x, largest), Contain(x.y, largest), Contain(x.z, largest));
+}
+
 struct Surface {
   float3 position;        // relative to the camera
   float offset;           // a ray starts that far from it, along `normal`, so as not to meet it again
   float3 normal;          // of the triangle, towards where the ray came from
   float3 shading_normal;  // towards there too
-  float3 base_color;      // linear
+  float3 base_color;      // linear, 0..1, as metallic and roughness
   float opacity;
   float3 emissive;
   float roughness;
@@ -89,12 +98,13 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   const float4 base_color =
       material.base_color * SampleMaterial(material, kBaseColorTexture, uv, lod);
   const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, uv, lod);
-  surface.base_color = base_color.rgb;
+  surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
   surface.emissive =
-      material.emissive * SampleMaterial(material, kEmissiveTexture, uv, lod).rgb;
-  surface.roughness = material.roughness * metallic_roughness.g;
-  surface.metallic = material.metallic * metallic_roughness.b;
+      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, uv, lod).rgb,
+              kLargestRadiance);
+  surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
+  surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
   return surface;
 }
 

@@ -24,7 +24,6 @@ ConstantBuffer<TransparentConstants> constants : register(b0, space3);
 
 static const uint kMaskGlass = 0x02;  // [effects/scene/scene.h: InstanceMask]
 static const uint kMaxSortedLayers = 8;
-static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
 
 // Nearer to an edge than that, in barycentrics, a neighbour may be met too, at a distance that is
 // the same but for rounding.
@@ -50,13 +49,7 @@ struct GlassPayload {
   float sun_visibility;  // at the layer before: any-hit shaders cannot trace a ray
 };
 
-// Black instead of what is no number, and no more than a picture can hold: a broken material stays
-// in its own pixels.
-float Contain(float x) {
-  if (!(x > 0.0)) return 0.0;
-  return x < kLargestRadiance ? x : kLargestRadiance;
-}
-float3 Contain(float3 x) { return float3(Contain(x.x), Contain(x.y), Contain(x.z)); }
+float3 Contain(float3 x) { return Contain(x, kLargestRadiance); }
 
 float Coverage(float opacity) {
   if (!(opacity > 0.0)) return 0.0;
