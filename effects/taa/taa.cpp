@@ -42,17 +42,17 @@ rtapi::Result<TemporalAntialiasing> TemporalAntialiasing::create(
         frame.create_picture(device, "taa " + number, rtapi::Format::kR32G32B32A32Float);
     if (!picture) return picture.error();
     out.pictures_[i] = *picture;
-    const auto depth =
-        frame.create_picture(device, "taa depth " + number, rtapi::Format::kR32Float);
-    if (!depth) return depth.error();
-    out.depths_[i] = *depth;
+    const auto surface =
+        frame.create_picture(device, "taa surface " + number, rtapi::Format::kR32G32B32A32Float);
+    if (!surface) return surface.error();
+    out.surfaces_[i] = *surface;
   }
   for (std::uint32_t i = 0; i < 2; ++i) {
     const auto views = frame.create_pass_views(device);
     if (!views) return views.error();
     out.views_[i] = *views;
     const rtapi::Texture* const bound[] = {&out.pictures_[1 - i], &out.pictures_[i],
-                                           &out.depths_[1 - i], &out.depths_[i]};
+                                           &out.surfaces_[1 - i], &out.surfaces_[i]};
     for (std::uint32_t u = 0; u < 4; ++u) {
       if (const auto s = out.views_[i].set_unordered_access(u, *bound[u]); !s) return s.error();
     }

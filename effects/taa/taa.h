@@ -18,7 +18,7 @@ namespace kaamos::effects {
 struct TaaConstants {
   float alpha = 0.1f;             ///< least weight of the new frame; the Nth has at least 1 / N
   float clip_gamma = 1.0f;        ///< deviations of 3 x 3 pixels; 0: history is not clipped
-  float depth_tolerance = 0.02f;  ///< relative; what was nearer by more hid the surface
+  float depth_tolerance = 0.02f;  ///< relative; what was nearer by more may have hidden the surface
   std::uint32_t history_valid = 0;
 };
 static_assert(sizeof(TaaConstants) == 16);
@@ -49,7 +49,7 @@ class TemporalAntialiasing {
  private:
   TaaConstants constants_;
   ComputePass pass_;
-  std::array<rtapi::Texture, 2> pictures_, depths_;
+  std::array<rtapi::Texture, 2> pictures_, surfaces_;
   std::array<PassViews, 2> views_;  // by the picture that is written
   std::uint32_t written_ = 0;
   std::uint32_t frames_ = 0;  // since the last cut

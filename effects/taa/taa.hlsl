@@ -14,10 +14,13 @@ ConstantBuffer<TaaConstants> taa : register(b0, space3);
 
 RWTexture2D<float4> history : register(u0, space3);  // rgb, frames in it
 RWTexture2D<float4> result : register(u1, space3);
-RWTexture2D<float> previous_z : register(u2, space3);  // of the frame before, 0 nothing
-RWTexture2D<float> next_z : register(u3, space3);
+// Of the frame before and of this one: motion in pixels, view depth, 0 nothing.
+RWTexture2D<float4> previous_surface : register(u2, space3);
+RWTexture2D<float4> next_surface : register(u3, space3);
 
 static const float kFar = 1e30;
+static const float kSameMotion = 0.25;  // pixels a frame
+static const float kLeastWeight = 0.05;
 
 bool IsFinite(float3 color) { return isfinite(color.x) && isfinite(color.y) && isfinite(color.z); }
 
@@ -111,14 +114,13 @@ Source FindSource(int2 pixel, int2 size) {
   return source;
 }
 
-// Whether all that stood about that place was nearer than this: it was hidden.
-bool WasHidden(int2 center, float view_z, int2 size) {
-  float farthest = 0.0;
-  for (int i = 0; i < 9; ++i) {
-    const float z = previous_z[Clamped(center + int2(i % 3 - 1, i / 3 - 1), size)];
-    farthest = max(farthest, z == 0.0 ? kFar : z);
-  }
-  return farthest < view_z * (1.0 - taa.depth_tolerance);
+// Whether what stood at a pixel hid that surface and has left it since. What moves as the surface
+// does is still there: too thin for each frame's rays to meet.
+bool WasHidden(int2 pixel, Source source) {
+  const float4 before = previous_surface[pixel];
+  if (before.z == 0.0 || before.z >= source.view_z * (1.0 - taa.depth_tolerance)) return false;
+  const float2 apart = abs(before.xy - source.offset);
+  return max(apart.x, apart.y) > kSameMotion;
 }
 
 // Cubic weights through the four values about a place `t` behind the second. [Catmull & Rom 1974]
@@ -129,7 +131,7 @@ void CubicWeights(float t, out float weights[4]) {
   weights[3] = t * t * (-0.5 + 0.5 * t);
 }
 
-float4 SampleHistory(float2 at, int2 size) {
+float3 SampleCubic(float2 at, int2 size) {
   const float2 corner = floor(at);
   float wx[4], wy[4];
   CubicWeights(at.x - corner.x, wx);
@@ -143,8 +145,36 @@ float4 SampleHistory(float2 at, int2 size) {
       color += weight * history[Clamped(int2(corner) + int2(x - 1, y - 1), size)].rgb;
     }
   }
-  const float frames = history[Clamped(int2(at + 0.5), size)].w;
-  return float4(max(color, float3(0, 0, 0)), frames);
+  return max(color, float3(0, 0, 0));
+}
+
+// History at a place between pixels, and the frames in it; 0 frames: nothing is known. Where some of
+// the four pixels about it showed what hid the surface, the others have to do.
+float4 SampleHistory(Source source, float2 at, int2 size) {
+  const float2 corner = floor(at);
+  const float2 part = at - corner;
+  float4 known = float4(0, 0, 0, 0);
+  float weights = 0.0, heaviest = 0.0;
+  bool all_known = true;
+  for (int i = 0; i < 4; ++i) {
+    const int2 offset = int2(i & 1, i >> 1);
+    const float weight = (offset.x == 1 ? part.x : 1.0 - part.x) *
+                         (offset.y == 1 ? part.y : 1.0 - part.y);
+    if (weight == 0.0) continue;
+    const int2 tap = Clamped(int2(corner) + offset, size);
+    if (WasHidden(tap, source)) {
+      all_known = false;
+      continue;
+    }
+    known.rgb += weight * history[tap].rgb;
+    weights += weight;
+    if (weight > heaviest) {
+      heaviest = weight;
+      known.w = history[tap].w;
+    }
+  }
+  if (weights < kLeastWeight) return float4(0, 0, 0, 0);
+  return float4(all_known ? SampleCubic(at, size) : known.rgb / weights, known.w);
 }
 
 // Moves a history outside of the box towards its middle until it is inside.
@@ -164,7 +194,8 @@ void Resolve(uint3 id : SV_DispatchThreadID) {
   const int2 size = int2(width, height);
   const int2 pixel = int2(id.xy);
   if (any(pixel >= size)) return;
-  next_z[pixel] = g_view_z[pixel];
+  const float2 motion = g_motion[pixel].xy * float2(size);
+  next_surface[pixel] = float4(motion, g_view_z[pixel], 0.0);
   const Neighbourhood around = LookAround(pixel, size);
   float3 color = radiance[pixel].rgb;
   // What is no number is what its neighbours are.
@@ -174,9 +205,8 @@ void Resolve(uint3 id : SV_DispatchThreadID) {
   const Source source = FindSource(pixel, size);
   const float2 at = float2(pixel) + source.offset;
   if (!source.known || !all(at >= float2(-0.5, -0.5)) || !all(at < float2(size) - 0.5)) return;
-  if (WasHidden(int2(floor(at + 0.5)), source.view_z, size)) return;
-  const float4 before = SampleHistory(at, size);
-  if (!IsFinite(before.rgb)) return;
+  const float4 before = SampleHistory(source, at, size);
+  if (before.w == 0.0 || !IsFinite(before.rgb)) return;
   float3 old = before.rgb;
   if (taa.clip_gamma > 0.0) {
     // In the dark there is only the dark.

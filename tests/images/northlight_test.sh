@@ -40,6 +40,13 @@ expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12
 expect_error 2 'outside of the picture' --size 64x36 --pixel 64,3
 expect_error 1 'unknown backend.*embree' --backend nothing
+expect_error 2 'not in range 1 to 100000' --frames 0
+expect_error 2 'camera-path requires --frames' --camera-path orbit
+expect_error 2 'taa requires --frames' --taa
+expect_error 2 'exclude each other' --frames 2 --watch
+expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --size 16x9 --camera-path roundabout
+printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
+expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
 grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
@@ -72,11 +79,32 @@ cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the whole frame 
 echo damage >> "$work/lounge.gi"
 expect_error 1 'lounge.gi is no volume.*bake it again' "${whole[@]}"
 
+# A sequence: the same on any number of threads, a line for each frame, no frames of a longer one left.
+moving=(--scene runner --effects all --taa --gi-bake-samples 1 --gi-cell 2 --size 64x36)
+"$northlight" "${moving[@]}" --frames 6 --threads 1 --out "$work/one" > "$work/log" || fail "a sequence: $(cat "$work/log")"
+grep -q '^frame .*[0-9] .*[0-9]$' <<< "$(grep -A9 '^flicker' "$work/log")" || fail "no flicker: $(cat "$work/log")"
+grep -Eq '^structures: .* updated, .* rebuilt' "$work/log" || fail "no structures: $(cat "$work/log")"
+"$northlight" "${moving[@]}" --frames 6 --threads 3 --out "$work/three" > /dev/null || fail "a sequence on 3 threads"
+for i in 0 1 2 3 4 5; do
+  cmp -s "$work/one/frame_000$i.png" "$work/three/frame_000$i.png" || fail "frame $i depends on the threads"
+done
+cmp -s "$work/one/frame.png" "$work/one/frame_0005.png" || fail "frame.png is not the last frame"
+cmp -s "$work/one/frame_0000.png" "$work/one/frame_0005.png" && fail "nothing moves"
+[ "$(grep -c '"frame":' "$work/one/stats.json")" -ge 6 ] || fail "stats.json lacks frames: $(cat "$work/one/stats.json")"
+"$northlight" "${moving[@]}" --frames 2 --out "$work/one" > /dev/null || fail "a shorter sequence"
+[ ! -e "$work/one/frame_0002.png" ] || fail "a frame of the longer sequence is left"
+cmp -s "$work/one/frame_0001.png" "$work/three/frame_0001.png" || fail "frame 1 depends on how many follow"
+printf '0 0 1 5 0 1 0\n0.02 0 2 5 0 1 0 cut\n' > "$work/path"
+"$northlight" --scene runner --size 32x18 --frames 3 --camera-path "$work/path" --out "$work/cut" > /dev/null || fail "a path's file"
+grep -q '"cut": true' "$work/cut/stats.json" || fail "no cut: $(cat "$work/cut/stats.json")"
+
 before=$(cd "$work/out" && sha256sum ./* | sha256sum)
 "$northlight" "${small[@]}" --scene nothere.gltf > /dev/null 2>&1
 timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --ao-samples 65536 > /dev/null 2> "$work/log"
 [ $? = 130 ] || fail "Ctrl-C: exit code is not 130"
 grep -q 'interrupted: nothing was written' "$work/log" || fail "Ctrl-C: $(cat "$work/log")"
+timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --size 320x180 --frames 5000 > /dev/null 2>&1
+[ $? = 130 ] || fail "Ctrl-C in a sequence: exit code is not 130"
 [ "$before" = "$(cd "$work/out" && sha256sum ./* | sha256sum)" ] || fail "earlier results changed"
 [ -z "$(find "$work/out" -name '.*' -type d -mindepth 1)" ] || fail "a working folder was left over"
 
