@@ -121,6 +121,8 @@ class Frame {
   /// so other constants and lights. The top level must be relative to that camera by then.
   rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
                            const FrameTime& time);
+  /// What random numbers follow from, behind the next set_camera.
+  void set_seed(std::uint32_t seed) { desc_.seed = seed; }
   /// Puts the top level and the previous instances of `gpu` in place of those before (t0, t4). Its
   /// textures and materials must be those that the frame was made with. No dispatch of this frame
   /// may run meanwhile.
