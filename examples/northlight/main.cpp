@@ -13,6 +13,7 @@
 #include "effects/scene/material_override.h"
 #include "effects/scene/staging.h"
 #include "inspect.h"
+#include "measure.h"
 #include "options.h"
 #include "output.h"
 #include "renderer.h"
@@ -145,6 +146,13 @@ int render_frames(Renderer& renderer, const ShaderLibraries& libraries, const Op
   return 1;
 }
 
+int measure(const Options& options, const Scene& scene) {
+  const auto libraries = built_in_libraries();
+  if (!libraries) return report(libraries.error(), options);
+  const auto done = run_measure(options, scene, *libraries, show_progress, stop_requested);
+  return done ? 0 : report(done.error(), options);
+}
+
 // Until Ctrl-C: an error in a shader is shown, and the next change tried.
 int watch(Renderer& renderer, const Options& options, const Scene& scene) {
   const auto folder = find_effects_folder();
@@ -191,6 +199,7 @@ int main(int argc, char** argv) {
   }
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (!options->measure.empty()) return measure(*options, scene);
   auto renderer = Renderer::create(*options, scene, say_error);
   if (!renderer) return report(renderer.error(), *options);
   if (options->watch) return watch(**renderer, *options, scene);

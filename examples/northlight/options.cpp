@@ -11,6 +11,7 @@
 #include "effects/scene/built_in.h"
 #include "effects/scene/camera_path.h"
 #include "effects/transparent/transparent.h"
+#include "measure.h"
 
 namespace northlight {
 namespace {
@@ -235,6 +236,20 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "anyhit, candidates, depth or rays: write a picture of these counts per pixel")
       ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
   app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
+  app.add_option("--measure", options.measure,
+                 "time against error over an effect's quality settings, as a table, a CSV file and "
+                 "a plot: ao, sun, contact, reflections, transparent, gi, svgf")
+      ->check(CLI::IsMember(measured_effects()));
+  app.add_option("--measure-reference", options.measure_reference,
+                 "samples per pixel of what --measure compares with; kept in OUT/measure-cache")
+      ->capture_default_str()
+      ->check(CLI::Range(4u, 1u << 24));
+  app.add_option("--repeats", options.repeats, "runs of each setting that --measure times")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, 1000u));
+  app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
+      ->capture_default_str()
+      ->check(CLI::Range(2u, 4096u));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -255,6 +270,14 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     std::fprintf(stderr, "northlight: %s\n", conflict.c_str());
     exit_code = 2;
     return std::nullopt;
+  }
+  if (!options.measure.empty()) {
+    if (app.count("--size") == 0) {
+      std::tie(options.width, options.height) = default_measure_size(options.measure);
+    }
+    if (options.measure == "transparent" && app.count("--scene") == 0) {
+      options.scene = "glass-stack";
+    }
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;
   return options;

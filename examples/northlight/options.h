@@ -52,6 +52,10 @@ struct Options {
   bool taa = false;
   bool watch = false;
   bool list_devices = false;
+  std::string measure;                      // effect whose error is measured; empty: none
+  std::uint32_t measure_reference = 16384;  // samples of its reference
+  std::uint32_t repeats = 7;                // of each measured setting
+  std::uint32_t seeds = 64;                 // of each denoiser
   std::optional<std::pair<std::uint32_t, std::uint32_t>>
       pixel;           // print it instead of writing files
   std::string tables;  // "text", "json": print the shader tables instead of rendering; empty: no

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "effects/common/file.h"
+#include "measure_reference.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+namespace {
+
+rtapi::Error failure(const std::string& text) {
+  return {"measure", rtapi::ErrorCode::kFailed, text};
+}
+
+void print_message(const std::string& text) {
+  std::fprintf(stderr, "northlight: %s\n", text.c_str());
+}
+
+std::string cache_folder(const Options& options) {
+  return options.out + "/measure-cache";
+}
+
+// What one run of a setting told.
+struct Record {
+  std::vector<double> ms;
+  double traced = 0;
+  Errors errors;
+};
+
+rtapi::Status run_setting(Stage& stage, const Setting& setting, const Target& target,
+                          Record& record) {
+  const auto ran = stage.run(setting);
+  if (!ran) return ran.error();
+  record.ms.push_back(ran->ms);
+  record.traced = static_cast<double>(ran->rays) / stage.frame().width() / stage.frame().height();
+  const auto image = stage.read(setting);
+  if (!image) return image.error();
+  if (const auto error = record.errors.add(*image, target); !error.empty()) return failure(error);
+  return {};
+}
+
+rtapi::Result<Target> make_target(Stage& stage, const MeasurePlan& plan,
+                                  const MeasurePlan::Reference& reference, const Options& options,
+                                  const StageProgress& progress) {
+  rtapi::Result<Target> target = Target{};
+  if (reference.exact) {
+    if (const auto ran = stage.run(reference.setting); !ran) return ran.error();
+    const auto image = stage.read(reference.setting);
+    if (!image) return image.error();
+    const auto mask = stage.mask(plan.needs.glass);
+    if (!mask) return mask.error();
+    target->image = *image;
+    target->mask = *mask;
+    if (std::find(mask->begin(), mask->end(), 1) == mask->end()) {
+      return failure(
+          "no pixel shows glass: choose another scene, as glass-stack, or make glass of "
+          "a material, as in --material NAME:alpha=0.3,roughness=0");
+    }
+  } else {
+    target = make_reference(stage, reference.setting, options.measure_reference, reference.name,
+                            cache_folder(options), progress);
+    if (!target) return target.error();
+  }
+  if (plan.light) target->exposure = stage.scene().exposure;
+  return target;
+}
+
+std::string scene_text(const Options& options) {
+  std::string text =
+      fmt::format("{}, {} x {}, {}", options.scene, options.width, options.height, options.backend);
+  if (options.threads > 0) text += fmt::format(", {} threads", options.threads);
+  return text;
+}
+
+rtapi::Status write_text(const std::string& path, const std::string& text) {
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
+    return failure(s.error());
+  }
+  return {};
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene& scene,
+                                            const ShaderLibraries& libraries,
+                                            const StageProgress& progress,
+                                            const std::atomic<bool>& stop) {
+  const MeasurePlan plan = measure_plan(options);
+  if (options.measure == "sun" && !scene.sun) return failure("the scene has no sun to measure");
+  auto created = Stage::create(options, scene, libraries, plan.needs, cache_folder(options),
+                               progress, stop, print_message);
+  if (!created) return created.error();
+  Stage& stage = **created;
+  MeasuredTable table;
+  table.title = plan.title + ": time against error";
+  table.subtitle = fmt::format("{}; {}; median of {} interleaved runs", scene_text(options),
+                               plan.signal, options.repeats);
+  std::map<std::string, Target> targets;
+  for (const auto& reference : plan.references) {
+    auto target = make_target(stage, plan, reference, options, progress);
+    if (!target) return target.error();
+    table.about.push_back(
+        fmt::format("reference {}: {}, {}", reference.name, reference.about,
+                    reference.exact ? std::string("exact")
+                                    : fmt::format("{} samples, its own RMSE {:.2g}",
+                                                  options.measure_reference, target->own_rmse)));
+    targets.emplace(reference.name, std::move(*target));
+  }
+  // One run of all before the first that counts: pipelines and caches are warm then.
+  std::vector<Record> records(plan.settings.size());
+  for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
+    if (const auto s = stage.set_seed(options.seed + repeat); !s) return s.error();
+    if (repeat == 1) records.assign(plan.settings.size(), {});
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      const MeasuredSetting& measured = plan.settings[i];
+      if (const auto s =
+              run_setting(stage, measured.setting, targets.at(measured.reference), records[i]);
+          !s) {
+        return s.error();
+      }
+      progress("measuring", (repeat + (i + 1.0) / static_cast<double>(records.size())) /
+                                (options.repeats + 1.0));
+    }
+  }
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const MeasuredSetting& measured = plan.settings[i];
+    const Target& target = targets.at(measured.reference);
+    MeasuredRow row{measured.group, measured.label, measured.reference};
+    row.rays = std::max(measured.setting.samples, measured.setting.times_ao);
+    if (plan.needs.glass) row.rays = 1;
+    row.traced = records[i].traced;
+    row.ms = median(records[i].ms);
+    row.errors = records[i].errors.summary(target);
+    row.reference_rmse = target.own_rmse;
+    row.steps = measured.steps;
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+Table as_csv(const MeasuredTable& table) {
+  Table out;
+  out.columns = {"group",     "setting",    "rays",         "traced_rays",     "ms",
+                 "filter_ms", "rmse",       "rel_mse",      "trimmed_rel_mse", "psnr_db",
+                 "ssim",      "flip",       "energy_ratio", "bias_squared",    "variance",
+                 "flicker",   "not_finite", "reference",    "reference_rmse"};
+  for (const MeasuredRow& row : table.rows) {
+    const Errors::Summary& e = row.errors;
+    out.rows.push_back(
+        {row.group, row.label, std::to_string(row.rays), csv_number(row.traced), csv_number(row.ms),
+         csv_number(row.filter_ms), csv_number(e.rmse), csv_number(e.relative_mse),
+         csv_number(e.trimmed_relative_mse), csv_number(e.psnr), csv_number(e.ssim),
+         csv_number(e.flip), csv_number(e.energy_ratio), csv_number(e.bias_squared),
+         csv_number(e.variance), row.flicker < 0 ? "" : csv_number(row.flicker),
+         std::to_string(e.not_finite), row.reference, csv_number(row.reference_rmse)});
+  }
+  return out;
+}
+
+std::string as_text(const MeasuredTable& table) {
+  std::string out = fmt::format("{}\n{}\n", table.title, table.subtitle);
+  for (const std::string& line : table.about) out += line + "\n";
+  std::string group;
+  for (const MeasuredRow& row : table.rows) {
+    if (row.group != group) {
+      group = row.group;
+      out +=
+          fmt::format("\n{}\n{:<28}{:>5}{:>9}{:>9}{:>10}{:>10}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}\n",
+                      group, "", "rays", "traced", "ms", "RMSE", "relMSE", "PSNR", "SSIM", "FLIP",
+                      "energy", "bias^2", "variance");
+    }
+    const Errors::Summary& e = row.errors;
+    out += fmt::format(
+        "{:<28}{:>5}{:>9.2f}{:>9.2f}{:>10.3g}{:>10.3g}{:>8.2f}{:>8.4f}{:>8.4f}{:>8.4f}{:>10.2e}{:>"
+        "10.2e}",
+        row.label, row.rays, row.traced, row.ms, e.rmse, e.relative_mse, e.psnr, e.ssim, e.flip,
+        e.energy_ratio, e.bias_squared, e.variance);
+    if (row.flicker >= 0) out += fmt::format("  flicker {:.4f}", row.flicker);
+    if (e.not_finite > 0) out += fmt::format("  {} values are no numbers", e.not_finite);
+    out += "\n";
+  }
+  return out;
+}
+
+Plot as_plot(const MeasuredTable& table) {
+  Plot plot{.title = table.title,
+            .subtitle = table.subtitle,
+            .x_label = "time (ms)",
+            .y_label = "root mean square error"};
+  std::set<double> levels;
+  for (const MeasuredRow& row : table.rows) {
+    if (plot.series.empty() || plot.series.back().name != row.group) {
+      plot.series.push_back({row.group, {}, row.steps});
+    }
+    plot.series.back().points.push_back({row.ms, row.errors.rmse, row.label});
+    if (row.reference_rmse > 0 && levels.insert(row.reference_rmse).second) {
+      plot.levels.push_back({"own error of reference " + row.reference, row.reference_rmse});
+    }
+  }
+  return plot;
+}
+
+rtapi::Status run_measure(const Options& options, const Scene& scene,
+                          const ShaderLibraries& libraries, const StageProgress& progress,
+                          const std::atomic<bool>& stop) {
+  std::error_code failed;
+  std::filesystem::create_directories(cache_folder(options), failed);
+  if (failed) {
+    return failure(
+        fmt::format("cannot make the folder {}: {}", cache_folder(options), failed.message()));
+  }
+  const auto table = options.measure == "svgf"
+                         ? measure_denoisers(options, scene, libraries, progress, stop)
+                         : measure_effect(options, scene, libraries, progress, stop);
+  if (!table) return table.error();
+  const std::string path = options.out + "/measure-" + options.measure;
+  if (const auto s = write_text(path + ".csv", write_csv(as_csv(*table))); !s) return s;
+  if (const auto s = write_text(path + ".svg", plot_svg(as_plot(*table))); !s) return s;
+  std::fputs(as_text(*table).c_str(), stdout);
+  std::printf("\nwrote %s.csv and .svg\n", path.c_str());
+  std::fflush(stdout);
+  return {};
+}
+
+}  // namespace northlight

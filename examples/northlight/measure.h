@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// northlight --measure EFFECT: time against error over the quality settings of an effect.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "effects/image/csv.h"
+#include "effects/image/plot.h"
+#include "measure_errors.h"
+#include "options.h"
+#include "stage.h"
+
+namespace northlight {
+
+// A setting that is measured.
+struct MeasuredSetting {
+  std::string group;  // settings that differ in one thing only; a line of the plot
+  std::string label;
+  Setting setting;
+  std::string reference;  // which of the plan's
+  bool steps = true;      // the group's settings are steps of one scale
+};
+
+struct MeasurePlan {
+  std::string title;
+  std::string signal;  // what is compared
+  struct Reference {
+    std::string name;   // of the file too
+    std::string about;  // what it is
+    Setting setting;
+    bool exact = false;  // no noise: one run tells all
+  };
+  std::vector<Reference> references;
+  std::vector<MeasuredSetting> settings;
+  bool light = false;  // radiance, tone mapped to be looked at; else a visibility of 0..1
+  Stage::Needs needs;
+};
+
+// The effects' names for --measure, in the order of --help.
+const std::vector<std::string>& measured_effects();
+// The size that is measured where none is given: each takes a few minutes on two cores.
+std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
+// Not for svgf.
+MeasurePlan measure_plan(const Options& options);
+
+// One line of the table.
+struct MeasuredRow {
+  std::string group, label, reference;
+  std::uint32_t rays = 0;  // per pixel, as the setting says
+  double traced = 0;       // per pixel, with those of hit shading
+  double ms = 0;           // median
+  double filter_ms = 0;    // of it: the denoiser's
+  double flicker = -1;     // negative: not measured
+  Errors::Summary errors;
+  double reference_rmse = 0;
+  bool steps = true;
+};
+
+struct MeasuredTable {
+  std::string title;
+  std::string subtitle;  // scene, size, references, repeats
+  std::vector<std::string> about;
+  std::vector<MeasuredRow> rows;
+};
+
+kaamos::effects::Table as_csv(const MeasuredTable& table);
+std::string as_text(const MeasuredTable& table);
+kaamos::effects::Plot as_plot(const MeasuredTable& table);
+
+// An error with an empty id: `stop` was set.
+rtapi::Result<MeasuredTable> measure_effect(const Options& options,
+                                            const kaamos::effects::Scene& scene,
+                                            const ShaderLibraries& libraries,
+                                            const StageProgress& progress,
+                                            const std::atomic<bool>& stop);
+rtapi::Result<MeasuredTable> measure_denoisers(const Options& options,
+                                               const kaamos::effects::Scene& scene,
+                                               const ShaderLibraries& libraries,
+                                               const StageProgress& progress,
+                                               const std::atomic<bool>& stop);
+
+// Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References stay in
+// its folder measure-cache.
+rtapi::Status run_measure(const Options& options, const kaamos::effects::Scene& scene,
+                          const ShaderLibraries& libraries, const StageProgress& progress,
+                          const std::atomic<bool>& stop);
+
+// The middle one; of an even number the lower of the two.
+double median(std::vector<double> values);
+
+}  // namespace northlight

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+// northlight --measure svgf: denoisers, whose bias and variance stand apart. [effects-spec B0.6]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "effects/common/sampling.h"
+#include "effects/denoise/denoise.h"
+#include "effects/frame/picture.h"
+#include "effects/image/metrics.h"
+#include "measure.h"
+#include "measure_reference.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+namespace {
+
+// Frames of one camera that stands still: history has what it keeps after some of them.
+constexpr std::uint32_t kFrames = 8;
+
+rtapi::Error failure(const std::string& text) {
+  return {"measure", rtapi::ErrorCode::kFailed, text};
+}
+
+struct Method {
+  const char* group;
+  const char* label;
+  DenoiseMethod method;
+  std::uint32_t iterations = 5;
+};
+
+constexpr Method kMethods[] = {{"in space", "gaussian", DenoiseMethod::kGaussian},
+                               {"in space", "bilateral", DenoiseMethod::kBilateral},
+                               {"svgf", "svgf 0", DenoiseMethod::kSvgf, 0},
+                               {"svgf", "svgf 1", DenoiseMethod::kSvgf, 1},
+                               {"svgf", "svgf 2", DenoiseMethod::kSvgf, 2},
+                               {"svgf", "svgf 3", DenoiseMethod::kSvgf, 3},
+                               {"svgf", "svgf 4", DenoiseMethod::kSvgf, 4},
+                               {"svgf", "svgf 5", DenoiseMethod::kSvgf, 5}};
+
+// The errors of one method at one frame of the sequence.
+struct Place {
+  std::vector<double> ms;
+  Errors errors;
+  double flicker = 0;
+  std::uint32_t flicker_count = 0;
+};
+
+struct Subject {
+  const Method* method = nullptr;
+  Denoiser denoiser;
+  Place first, last;
+  FloatImage before;  // the frame before the last
+};
+
+// A signal with its denoisers, all of which see the same frames.
+class Signal {
+ public:
+  Signal(Stage& stage, const Options& options, const ShaderLibraries& libraries)
+      : stage_(stage), options_(options), libraries_(libraries) {}
+
+  rtapi::Status create(const std::string& name, const Setting& setting, float exposure,
+                       const StageProgress& progress);
+  rtapi::Status measure(const StageProgress& progress);
+  void add_rows(MeasuredTable& table) const;
+
+ private:
+  rtapi::Result<FloatImage> read(const rtapi::Texture& picture) const;
+  rtapi::Status add(const FloatImage& image, Place& place);
+  rtapi::Status run_frame(std::uint32_t frame);
+  rtapi::Status run_subject(Subject& subject, std::uint32_t frame, double trace_ms);
+  rtapi::Status run_raw();
+  void add_row(const std::string& group, const std::string& label, const Place& place,
+               std::uint32_t rays, double trace_ms, MeasuredTable& table) const;
+
+  Stage& stage_;
+  const Options& options_;
+  const ShaderLibraries& libraries_;
+  std::string name_;
+  Setting setting_;
+  Target target_;
+  rtapi::Texture mean_;
+  std::vector<Subject> subjects_;
+  std::vector<std::pair<std::uint32_t, Place>> raw_;  // by rays
+  std::vector<double> trace_ms_;
+};
+
+rtapi::Status Signal::create(const std::string& name, const Setting& setting, float exposure,
+                             const StageProgress& progress) {
+  name_ = name;
+  setting_ = setting;
+  auto target = make_reference(stage_, setting, options_.measure_reference, name,
+                               options_.out + "/measure-cache", progress);
+  if (!target) return target.error();
+  target_ = std::move(*target);
+  target_.exposure = exposure;
+  const auto sum = stage_.sum(setting.effect);
+  if (!sum) return sum.error();
+  const auto mean = stage_.frame().create_picture(stage_.device(), name + " mean",
+                                                  rtapi::Format::kR32G32B32A32Float);
+  if (!mean) return mean.error();
+  mean_ = *mean;
+  for (const Method& method : kMethods) {
+    DenoiseDesc desc = default_denoise(method.method);
+    desc.iterations = method.iterations;
+    auto denoiser = Denoiser::create(stage_.device(), stage_.frame(), libraries_.denoise,
+                                     name + " " + method.label, mean_, desc);
+    if (!denoiser) return denoiser.error();
+    if (const auto s =
+            denoiser->create_load(stage_.device(), stage_.frame(), libraries_.denoise, *sum);
+        !s) {
+      return s;
+    }
+    Subject subject;
+    subject.method = &method;
+    subject.denoiser = std::move(*denoiser);
+    subjects_.push_back(std::move(subject));
+  }
+  for (const std::uint32_t rays : {1u, 4u, 16u, 64u}) raw_.push_back({rays, {}});
+  return {};
+}
+
+rtapi::Result<FloatImage> Signal::read(const rtapi::Texture& picture) const {
+  const auto image = read_picture(stage_.device(), stage_.queue(), picture);
+  if (!image) return image.error();
+  const std::uint32_t channels = target_.image.channels;
+  FloatImage out(image->width, image->height, channels);
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] = image->values[i / channels * image->channels + i % channels];
+  }
+  return out;
+}
+
+rtapi::Status Signal::add(const FloatImage& image, Place& place) {
+  const std::string error = place.errors.add(image, target_);
+  if (!error.empty()) return failure(error);
+  return {};
+}
+
+rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double trace_ms) {
+  const bool temporal = subject.method->method == DenoiseMethod::kSvgf;
+  const bool looked_at = frame == 0 || frame + 2 >= kFrames;
+  if (!temporal && !looked_at) return {};
+  const auto loaded = stage_.execute(
+      [&](rtapi::CommandList& list) { subject.denoiser.load(list, stage_.frame(), 1.0f); });
+  if (!loaded) return loaded.error();
+  const auto ms = stage_.execute(
+      [&](rtapi::CommandList& list) { subject.denoiser.dispatch(list, stage_.frame()); });
+  if (!ms) return ms.error();
+  if (!looked_at) return {};
+  const bool last = frame + 1 == kFrames;
+  const auto image = read(subject.denoiser.result());
+  if (!image) return image.error();
+  if (frame + 2 == kFrames) subject.before = *image;
+  if (frame == 0 || last) {
+    Place& place = frame == 0 ? subject.first : subject.last;
+    place.ms.push_back(trace_ms + *ms);
+    if (temporal || frame == 0) {
+      if (const auto s = add(*image, place); !s) return s;
+    }
+  }
+  if (!last) return {};
+  const auto change = flicker(subject.before, *image, target_.image, target_.image);
+  if (!change.ok()) return failure(change.error());
+  Place& place = temporal ? subject.last : subject.first;
+  place.flicker += change.value();
+  ++place.flicker_count;
+  return {};
+}
+
+rtapi::Status Signal::run_frame(std::uint32_t frame) {
+  const auto ran = stage_.run(setting_);
+  if (!ran) return ran.error();
+  trace_ms_.push_back(ran->ms);
+  for (Subject& subject : subjects_) {
+    if (frame == 0) subject.denoiser.reset();
+    if (const auto s = run_subject(subject, frame, ran->ms); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status Signal::run_raw() {
+  for (auto& [rays, place] : raw_) {
+    Setting setting = setting_;
+    setting.samples = rays;
+    const auto ran = stage_.run(setting);
+    if (!ran) return ran.error();
+    const auto image = stage_.read(setting);
+    if (!image) return image.error();
+    place.ms.push_back(ran->ms);
+    if (const auto s = add(*image, place); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status Signal::measure(const StageProgress& progress) {
+  for (std::uint32_t seed = 0; seed < options_.seeds; ++seed) {
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+      // Each frame of each sequence has random numbers of its own.
+      if (const auto s = stage_.set_seed(pcg_hash(options_.seed + seed * kFrames + frame)); !s) {
+        return s;
+      }
+      if (const auto s = run_frame(frame); !s) return s;
+    }
+    if (const auto s = run_raw(); !s) return s;
+    progress("denoising " + name_, (seed + 1.0) / options_.seeds);
+  }
+  return {};
+}
+
+void Signal::add_row(const std::string& group, const std::string& label, const Place& place,
+                     std::uint32_t rays, double trace_ms, MeasuredTable& table) const {
+  MeasuredRow row{name_ + ", " + group, label, name_};
+  row.rays = rays;
+  row.traced = rays;
+  row.ms = median(place.ms);
+  row.filter_ms = std::max(0.0, row.ms - trace_ms);
+  row.errors = place.errors.summary(target_);
+  row.reference_rmse = target_.own_rmse;
+  if (place.flicker_count > 0) row.flicker = place.flicker / place.flicker_count;
+  row.steps = group != "in space";
+  table.rows.push_back(row);
+}
+
+void Signal::add_rows(MeasuredTable& table) const {
+  const double trace_ms = median(trace_ms_);
+  for (const auto& [rays, place] : raw_) {
+    const std::string label = fmt::format("{} {}", rays, rays == 1 ? "ray" : "rays");
+    add_row("raw", label, place, rays, median(place.ms), table);
+  }
+  for (const Subject& subject : subjects_) {
+    add_row(subject.method->group, subject.method->label, subject.first, 1, trace_ms, table);
+  }
+  for (const Subject& subject : subjects_) {
+    if (subject.method->method != DenoiseMethod::kSvgf) continue;
+    add_row(fmt::format("svgf, frame {}", kFrames), subject.method->label, subject.last, 1,
+            trace_ms, table);
+  }
+}
+
+}  // namespace
+
+rtapi::Result<MeasuredTable> measure_denoisers(const Options& options, const Scene& scene,
+                                               const ShaderLibraries& libraries,
+                                               const StageProgress& progress,
+                                               const std::atomic<bool>& stop) {
+  const Stage::Needs needs{.lights = true, .volume = true};
+  auto created = Stage::create(
+      options, scene, libraries, needs, options.out + "/measure-cache", progress, stop,
+      [](const std::string& text) { std::fprintf(stderr, "northlight: %s\n", text.c_str()); });
+  if (!created) return created.error();
+  MeasuredTable table;
+  table.title = "Denoising 1 ray per pixel: time against error";
+  table.subtitle =
+      fmt::format("{}, {} x {}, {}; {} seeds, {} frames each", options.scene, options.width,
+                  options.height, options.backend, options.seeds, kFrames);
+  const Setting occlusion{.effect = Effect::kAo, .ao_radius = options.ao_radius};
+  const Setting indirect{.effect = Effect::kGi};
+  struct Entry {
+    const char* name;
+    Setting setting;
+    float exposure;
+  };
+  for (const Entry& entry : {Entry{"ao", occlusion, 0}, Entry{"gi", indirect, scene.exposure}}) {
+    Signal signal(**created, options, libraries);
+    if (const auto s = signal.create(entry.name, entry.setting, entry.exposure, progress); !s) {
+      return s.error();
+    }
+    if (const auto s = signal.measure(progress); !s) return s.error();
+    signal.add_rows(table);
+    table.about.push_back(fmt::format("reference {}: {} samples, its own RMSE {:.2g}", entry.name,
+                                      options.measure_reference, table.rows.back().reference_rmse));
+  }
+  return table;
+}
+
+}  // namespace northlight

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "measure_reference.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "effects/image/exr.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+namespace {
+
+constexpr std::uint32_t kProbeSeed = 0x0B5E55ED;
+constexpr std::uint32_t kPartSeed = 0x5EED0000;  // no other run's
+
+std::uint64_t hash_of(const FloatImage& image, std::uint64_t hash) {
+  for (const float value : image.values) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash = (hash ^ bits) * 0x100000001B3u;
+  }
+  return hash;
+}
+
+rtapi::Result<std::string> probe(Stage& stage, Setting setting, std::uint32_t samples) {
+  setting.samples = 2;
+  if (const auto s = stage.set_seed(kProbeSeed); !s) return s.error();
+  if (const auto ran = stage.run(setting); !ran) return ran.error();
+  const auto image = stage.read(setting);
+  if (!image) return image.error();
+  return fmt::format("{:016x}", hash_of(*image, 0xCBF29CE484222325u + samples));
+}
+
+// Parts that an earlier run has finished.
+std::vector<FloatImage> kept_parts(const std::string& path) {
+  std::vector<FloatImage> out;
+  if (!std::filesystem::exists(path)) return out;
+  auto file = read_exr(path);
+  if (!file.ok()) return out;  // damaged: it is made anew
+  for (std::uint32_t part = 0; part < kReferenceParts; ++part) {
+    const ExrLayer* layer = find_layer(file.value(), fmt::format("part{}", part));
+    if (layer == nullptr) break;
+    out.push_back(layer->image);
+  }
+  return out;
+}
+
+rtapi::Status keep_parts(const std::string& path, const std::vector<FloatImage>& parts) {
+  ExrFile file;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    ExrLayer layer{fmt::format("part{}", part), parts[part]};
+    file.layers.push_back(std::move(layer));
+  }
+  if (const auto written = write_exr(path, file); !written.ok()) {
+    return rtapi::Error{"measure", rtapi::ErrorCode::kFailed, written.error()};
+  }
+  return {};
+}
+
+}  // namespace
+
+Target mean_of(const std::vector<FloatImage>& parts, const std::vector<std::uint8_t>& mask) {
+  Target out;
+  out.image = parts.front();
+  const double n = static_cast<double>(parts.size());
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < out.image.values.size(); ++i) {
+    double mean = 0, spread = 0;
+    for (const FloatImage& part : parts) mean += part.values[i] / n;
+    for (const FloatImage& part : parts) spread += std::pow(part.values[i] - mean, 2);
+    out.image.values[i] = static_cast<float>(mean);
+    if ((!mask.empty() && mask[i / out.image.channels] == 0) || !std::isfinite(spread)) continue;
+    if (n > 1) squares += spread / (n * (n - 1));
+    ++count;
+  }
+  out.mask = mask;
+  out.own_rmse = count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0;
+  return out;
+}
+
+rtapi::Result<Target> make_reference(Stage& stage, const Setting& setting, std::uint32_t samples,
+                                     const std::string& name, const std::string& cache,
+                                     const StageProgress& progress) {
+  const auto key = probe(stage, setting, samples);
+  if (!key) return key.error();
+  const std::string path = fmt::format("{}/{}-{}x{}-{}.exr", cache, name, stage.frame().width(),
+                                       stage.frame().height(), *key);
+  std::vector<FloatImage> parts = kept_parts(path);
+  const std::uint32_t each = (samples + kReferenceParts - 1) / kReferenceParts;
+  for (auto part = static_cast<std::uint32_t>(parts.size()); part < kReferenceParts; ++part) {
+    Setting run = setting;
+    run.samples = each;
+    if (const auto s = stage.set_seed(kPartSeed + part); !s) return s.error();
+    const auto show = [&](double done) {
+      progress("reference " + name, (part + done) / kReferenceParts);
+    };
+    if (const auto s = stage.accumulate(run, show); !s) return s.error();
+    const auto image = stage.read(run);
+    if (!image) return image.error();
+    parts.push_back(*image);
+    if (const auto kept = keep_parts(path, parts); !kept) return kept.error();
+  }
+  const auto mask = stage.mask(false);
+  if (!mask) return mask.error();
+  return mean_of(parts, *mask);
+}
+
+}  // namespace northlight
