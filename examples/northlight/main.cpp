@@ -16,8 +16,10 @@
 #include "measure.h"
 #include "options.h"
 #include "output.h"
+#include "reference.h"
 #include "renderer.h"
 #include "sequence.h"
+#include "split.h"
 #include "watch.h"
 
 namespace {
@@ -96,8 +98,13 @@ int report(const rtapi::Error& error, const Options& options) {
 
 int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Options& options,
                 const Scene& scene) {
-  const auto frame = renderer.render(libraries, show_progress, stop_requested);
+  auto frame = renderer.render(libraries, show_progress, stop_requested);
   if (!frame) return report(frame.error(), options);
+  if (options.reference > 0) {
+    const auto added =
+        add_reference(options, scene, libraries, show_progress, stop_requested, say_error, *frame);
+    if (!added) return report(added.error(), options);
+  }
   if (options.pixel) {
     std::fputs(describe_pixel(*frame, options.pixel->first, options.pixel->second).c_str(), stdout);
     return 0;
@@ -153,6 +160,13 @@ int measure(const Options& options, const Scene& scene) {
   return done ? 0 : report(done.error(), options);
 }
 
+int split(const Options& options, const Scene& scene) {
+  const auto libraries = built_in_libraries();
+  if (!libraries) return report(libraries.error(), options);
+  const auto done = run_split(options, scene, *libraries, show_progress, stop_requested, say_error);
+  return done ? 0 : report(done.error(), options);
+}
+
 // Until Ctrl-C: an error in a shader is shown, and the next change tried.
 int watch(Renderer& renderer, const Options& options, const Scene& scene) {
   const auto folder = find_effects_folder();
@@ -200,6 +214,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   if (!options->measure.empty()) return measure(*options, scene);
+  if (!options->split.empty()) return split(*options, scene);
   auto renderer = Renderer::create(*options, scene, say_error);
   if (!renderer) return report(renderer.error(), *options);
   if (options->watch) return watch(**renderer, *options, scene);

@@ -148,6 +148,7 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
     if (plan.needs.glass) row.rays = 1;
     row.traced = records[i].traced;
     row.ms = median(records[i].ms);
+    row.ms_min = *std::min_element(records[i].ms.begin(), records[i].ms.end());
     row.errors = records[i].errors.summary(target);
     row.reference_rmse = target.own_rmse;
     row.steps = measured.steps;
@@ -158,19 +159,32 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
 
 Table as_csv(const MeasuredTable& table) {
   Table out;
-  out.columns = {"group",     "setting",    "rays",         "traced_rays",     "ms",
-                 "filter_ms", "rmse",       "rel_mse",      "trimmed_rel_mse", "psnr_db",
-                 "ssim",      "flip",       "energy_ratio", "bias_squared",    "variance",
-                 "flicker",   "not_finite", "reference",    "reference_rmse"};
+  out.columns = {"group",    "setting",   "rays",       "traced_rays",  "ms",
+                 "ms_min",   "filter_ms", "rmse",       "rel_mse",      "trimmed_rel_mse",
+                 "psnr_db",  "ssim",      "flip",       "energy_ratio", "bias_squared",
+                 "variance", "flicker",   "not_finite", "reference",    "reference_rmse"};
   for (const MeasuredRow& row : table.rows) {
     const Errors::Summary& e = row.errors;
-    out.rows.push_back(
-        {row.group, row.label, std::to_string(row.rays), csv_number(row.traced), csv_number(row.ms),
-         csv_number(row.filter_ms), csv_number(e.rmse), csv_number(e.relative_mse),
-         csv_number(e.trimmed_relative_mse), csv_number(e.psnr), csv_number(e.ssim),
-         csv_number(e.flip), csv_number(e.energy_ratio), csv_number(e.bias_squared),
-         csv_number(e.variance), row.flicker < 0 ? "" : csv_number(row.flicker),
-         std::to_string(e.not_finite), row.reference, csv_number(row.reference_rmse)});
+    out.rows.push_back({row.group,
+                        row.label,
+                        std::to_string(row.rays),
+                        csv_number(row.traced),
+                        csv_number(row.ms),
+                        csv_number(row.ms_min),
+                        csv_number(row.filter_ms),
+                        csv_number(e.rmse),
+                        csv_number(e.relative_mse),
+                        csv_number(e.trimmed_relative_mse),
+                        csv_number(e.psnr),
+                        csv_number(e.ssim),
+                        csv_number(e.flip),
+                        csv_number(e.energy_ratio),
+                        csv_number(e.bias_squared),
+                        csv_number(e.variance),
+                        row.flicker < 0 ? "" : csv_number(row.flicker),
+                        std::to_string(e.not_finite),
+                        row.reference,
+                        csv_number(row.reference_rmse)});
   }
   return out;
 }

@@ -52,8 +52,9 @@ struct MeasuredRow {
   std::uint32_t rays = 0;  // per pixel, as the setting says
   double traced = 0;       // per pixel, with those of hit shading
   double ms = 0;           // median
-  double filter_ms = 0;    // of it: the denoiser's
-  double flicker = -1;     // negative: not measured
+  double ms_min = 0;
+  double filter_ms = 0;  // of it: the denoiser's
+  double flicker = -1;   // negative: not measured
   Errors::Summary errors;
   double reference_rmse = 0;
   bool steps = true;

@@ -219,6 +219,7 @@ void Signal::add_row(const std::string& group, const std::string& label, const P
   row.rays = rays;
   row.traced = rays;
   row.ms = median(place.ms);
+  row.ms_min = *std::min_element(place.ms.begin(), place.ms.end());
   row.filter_ms = std::max(0.0, row.ms - trace_ms);
   row.errors = place.errors.summary(target_);
   row.reference_rmse = target_.own_rmse;

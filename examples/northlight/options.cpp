@@ -12,6 +12,7 @@
 #include "effects/scene/camera_path.h"
 #include "effects/transparent/transparent.h"
 #include "measure.h"
+#include "split.h"
 
 namespace northlight {
 namespace {
@@ -236,6 +237,14 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "anyhit, candidates, depth or rays: write a picture of these counts per pixel")
       ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
   app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
+  app.add_option("--reference", options.reference,
+                 "add the layers NAME_reference: each effect with so many samples, not denoised")
+      ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--split", options.split,
+                 "settings side by side in one picture: ao (1, 4, 16 rays), gi (the volume x AO "
+                 "against gathered), near-field (against hit = black), denoise (raw against "
+                 "denoised)")
+      ->check(CLI::IsMember(split_names()));
   app.add_option("--measure", options.measure,
                  "time against error over an effect's quality settings, as a table, a CSV file and "
                  "a plot: ao, sun, contact, reflections, transparent, gi, svgf")

@@ -39,6 +39,11 @@ expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12
 expect_error 2 'outside of the picture' --size 64x36 --pixel 64,3
+expect_error 2 '--measure: fog not in .*svgf' --measure fog
+expect_error 2 'not in range' --measure ao --repeats 0
+expect_error 2 'not in range' --measure svgf --seeds 1
+expect_error 2 '--split: fog not in' --split fog
+expect_error 1 'no pixel shows glass.*--material' --measure transparent --scene lounge --size 8x8 --gi-cell 2 --gi-bake-samples 1
 expect_error 1 'unknown backend.*embree' --backend nothing
 expect_error 2 'not in range 1 to 100000' --frames 0
 expect_error 2 'camera-path requires --frames' --camera-path orbit

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// northlight --reference N: what each effect converges to, beside what it rendered.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+
+#include "effects/scene/scene.h"
+#include "frame_effects.h"
+#include "options.h"
+#include "renderer.h"
+
+namespace northlight {
+
+// The options of the reference frame: N samples of each effect, nothing denoised, each layer of
+// glass in its order.
+Options reference_options(const Options& options);
+
+// Renders that frame and adds its layers to `result` as NAME_reference: of each effect that
+// `result` has, and the whole as radiance_reference.
+rtapi::Status add_reference(const Options& options, const kaamos::effects::Scene& scene,
+                            const ShaderLibraries& libraries, const Progress& progress,
+                            const std::atomic<bool>& stop,
+                            const std::function<void(const std::string&)>& message,
+                            FrameResult& result);
+
+}  // namespace northlight

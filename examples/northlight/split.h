@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// northlight --split: settings side by side in one picture, as the talk shows them.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "effects/image/image.h"
+#include "effects/scene/scene.h"
+#include "frame_effects.h"
+#include "options.h"
+#include "renderer.h"
+
+namespace northlight {
+
+// ao: 1, 4 and 16 rays per pixel. gi: the volume at the surface, times ambient occlusion, against
+// gathered by rays. near-field: hit = black against lit hits. denoise: the whole frame at a ray per
+// pixel, raw against denoised.
+const std::vector<std::string>& split_names();
+
+// Strips of equal width of pictures of one size: strip i of picture i, a thin line between them.
+kaamos::effects::ByteImage side_by_side(const std::vector<kaamos::effects::ByteImage>& pictures);
+
+// Renders what options.split names and writes split-NAME.png into options.out.
+rtapi::Status run_split(const Options& options, const kaamos::effects::Scene& scene,
+                        const ShaderLibraries& libraries, const Progress& progress,
+                        const std::atomic<bool>& stop,
+                        const std::function<void(const std::string&)>& message);
+
+}  // namespace northlight

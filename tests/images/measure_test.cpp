@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+//
+// northlight --measure, --split and --reference on small pictures: tables that can be read, and
+// errors that behave as theory says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "effects/common/file.h"
+#include "effects/image/csv.h"
+#include "effects/image/exr.h"
+#include "effects/image/png.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace kaamos::effects;
+
+using Row = std::map<std::string, std::string>;
+
+// A folder for each test: they may run at the same time.
+std::string folder() {
+  return std::string(KAAMOS_BINARY_DIR) + "/pictures/" +
+         testing::UnitTest::GetInstance()->current_test_info()->name();
+}
+
+int northlight(const std::string& arguments) {
+  fs::create_directories(folder());
+  return std::system((std::string(KAAMOS_BINARY_DIR) +
+                      "/bin/northlight --gi-cell 1 --gi-bake-samples 8 --out " + folder() + " " +
+                      arguments + " > " + folder() + "/log 2>&1")
+                         .c_str());
+}
+
+std::string text_of(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes.ok()) return bytes.error();
+  return std::string(bytes.value().begin(), bytes.value().end());
+}
+
+double number(const Row& row, const std::string& column) {
+  return std::strtod(row.at(column).c_str(), nullptr);
+}
+
+std::vector<Row> measure(const std::string& effect, const std::string& more = "") {
+  std::vector<Row> out;
+  const int code = northlight("--measure " + effect +
+                              " --size 48x27 --measure-reference 512 --repeats 3 " + more);
+  EXPECT_EQ(code, 0) << text_of(folder() + "/log");
+  const auto table = parse_csv(text_of(folder() + "/measure-" + effect + ".csv"));
+  EXPECT_TRUE(table.ok()) << table.error();
+  if (code != 0 || !table.ok()) return out;
+  const std::string svg = text_of(folder() + "/measure-" + effect + ".svg");
+  EXPECT_EQ(svg.rfind("<?xml", 0), 0u);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+  for (const auto& cells : table.value().rows) {
+    Row row;
+    for (std::size_t i = 0; i < cells.size(); ++i) row[table.value().columns[i]] = cells[i];
+    EXPECT_GT(number(row, "ms"), 0) << row["setting"];
+    EXPECT_LE(number(row, "ms_min"), number(row, "ms")) << row["setting"];
+    EXPECT_EQ(row["not_finite"], "0") << row["setting"];
+    EXPECT_TRUE(std::isfinite(number(row, "rmse"))) << row["setting"];
+    EXPECT_LE(number(row, "ssim"), 1) << row["setting"];
+    out.push_back(row);
+  }
+  return out;
+}
+
+std::vector<Row> group(const std::vector<Row>& rows, const std::string& part) {
+  std::vector<Row> out;
+  for (const Row& row : rows) {
+    if (row.at("group").find(part) != std::string::npos) out.push_back(row);
+  }
+  EXPECT_GE(out.size(), 2u) << part;
+  return out;
+}
+
+const Row& setting(const std::vector<Row>& rows, const std::string& name) {
+  for (const Row& row : rows) {
+    if (row.at("setting") == name) return row;
+  }
+  ADD_FAILURE() << "no setting " << name;
+  return rows.front();
+}
+
+// Exponent of the error over the rays: -1/2 for random samples, down to -1 and below for
+// well-spread ones. [effects-spec B0.3]
+void expect_convergence(const std::vector<Row>& rows) {
+  ASSERT_GE(rows.size(), 2u);
+  const double rays = number(rows.back(), "rays") / number(rows.front(), "rays");
+  const double slope =
+      std::log(number(rows.back(), "rmse") / number(rows.front(), "rmse")) / std::log(rays);
+  EXPECT_LT(slope, -0.4);
+  EXPECT_GT(slope, -1.2);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_LT(number(rows[i], "reference_rmse"), number(rows[i], "rmse")) << i;
+    if (i > 0) {
+      EXPECT_LT(number(rows[i], "rmse"), number(rows[i - 1], "rmse")) << i;
+    }
+    EXPECT_NEAR(number(rows[i], "energy_ratio"), 1, 0.2) << i;
+    // Without bias the error is all variance.
+    const double variance = number(rows[i], "variance");
+    EXPECT_LT(std::abs(number(rows[i], "bias_squared")), 0.5 * variance + 1e-6) << i;
+  }
+}
+
+TEST(Measure, AmbientOcclusionConverges) {
+  const auto rows = measure("ao");
+  expect_convergence(group(rows, "rays per pixel"));
+  // The reference comes from its file, and the same seeds give the same errors.
+  const auto again = measure("ao");
+  ASSERT_EQ(rows.size(), again.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at("rmse"), again[i].at("rmse"));
+    EXPECT_EQ(rows[i].at("flip"), again[i].at("flip"));
+  }
+}
+
+TEST(Measure, SunConverges) {
+  expect_convergence(group(measure("sun"), "rays per pixel"));
+}
+
+TEST(Measure, ContactShadowsConvergeAndLongRaysSeeMore) {
+  const auto rows = measure("contact");
+  expect_convergence(group(rows, "rays of 1 m"));
+  const auto lengths = group(rows, "up to the light");
+  for (std::size_t i = 1; i < lengths.size(); ++i) {
+    EXPECT_LE(number(lengths[i], "energy_ratio"), number(lengths[i - 1], "energy_ratio"));
+    EXPECT_GE(number(lengths[i], "energy_ratio"), 0.98);
+  }
+}
+
+TEST(Measure, ReflectionsConvergeAndClampsTakeEnergy) {
+  const auto rows = measure("reflections");
+  expect_convergence(group(rows, "rays per pixel"));
+  const auto clamped = group(rows, "clamped");
+  for (std::size_t i = 1; i < clamped.size(); ++i) {
+    EXPECT_GE(number(clamped[i], "energy_ratio"), number(clamped[i - 1], "energy_ratio"));
+  }
+  EXPECT_LT(number(clamped.front(), "energy_ratio"), 0.999);
+}
+
+TEST(Measure, GlassGetsExactWithItsLayers) {
+  const auto rows = group(measure("transparent"), "layers that reflect");
+  EXPECT_EQ(number(setting(rows, "8 layers"), "rmse"), 0);
+  EXPECT_GT(number(setting(rows, "0 layers"), "rmse"), number(setting(rows, "1 layer"), "rmse"));
+  EXPECT_GT(number(setting(rows, "1 layer"), "rmse"), number(setting(rows, "3 layers"), "rmse"));
+  EXPECT_GT(number(setting(rows, "3 layers"), "rmse"), 0);
+}
+
+TEST(Measure, IndirectLightConvergesAndLitHitsRestoreEnergy) {
+  const auto rows = measure("gi");
+  expect_convergence(group(rows, "rays per pixel"));
+  const auto modes = group(rows, "modes");
+  EXPECT_LT(number(setting(modes, "hit = black, 16 rays"), "energy_ratio"),
+            number(setting(modes, "near-field, 16 rays"), "energy_ratio"));
+  EXPECT_LT(number(setting(modes, "the same x AO of 16 rays"), "energy_ratio"),
+            number(setting(modes, "volume at the surface"), "energy_ratio"));
+}
+
+TEST(Measure, DenoisersTradeVarianceForBias) {
+  const auto rows = measure("svgf", "--seeds 4");
+  for (const std::string signal : {"ao", "gi"}) {
+    const Row raw = setting(group(rows, signal + ", raw"), "1 ray");
+    const Row gaussian = setting(group(rows, signal + ", in space"), "gaussian");
+    const Row first = setting(group(rows, signal + ", svgf"), "svgf 5");
+    const Row last = setting(group(rows, signal + ", svgf, frame"), "svgf 5");
+    EXPECT_LT(number(gaussian, "variance"), 0.5 * number(raw, "variance"));
+    EXPECT_LT(number(first, "variance"), 0.5 * number(raw, "variance"));
+    EXPECT_LT(number(last, "variance"), number(first, "variance"));
+    EXPECT_GT(number(gaussian, "bias_squared"), 0);
+    EXPECT_LT(number(last, "rmse"), number(raw, "rmse"));
+  }
+}
+
+TEST(Split, PutsSettingsSideBySide) {
+  for (const std::string name : {"ao", "gi", "near-field", "denoise"}) {
+    ASSERT_EQ(northlight("--size 48x27 --split " + name), 0) << text_of(folder() + "/log");
+    const auto picture = read_png(folder() + "/split-" + name + ".png");
+    ASSERT_TRUE(picture.ok()) << picture.error();
+    EXPECT_EQ(picture.value().width, 48u);
+    EXPECT_EQ(picture.value().height, 27u);
+    // A line of white from top to bottom, at a third or in the middle.
+    const std::uint32_t line = name == "ao" ? 16 : 24;
+    for (std::uint32_t y = 0; y < 27; ++y) {
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        ASSERT_EQ(picture.value().values[(y * 48 + line) * 4 + c], 255) << name;
+      }
+    }
+  }
+}
+
+TEST(Reference, IsALayerOfEachEffect) {
+  ASSERT_EQ(northlight("--size 48x27 --effects all --reference 32"), 0)
+      << text_of(folder() + "/log");
+  const auto file = read_exr(folder() + "/frame.exr");
+  ASSERT_TRUE(file.ok()) << file.error();
+  for (const std::string name : {"ao", "sun", "contact", "indirect", "reflection"}) {
+    const ExrLayer* layers[3] = {find_layer(file.value(), name),
+                                 find_layer(file.value(), name + "_denoised"),
+                                 find_layer(file.value(), name + "_reference")};
+    ASSERT_TRUE(layers[0] != nullptr && layers[1] != nullptr && layers[2] != nullptr) << name;
+    double difference = 0;
+    for (std::uint32_t y = 0; y < 27; ++y) {
+      for (std::uint32_t x = 0; x < 48; ++x) {
+        difference += std::abs(layers[0]->image.at(x, y) - layers[2]->image.at(x, y));
+      }
+    }
+    EXPECT_GT(difference, 0) << name << ": a reference has other samples";
+  }
+  EXPECT_NE(find_layer(file.value(), "radiance_reference"), nullptr);
+}
+
+}  // namespace
