@@ -65,7 +65,7 @@ class Axis {
   }
   // Decades; with their halves and fifths where there are few.
   std::vector<double> ticks() const {
-    const bool fine = high_ - low_ < 2.2;
+    const bool fine = high_ - low_ < 3.2;
     std::vector<double> out;
     for (double decade = std::floor(low_); decade <= high_; ++decade) {
       for (const double part : {1.0, 2.0, 5.0}) {
@@ -102,7 +102,10 @@ class Labels {
         continue;
       }
       taken_.push_back(box);
-      return format("<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\">", box.x0, y + offset[1], color) +
+      return format(
+                 "<text x=\"%.1f\" y=\"%.1f\" fill=\"%s\" stroke=\"#ffffff\" stroke-width=\"3\" "
+                 "paint-order=\"stroke\">",
+                 box.x0, y + offset[1], color) +
              escaped(text) + "</text>\n";
     }
     return {};  // the table tells which it is

@@ -196,17 +196,18 @@ std::string as_text(const MeasuredTable& table) {
   for (const MeasuredRow& row : table.rows) {
     if (row.group != group) {
       group = row.group;
-      out +=
-          fmt::format("\n{}\n{:<28}{:>5}{:>9}{:>9}{:>10}{:>10}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}\n",
-                      group, "", "rays", "traced", "ms", "RMSE", "relMSE", "PSNR", "SSIM", "FLIP",
-                      "energy", "bias^2", "variance");
+      out += fmt::format(
+          "\n{}\n{:<28}{:>5}{:>9}{:>9}{:>9}{:>10}{:>10}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}\n", group,
+          "", "rays", "traced", "ms", "ms min", "RMSE", "relMSE", "PSNR", "SSIM", "FLIP", "energy",
+          "bias^2", "variance");
     }
     const Errors::Summary& e = row.errors;
     out += fmt::format(
-        "{:<28}{:>5}{:>9.2f}{:>9.2f}{:>10.3g}{:>10.3g}{:>8.2f}{:>8.4f}{:>8.4f}{:>8.4f}{:>10.2e}{:>"
+        "{:<28}{:>5}{:>9.2f}{:>9.2f}{:>9.2f}{:>10.3g}{:>10.3g}{:>8.2f}{:>8.4f}{:>8.4f}{:>8.4f}{:>"
+        "10.2e}{:>"
         "10.2e}",
-        row.label, row.rays, row.traced, row.ms, e.rmse, e.relative_mse, e.psnr, e.ssim, e.flip,
-        e.energy_ratio, e.bias_squared, e.variance);
+        row.label, row.rays, row.traced, row.ms, row.ms_min, e.rmse, e.relative_mse, e.psnr, e.ssim,
+        e.flip, e.energy_ratio, e.bias_squared, e.variance);
     if (row.flicker >= 0) out += fmt::format("  flicker {:.4f}", row.flicker);
     if (e.not_finite > 0) out += fmt::format("  {} values are no numbers", e.not_finite);
     out += "\n";

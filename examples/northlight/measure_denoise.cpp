@@ -36,12 +36,12 @@ struct Method {
 
 constexpr Method kMethods[] = {{"in space", "gaussian", DenoiseMethod::kGaussian},
                                {"in space", "bilateral", DenoiseMethod::kBilateral},
-                               {"svgf", "svgf 0", DenoiseMethod::kSvgf, 0},
-                               {"svgf", "svgf 1", DenoiseMethod::kSvgf, 1},
-                               {"svgf", "svgf 2", DenoiseMethod::kSvgf, 2},
-                               {"svgf", "svgf 3", DenoiseMethod::kSvgf, 3},
-                               {"svgf", "svgf 4", DenoiseMethod::kSvgf, 4},
-                               {"svgf", "svgf 5", DenoiseMethod::kSvgf, 5}};
+                               {"svgf by iterations", "0", DenoiseMethod::kSvgf, 0},
+                               {"svgf by iterations", "1", DenoiseMethod::kSvgf, 1},
+                               {"svgf by iterations", "2", DenoiseMethod::kSvgf, 2},
+                               {"svgf by iterations", "3", DenoiseMethod::kSvgf, 3},
+                               {"svgf by iterations", "4", DenoiseMethod::kSvgf, 4},
+                               {"svgf by iterations", "5", DenoiseMethod::kSvgf, 5}};
 
 // The errors of one method at one frame of the sequence.
 struct Place {
@@ -239,8 +239,8 @@ void Signal::add_rows(MeasuredTable& table) const {
   }
   for (const Subject& subject : subjects_) {
     if (subject.method->method != DenoiseMethod::kSvgf) continue;
-    add_row(fmt::format("svgf, frame {}", kFrames), subject.method->label, subject.last, 1,
-            trace_ms, table);
+    add_row(fmt::format("svgf by iterations, frame {}", kFrames), subject.method->label,
+            subject.last, 1, trace_ms, table);
   }
 }
 

@@ -168,8 +168,8 @@ TEST(Measure, DenoisersTradeVarianceForBias) {
   for (const std::string signal : {"ao", "gi"}) {
     const Row raw = setting(group(rows, signal + ", raw"), "1 ray");
     const Row gaussian = setting(group(rows, signal + ", in space"), "gaussian");
-    const Row first = setting(group(rows, signal + ", svgf"), "svgf 5");
-    const Row last = setting(group(rows, signal + ", svgf, frame"), "svgf 5");
+    const Row first = setting(group(rows, signal + ", svgf"), "5");
+    const Row last = setting(group(rows, signal + ", svgf by iterations, frame"), "5");
     EXPECT_LT(number(gaussian, "variance"), 0.5 * number(raw, "variance"));
     EXPECT_LT(number(first, "variance"), 0.5 * number(raw, "variance"));
     EXPECT_LT(number(last, "variance"), number(first, "variance"));
