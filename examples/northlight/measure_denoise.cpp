@@ -174,7 +174,9 @@ rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double 
 }
 
 rtapi::Status Signal::run_frame(std::uint32_t frame) {
-  const auto ran = stage_.run(setting_);
+  Setting setting = setting_;
+  setting.first_sample = frame;  // sequences go on in their pixels' sample sequences
+  const auto ran = stage_.run(setting);
   if (!ran) return ran.error();
   trace_ms_.push_back(ran->ms);
   for (Subject& subject : subjects_) {
@@ -200,11 +202,8 @@ rtapi::Status Signal::run_raw() {
 
 rtapi::Status Signal::measure(const StageProgress& progress) {
   for (std::uint32_t seed = 0; seed < options_.seeds; ++seed) {
+    if (const auto s = stage_.set_seed(pcg_hash(options_.seed + seed)); !s) return s;
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
-      // Each frame of each sequence has random numbers of its own.
-      if (const auto s = stage_.set_seed(pcg_hash(options_.seed + seed * kFrames + frame)); !s) {
-        return s;
-      }
       if (const auto s = run_frame(frame); !s) return s;
     }
     if (const auto s = run_raw(); !s) return s;

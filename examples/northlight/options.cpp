@@ -117,7 +117,10 @@ std::string conflict_with_sequence(const Options& options) {
                                                 {"--pixel", options.pixel.has_value()},
                                                 {"--explain", options.explain.has_value()},
                                                 {"--tables", !options.tables.empty()},
-                                                {"--heatmap", !options.heatmap.empty()}};
+                                                {"--heatmap", !options.heatmap.empty()},
+                                                {"--measure", !options.measure.empty()},
+                                                {"--split", !options.split.empty()},
+                                                {"--reference", options.reference > 0}};
   for (const auto& [name, chosen] : given) {
     if (chosen) return std::string("--frames and ") + name + " exclude each other: leave one out";
   }

@@ -303,7 +303,10 @@ rtapi::Result<Stage::Run> Stage::run(const Setting& setting) {
   device_.ResetStatistics();
   const PassArguments words = arguments(pass, setting);
   const auto ms = execute([&](rtapi::CommandList& list) {
-    pass.rays.dispatch(list, frame_, {.sample_count = setting.samples, .radius = setting.ao_radius},
+    pass.rays.dispatch(list, frame_,
+                       {.first_sample = setting.first_sample,
+                        .sample_count = setting.samples,
+                        .radius = setting.ao_radius},
                        frame_.height(), words);
     if (glass) glass_compose_.dispatch(list, frame_, {}, words, frame_.width(), frame_.height());
     if (setting.times_ao == 0) return;

@@ -34,6 +34,7 @@ enum class Effect { kAo, kSun, kContact, kReflections, kGi, kTransparent };
 struct Setting {
   Effect effect = Effect::kAo;
   std::uint32_t samples = 1;
+  std::uint32_t first_sample = 0;  // of each pixel's sequence
   float ao_radius = 4;
   kaamos::effects::ContactShadowConstants contact = {};
   kaamos::effects::ReflectionConstants reflection = {};
