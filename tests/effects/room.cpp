@@ -61,12 +61,13 @@ Shape ball(double radius) {
   return revolve(profile, 24);
 }
 
+// No roughness stands in the middle of two steps of 8 bits, where each backend may round its way.
 void add_materials(Scene& scene) {
   scene.materials = {
       material("wall", {0.7f, 0.6f, 0.5f, 1}, 0, 1),
-      material("floor", {0.4f, 0.45f, 0.5f, 1}, 0, 0.3f),
+      material("floor", {0.4f, 0.45f, 0.5f, 1}, 0, 0.25f),
       material("mirror", {0.9f, 0.9f, 0.9f, 1}, 1, 0),
-      material("metal", {0.9f, 0.7f, 0.4f, 1}, 1, 0.5f),
+      material("metal", {0.9f, 0.7f, 0.4f, 1}, 1, 0.4f),
       material("card", {0.2f, 0.8f, 0.3f, 1}, 0, 0.8f,
                kMaterialMask | kMaterialDoubleSided | kMaterialAlphaTested),
       material("glass", {0.2f, 0.5f, 0.7f, 0.4f}, 0, 0, kMaterialBlend | kMaterialDoubleSided),

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// The whole frame, every effect of it, on both backends. Pipelines of the software driver take most
+// of the time, so few frames do much.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "comparing.h"
+#include "room.h"
+#include "tests/vulkan/support.h"
+
+namespace kaamos::test {
+namespace {
+
+using namespace effects;
+
+void expect_parity(const Pictures& vulkan, const Pictures& embree) {
+  for (const auto& [name, image] : embree) {
+    const double db = decibels(vulkan.at(name), image);
+    const std::uint32_t off = pixels_off(vulkan.at(name), image, 1e-3);
+    std::printf("%-22s %4.0f dB, %u pixels off by more than 1e-3\n", name.c_str(), db, off);
+    EXPECT_GE(db, 80) << name;
+    // A ray along an edge; a filter whose weights hang on light that is equal but for rounding.
+    EXPECT_LE(off, 4u) << name;
+  }
+  // What is counted in rays: not one of them may go another way.
+  for (const char* name : {"ids", "ao", "sun", "contact", "glass_layers"}) {
+    EXPECT_EQ(vulkan.at(name).values, embree.at(name).values) << name;
+  }
+}
+
+// Two frames: the second filters with a history.
+TEST(VulkanWholeFrame, DrawsWhatEmbreeDraws) {
+  KAAMOS_NEED_VULKAN();
+  const std::vector<Scene> scenes(2, make_room());
+  RigOptions options;
+  const std::vector<Pictures> embree = render_frames(scenes, options);
+  options.backend = "vulkan";
+  const std::vector<Pictures> vulkan = render_frames(scenes, options);
+  expect_parity(vulkan[0], embree[0]);
+  std::printf("second frame\n");
+  expect_parity(vulkan[1], embree[1]);
+}
+
+// Where it is free to choose what min and max make of what is no number, a driver must not get to
+// choose.
+TEST(VulkanWholeFrame, ContainsWhatIsBroken) {
+  KAAMOS_NEED_VULKAN();
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  Scene broken = make_room();
+  broken.materials[kRoomMetal].constants.emissive = glm::vec3(kNan);
+  broken.materials[kRoomMetal].constants.roughness = kNan;
+  broken.materials[kRoomCard].constants.base_color = glm::vec4(kNan, kNan, kNan, 1);
+  broken.materials[kRoomGlass].constants.emissive = glm::vec3(kNan);
+  broken.lights[0].color = glm::vec3(kNan);
+  for (Mesh& mesh : broken.meshes) {
+    if (mesh.name == "floor") mesh.vertices[4].normal = glm::vec3(kNan);
+  }
+  const std::vector<Scene> scenes = {broken, make_room()};
+  RigOptions options;
+  options.width = 32;
+  options.height = 18;
+  const std::vector<Pictures> embree = render_frames(scenes, options);
+  options.backend = "vulkan";
+  const std::vector<Pictures> vulkan = render_frames(scenes, options);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    EXPECT_EQ(not_finite(embree[i]), "");
+    EXPECT_EQ(not_finite(vulkan[i]), "");
+    expect_parity(vulkan[i], embree[i]);
+  }
+}
+
+}  // namespace
+}  // namespace kaamos::test
