@@ -39,8 +39,12 @@ float3 FiniteOrZero(float3 color) {
 }
 
 // Change of the view depth from one pixel to the next, on the smaller side, so that an edge of the
-// object does not count as a slope.
-float Smaller(float a, float b) { return abs(a) < abs(b) ? a : b; }
+// object does not count as a slope. Where the sides go apart, at a ridge or at a pixel that stands
+// alone, there is none: rounding would choose between them.
+float Smaller(float a, float b) {
+  if (!(a * b > 0.0)) return 0.0;
+  return abs(a) < abs(b) ? a : b;
+}
 
 float2 DepthGradient(int2 pixel, int2 size) {
   const float z = g_view_z[pixel];

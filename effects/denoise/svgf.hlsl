@@ -199,9 +199,10 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
       if ((x == 0 && y == 0) || !IsInside(other, size)) continue;
       const float4 tap = signal[other];
       const float difference = abs(Luminance(tap.rgb) - luminance);
-      // Without variance there is no noise: only equal light is mixed.
+      // Without variance there is no noise: only light is mixed that is equal but for rounding. A
+      // variance is a difference of squares, so rounding alone makes it 1e-7 of the light's square.
       const float by_luminance =
-          exp(-difference / (denoise.sigma_l * deviation + 1e-8 * luminance + 1e-30));
+          exp(-difference / (denoise.sigma_l * max(deviation, 1e-3 * luminance) + 1e-30));
       const float weight = kernel[abs(x)] * kernel[abs(y)] * by_luminance *
                            GuideWeight(guide, other, offset);
       color += weight * tap.rgb;

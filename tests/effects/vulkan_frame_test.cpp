@@ -21,8 +21,8 @@ void expect_parity(const Pictures& vulkan, const Pictures& embree) {
     const double db = decibels(vulkan.at(name), image);
     const std::uint32_t off = pixels_off(vulkan.at(name), image, 1e-3);
     std::printf("%-22s %4.0f dB, %u pixels off by more than 1e-3\n", name.c_str(), db, off);
-    EXPECT_GE(db, 80) << name;
-    // A ray along an edge; a filter whose weights hang on light that is equal but for rounding.
+    EXPECT_GE(db, 75) << name;
+    // A comparison of distances at a hit that rounding decides, and what a filter makes of it.
     EXPECT_LE(off, 4u) << name;
   }
   // What is counted in rays: not one of them may go another way.
