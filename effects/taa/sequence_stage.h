@@ -22,9 +22,11 @@ namespace kaamos::effects {
 
 class SequenceStage {
  public:
-  SequenceStage(Scene given, std::uint32_t width, std::uint32_t height, std::uint32_t threads = 0)
+  SequenceStage(Scene given, std::uint32_t width, std::uint32_t height, std::uint32_t threads = 0,
+                const std::string& backend = "embree")
       : scene(std::move(given)), camera(scene.cameras.front()) {
     rtapi::DeviceDesc device_desc;
+    device_desc.Backend = backend;
     device_desc.Threads = threads;
     device = rtapi::CreateDevice(device_desc).value();
     queue = device.CreateCommandQueue().value();

@@ -12,6 +12,7 @@
 #include "effects/scene/lounge.h"
 #include "effects/scene/runner.h"
 #include "effects/taa/sequence_stage.h"
+#include "tests/vulkan/support.h"
 
 namespace kaamos::effects {
 namespace {
@@ -38,17 +39,17 @@ struct Filtered {
   Denoiser denoiser;
 };
 
-// Six frames of everything that has a history.
-std::vector<float> six_frames(const Scene& scene, const std::string& path_name,
-                              std::uint32_t threads) {
-  SequenceStage stage(scene, 64, 36, threads);
+// Some frames of everything that has a history.
+std::vector<float> frames(const Scene& scene, const std::string& path_name, std::uint32_t threads,
+                          std::uint32_t count = 6, const std::string& backend = "embree") {
+  SequenceStage stage(scene, 64, 36, threads, backend);
   const CameraPath path = make_camera_path(scene, path_name).value();
   Filtered ambient(stage, kAmbientOcclusionSum, default_denoise(DenoiseMethod::kSvgf));
   Filtered sun(stage, kSunVisibilitySum, default_denoise(DenoiseMethod::kTemporal));
   TemporalAntialiasing taa =
       TemporalAntialiasing::create(stage.device, stage.frame, taa_library().value()).value();
   std::vector<float> out;
-  for (std::uint32_t i = 0; i < 6; ++i) {
+  for (std::uint32_t i = 0; i < count; ++i) {
     stage.camera = evaluate_camera(path, scene.cameras.front(), i * kFrameSeconds);
     stage.begin(i * kFrameSeconds, taa_jitter(i));
     stage.light(1);
@@ -63,16 +64,40 @@ std::vector<float> six_frames(const Scene& scene, const std::string& path_name,
 
 TEST(Sequence, RunnerIsTheSameOnOneThreadAndThree) {
   const Scene scene = make_runner_scene({.crowd = 4, .crowd_poses = 2});
-  const std::vector<float> one = six_frames(scene, "orbit", 1);
-  EXPECT_EQ(one, six_frames(scene, "orbit", 3));
+  const std::vector<float> one = frames(scene, "orbit", 1);
+  EXPECT_EQ(one, frames(scene, "orbit", 3));
   EXPECT_TRUE(std::all_of(one.begin(), one.end(), [](float v) { return std::isfinite(v); }));
 }
 
 TEST(Sequence, LoungeIsTheSameOnOneThreadAndThree) {
   const Scene scene = make_lounge();
-  const std::vector<float> one = six_frames(scene, "dolly", 1);
-  EXPECT_EQ(one, six_frames(scene, "dolly", 3));
+  const std::vector<float> one = frames(scene, "dolly", 1);
+  EXPECT_EQ(one, frames(scene, "dolly", 3));
   EXPECT_TRUE(std::all_of(one.begin(), one.end(), [](float v) { return std::isfinite(v); }));
+}
+
+TEST(Sequence, VulkanGivesTheSameFrames) {
+  const std::string why = test::why_no_vulkan();
+  if (!why.empty() && test::vulkan_is_required()) FAIL() << why;
+  if (!why.empty()) GTEST_SKIP() << why;
+  test::ValidationGuard guard;
+  const Scene scene = make_runner_scene({.crowd = 1});
+  const std::vector<float> embree = frames(scene, "orbit", 0, 3);
+  const std::vector<float> vulkan = frames(scene, "orbit", 0, 3, "vulkan");
+  ASSERT_EQ(embree.size(), vulkan.size());
+  double squares = 0;
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < embree.size(); ++i) {
+    const double difference = std::abs(embree[i] - vulkan[i]);
+    ASSERT_TRUE(std::isfinite(difference)) << i;
+    squares += std::min(difference * difference, 1.0);
+    apart += difference > 0.02 ? 1 : 0;
+  }
+  const double rmse = std::sqrt(squares / static_cast<double>(embree.size()));
+  RecordProperty("rmse", std::to_string(rmse));
+  // Rays that graze an edge meet another side of it on the other backend.
+  EXPECT_LT(rmse, 0.02);
+  EXPECT_LT(static_cast<double>(apart), 0.01 * static_cast<double>(embree.size()));
 }
 
 // A figure on its way, its ambient occlusion accumulated at a ray per pixel: with the motion of its
