@@ -51,23 +51,24 @@ Neighbourhood LookAround(int2 pixel, int2 size) {
   n.scale = 0.0;
   n.mean = float3(0, 0, 0);
   n.deviation = float3(0, 0, 0);
-  float count = 0.0;
+  float3 colors[9];
   for (int i = 0; i < 9; ++i) {
     const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
+    colors[i] = c;
     if (IsFinite(c)) n.scale = max(n.scale, Largest(c));
   }
   if (n.scale == 0.0) return n;  // black, or nothing finite
-  for (int i = 0; i < 9; ++i) {
-    const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
-    if (!IsFinite(c)) continue;
-    n.mean += ToYCoCg(c / n.scale);
+  float count = 0.0;
+  for (int j = 0; j < 9; ++j) {
+    if (!IsFinite(colors[j])) continue;
+    colors[j] = ToYCoCg(colors[j] / n.scale);
+    n.mean += colors[j];
     count += 1.0;
   }
   n.mean /= count;
-  for (int i = 0; i < 9; ++i) {
-    const float3 c = radiance[Clamped(pixel + int2(i % 3 - 1, i / 3 - 1), size)].rgb;
-    if (!IsFinite(c)) continue;
-    const float3 difference = ToYCoCg(c / n.scale) - n.mean;
+  for (int k = 0; k < 9; ++k) {
+    if (!IsFinite(colors[k])) continue;
+    const float3 difference = colors[k] - n.mean;
     n.deviation += difference * difference;
   }
   n.deviation = sqrt(n.deviation / count);

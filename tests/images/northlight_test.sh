@@ -103,6 +103,14 @@ printf '0 0 1 5 0 1 0\n0.02 0 2 5 0 1 0 cut\n' > "$work/path"
 "$northlight" --scene runner --size 32x18 --frames 3 --camera-path "$work/path" --out "$work/cut" > /dev/null || fail "a path's file"
 grep -q '"cut": true' "$work/cut/stats.json" || fail "no cut: $(cat "$work/cut/stats.json")"
 
+# What stands still is the same wherever the camera came from: lights and the volume go along with it.
+printf '0 -5.5 1.7 4.6 0.3 1.3 -0.8\n0.02 3 1.5 3 0 1 0 cut\n' > "$work/two"
+printf '0 3 1.5 3 0 1 0\n' > "$work/one_key"
+steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake-samples 1 --size 64x36 --gi-volume "$work/steady.gi")
+"$northlight" "${steady[@]}" --frames 2 --camera-path "$work/two" --out "$work/moved" > /dev/null || fail "a cut"
+"$northlight" "${steady[@]}" --frames 1 --camera-path "$work/one_key" --out "$work/there" > /dev/null || fail "one frame"
+cmp -s "$work/moved/frame.exr" "$work/there/frame.exr" || fail "a frame behind a cut is not the frame there"
+
 before=$(cd "$work/out" && sha256sum ./* | sha256sum)
 "$northlight" "${small[@]}" --scene nothere.gltf > /dev/null 2>&1
 timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --ao-samples 65536 > /dev/null 2> "$work/log"
