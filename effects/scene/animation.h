@@ -73,6 +73,7 @@ using JointMatrix = glm::mat3x4;
 struct InstanceState {
   glm::dmat4 transform{1.0};        ///< object to world
   std::vector<JointMatrix> joints;  ///< bind pose to object space; empty: not skinned
+  std::int32_t mesh = kNoIndex;     ///< the level of detail to show; none: the instance's mesh
 };
 
 /// Node to scene transforms at `seconds`, which wraps at the animation's end.

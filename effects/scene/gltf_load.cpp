@@ -9,14 +9,15 @@
 
 #include "effects/common/file.h"
 #include "effects/scene/gltf_reader.h"
+#include "effects/scene/levels.h"
 #include "effects/scene/staging.h"
 
 namespace kaamos::effects {
 namespace {
 
-constexpr std::array<std::string_view, 4> kKnownExtensions = {
+constexpr std::array<std::string_view, 5> kKnownExtensions = {
     "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization"};
+    "KHR_mesh_quantization", "MSFT_lod"};
 
 /// Depth of nested arrays and objects that is read: far more than glTF has, and little enough for
 /// the parser's recursion over extensions.
@@ -156,7 +157,10 @@ void complete(Scene& scene) {
 void drop_unused_meshes(Scene& scene) {
   std::vector<std::uint32_t> new_id(scene.meshes.size(), 0);
   std::vector<bool> used(scene.meshes.size(), false);
-  for (const Instance& instance : scene.instances) used[instance.mesh] = true;
+  for (const Instance& instance : scene.instances) {
+    used[instance.mesh] = true;
+    for (const Level& level : instance.levels) used[level.mesh] = true;
+  }
   std::vector<Mesh> kept;
   for (std::size_t id = 0; id < used.size(); ++id) {
     if (!used[id]) continue;
@@ -164,7 +168,10 @@ void drop_unused_meshes(Scene& scene) {
     kept.push_back(std::move(scene.meshes[id]));
   }
   scene.meshes = std::move(kept);
-  for (Instance& instance : scene.instances) instance.mesh = new_id[instance.mesh];
+  for (Instance& instance : scene.instances) {
+    instance.mesh = new_id[instance.mesh];
+    for (Level& level : instance.levels) level.mesh = new_id[level.mesh];
+  }
 }
 
 Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string& name,
@@ -186,6 +193,11 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
     return Status::failure("shows no triangles: no node of its scene has a mesh made of triangles");
   if (!model.animations.empty() && !options.animated)
     loaded.warnings.push_back("animations are left out");
+  if (const std::size_t joined = join_levels_by_name(loaded.scene); joined > 0)
+    loaded.warnings.push_back(
+        "nodes named lod0, lod1, ... at one place are taken as levels of "
+        "detail; of each object one level is shown, " +
+        std::to_string(joined) + " nodes are not");
   drop_unused_meshes(loaded.scene);
   complete(loaded.scene);
   status = validate(loaded.scene);

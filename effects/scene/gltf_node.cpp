@@ -173,6 +173,8 @@ Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const s
     instance.motion.node = reader_.node_ids[node_id];
     instance.motion.animation = 0;
   }
+  const Status levels = read_gltf_levels(reader_, node, where, instance);
+  if (!levels.ok()) return levels;
   reader_.scene.instances.push_back(std::move(instance));
   return {};
 }

@@ -40,6 +40,9 @@ Status read_gltf_meshes(GltfReader& reader);
 /// Instances, lights and cameras of the default scene's nodes.
 Status read_gltf_nodes(GltfReader& reader);
 
+/// The levels of detail that the node names for its instance.
+Status read_gltf_levels(GltfReader& reader, const tinygltf::Node& node, const std::string& where,
+                        Instance& instance);
 /// Where `animated`: Scene::animations, one per animation of the file.
 Status read_gltf_animations(GltfReader& reader);
 

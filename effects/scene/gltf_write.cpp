@@ -55,6 +55,7 @@ class Writer {
   int texture_of(const MaterialConstants& constants, std::uint32_t slot);
   template <class Info>
   void set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot);
+  void add_levels(int node, const Instance& instance);
   int add_node(const std::string& name, const glm::dmat4& transform);
   void add_camera(const Camera& camera);
   void add_light(const Light& light);
@@ -245,6 +246,32 @@ void Writer::add_light(const Light& light) {
           {"light", tinygltf::Value(static_cast<int>(model_.lights.size()) - 1)}});
 }
 
+// The finest mesh at the node, the others at nodes that no scene shows. [MSFT_lod]
+void Writer::add_levels(int node, const Instance& instance) {
+  tinygltf::Value::Array ids, coverages;
+  for (const Level& level : instance.levels) {
+    const bool finest = coverages.empty();
+    coverages.emplace_back(static_cast<double>(level.coverage));
+    if (finest) {
+      model_.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(level.mesh);
+      continue;
+    }
+    tinygltf::Node coarse = model_.nodes[static_cast<std::size_t>(node)];
+    coarse.mesh = static_cast<int>(level.mesh);
+    ids.emplace_back(static_cast<int>(model_.nodes.size()));
+    model_.nodes.push_back(std::move(coarse));
+  }
+  tinygltf::Node& written = model_.nodes[static_cast<std::size_t>(node)];
+  written.extensions["MSFT_lod"] =
+      tinygltf::Value(tinygltf::Value::Object{{"ids", tinygltf::Value(std::move(ids))}});
+  written.extras = tinygltf::Value(
+      tinygltf::Value::Object{{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
+  if (std::find(model_.extensionsUsed.begin(), model_.extensionsUsed.end(), "MSFT_lod") ==
+      model_.extensionsUsed.end()) {
+    model_.extensionsUsed.push_back("MSFT_lod");
+  }
+}
+
 Result<std::vector<std::uint8_t>> Writer::run() {
   model_.asset.version = "2.0";
   model_.asset.generator = "kaamos";
@@ -270,7 +297,11 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   for (const Mesh& mesh : scene_.meshes) add_mesh(mesh);
   for (const Instance& instance : scene_.instances) {
     const int node = add_node(instance.name, instance.transform);
-    model_.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(instance.mesh);
+    if (instance.levels.empty()) {
+      model_.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(instance.mesh);
+    } else {
+      add_levels(node, instance);
+    }
   }
   for (const Camera& camera : scene_.cameras) add_camera(camera);
   if (scene_.sun) {

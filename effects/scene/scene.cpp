@@ -184,6 +184,16 @@ void Checker::instance(const Instance& instance) {
   const std::string where = quoted("instance", instance.name);
   require(instance.mesh < scene_.meshes.size(), where,
           "mesh " + std::to_string(instance.mesh) + " of " + std::to_string(scene_.meshes.size()));
+  bool shown = instance.levels.empty();
+  for (const Level& level : instance.levels) {
+    require(level.mesh < scene_.meshes.size(), where,
+            "level of detail: mesh " + std::to_string(level.mesh) + " of " +
+                std::to_string(scene_.meshes.size()));
+    shown = shown || level.mesh == instance.mesh;
+  }
+  require(shown, where, "its mesh is none of its levels of detail");
+  require(instance.levels.empty() || instance.motion.skin == kNoIndex, where,
+          "has levels of detail and a skin; one of them is allowed");
   require(finite(instance.transform), where, "transform is not finite");
   const glm::dmat4& m = instance.transform;
   require(m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0 && m[3][3] == 1.0, where,

@@ -36,9 +36,17 @@ enum class BuildClass : std::uint8_t {
   kEveryFrame,  ///< FAST_BUILD, never updated: built anew whenever it changed
 };
 
+/// A mesh that stands for an instance while that covers at least `coverage` of the picture's
+/// height. [effects/scene/levels.h]
+struct Level {
+  std::uint32_t mesh = 0;
+  float coverage = 0;
+};
+
 struct Instance {
   std::string name;
   std::uint32_t mesh = 0;           ///< in Scene::meshes
+  std::vector<Level> levels = {};   ///< from fine to coarse, `mesh` one of them; empty: only `mesh`
   glm::dmat4 transform{1.0};        ///< object to world, affine
   std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
   Motion motion = {};
@@ -128,7 +136,8 @@ struct Scene {
 std::uint64_t instanced_triangle_count(const Scene& scene);
 /// Triangles of the meshes, each counted once.
 std::uint64_t unique_triangle_count(const Scene& scene);
-/// World bounds of all instances, at time 0: exact to the transformed boxes of the meshes, so never too small.
+/// World bounds of all instances, at time 0: exact to the transformed boxes of the meshes, so never
+/// too small.
 Bounds scene_bounds(const Scene& scene);
 
 /// First broken rule of the data, named by place and value: ids in range, index ranges inside their

@@ -85,6 +85,7 @@ rtapi::Status StructureManager::build_static(const Device& device, CommandQueue&
   std::vector<bool> wanted(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {
     if (instance.motion.skin == kNoIndex) wanted[instance.mesh] = true;
+    for (const Level& level : instance.levels) wanted[level.mesh] = true;
   }
   gpu_.bottom_levels.resize(scene.meshes.size());
   BufferDesc sizes_desc;
@@ -167,17 +168,16 @@ rtapi::Status StructureManager::compact(const Device& device, CommandQueue& queu
 
 rtapi::Status StructureManager::add_instances(const Device& device, const Scene& scene) {
   bind_skins_.resize(scene.meshes.size());
+  for (std::uint32_t id = 0; id < scene.meshes.size(); ++id) {
+    meshes_.push_back({first_record(scene, id), !any_alpha_tested(scene.meshes[id])});
+  }
   for (const Instance& instance : scene.instances) {
     Placement placement;
     placement.transform = instance.transform;
-    placement.force_opaque =
-        !any_alpha_tested(scene.meshes[instance.mesh]) && !(instance.mask & kMaskTransparent);
-    placement.first_record = first_record(scene, instance.mesh);
     if (instance.motion.skin != kNoIndex) {
       const auto body = add_body(device, scene, instance);
       if (!body) return body.error();
       placement.body = *body;
-      placement.first_record = bodies_[static_cast<std::size_t>(*body)].first_record;
     }
     placements_.push_back(placement);
   }

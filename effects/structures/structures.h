@@ -47,7 +47,8 @@ struct StructureStatistics {
   std::uint32_t rebuilt = 0;  ///< the first build counts too
   std::uint32_t skipped = 0;  ///< no joint moved
   std::uint32_t moved_instances = 0;
-  std::uint32_t barriers = 0;  ///< batches
+  std::uint32_t changed_levels = 0;  ///< instances that show another level of detail than before
+  std::uint32_t barriers = 0;        ///< batches
   // Only by execute().
   double skinning_ms = 0;
   double bottom_level_ms = 0;
@@ -66,7 +67,8 @@ class StructureManager {
   /// levels, one barrier, top level, one barrier; what has nothing to do is left out together with
   /// its barrier. Positions become relative to `origin`, the camera. The list of the frame before
   /// must have finished: what the device reads is written now.
-  /// Error: not one state per instance, or not one matrix per joint.
+  /// Error: not one state per instance, not one matrix per joint, or a mesh that is no level of its
+  /// instance.
   rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
                        const glm::dvec3& origin);
   /// The same, executed stage by stage and measured.
@@ -97,11 +99,14 @@ class StructureManager {
     bool moved = false;
     bool has_history = false;  // vertices hold the frame before
   };
+  struct MeshRecords {
+    std::size_t first = 0;
+    bool opaque = true;  // no geometry of it is alpha-tested
+  };
   struct Placement {
     std::int32_t body = kNoIndex;
-    std::size_t first_record = 0;
-    bool force_opaque = true;
     glm::dmat4 transform{1.0};  // of the last frame
+    std::uint32_t mesh = 0;     // that it showed
   };
 
   rtapi::Status build_static(const rtapi::Device& device, rtapi::CommandQueue& queue,
@@ -117,6 +122,7 @@ class StructureManager {
   void record_bottom_levels(rtapi::CommandList& list);
   void record_top_level(rtapi::CommandList& list, std::span<const InstanceState> states,
                         const glm::dvec3& origin);
+  std::uint32_t mesh_of(std::size_t instance, const InstanceState& state) const;
   void write_instances(std::span<const InstanceState> states, const glm::dvec3& origin);
   bool must_rebuild(const Body& body) const;
   rtapi::BuildRaytracingAccelerationStructureInputs inputs(const Body& body) const;
@@ -125,6 +131,7 @@ class StructureManager {
   StructureOptions options_;
   GpuScene gpu_;
   std::vector<Instance> instances_;
+  std::vector<MeshRecords> meshes_;
   std::vector<Placement> placements_;
   std::vector<Body> bodies_;
   std::optional<SkinningPass> skinning_;

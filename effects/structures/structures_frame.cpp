@@ -69,6 +69,14 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
     return mismatch("states of instances", states.size(), placements_.size());
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
+    const std::uint32_t mesh = mesh_of(i, states[i]);
+    if (placements_[i].body == kNoIndex &&
+        (mesh >= gpu_.bottom_levels.size() || !gpu_.bottom_levels[mesh])) {
+      return Error{"", ErrorCode::kInvalidArgument,
+                   "instance \"" + instances_[i].name + "\": mesh " + std::to_string(mesh) +
+                       " is to be shown, and is none of its levels of detail; take what "
+                       "select_levels says"};
+    }
     if (placements_[i].body == kNoIndex) continue;
     const std::uint32_t wanted = bodies_[static_cast<std::size_t>(placements_[i].body)].joint_count;
     if (states[i].joints.size() != wanted) {
@@ -79,7 +87,7 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
   statistics_.frame = frame_;
   statistics_.skinned = statistics_.updated = statistics_.rebuilt = statistics_.skipped = 0;
   statistics_.skinned_vertices = 0;
-  statistics_.moved_instances = statistics_.barriers = 0;
+  statistics_.moved_instances = statistics_.changed_levels = statistics_.barriers = 0;
   statistics_.skinning_ms = statistics_.bottom_level_ms = statistics_.top_level_ms = 0;
   std::vector<bool> seen(bodies_.size(), false);
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -168,6 +176,11 @@ void StructureManager::record_bottom_levels(CommandList& list) {
   list.EndEvent();
 }
 
+std::uint32_t StructureManager::mesh_of(std::size_t instance, const InstanceState& state) const {
+  return state.mesh == kNoIndex ? instances_[instance].mesh
+                                : static_cast<std::uint32_t>(state.mesh);
+}
+
 void StructureManager::write_instances(std::span<const InstanceState> states,
                                        const glm::dvec3& origin) {
   const std::span<RaytracingInstanceDesc> descs = gpu_.instances.data<RaytracingInstanceDesc>();
@@ -176,6 +189,9 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     Placement& placement = placements_[i];
     Instance now = instances_[i];
     now.transform = states[i].transform;
+    now.mesh = mesh_of(i, states[i]);
+    if (frame_ > 0 && now.mesh != placement.mesh) ++statistics_.changed_levels;
+    placement.mesh = now.mesh;
     const Body* body =
         placement.body == kNoIndex ? nullptr : &bodies_[static_cast<std::size_t>(placement.body)];
     RaytracingInstanceDesc desc;
@@ -183,10 +199,11 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
     desc.InstanceID = static_cast<std::uint32_t>(i) & 0xFFFFFFu;
     desc.InstanceMask = now.mask;
+    const std::size_t first_record = body ? body->first_record : meshes_[now.mesh].first;
     desc.InstanceContributionToHitGroupIndex =
-        static_cast<std::uint32_t>(placement.first_record * kRayTypeCount) & 0xFFFFFFu;
+        static_cast<std::uint32_t>(first_record * kRayTypeCount) & 0xFFFFFFu;
     // Opaque instances never look for an any-hit shader. [Northlight deck: FORCE_OPAQUE]
-    desc.Flags = placement.force_opaque
+    desc.Flags = meshes_[now.mesh].opaque && !(now.mask & kMaskTransparent)
                      ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
                      : 0u;
     desc.AccelerationStructure =

@@ -341,6 +341,48 @@ TEST_P(Structures, StaticScenesAreThoseOfCreateGpuScene) {
   EXPECT_EQ(s.barriers, 1u);
 }
 
+// What the state names is what rays meet.
+TEST_P(Structures, LevelsOfDetailAreWhatRaysMeet) {
+  Scene scene = make_runner_scene({.crowd = 1, .crowd_poses = 1});
+  std::size_t fixed = 0;
+  while (scene.instances[fixed].motion.skin != kNoIndex) ++fixed;
+  Instance& instance = scene.instances[fixed];
+  // The coarse level is the same mesh with its last geometry's last triangles left out.
+  Mesh coarse = scene.meshes[instance.mesh];
+  coarse.name += " coarse";
+  coarse.geometries.resize(1);
+  coarse.geometries[0].index_count = 3;
+  scene.meshes.push_back(coarse);
+  instance.levels = {{instance.mesh, 0.5f},
+                     {static_cast<std::uint32_t>(scene.meshes.size() - 1), 0.0f}};
+  Stage stage(GetParam(), scene);
+  const auto hits_of = [&](std::int32_t mesh) {
+    stage.states = evaluate_instances(stage.scene, 0);
+    stage.states[fixed].mesh = mesh;
+    rtapi::CommandList list = stage.device.CreateCommandList().value();
+    stage.manager.record(list, stage.states, stage.camera.position()).value();
+    stage.gbuffer.dispatch(list, stage.frame, {}, stage.desc.height);
+    stage.queue.ExecuteAndWait(list).value();
+    const FloatImage ids = stage.read(kIds);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < ids.values.size(); i += 2) {
+      count += ids.values[i] == static_cast<float>(fixed + 1) ? 1 : 0;
+    }
+    return count;
+  };
+  const std::size_t fine = hits_of(kNoIndex);
+  EXPECT_EQ(stage.manager.statistics().changed_levels, 0u);
+  const std::size_t less = hits_of(static_cast<std::int32_t>(instance.levels[1].mesh));
+  EXPECT_EQ(stage.manager.statistics().changed_levels, 1u);
+  EXPECT_LT(less, fine);
+  EXPECT_EQ(hits_of(kNoIndex), fine);
+  stage.states[fixed].mesh = static_cast<std::int32_t>(stage.scene.meshes.size());
+  rtapi::CommandList list = stage.device.CreateCommandList().value();
+  const auto refused = stage.manager.record(list, stage.states, stage.camera.position());
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("none of its levels"), std::string::npos);
+}
+
 TEST_P(Structures, StagesCanBeExecutedAndMeasured) {
   Stage stage(GetParam(), make_runner_scene({.crowd = 1, .crowd_poses = 1}));
   stage.manager

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Large meshes in pieces, each with a bottom level of its own, so that a room of one mesh is not
+// one box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "effects/scene/scene.h"
+
+namespace kaamos::effects {
+
+/// Splits each mesh of more than `most_triangles` (at least 1) along the longest side of what its
+/// triangles' centres span, in halves until the pieces are small enough; its instances become
+/// instances of the pieces. Skinned meshes and levels of detail stay whole. The picture stays the
+/// same but for instance and primitive numbers. Returns how many meshes were split.
+std::size_t split_into_pieces(Scene& scene, std::uint32_t most_triangles);
+
+}  // namespace kaamos::effects
