@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "effects/frame/ray_pass.h"
 
+#include <algorithm>
+
 namespace kaamos::effects {
 
 using namespace rtapi;
@@ -13,8 +15,15 @@ std::string group_name(std::uint32_t ray_type, bool alpha_tested) {
          (alpha_tested ? "AlphaTested" : "Opaque");
 }
 
+bool has_alpha_tested(const GpuScene& scene) {
+  return std::any_of(scene.geometries.begin(), scene.geometries.end(),
+                     [](const GpuGeometry& geometry) { return geometry.alpha_tested; });
+}
+
+// Without alpha-tested geometry there are no any-hit shaders and no groups that have one.
 rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& frame,
-                                           const RayPassDesc& desc) {
+                                           const GpuScene& scene, const RayPassDesc& desc) {
+  const bool any_hit = has_alpha_tested(scene);
   StateObjectDesc state;
   // Only what is named: the library exports its helper functions too.
   DxilLibraryDesc library;
@@ -23,10 +32,12 @@ rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& fr
   std::vector<std::string> groups;
   for (std::uint32_t type = 0; type < kRayTypeCount; ++type) {
     const HitShaders& hit = desc.hit[type];
-    for (const std::string& shader : {desc.miss[type], hit.any_hit, hit.closest_hit}) {
+    for (const std::string& shader :
+         {desc.miss[type], any_hit ? hit.any_hit : std::string(), hit.closest_hit}) {
       if (!shader.empty()) library.Exports.push_back({shader});
     }
     for (const bool alpha_tested : {false, true}) {
+      if (alpha_tested && !any_hit) continue;
       HitGroupDesc group;
       group.HitGroupExport = group_name(type, alpha_tested);
       group.ClosestHitShaderImport = hit.closest_hit;
@@ -68,7 +79,7 @@ RayPassDesc key_pass(const RayPassDesc& desc) {
 
 rtapi::Result<RayPass> RayPass::create(const Device& device, const Frame& frame,
                                        const GpuScene& scene, const RayPassDesc& desc) {
-  const auto pipeline = create_pipeline(device, frame, desc);
+  const auto pipeline = create_pipeline(device, frame, scene, desc);
   if (!pipeline) return pipeline.error();
   RayPass pass;
   pass.pipeline_ = *pipeline;

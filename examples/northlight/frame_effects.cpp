@@ -8,6 +8,7 @@
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
+#include "effects/ray_order/ray_order.h"
 #include "effects/sun_shadow/sun_shadow.h"
 #include "effects/taa/taa.h"
 
@@ -53,6 +54,7 @@ rtapi::Result<ShaderLibraries> built_in_libraries() {
                      {indirect_diffuse_library(), &out.indirect_diffuse},
                      {reflections_library(), &out.reflections},
                      {transparent_library(), &out.transparent},
+                     {ray_order_library(), &out.ray_order},
                      {taa_library(), &out.taa}};
   for (const auto& part : parts) {
     if (!part.loaded) return part.loaded.error();
@@ -73,7 +75,7 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
                                          static_cast<std::uint32_t>(lights.size()));
   if (!lighting) return lighting.error();
   lighting_ = *lighting;
-  if (lights.empty()) {
+  if (lights.empty() && !options.keep_local) {
     left_out_.push_back("local lights and contact shadows: the scene has no local light");
   } else if (options.local) {
     const auto direct = DirectLighting::create(device, frame, *lighting_, libraries.direct);
@@ -87,6 +89,7 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
   if (options.transparent) {
     has_glass_ = std::any_of(scene.instances.begin(), scene.instances.end(),
                              [](const Instance& i) { return (i.mask & kMaskTransparent) != 0; });
+    has_glass_ = has_glass_ || options.keep_glass;
     if (!has_glass_) left_out_.push_back("glass: the scene has none");
   }
   // Hits of reflections and of indirect rays see the volume too.

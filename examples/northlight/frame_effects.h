@@ -39,6 +39,7 @@ struct ShaderLibraries {
   rtapi::ShaderLibrary indirect_diffuse;
   rtapi::ShaderLibrary reflections;
   rtapi::ShaderLibrary transparent;
+  rtapi::ShaderLibrary ray_order;
   rtapi::ShaderLibrary taa;
   kaamos::effects::DenoiseLibraries denoise;
 };

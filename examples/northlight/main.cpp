@@ -10,9 +10,12 @@
 #include "effects/scene/built_in.h"
 #include "effects/scene/gltf_load.h"
 #include "effects/scene/gltf_write.h"
+#include "effects/scene/levels.h"
 #include "effects/scene/material_override.h"
+#include "effects/scene/pieces.h"
 #include "effects/scene/staging.h"
 #include "inspect.h"
+#include "left_out.h"
 #include "measure.h"
 #include "options.h"
 #include "output.h"
@@ -55,6 +58,16 @@ bool load_scene(const Options& options, Scene& scene) {
   // A tree on its own has nothing to cast its shadow on.
   if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
   return true;
+}
+
+// What the program makes of a scene before it is uploaded.
+void prepare_geometry(const Options& options, Scene& scene) {
+  if (options.frames == 0) kaamos::effects::show_levels(scene, scene.cameras.front());
+  if (options.piece_triangles == 0) return;
+  const std::size_t before = scene.meshes.size();
+  const std::size_t split = kaamos::effects::split_into_pieces(scene, options.piece_triangles);
+  std::fprintf(stderr, "northlight: %zu of %zu meshes split: %zu now\n", split, before,
+               scene.meshes.size());
 }
 
 bool override_materials(const Options& options, Scene& scene) {
@@ -198,7 +211,8 @@ int main(int argc, char** argv) {
     std::fputs(list_devices().c_str(), stdout);
     return 0;
   }
-  const bool prints = options->pixel || options->explain || !options->tables.empty();
+  const bool prints =
+      options->pixel || options->explain || !options->tables.empty() || options->measure_left_out;
   if (const std::string error = prints ? "" : prepare_folder(options->out); !error.empty()) {
     say_error(error);
     return 1;
@@ -211,6 +225,7 @@ int main(int argc, char** argv) {
       return 1;
     }
   }
+  prepare_geometry(*options, scene);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   if (!options->measure.empty()) return measure(*options, scene);
@@ -220,6 +235,12 @@ int main(int argc, char** argv) {
   if (options->watch) return watch(**renderer, *options, scene);
   const auto libraries = built_in_libraries();
   if (!libraries) return report(libraries.error(), *options);
+  if (options->measure_left_out) {
+    const auto table = measure_left_out(*options, scene, *libraries, show_progress, stop_requested);
+    if (!table) return report(table.error(), *options);
+    std::fputs(table->c_str(), stdout);
+    return 0;
+  }
   if (!options->tables.empty()) {
     const auto tables = (*renderer)->describe_tables(*libraries);
     if (!tables) return report(tables.error(), *options);

@@ -94,6 +94,18 @@ CLI::Validator parsed_by(Parse parse, Options& options) {
   return CLI::Validator([parse, &options](std::string& text) { return parse(text, options); }, "");
 }
 
+void add_engine(CLI::App& app, Options& options) {
+  app.add_option("--sort-rays", options.sort_rays,
+                 "the order of rays: by direction or by origin; the picture stays the same")
+      ->check(CLI::IsMember({"direction", "origin"}));
+  app.add_option("--pieces", options.piece_triangles,
+                 "split meshes of more triangles than this; 0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 1u << 29));
+  app.add_flag("--measure-left-out", options.measure_left_out,
+               "print what the parts cost that the scene has no use for, instead of writing files");
+}
+
 void add_sequence(CLI::App& app, Options& options) {
   auto* frames = app.add_option("--frames", options.frames,
                                 "render a sequence: frame_0000.png ..., the last one's layers")
@@ -110,8 +122,14 @@ void add_sequence(CLI::App& app, Options& options) {
   app.add_flag("--taa", options.taa, "antialiasing over the frames of a sequence")->needs(frames);
 }
 
-// What shows one frame only, or renders anew for ever.
-std::string conflict_with_sequence(const Options& options) {
+// What shows one frame only, or renders anew for ever; what looks for a pixel at its place in a
+// dispatch.
+std::string conflict(const Options& options) {
+  if (!options.sort_rays.empty() &&
+      (options.explain || options.pixel || !options.heatmap.empty())) {
+    return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
+           "other: leave one out";
+  }
   if (options.frames == 0) return {};
   const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
                                                 {"--pixel", options.pixel.has_value()},
@@ -120,7 +138,8 @@ std::string conflict_with_sequence(const Options& options) {
                                                 {"--heatmap", !options.heatmap.empty()},
                                                 {"--measure", !options.measure.empty()},
                                                 {"--split", !options.split.empty()},
-                                                {"--reference", options.reference > 0}};
+                                                {"--reference", options.reference > 0},
+                                                {"--measure-left-out", options.measure_left_out}};
   for (const auto& [name, chosen] : given) {
     if (chosen) return std::string("--frames and ") + name + " exclude each other: leave one out";
   }
@@ -222,6 +241,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::Range(0u, 1024u));
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
+  add_engine(app, options);
   add_sequence(app, options);
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
   app.add_option("--pixel", pixel,
@@ -278,8 +298,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = 2;
     return std::nullopt;
   }
-  if (const std::string conflict = conflict_with_sequence(options); !conflict.empty()) {
-    std::fprintf(stderr, "northlight: %s\n", conflict.c_str());
+  if (const std::string found = conflict(options); !found.empty()) {
+    std::fprintf(stderr, "northlight: %s\n", found.c_str());
     exit_code = 2;
     return std::nullopt;
   }

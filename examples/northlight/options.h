@@ -42,6 +42,13 @@ struct Options {
   float ao_radius = 4.0f;  // metres; infinity: no limit
   std::uint32_t sun_samples = 2;
   std::optional<float> sun_angle_degrees;  // full angle of the disk; none: the scene's
+  // "direction" or "origin" of the rays decides their order; empty: the pixels' order.
+  std::string sort_rays;
+  std::uint32_t piece_triangles = 0;  // larger meshes are split; 0: none is
+  bool measure_left_out = false;      // instead of writing files
+  // Not of the command line: parts to make although the scene has no use for them.
+  bool keep_glass = false;
+  bool keep_local = false;
   std::uint32_t seed = 0;
   std::uint32_t threads = 0;  // 0: all
   std::string out = "out/northlight";

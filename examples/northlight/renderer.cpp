@@ -8,6 +8,7 @@
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
+#include "effects/scene/levels.h"
 #include "effects/sun_shadow/sun_shadow.h"
 
 namespace northlight {
@@ -84,7 +85,11 @@ rtapi::Status Renderer::add_passes(const std::vector<RayStep>& steps, std::vecto
   for (const RayStep& step : steps) {
     const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
     if (!pass) return pass.error();
-    out.push_back({step, *pass});
+    out.push_back({step, *pass, {}});
+    if (!sorter_ || step.desc.key_generation.empty()) continue;
+    const auto keys = RayPass::create(device_, frame_, gpu_, key_pass(step.desc));
+    if (!keys) return keys.error();
+    out.back().keys = *keys;
   }
   return {};
 }
@@ -93,6 +98,11 @@ rtapi::Status Renderer::prepare(const ShaderLibraries& libraries, const Progress
                                 const std::atomic<bool>& stop, FrameResult& result) {
   effects_.reset();
   taa_.reset();
+  if (!options_.sort_rays.empty()) {
+    auto sorter = RaySorter::create(device_, frame_, libraries.ray_order);
+    if (!sorter) return sorter.error();
+    sorter_ = std::move(*sorter);
+  }
   if (options_.whole_frame()) {
     effects_ = std::make_unique<FrameEffects>();
     const auto bake_progress = [&](double done) { progress("indirect light", done); };
@@ -119,6 +129,17 @@ rtapi::Status Renderer::prepare(const ShaderLibraries& libraries, const Progress
   return add_passes(steps(libraries), passes_);
 }
 
+std::vector<InstanceState> Renderer::states_at(const Moment& moment) const {
+  std::vector<InstanceState> states = evaluate_instances(scene_, moment.seconds);
+  std::vector<glm::dmat4> transforms;
+  for (const InstanceState& state : states) transforms.push_back(state.transform);
+  const std::vector<std::uint32_t> meshes = select_levels(scene_, moment.camera, transforms);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    states[i].mesh = static_cast<std::int32_t>(meshes[i]);
+  }
+  return states;
+}
+
 rtapi::Status Renderer::begin_frame(const Moment& moment, FrameResult& result) {
   FrameTime time;
   time.index = moment.index;
@@ -130,9 +151,7 @@ rtapi::Status Renderer::begin_frame(const Moment& moment, FrameResult& result) {
   const glm::dvec3 origin = moment.camera.position();
   if (structures_) {
     const auto start = Clock::now();
-    if (const auto done = structures_->execute(device_, queue_,
-                                               evaluate_instances(scene_, moment.seconds), origin);
-        !done) {
+    if (const auto done = structures_->execute(device_, queue_, states_at(moment), origin); !done) {
       return done;
     }
     const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -140,6 +159,18 @@ rtapi::Status Renderer::begin_frame(const Moment& moment, FrameResult& result) {
   }
   if (moment.cut && taa_) taa_->reset();
   return frame_.set_camera(device_, scene_, moment.camera, time);
+}
+
+rtapi::Status Renderer::sort_rays(const Pass& pass, const PassConstants& constants, double& ms) {
+  auto list = device_.CreateCommandList();
+  if (!list) return list.error();
+  const auto start = Clock::now();
+  pass.keys->dispatch(*list, frame_, constants, options_.height, pass.step.arguments);
+  sorter_->sort(*list, frame_,
+                options_.sort_rays == "origin" ? RayOrder::kOrigin : RayOrder::kDirection);
+  const auto done = queue_.ExecuteAndWait(*list);
+  ms += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return done;
 }
 
 rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
@@ -151,6 +182,7 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
   const std::uint32_t first = moment_.index * samples;
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
+  double order_ms = 0;
   device_.ResetStatistics();
   const auto start = Clock::now();
   std::uint32_t rows = std::min<std::uint32_t>(32, options_.height);
@@ -159,6 +191,10 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
     constants.first_sample = first + sample;
     constants.sample_count = std::min(kSamplesPerDispatch, samples - sample);
     constants.radius = options_.ao_radius;
+    if (pass.keys) {
+      if (const auto sorted = sort_rays(pass, constants, order_ms); !sorted) return sorted;
+      constants.sorted = 1;
+    }
     for (std::uint32_t row = 0; row < options_.height;) {
       if (stop) return stopped();
       const std::uint32_t count = std::min(rows, options_.height - row);
@@ -177,7 +213,8 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
     }
   }
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  result.passes.push_back({name, ms, device_.GetStatistics()});
+  if (pass.keys) result.passes.push_back({name + " order", order_ms, {}});
+  result.passes.push_back({name, ms - order_ms, device_.GetStatistics()});
   return {};
 }
 

@@ -18,6 +18,7 @@
 #include "effects/composite/composite.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
+#include "effects/ray_order/ray_order.h"
 #include "effects/structures/structures.h"
 #include "effects/taa/taa.h"
 #include "frame_effects.h"
@@ -101,6 +102,7 @@ class Renderer {
   struct Pass {
     RayStep step;
     kaamos::effects::RayPass pass;
+    std::optional<kaamos::effects::RayPass> keys;  // its rays are sorted
   };
 
   Renderer(const Options& options, const kaamos::effects::Scene& scene)
@@ -109,6 +111,11 @@ class Renderer {
   rtapi::Status add_passes(const std::vector<RayStep>& steps, std::vector<Pass>& out);
   rtapi::Status run_pass(const Pass& pass, const Progress& progress, const std::atomic<bool>& stop,
                          FrameResult& result);
+  // Poses, and the levels of detail that the camera wants.
+  std::vector<kaamos::effects::InstanceState> states_at(const Moment& moment) const;
+  // Puts the pixels in the order of the rays that the pass is about to trace; `ms` grows.
+  rtapi::Status sort_rays(const Pass& pass, const kaamos::effects::PassConstants& constants,
+                          double& ms);
   // A pass without rays, timed.
   rtapi::Status run_compute(const std::string& name,
                             const std::function<void(rtapi::CommandList&)>& record,
@@ -136,6 +143,7 @@ class Renderer {
   std::unique_ptr<FrameEffects> effects_;
   std::vector<Pass> passes_, effect_passes_;
   kaamos::effects::CompositePass composite_;
+  std::optional<kaamos::effects::RaySorter> sorter_;
   std::optional<kaamos::effects::TemporalAntialiasing> taa_;
 };
 

@@ -30,7 +30,8 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
       {"gbuffer/gbuffer", &libraries.gbuffer},
       {"ambient_occlusion/ambient_occlusion", &libraries.ambient_occlusion},
       {"sun_shadow/sun_shadow", &libraries.sun_shadow},
-      {"composite/composite", &libraries.composite}};
+      {"composite/composite", &libraries.composite},
+      {"ray_order/ray_order", &libraries.ray_order}};
   const std::pair<const char*, rtapi::ShaderLibrary*> more[] = {
       {"lights/lighting", &libraries.lighting},
       {"direct/direct", &libraries.direct},
