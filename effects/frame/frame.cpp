@@ -117,7 +117,8 @@ rtapi::Status Frame::create_root_signatures(const Device& device) {
   RootSignatureDesc global;
   std::vector<DescriptorRange> views;
   views.push_back({.RangeType = DescriptorRangeType::kSrv, .NumDescriptors = kFirstPicture});
-  views.push_back({.RangeType = DescriptorRangeType::kUav, .NumDescriptors = kFirstSceneTexture - kFirstPicture});
+  views.push_back({.RangeType = DescriptorRangeType::kUav,
+                   .NumDescriptors = kFirstSceneTexture - kFirstPicture});
   views.push_back({.RangeType = DescriptorRangeType::kSrv,
                    .NumDescriptors = kUnboundedDescriptors,
                    .RegisterSpace = 1});

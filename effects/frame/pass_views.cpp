@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "effects/frame/pass_views.h"
 
+#include <numeric>
+
+#include "effects/frame/picture.h"
+
 namespace kaamos::effects {
 
 rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Texture& texture) {
+  bytes_[t] = picture_bytes(texture);
   return device_.CreateShaderResourceView(texture, heap_.GetCPUDescriptorHandle(first_ + t));
 }
 
 rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Buffer& buffer,
                                              std::uint32_t stride) {
+  bytes_[t] = buffer.size();
   rtapi::ShaderResourceViewDesc view;
   view.ViewDimension = rtapi::SrvDimension::kBuffer;
   view.Buffer.StructureByteStride = stride;
@@ -17,12 +23,14 @@ rtapi::Status PassViews::set_shader_resource(std::uint32_t t, const rtapi::Buffe
 }
 
 rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Texture& texture) {
+  bytes_[kPassShaderResources + u] = picture_bytes(texture);
   return device_.CreateUnorderedAccessView(
       texture, heap_.GetCPUDescriptorHandle(first_ + kPassShaderResources + u));
 }
 
 rtapi::Status PassViews::set_unordered_access(std::uint32_t u, const rtapi::Buffer& buffer,
                                               std::uint32_t stride) {
+  bytes_[kPassShaderResources + u] = buffer.size();
   rtapi::UnorderedAccessViewDesc view;
   view.ViewDimension = rtapi::UavDimension::kBuffer;
   view.Buffer.StructureByteStride = stride;
@@ -38,6 +46,10 @@ void PassViews::clear(rtapi::CommandList& list, std::uint32_t u,
   list.SetDescriptorHeaps({heap_});
   list.ClearUnorderedAccessViewFloat(heap_.GetGPUDescriptorHandle(index),
                                      heap_.GetCPUDescriptorHandle(index), texture, zero);
+}
+
+std::uint64_t PassViews::bytes() const {
+  return std::accumulate(bytes_.begin(), bytes_.end(), std::uint64_t{0});
 }
 
 }  // namespace kaamos::effects

@@ -35,12 +35,15 @@ class PassViews {
                                      std::uint32_t stride);
   /// Records that zero is written to a picture of floats, which register u holds.
   void clear(rtapi::CommandList& list, std::uint32_t u, const rtapi::Texture& texture) const;
+  /// Of the pictures and buffers that the views name.
+  std::uint64_t bytes() const;
   rtapi::GpuDescriptorHandle table() const { return heap_.GetGPUDescriptorHandle(first_); }
 
  private:
   rtapi::Device device_;
   rtapi::DescriptorHeap heap_;
   std::uint32_t first_ = 0;
+  std::array<std::uint64_t, kPassViews> bytes_{};  // by view
 };
 
 /// Arguments of one dispatch that only its pass knows.

@@ -18,6 +18,11 @@ rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::s
   return device.CreateTexture(desc);
 }
 
+std::uint64_t picture_bytes(const rtapi::Texture& picture) {
+  const rtapi::TextureDesc desc = picture.GetDesc();
+  return std::uint64_t{desc.Width} * desc.Height * texel_bytes(desc.Format);
+}
+
 rtapi::Result<FloatImage> read_picture(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                        const rtapi::Texture& picture) {
   const auto bytes = rtapi::ReadbackTexture(device, queue, picture, 0);

@@ -51,6 +51,22 @@ float value_at(Format format, std::span<const std::byte> texels, std::size_t ind
 
 }  // namespace
 
+std::uint32_t texel_bytes(Format format) {
+  switch (format) {
+    case Format::kR32Float:
+    case Format::kR16G16Snorm:
+    case Format::kR8G8B8A8Unorm:
+      return 4;
+    case Format::kR32G32Uint:
+    case Format::kR16G16B16A16Float:
+      return 8;
+    case Format::kR32G32B32A32Float:
+      return 16;
+    default:
+      return 0;
+  }
+}
+
 FloatImage decode_texels(Format format, std::uint32_t width, std::uint32_t height,
                          std::span<const std::byte> texels) {
   FloatImage image(width, height, channels_of(format));

@@ -17,4 +17,7 @@ namespace kaamos::effects {
 FloatImage decode_texels(rtapi::Format format, std::uint32_t width, std::uint32_t height,
                          std::span<const std::byte> texels);
 
+/// Of one texel of these formats; 0 for any other.
+std::uint32_t texel_bytes(rtapi::Format format);
+
 }  // namespace kaamos::effects

@@ -50,6 +50,7 @@ struct RayStep {
   kaamos::effects::RayPassDesc desc;
   std::uint32_t samples = 1;
   kaamos::effects::PassArguments arguments;
+  std::vector<kaamos::effects::FrameTexture> writes = {};  // of the frame's pictures
 };
 
 class FrameEffects {

@@ -11,8 +11,8 @@
 namespace northlight {
 
 // Renders the scene kRounds times as it is and with each part, in turn, and returns a table: part,
-// milliseconds of the frame without and with it (medians), what was saved. An empty error id: `stop`
-// was set.
+// milliseconds of the frame without and with it (medians), what was saved. An empty error id:
+// `stop` was set.
 rtapi::Result<std::string> measure_left_out(const Options& options,
                                             const kaamos::effects::Scene& scene,
                                             const ShaderLibraries& libraries,

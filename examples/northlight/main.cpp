@@ -187,7 +187,7 @@ int watch(Renderer& renderer, const Options& options, const Scene& scene) {
     say_error("--watch needs the effects' shader files: name their folder in $KAAMOS_EFFECTS");
     return 1;
   }
-  ShaderWatcher watcher(folder, options.whole_frame());
+  ShaderWatcher watcher(folder, options.whole_frame(), !options.sort_rays.empty());
   std::printf("watching %s; Ctrl-C ends\n", folder.c_str());
   do {
     const auto libraries = watcher.compile();

@@ -59,8 +59,8 @@ struct Options {
   bool taa = false;
   bool watch = false;
   bool list_devices = false;
-  std::string split;            // settings side by side in one picture; empty: no
-  std::uint32_t reference = 0;  // samples of the layers NAME_reference; 0: none
+  std::string split;                        // settings side by side in one picture; empty: no
+  std::uint32_t reference = 0;              // samples of the layers NAME_reference; 0: none
   std::string measure;                      // effect whose error is measured; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference
   std::uint32_t repeats = 7;                // of each measured setting

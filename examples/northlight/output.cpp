@@ -129,8 +129,10 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
                               {"hits", pass.rays.Hits},
                               {"misses", pass.rays.Misses},
                               {"any_hit_calls", pass.rays.AnyHitInvocations},
+                              {"bytes", pass.bytes},
                               {"mrays_per_s", pass.ms > 0 ? rays / pass.ms / 1000 : 0.0}});
   }
+  json["left_out"] = result.left_out;
   return json;
 }
 
@@ -240,6 +242,10 @@ std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint
   return out;
 }
 
+static double mebibytes(std::uint64_t bytes) {
+  return static_cast<double>(bytes) / 1048576.0;
+}
+
 std::string list_devices() {
   std::string out;
   bool has_vulkan = false;
@@ -261,17 +267,19 @@ std::string describe(const Renderer& renderer, const FrameResult& result) {
   const GpuSceneStatistics& s = renderer.scene_statistics();
   std::string out = fmt::format(
       "{}\nscene: {} triangles ({} unique), built in {:.0f} ms, {:.1f} MiB\n\n"
-      "{:<20}{:>10}{:>12}{:>12}{:>12}{:>10}\n",
+      "{:<20}{:>10}{:>12}{:>12}{:>12}{:>10}{:>9}\n",
       renderer.device_info().Name, s.instanced_triangles, s.unique_triangles,
-      s.bottom_level_ms + s.top_level_ms,
-      static_cast<double>(s.bottom_level_bytes + s.top_level_bytes) / 1048576.0, "pass", "ms",
-      "rays", "hits", "any-hit", "Mrays/s");
+      s.bottom_level_ms + s.top_level_ms, mebibytes(s.bottom_level_bytes + s.top_level_bytes),
+      "pass", "ms", "rays", "hits", "any-hit", "Mrays/s", "MiB");
   for (const PassStatistics& pass : result.passes) {
     const double rays = static_cast<double>(pass.rays.TraceRayCalls);
-    out += fmt::format("{:<20}{:>10.1f}{:>12}{:>12}{:>12}{:>10.2f}\n", pass.name, pass.ms,
+    out += fmt::format("{:<20}{:>10.1f}{:>12}{:>12}{:>12}{:>10.2f}{:>9}\n", pass.name, pass.ms,
                        pass.rays.TraceRayCalls, pass.rays.Hits, pass.rays.AnyHitInvocations,
-                       pass.ms > 0 ? rays / pass.ms / 1000 : 0.0);
+                       pass.ms > 0 ? rays / pass.ms / 1000 : 0.0,
+                       pass.bytes == 0 ? "" : fmt::format("{:.1f}", mebibytes(pass.bytes)));
   }
+  for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
+  if (!result.left_out.empty()) out += "what that saves: --measure-left-out\n";
   return out;
 }
 

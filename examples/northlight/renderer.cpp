@@ -24,6 +24,13 @@ constexpr std::uint32_t kSamplesPerDispatch = 64;
 // A dispatch should not take longer, so that progress moves and Ctrl-C is heard.
 constexpr double kDispatchSeconds = 0.25;
 
+// Pictures of the frame that a pass writes, and what its own registers name.
+std::uint64_t bytes_of(const RayStep& step, const Frame& frame) {
+  std::uint64_t sum = step.arguments.views ? step.arguments.views->bytes() : 0;
+  for (const FrameTexture texture : step.writes) sum += picture_bytes(frame.texture(texture));
+  return sum;
+}
+
 rtapi::Error stopped() {
   return {"", rtapi::ErrorCode::kFailed, "interrupted"};
 }
@@ -126,6 +133,11 @@ rtapi::Status Renderer::prepare(const ShaderLibraries& libraries, const Progress
     if (!taa) return taa.error();
     taa_ = *taa;
   }
+  if (std::none_of(gpu_.geometries.begin(), gpu_.geometries.end(),
+                   [](const GpuGeometry& geometry) { return geometry.alpha_tested; })) {
+    result.left_out.push_back("any-hit shaders: nothing is alpha-tested");
+  }
+  if (scene_.skins.empty()) result.left_out.push_back("skinning: the scene has no skin");
   return add_passes(steps(libraries), passes_);
 }
 
@@ -214,7 +226,8 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
   }
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   if (pass.keys) result.passes.push_back({name + " order", order_ms, {}});
-  result.passes.push_back({name, ms - order_ms, device_.GetStatistics()});
+  result.passes.push_back(
+      {name, ms - order_ms, device_.GetStatistics(), bytes_of(pass.step, frame_)});
   return {};
 }
 
@@ -233,12 +246,20 @@ rtapi::Status Renderer::run_compute(const std::string& name,
 }
 
 std::vector<RayStep> Renderer::steps(const ShaderLibraries& libraries) const {
-  std::vector<RayStep> out = {{gbuffer_pass(libraries.gbuffer), 1, {}}};
+  std::vector<RayStep> out = {{gbuffer_pass(libraries.gbuffer),
+                               1,
+                               {},
+                               {kDepth, kViewZ, kNormal, kShadingNormal, kBaseColor, kEmissive,
+                                kMaterial, kIds, kPosition, kMotion}}};
   if (options_.ao) {
-    out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion), options_.ao_samples, {}});
+    out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion),
+                   options_.ao_samples,
+                   {},
+                   {kAmbientOcclusionSum}});
   }
   if (options_.sun && scene_.sun) {
-    out.push_back({sun_shadow_pass(libraries.sun_shadow), options_.sun_samples, {}});
+    out.push_back(
+        {sun_shadow_pass(libraries.sun_shadow), options_.sun_samples, {}, {kSunVisibilitySum}});
   }
   return out;
 }

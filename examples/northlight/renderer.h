@@ -30,6 +30,7 @@ struct PassStatistics {
   std::string name;
   double ms = 0;
   rtapi::RaytracingStatistics rays;
+  std::uint64_t bytes = 0;  // of the pictures and buffers that are the pass's own
 };
 
 // One dispatch in which the pixel of --explain lies.

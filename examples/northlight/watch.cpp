@@ -30,8 +30,7 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
       {"gbuffer/gbuffer", &libraries.gbuffer},
       {"ambient_occlusion/ambient_occlusion", &libraries.ambient_occlusion},
       {"sun_shadow/sun_shadow", &libraries.sun_shadow},
-      {"composite/composite", &libraries.composite},
-      {"ray_order/ray_order", &libraries.ray_order}};
+      {"composite/composite", &libraries.composite}};
   const std::pair<const char*, rtapi::ShaderLibrary*> more[] = {
       {"lights/lighting", &libraries.lighting},
       {"direct/direct", &libraries.direct},
@@ -43,6 +42,7 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
       {"denoise/spatial", &libraries.denoise.spatial},
       {"denoise/svgf", &libraries.denoise.svgf}};
   if (whole_frame_) parts.insert(parts.end(), std::begin(more), std::end(more));
+  if (sorts_) parts.emplace_back("ray_order/ray_order", &libraries.ray_order);
   files_.clear();
   rtapi::Status status;
   for (const auto& [name, library] : parts) {

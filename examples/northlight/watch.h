@@ -15,9 +15,9 @@ namespace northlight {
 class ShaderWatcher {
  public:
   // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/. `whole_frame`: all effects, not
-  // only ambient occlusion and the sun.
-  ShaderWatcher(std::filesystem::path folder, bool whole_frame)
-      : folder_(std::move(folder)), whole_frame_(whole_frame) {}
+  // only ambient occlusion and the sun. `sorts`: the order of rays too.
+  ShaderWatcher(std::filesystem::path folder, bool whole_frame, bool sorts)
+      : folder_(std::move(folder)), whole_frame_(whole_frame), sorts_(sorts) {}
 
   // Compiles all of them; the message of an error is what the compiler says.
   rtapi::Result<ShaderLibraries> compile();
@@ -27,6 +27,7 @@ class ShaderWatcher {
  private:
   std::filesystem::path folder_;
   bool whole_frame_;
+  bool sorts_;
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 

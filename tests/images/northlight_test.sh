@@ -23,7 +23,7 @@ expect_error() {
   output=$("$northlight" --out "$work/out" "$@" 2>&1)
   status=$?
   [ "$status" = "$code" ] || fail "$*: exit code $status, expected $code"
-  grep -Eq "$pattern" <<< "$output" || fail "$*: does not say $pattern but: $output"
+  grep -Eq -- "$pattern" <<< "$output" || fail "$*: does not say $pattern but: $output"
 }
 
 expect_error 1 'cannot open .*nothere.gltf' --scene nothere.gltf
@@ -52,6 +52,8 @@ expect_error 2 'exclude each other' --frames 2 --watch
 expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --size 16x9 --camera-path roundabout
 printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
+expect_error 2 'not in {direction,origin}' --sort-rays length
+expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
 grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
@@ -111,14 +113,26 @@ steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake
 "$northlight" "${steady[@]}" --frames 1 --camera-path "$work/one_key" --out "$work/there" > /dev/null || fail "one frame"
 cmp -s "$work/moved/frame.exr" "$work/there/frame.exr" || fail "a frame behind a cut is not the frame there"
 
-before=$(cd "$work/out" && sha256sum ./* | sha256sum)
+# The order of rays and the pieces of meshes leave the picture as it is.
+"$northlight" --size 96x54 --out "$work/plain" > "$work/log" || fail "a plain frame"
+grep -q 'left out: skinning' "$work/log" || fail "does not say what was left out: $(cat "$work/log")"
+"$northlight" --size 96x54 --sort-rays direction --out "$work/sorted" > "$work/log" || fail "--sort-rays"
+grep -q 'ambient occlusion order' "$work/log" || fail "--sort-rays: no line for the sort"
+cmp -s "$work/plain/frame.png" "$work/sorted/frame.png" || fail "--sort-rays changes the picture"
+"$northlight" --size 96x54 --pieces 4096 --out "$work/pieces" > /dev/null 2> "$work/log" || fail "--pieces"
+grep -q 'meshes split' "$work/log" || fail "--pieces: says nothing"
+cmp -s "$work/plain/frame.png" "$work/pieces/frame.png" || fail "--pieces changes the picture"
+said=$("$northlight" --size 32x18 --effects ao,transparent --gi-bake-samples 1 --measure-left-out) || fail "--measure-left-out"
+grep -q '^glass ' <<< "$said" || fail "--measure-left-out: $said"
+
+before=$(cd "$work/out" && find . -type f -exec sha256sum {} + | sort | sha256sum)
 "$northlight" "${small[@]}" --scene nothere.gltf > /dev/null 2>&1
 timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --ao-samples 65536 > /dev/null 2> "$work/log"
 [ $? = 130 ] || fail "Ctrl-C: exit code is not 130"
 grep -q 'interrupted: nothing was written' "$work/log" || fail "Ctrl-C: $(cat "$work/log")"
 timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/out" --size 320x180 --frames 5000 > /dev/null 2>&1
 [ $? = 130 ] || fail "Ctrl-C in a sequence: exit code is not 130"
-[ "$before" = "$(cd "$work/out" && sha256sum ./* | sha256sum)" ] || fail "earlier results changed"
+[ "$before" = "$(cd "$work/out" && find . -type f -exec sha256sum {} + | sort | sha256sum)" ] || fail "earlier results changed"
 [ -z "$(find "$work/out" -name '.*' -type d -mindepth 1)" ] || fail "a working folder was left over"
 
 # --watch: an edit of a shader changes the picture.
