@@ -102,7 +102,7 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   c.jitter = time.jitter;
   c.previous_jitter = time.previous_jitter;
   c.near_plane = static_cast<float>(camera.near_plane);
-  c.pixel_angle = static_cast<float>(2 * half_height / desc.height);
+  c.pixel_angle = desc.ray_cones ? static_cast<float>(2 * half_height / desc.height) : 0.0f;
   c.seed = desc.seed;
   const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0.0f), 0.0f});
   const float radius = desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;

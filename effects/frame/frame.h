@@ -92,6 +92,9 @@ struct FrameDesc {
   std::uint32_t seed = 0;
   /// Radians; replaces the scene's. Negative: the scene's own.
   float sun_angular_radius = -1.0f;
+  /// Rays are cones that choose the level of detail of textures; false: level 0 is read
+  /// everywhere, as the deck does.
+  bool ray_cones = true;
   /// How many passes of a frame's life may have views of their own.
   std::uint32_t max_pass_views = 256;
 };

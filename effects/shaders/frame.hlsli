@@ -15,7 +15,7 @@ struct FrameConstants {
   float3 camera_right;    // half the picture's width at distance 1
   float near_plane;       // metres; of the reversed-Z depth
   float3 camera_up;       // half the picture's height at distance 1
-  float pixel_angle;      // radians that a pixel's side covers
+  float pixel_angle;      // radians that a pixel's side covers; 0: no ray cones
   float3 camera_forward;  // unit
   uint seed;
   float3 direction_to_sun;  // unit

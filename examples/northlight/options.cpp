@@ -98,6 +98,10 @@ void add_engine(CLI::App& app, Options& options) {
   app.add_option("--sort-rays", options.sort_rays,
                  "the order of rays: by direction or by origin; the picture stays the same")
       ->check(CLI::IsMember({"direction", "origin"}));
+  app.add_option("--texture-lod", options.texture_lod,
+                 "level of detail of textures: by ray cones (cone), or always 0 (zero)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"cone", "zero"}));
   app.add_option("--pieces", options.piece_triangles,
                  "split meshes of more triangles than this; 0: none")
       ->capture_default_str()

@@ -44,6 +44,7 @@ struct Options {
   std::optional<float> sun_angle_degrees;  // full angle of the disk; none: the scene's
   // "direction" or "origin" of the rays decides their order; empty: the pixels' order.
   std::string sort_rays;
+  std::string texture_lod = "cone";   // or "zero"
   std::uint32_t piece_triangles = 0;  // larger meshes are split; 0: none is
   bool measure_left_out = false;      // instead of writing files
   // Not of the command line: parts to make although the scene has no use for them.

@@ -76,6 +76,7 @@ rtapi::Status Renderer::create_scene() {
   frame_desc.width = options_.width;
   frame_desc.height = options_.height;
   frame_desc.seed = options_.seed;
+  frame_desc.ray_cones = options_.texture_lod == "cone";
   if (options_.sun_angle_degrees) {
     frame_desc.sun_angular_radius = *options_.sun_angle_degrees * 3.14159265f / 360.0f;
   }

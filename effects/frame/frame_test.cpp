@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "effects/frame/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/scene/oracle_scenes.h"
+
+namespace kaamos::effects {
+namespace {
+
+// A plane with a texture of black and white texels, 64 to the metre, seen from high above: a pixel
+// covers dozens of them.
+Scene checkered_plane() {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  scene.instances.resize(1);
+  TextureImage image;
+  image.name = "checkers";
+  image.width = image.height = 64;
+  std::vector<std::uint8_t> texels;
+  for (std::uint32_t y = 0; y < 64; ++y) {
+    for (std::uint32_t x = 0; x < 64; ++x) {
+      const std::uint8_t value = (x + y) % 2 == 0 ? 255 : 0;
+      texels.insert(texels.end(), {value, value, value, 255});
+    }
+  }
+  image.mips.push_back(std::move(texels));
+  generate_mips(image);
+  scene.images.push_back(std::move(image));
+  scene.samplers.resize(1);
+  for (Material& material : scene.materials) {
+    material.constants.base_color = glm::vec4(1);
+    material.constants.image[kBaseColorTexture] = 0;
+  }
+  for (Vertex& vertex : scene.meshes[scene.instances[0].mesh].vertices) {
+    vertex.uv = glm::vec2(vertex.position.x, vertex.position.z);
+  }
+  Camera& camera = scene.cameras.front();
+  camera.camera_to_world = look_at(glm::dvec3(0.1, 40, 0.2), glm::dvec3(0));
+  camera.vertical_fov = 0.5;
+  return scene;
+}
+
+// Mean and standard deviation of the base colour.
+struct Spread {
+  double mean = 0, deviation = 0;
+};
+Spread base_color(const Scene& scene, bool ray_cones) {
+  const rtapi::Device device = rtapi::CreateDevice().value();
+  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
+  const Camera& camera = scene.cameras.front();
+  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
+  FrameDesc desc;
+  desc.width = desc.height = 32;
+  desc.ray_cones = ray_cones;
+  const Frame frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
+  const RayPass gbuffer =
+      RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
+  rtapi::CommandList list = device.CreateCommandList().value();
+  gbuffer.dispatch(list, frame, {}, desc.height);
+  queue.ExecuteAndWait(list).value();
+  const FloatImage picture = frame.read(device, queue, kBaseColor).value();
+  Spread out;
+  const double count = desc.width * desc.height;
+  for (std::size_t i = 0; i < picture.values.size(); i += 4) out.mean += picture.values[i] / count;
+  for (std::size_t i = 0; i < picture.values.size(); i += 4) {
+    out.deviation += std::pow(picture.values[i] - out.mean, 2) / count;
+  }
+  out.deviation = std::sqrt(out.deviation);
+  return out;
+}
+
+TEST(Frame, RayConesChooseTheLevelOfTextures) {
+  const Scene scene = checkered_plane();
+  const Spread cones = base_color(scene, true);
+  const Spread level_zero = base_color(scene, false);
+  EXPECT_LT(cones.deviation, 0.02) << "many texels in a pixel are one colour";
+  EXPECT_GT(level_zero.deviation, 0.1) << "level 0 picks a few of them";
+}
+
+}  // namespace
+}  // namespace kaamos::effects
