@@ -121,7 +121,47 @@ TEST(SunExtremes, ASunOfHalfTheSkyIsFinite) {
   }
 }
 
+// A page of 0.1 mm, seen from near and far: light falls on one side and never through it.
+TEST(SunExtremes, NoLightGoesThroughAPage) {
+  Scene scene = make_room();
+  scene.meshes.resize(1);
+  scene.instances.resize(1);
+  scene.meshes[0] = Mesh{};
+  add_shape(scene.meshes[0], box({1, 5e-5, 1}), kRoomWall);
+  scene.sun->direction_to_sun = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
+  for (const double distance : {1.0, 10.0, 100.0, 300.0}) {
+    for (const double side : {1.0, -1.0}) {
+      Camera& camera = scene.cameras.front();
+      const glm::dvec3 eye = glm::normalize(glm::dvec3(0.4, side, 0.3)) * distance;
+      camera.camera_to_world = look_at(eye, glm::dvec3(0));
+      camera.vertical_fov = 0.5 / distance;
+      RigOptions options = small(kRigSun | kRigAo);
+      options.ao_radius = 1e-3f;
+      const Pictures pictures = render(scene, options);
+      expect_all(pictures.at("sun"), side > 0 ? 1 : 0, std::to_string(distance));
+      expect_all(pictures.at("ao"), 1, "ao " + std::to_string(distance));
+    }
+  }
+}
+
 // --- Local lights and contact shadows
+
+TEST(LightExtremes, WithoutAnyLightAllIsBlack) {
+  Scene scene = make_room();
+  scene.lights.clear();
+  scene.sun.reset();
+  scene.sky = {};
+  scene.materials[kRoomLamp].constants.emissive = glm::vec3(0);
+  RigOptions options;
+  const Pictures pictures = render(scene, options);
+  for (const char* name : {"direct", "local", "indirect", "reflection", "glass", "radiance"}) {
+    expect_all(pictures.at(name), 0, name);
+  }
+  for (std::size_t i = 0; i < pictures.at("contact").values.size(); i += 4) {
+    ASSERT_EQ(pictures.at("contact").values[i], 1);
+    ASSERT_EQ(pictures.at("contact").values[i + 1], 1);
+  }
+}
 
 TEST(LightExtremes, ALightWithoutRadiusHasAHardShadow) {
   Scene scene = make_room();
@@ -388,6 +428,17 @@ TEST(VolumeExtremes, BordersOfCellsAndBricksDoNotShow) {
     std::printf("cells of %g m: off by up to %.1e of 11\n", static_cast<double>(cell), worst);
     EXPECT_LE(worst, 8 * 9.6e-7);  // 8 steps of a float of 8 to 16
   }
+}
+
+// A slope that is steeper than the mean is high leaves less than nothing on its dark side.
+TEST(VolumeExtremes, LightIsNeverNegative) {
+  IndirectVolume volume = filled({-8, -8, -8}, 1, {2, 2, 2}, one);
+  for (VolumeCell& cell : volume.cells) cell.slope_x = cell.slope_y = glm::vec3(-9);
+  const Pictures pictures = render_volume(volume);
+  expect_within(pictures.at("indirect"), 0, 1e3f, "steep");
+  EXPECT_EQ(*std::min_element(pictures.at("indirect").values.begin(),
+                              pictures.at("indirect").values.end()),
+            0);
 }
 
 TEST(VolumeExtremes, CellsOfAnySize) {

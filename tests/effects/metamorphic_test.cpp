@@ -72,6 +72,21 @@ TEST(Metamorphic, PowersOfTwoChangeNoBit) {
   EXPECT_EQ(differing(render_scaled(0x1p20, false), room(), {}), "");
 }
 
+TEST(Metamorphic, PowersOfTwoChangeNoBitOfOtherFiltersAndSecondFrames) {
+  for (const DenoiseMethod method :
+       {DenoiseMethod::kSvgf, DenoiseMethod::kTemporal, DenoiseMethod::kBilateral}) {
+    Case usual{make_room(), {}};
+    usual.options.denoise = method;
+    usual.options.effects = kRigAo | kRigLocal | kRigContact;
+    const Case larger = scaled(usual, 0x1p10);
+    const std::vector<Scene> frames(2, usual.scene), larger_frames(2, larger.scene);
+    EXPECT_EQ(differing(render_frames(larger_frames, larger.options)[1],
+                        render_frames(frames, usual.options)[1], {"position", "view_z"}),
+              "")
+        << static_cast<int>(method);
+  }
+}
+
 TEST(Metamorphic, ThousandsChangeRoundingOnly) {
   expect_decibels("scale 1e-6", render_scaled(1e-6, true), room(), 60);
   expect_decibels("scale 1e-3", render_scaled(1e-3, false), room(), 60);
@@ -98,6 +113,15 @@ TEST(Metamorphic, OrderOfTrianglesChangesRoundingOnly) {
 
 TEST(Metamorphic, FlatteningChangesRoundingOnly) {
   expect_decibels("instances flattened", render(flattened(make_room()), {}), room(), 60);
+}
+
+// Scales of 64:1 and skewing in an instance: where rays start and how normals go along hang on
+// both matrices.
+TEST(Metamorphic, UnevenTransformsChangeRoundingOnly) {
+  RigOptions options;
+  options.volume = IndirectVolume{};  // boxes about skewed meshes are larger, and so is its lattice
+  expect_decibels("instances stretched", render(stretched(make_room()), options),
+                  render(make_room(), options), 60);
 }
 
 TEST(Metamorphic, TilesAndThreadsChangeNoBit) {

@@ -233,6 +233,24 @@ Scene flattened(Scene scene) {
   return scene;
 }
 
+Scene stretched(Scene scene) {
+  glm::dmat3 undo(0.0);
+  undo[0] = {0.25, 0, 0};
+  undo[1] = {4, 8, 0};
+  undo[2] = {0, 0, 0.125};
+  const glm::dmat3 squeeze = glm::inverse(undo);
+  for (Mesh& mesh : scene.meshes) {
+    for (Vertex& v : mesh.vertices) {
+      v.position = glm::vec3(squeeze * glm::dvec3(v.position));
+      // Not unit: between vertices other lengths would make other directions.
+      v.normal = glm::vec3(glm::transpose(undo) * glm::dvec3(v.normal));
+      v.tangent = glm::vec4(glm::vec3(squeeze * glm::dvec3(v.tangent)), v.tangent.w);
+    }
+  }
+  for (Instance& instance : scene.instances) instance.transform *= glm::dmat4(undo);
+  return scene;
+}
+
 Scene mirrored(Scene scene) {
   glm::dmat4 flip(1.0);
   flip[0][0] = -1;

@@ -41,6 +41,8 @@ effects::Scene turned(effects::Scene scene, const glm::dmat3& turn);
 effects::Scene reordered(effects::Scene scene);
 // Every instance a mesh of its own whose vertices stand in the world.
 effects::Scene flattened(effects::Scene scene);
+// Every instance a mesh that was squeezed by 1:64, skewed, and a transform that undoes it.
+effects::Scene stretched(effects::Scene scene);
 // The mirror image in x; the picture is that of the room from right to left. Instances get
 // transforms of negative determinant.
 effects::Scene mirrored(effects::Scene scene);

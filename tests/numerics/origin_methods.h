@@ -23,6 +23,7 @@ enum OriginMethod : std::uint32_t {
 struct OriginPlace {
   double distance = 0;  // metres from the origin that positions are relative to
   double scale = 1;     // of triangles in a cube of 2 m
+  double stretch = 1;   // how much more along one axis of the instance
 };
 
 struct OriginRates {

@@ -47,6 +47,12 @@ TEST(RayOrigins, OnlyTheErrorBoundNeitherHitsItsTriangleNorStepsOverTheNext) {
     EXPECT_EQ((*rates)[kErrorBound].leaks > 0, rates == &lost);
   }
   EXPECT_GT(lost[kErrorBound].leaks, 0.9);
+  // Objects of which an instance makes something 10,000 times as high.
+  for (const double distance : {0.0, 1e2, 1e4}) {
+    const Rates uneven = row(probe, {distance, 1, 1e4});
+    EXPECT_GT(uneven[kNoOffset].self_hits, 0.3);
+    EXPECT_EQ(uneven[kErrorBound].self_hits, 0);
+  }
   // A number of metres is too much for small things and too little far away.
   for (const OriginMethod fixed : {kFixedTMin, kFixedOffset}) {
     EXPECT_GT(tiny[fixed].leaks, 0.9);
