@@ -30,7 +30,8 @@ float ContactVisibility(LightConstants light, float3 position, float3 normal, fl
   const float3 direction = to_target / reach;
   if (!(dot(direction, normal) > 0.0)) return 0.0;
   // The lamp's own surface does not shade it.
-  const float end = min(reach - light.radius, constants.length * (0.8 + 0.2 * end_fraction));
+  const float longest = Contain(constants.length, kLongestRay) * (0.8 + 0.2 * end_fraction);
+  const float end = min(reach - light.radius, longest);
   if (!(end > 0.0)) return 1.0;
   return TraceVisibility(position + normal * offset, direction, end);
 }

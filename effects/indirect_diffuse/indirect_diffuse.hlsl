@@ -27,6 +27,7 @@ struct IndirectPayload {
 };
 
 float3 Fallback(float3 direction) { return SkyTowards(direction); }
+float RayLength() { return Contain(constants.length, kLongestRay); }
 
 [shader("miss")]
 void IndirectMiss(inout IndirectPayload payload) {
@@ -53,23 +54,24 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
 
 // What one direction brings, and in w how far its ray got.
 float4 Gather(float3 origin, float3 direction, float3 jitter) {
+  const float length = RayLength();
   RayDesc ray;
   ray.Origin = origin;
   ray.TMin = 0.0;
   ray.Direction = direction;
-  ray.TMax = constants.length;
+  ray.TMax = length;
   IndirectPayload payload;
   payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
   TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
-  const float3 end = origin + direction * constants.length + jitter * volume_constants[0].cell;
+  const float3 end = origin + direction * length + jitter * volume_constants[0].cell;
   if (payload.distance < 0.0) {
-    return float4(VolumeRadiance(end, direction, Fallback(direction)), constants.length);
+    return float4(VolumeRadiance(end, direction, Fallback(direction)), length);
   }
   if (constants.mode == kModeHitBlack) return float4(0, 0, 0, payload.distance);
   // Close to the ray's end the volume takes over, so that no shell shows where rays end.
-  const float far = smoothstep(0.8 * constants.length, constants.length, payload.distance);
+  const float far = smoothstep(0.8 * length, length, payload.distance);
   const float3 from_volume = VolumeRadiance(end, direction, Fallback(direction));
   return float4(lerp(payload.radiance, from_volume, far), payload.distance);
 }

@@ -53,9 +53,11 @@ void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleInt
 
 // Rough surfaces see far things as a blur that the fallback gives too. [Control: 200 m to 3 m]
 float ReflectionLength(float roughness, float u) {
-  if (constants.single_length != 0) return constants.longest;
-  const float length = constants.longest * pow(constants.shortest / constants.longest, saturate(roughness));
-  return length * (1.0 - constants.length_jitter * u);
+  const float longest = Contain(constants.longest, kLongestRay);
+  if (constants.single_length != 0 || longest == 0.0) return longest;
+  const float ratio = clamp(Contain(constants.shortest, kLongestRay) / longest, 1e-30, 1e30);
+  const float length = Contain(longest * pow(ratio, saturate(roughness)), kLongestRay);
+  return length * (1.0 - Contain(constants.length_jitter, 1.0) * u);
 }
 
 // What a pixel's rays have in common.

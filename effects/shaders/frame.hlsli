@@ -110,9 +110,18 @@ static const uint kRayTypeCount = 2;
 // effects look through it. [effects/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
 
+// As long as a ray can be without places on it that are no numbers.
+static const float kLongestRay = 1e30;
 // Length of a ray to the sun: nothing is too far away to cast a shadow. A number of metres would be
 // one that a scene in other units outgrows.
-static const float kSunDistance = 1e30;
+static const float kSunDistance = kLongestRay;
+
+// 0 for what is no number or negative, and no more than `largest`: a broken material is a black one,
+// in its own pixels and wherever it is seen; a broken length is none. [effects-spec E.1]
+float Contain(float x, float largest) { return x > 0.0 ? min(x, largest) : 0.0; }
+float3 Contain(float3 x, float largest) {
+  return float3(Contain(x.x, largest), Contain(x.y, largest), Contain(x.z, largest));
+}
 
 // Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
 static const uint kAmbientOcclusionPair = 0;

@@ -8,13 +8,6 @@
 
 static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
 
-// 0 for what is no number or negative, and no more than `largest`: a broken material is a black one,
-// in its own pixels and wherever it is seen. [effects-spec E.1]
-float Contain(float x, float largest) { return x > 0.0 ? min(x, largest) : 0.0; }
-float3 Contain(float3 x, float largest) {
-  return float3(Contain(x.x, largest), Contain(x.y, largest), Contain(x.z, largest));
-}
-
 struct Surface {
   float3 position;        // relative to the camera
   float offset;           // a ray starts that far from it, along `normal`, so as not to meet it again

@@ -176,7 +176,8 @@ float3 MirrorImage(Surface surface, float3 direction) {
   ray.Origin = SurfaceOrigin(surface, mirrored);
   ray.TMin = 0.0;
   ray.Direction = mirrored;
-  ray.TMax = constants.reflection_length;
+  const float longest = Contain(constants.reflection_length, kLongestRay);
+  ray.TMax = longest;
   GlassPayload payload;
   payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
@@ -191,9 +192,8 @@ float3 MirrorImage(Surface surface, float3 direction) {
            payload);
   if (payload.distance < 0.0) return payload.radiance;
   // No seam where the rays end.
-  const float start = constants.reflection_length * (1.0 - constants.fade);
-  const float far = saturate((payload.distance - start) /
-                             max(constants.reflection_length - start, 1e-6));
+  const float start = longest * (1.0 - Contain(constants.fade, 1.0));
+  const float far = saturate((payload.distance - start) / max(longest - start, 1e-6 * longest));
   if (far == 0.0) return payload.radiance;
   return lerp(payload.radiance, SkyTowards(mirrored), far);
 }

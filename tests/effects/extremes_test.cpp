@@ -453,6 +453,49 @@ TEST(VolumeExtremes, CellsOfAnySize) {
   }
 }
 
+// --- Parameters
+
+// Lengths of rays: none, endless, no number. Nothing hangs, nothing is no number.
+TEST(ParameterExtremes, LengthsOfRays) {
+  const Scene scene = make_room();
+  for (const float length : {0.0f, -1.0f, 1e-40f, 1e38f, kInfinity, kNan}) {
+    RigOptions options = small(kRigAll & ~std::uint32_t{kRigIndirect});
+    options.effects |= kRigIndirect;
+    options.volume = filled({-8, -8, -8}, 1, {2, 2, 2}, one);
+    options.ao_radius = length;
+    options.contact.length = length;
+    options.indirect.length = length;
+    options.reflection.longest = options.reflection.shortest = length;
+    options.glass.reflection_length = length;
+    EXPECT_EQ(not_finite(render(scene, options)), "") << length;
+    options.reflection = {};
+    options.reflection.longest = length;
+    EXPECT_EQ(not_finite(render(scene, options)), "") << "longest " << length;
+    options.reflection = {};
+    options.reflection.shortest = length;
+    EXPECT_EQ(not_finite(render(scene, options)), "") << "shortest " << length;
+  }
+}
+
+TEST(ParameterExtremes, WhatElseEffectsTake) {
+  const Scene scene = make_room();
+  for (const float value : {0.0f, -1.0f, 2.0f, 1e38f, kInfinity, kNan}) {
+    RigOptions options = small(kRigLocal | kRigReflections | kRigGlass);
+    options.reflection.length_jitter = value;
+    options.reflection.firefly_limit = value;
+    options.glass.fade = value;
+    options.glass.depth_scale = value;
+    options.glass.sorted_layers = options.glass.reflecting_layers = 0;
+    for (const BlendWeight weight :
+         {BlendWeight::kSquare, BlendWeight::kCube, BlendWeight::kFar, BlendWeight::kDepth}) {
+      options.glass.weight = weight;
+      EXPECT_EQ(not_finite(render(scene, options)), "") << value;
+    }
+    options.glass.sorted_layers = options.glass.reflecting_layers = 0xFFFFFFFF;
+    EXPECT_EQ(not_finite(render(scene, options)), "") << value;
+  }
+}
+
 // --- Cameras
 
 TEST(CameraExtremes, EverySizeOfPicture) {
