@@ -82,6 +82,10 @@ std::string scene_text(const Options& options) {
   return text;
 }
 
+std::string clock_text(const Options& options) {
+  return options.cpu_clock ? ", CPU time over threads" : "";
+}
+
 rtapi::Status write_text(const std::string& path, const std::string& text) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
@@ -111,8 +115,8 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
   Stage& stage = **created;
   MeasuredTable table;
   table.title = plan.title + ": time against error";
-  table.subtitle = fmt::format("{}; {}; median of {} interleaved runs", scene_text(options),
-                               plan.signal, options.repeats);
+  table.subtitle = fmt::format("{}; {}; median of {} interleaved runs{}", scene_text(options),
+                               plan.signal, options.repeats, clock_text(options));
   std::map<std::string, Target> targets;
   for (const auto& reference : plan.references) {
     auto target = make_target(stage, plan, reference, options, progress);

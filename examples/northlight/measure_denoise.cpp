@@ -256,9 +256,9 @@ rtapi::Result<MeasuredTable> measure_denoisers(const Options& options, const Sce
   if (!created) return created.error();
   MeasuredTable table;
   table.title = "Denoising 1 ray per pixel: time against error";
-  table.subtitle =
-      fmt::format("{}, {} x {}, {}; {} seeds, {} frames each", options.scene, options.width,
-                  options.height, options.backend, options.seeds, kFrames);
+  table.subtitle = fmt::format("{}, {} x {}, {}; {} seeds, {} frames each{}", options.scene,
+                               options.width, options.height, options.backend, options.seeds,
+                               kFrames, options.cpu_clock ? ", CPU time over threads" : "");
   const Setting occlusion{.effect = Effect::kAo, .ao_radius = options.ao_radius};
   const Setting indirect{.effect = Effect::kGi};
   struct Entry {

@@ -159,6 +159,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   std::string radius = "4";
   std::string pixel;
   std::string explain;
+  std::string clock = "wall";
   float sun_angle = 0;
   CLI::App app(
       "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow, or\n"
@@ -283,6 +284,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--repeats", options.repeats, "runs of each setting that --measure times")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u));
+  app.add_option("--clock", clock,
+                 "of --measure: wall, or cpu (CPU time over threads, for a machine that has other "
+                 "work too)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"wall", "cpu"}));
   app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
       ->capture_default_str()
       ->check(CLI::Range(2u, 4096u));
@@ -307,6 +313,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = 2;
     return std::nullopt;
   }
+  options.cpu_clock = clock == "cpu";
   if (!options.measure.empty()) {
     if (app.count("--size") == 0) {
       std::tie(options.width, options.height) = default_measure_size(options.measure);

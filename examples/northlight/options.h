@@ -65,6 +65,7 @@ struct Options {
   std::string measure;                      // effect whose error is measured; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference
   std::uint32_t repeats = 7;                // of each measured setting
+  bool cpu_clock = false;                   // times are CPU time over threads
   std::uint32_t seeds = 64;                 // of each denoiser
   std::optional<std::pair<std::uint32_t, std::uint32_t>>
       pixel;           // print it instead of writing files

@@ -94,8 +94,8 @@ ByteImage picture_of(const Part& part, const Options& options, const FrameResult
     const FloatImage open = first_three(frame.layers.at("ao_denoised"));
     for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] *= open.values[i];
   }
-  // The light alone is brighter than what surfaces send on.
-  return tonemap(light, 0.5f * exposure);
+  // The sun's direct light, which the exposure is made for, is missing.
+  return tonemap(light, 1.5f * exposure);
 }
 
 }  // namespace

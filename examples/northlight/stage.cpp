@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
@@ -19,8 +20,6 @@ namespace northlight {
 using namespace kaamos::effects;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr rtapi::Format kSumFormat = rtapi::Format::kR32G32B32A32Float;
 constexpr std::uint32_t kBackgroundSamples = 16;
@@ -44,6 +43,16 @@ std::string volume_key(const Options& options) {
   std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
   return fmt::format("{:016x}", hash);
+}
+
+double clock_ms(const Options& options) {
+  timespec now{};
+  clock_gettime(options.cpu_clock ? CLOCK_PROCESS_CPUTIME_ID : CLOCK_MONOTONIC, &now);
+  const double ms = static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+  if (!options.cpu_clock) return ms;
+  const unsigned threads =
+      options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+  return ms / std::max(threads, 1u);
 }
 
 std::uint32_t channels_of(Effect effect) {
@@ -275,9 +284,9 @@ rtapi::Result<double> Stage::execute(const std::function<void(rtapi::CommandList
   if (stop_) return rtapi::Error{"", rtapi::ErrorCode::kFailed, "interrupted"};
   if (const auto reset = list_.Reset(); !reset) return reset.error();
   record(list_);
-  const auto start = Clock::now();
+  const double start = clock_ms(options_);
   if (const auto done = queue_.ExecuteAndWait(list_); !done) return done.error();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  return clock_ms(options_) - start;
 }
 
 rtapi::Status Stage::set_seed(std::uint32_t seed) {

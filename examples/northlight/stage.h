@@ -85,7 +85,7 @@ class Stage {
   const kaamos::effects::Frame& frame() const { return frame_; }
   const kaamos::effects::Scene& scene() const { return scene_; }
   const std::atomic<bool>& stop() const { return stop_; }
-  // A command list, executed; its time in milliseconds.
+  // A command list, executed; its time in milliseconds, by the clock that the options choose.
   rtapi::Result<double> execute(const std::function<void(rtapi::CommandList&)>& record);
 
  private:
