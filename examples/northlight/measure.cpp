@@ -71,7 +71,7 @@ rtapi::Result<Target> make_target(Stage& stage, const MeasurePlan& plan,
                             cache_folder(options), progress);
     if (!target) return target.error();
   }
-  if (plan.light) target->exposure = stage.scene().exposure;
+  if (reference.light) target->exposure = stage.scene().exposure;
   return target;
 }
 

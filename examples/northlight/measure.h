@@ -31,11 +31,11 @@ struct MeasurePlan {
     std::string name;   // of the file too
     std::string about;  // what it is
     Setting setting;
+    bool light = false;  // radiance, tone mapped to be looked at; else a visibility of 0..1
     bool exact = false;  // no noise: one run tells all
   };
   std::vector<Reference> references;
   std::vector<MeasuredSetting> settings;
-  bool light = false;  // radiance, tone mapped to be looked at; else a visibility of 0..1
   Stage::Needs needs;
 };
 

@@ -51,30 +51,33 @@ MeasurePlan contact_plan(const Options& options) {
   plan.needs.lights = true;
   Setting setting{.effect = Effect::kContact};
   setting.contact.length = options.contact_length;
-  Setting whole = setting;
+  Setting lit = setting;
+  lit.lit = true;
+  lit.samples = 16;
+  Setting whole = lit;
   whole.contact.length = kNoEnd;
   const std::string group = fmt::format("rays of {} m", options.contact_length);
-  plan.references = {{"contact", group, setting}, {"contact-whole", "rays up to the light", whole}};
+  plan.references = {{"contact", group, setting},
+                     {"contact-light", "the lights' radiance with rays up to them", whole}};
+  plan.references.back().light = true;
   add_counts(plan, group, setting, {1, 2, 4, 8, 16, 32, 64}, "contact");
-  for (const float length : {0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
-    Setting cut = setting;
-    cut.contact.length = length;
-    cut.samples = 16;
-    plan.settings.push_back({"16 rays, against rays up to the light", fmt::format("{} m", length),
-                             cut, "contact-whole"});
+  for (const float length : {0.0f, 0.25f, 0.5f, 1.0f, 2.0f, 4.0f}) {
+    lit.contact.length = length;
+    plan.settings.push_back({"light, 16 rays by length",
+                             length > 0 ? fmt::format("{} m", length) : "shadow maps only", lit,
+                             "contact-light"});
   }
   return plan;
 }
 
 MeasurePlan reflections_plan(const Options& options) {
   MeasurePlan plan{.title = "Reflections", .signal = "radiance over the specular albedo"};
-  plan.light = true;
   plan.needs = {.lights = true, .volume = true};
   Setting setting{.effect = Effect::kReflections};
   Setting whole = setting;
   whole.reflection.single_length = 1;
-  plan.references = {{"reflections", "rays of 200 m to 3 m by roughness", setting},
-                     {"reflections-200m", "all rays 200 m long", whole}};
+  plan.references = {{"reflections", "rays of 200 m to 3 m by roughness", setting, true},
+                     {"reflections-200m", "all rays 200 m long", whole, true}};
   add_counts(plan, "rays per pixel", setting, {1, 2, 4, 8, 16, 64}, "reflections");
   const std::string lengths = "16 rays, against 200 m";
   add_single(plan, lengths, "length by roughness", setting, 16, "reflections-200m");
@@ -92,14 +95,13 @@ MeasurePlan reflections_plan(const Options& options) {
 
 MeasurePlan indirect_plan(const Options& options) {
   MeasurePlan plan{.title = "Indirect diffuse light", .signal = "irradiance over pi"};
-  plan.light = true;
   plan.needs = {.lights = true, .volume = true};
   Setting near_field{.effect = Effect::kGi};
   Setting whole = near_field;
   whole.indirect.length = kNoEnd;
   plan.references = {
-      {"gi", fmt::format("near-field rays of {} m", near_field.indirect.length), near_field},
-      {"gi-whole", "rays that end at the first hit, which is lit", whole}};
+      {"gi", fmt::format("near-field rays of {} m", near_field.indirect.length), near_field, true},
+      {"gi-whole", "rays that end at the first hit, which is lit", whole, true}};
   add_counts(plan, "near-field, rays per pixel", near_field, {1, 2, 4, 8, 16, 64}, "gi");
   const std::string modes = "modes, against rays to the hit";
   Setting direct = near_field;
@@ -119,12 +121,12 @@ MeasurePlan indirect_plan(const Options& options) {
 
 MeasurePlan transparent_plan() {
   MeasurePlan plan{.title = "Glass", .signal = "radiance of pixels that glass covers"};
-  plan.light = true;
   plan.needs = {.lights = true, .volume = true, .glass = true};
   Setting setting{.effect = Effect::kTransparent};
   Setting sorted = setting;
   sorted.glass = sorted_reference();
-  plan.references = {{"glass", "every layer in its order and with its reflection", sorted, true}};
+  plan.references = {
+      {"glass", "every layer in its order and with its reflection", sorted, true, true}};
   for (const std::uint32_t layers : {0u, 1u, 2u, 3u, 8u}) {
     setting.glass = deck_layers(layers);
     plan.settings.push_back({"layers that reflect, the rest blended",

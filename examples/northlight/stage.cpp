@@ -234,8 +234,40 @@ rtapi::Result<Stage::Pass> Stage::create_pass(Effect effect) {
     if (const auto s = volume_.bind(out.views); !s) return s.error();
   }
   if (const auto s = out.views.set_unordered_access(out.sum_at, out.sum); !s) return s.error();
+  if (effect == Effect::kContact) {
+    if (const auto s = create_lit(out); !s) return s.error();
+  }
   if (effect == Effect::kTransparent) {
     if (const auto s = create_glass(out); !s) return s.error();
+  }
+  return out;
+}
+
+rtapi::Status Stage::create_lit(const Pass& pass) {
+  const auto mean = frame_.create_picture(device_, "contact mean", kSumFormat);
+  if (!mean) return mean.error();
+  contact_mean_ = *mean;
+  auto load = Denoiser::create(device_, frame_, libraries_.denoise, "contact", contact_mean_,
+                               default_denoise(DenoiseMethod::kNone));
+  if (!load) return load.error();
+  contact_load_ = std::move(*load);
+  if (const auto s = contact_load_.create_load(device_, frame_, libraries_.denoise, pass.sum); !s) {
+    return s;
+  }
+  return direct_->set_contact(contact_mean_);
+}
+
+rtapi::Result<FloatImage> Stage::read_lit(const Setting& setting) {
+  const auto added = execute([&](rtapi::CommandList& list) {
+    contact_load_.load(list, frame_, 1.0f / static_cast<float>(setting.samples));
+    direct_->add_strongest(list, frame_);
+  });
+  if (!added) return added.error();
+  const auto image = read_picture(device_, queue_, direct_->total());
+  if (!image) return image.error();
+  FloatImage out(image->width, image->height, 3);
+  for (std::size_t i = 0; i < out.values.size(); ++i) {
+    out.values[i] = image->values[i / 3 * image->channels + i % 3];
   }
   return out;
 }
@@ -363,6 +395,7 @@ rtapi::Result<rtapi::Texture> Stage::sum(Effect effect) {
 }
 
 rtapi::Result<FloatImage> Stage::read(const Setting& setting) {
+  if (setting.lit) return read_lit(setting);
   const bool glass = setting.effect == Effect::kTransparent;
   const auto texture = sum(setting.effect);
   if (!texture) return texture.error();

@@ -16,6 +16,7 @@
 
 #include "effects/composite/composite.h"
 #include "effects/contact_shadow/contact_shadow.h"
+#include "effects/denoise/denoise.h"
 #include "effects/direct/direct.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
@@ -37,6 +38,7 @@ struct Setting {
   std::uint32_t first_sample = 0;  // of each pixel's sequence
   float ao_radius = 4;
   kaamos::effects::ContactShadowConstants contact = {};
+  bool lit = false;  // kContact: read gives the local lights' radiance, with their shadow maps
   kaamos::effects::ReflectionConstants reflection = {};
   kaamos::effects::IndirectConstants indirect = {};
   std::uint32_t times_ao = 0;  // kGi: multiplied with ambient occlusion of so many rays; 0: not
@@ -72,7 +74,8 @@ class Stage {
   // The same for many samples: in dispatches short enough that `stop` is heard.
   rtapi::Status accumulate(const Setting& setting, const std::function<void(double)>& progress);
   // The mean of the samples of the last run: 1 channel (ao, sun), 2 (contact: the strongest point
-  // and spot light) or 3. Glass: the frame's radiance behind and with it.
+  // and spot light) or 3. `lit` shadows: the radiance of the local lights. Glass: the frame's
+  // radiance behind and with it.
   rtapi::Result<kaamos::effects::FloatImage> read(const Setting& setting);
   // What a run adds to.
   rtapi::Result<rtapi::Texture> sum(Effect effect);
@@ -101,6 +104,9 @@ class Stage {
   };
   rtapi::Status create_device(std::function<void(const std::string&)> message);
   rtapi::Status create_lights();
+  // What turns sums of contact shadows into light.
+  rtapi::Status create_lit(const Pass& pass);
+  rtapi::Result<kaamos::effects::FloatImage> read_lit(const Setting& setting);
   rtapi::Status create_volume(const std::string& cache, const StageProgress& progress);
   rtapi::Status create_glass(Pass& pass);
   // What glass is seen before.
@@ -121,6 +127,8 @@ class Stage {
   kaamos::effects::Frame frame_;
   std::optional<kaamos::effects::Lighting> lighting_;
   std::optional<kaamos::effects::DirectLighting> direct_;
+  rtapi::Texture contact_mean_;
+  kaamos::effects::Denoiser contact_load_;
   kaamos::effects::GpuVolume volume_;
   std::map<Effect, Pass> passes_;
   rtapi::Texture glass_, transmittance_;
