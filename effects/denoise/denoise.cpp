@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "effects/denoise/denoise.h"
 
+#include <shaders/control.h>
 #include <shaders/spatial.h>
 #include <shaders/svgf.h>
+#include <shaders/upscale.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -15,40 +19,37 @@ using rtapi::Texture;
 
 namespace {
 
-enum PassId : std::size_t {
-  kCopy,
-  kGaussian,
-  kBilateral,
-  kBilateralExact,
-  kTemporal,
-  kVariance,
-  kAtrous,
-  kStoreGuide,
-  kPassCount
-};
-
 bool is_temporal(DenoiseMethod method) {
-  return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf;
+  return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
+         method == DenoiseMethod::kControl;
 }
 
-struct Binding {
-  std::uint32_t u;
-  const Texture* texture;
-};
-
-rtapi::Result<PassViews> bind(const rtapi::Device& device, const Frame& frame,
-                              std::initializer_list<Binding> bindings) {
-  auto views = frame.create_pass_views(device);
-  if (!views) return views.error();
-  for (const Binding& binding : bindings) {
-    if (const auto s = views->set_unordered_access(binding.u, *binding.texture); !s) {
-      return s.error();
-    }
-  }
-  return views;
+std::int32_t squarings_of(float power) {
+  int exponent = 0;
+  const bool is_power_of_two = std::frexp(power, &exponent) == 0.5f;
+  return is_power_of_two && exponent >= 1 ? exponent - 1 : -1;
 }
+
+// Entries are kept for frames that may be gone by now.
+constexpr std::size_t kMostPipelines = 64;
 
 }  // namespace
+
+rtapi::Result<std::shared_ptr<ComputePass>> DenoisePipelines::get(
+    const rtapi::Device& device, const Frame& frame, const rtapi::ShaderLibrary& library,
+    const std::string& name) {
+  for (const Entry& entry : entries_) {
+    if (entry.name == name && entry.library == library &&
+        entry.root_signature == frame.root_signature()) {
+      return entry.pass;
+    }
+  }
+  const auto pass = ComputePass::create(device, frame, library, name);
+  if (!pass) return pass.error();
+  if (entries_.size() == kMostPipelines) entries_.erase(entries_.begin());
+  entries_.push_back({frame.root_signature(), library, name, std::make_shared<ComputePass>(*pass)});
+  return entries_.back().pass;
+}
 
 DenoiseDesc default_denoise(DenoiseMethod method) {
   DenoiseDesc desc;
@@ -61,6 +62,13 @@ DenoiseDesc default_denoise(DenoiseMethod method) {
     desc.constants.alpha = 0.05f;
     desc.constants.clip_gamma = 1.5f;
   }
+  if (method == DenoiseMethod::kControl) {
+    desc.constants.alpha = desc.constants.moments_alpha = 0.1f;
+    desc.constants.clip_gamma = 1.25f;
+    desc.constants.sigma_n = 32.0f;
+    desc.constants.radius = 8;
+    desc.constants.sigma_pixels = 24.0f;
+  }
   return desc;
 }
 
@@ -69,7 +77,11 @@ rtapi::Result<DenoiseLibraries> denoise_libraries() {
   if (!spatial) return spatial.error();
   const auto svgf = rtapi::LoadShaderLibrary(kaamos_shaders_svgf());
   if (!svgf) return svgf.error();
-  return DenoiseLibraries{*spatial, *svgf};
+  const auto control = rtapi::LoadShaderLibrary(kaamos_shaders_control());
+  if (!control) return control.error();
+  const auto upscale = rtapi::LoadShaderLibrary(kaamos_shaders_upscale());
+  if (!upscale) return upscale.error();
+  return DenoiseLibraries{*spatial, *svgf, *control, *upscale};
 }
 
 rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Frame& frame,
@@ -79,29 +91,34 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   out.name_ = std::move(name);
   out.desc_ = desc;
   out.desc_.iterations = std::min<std::uint32_t>(desc.iterations, 8);
+  out.desc_.constants.normal_squarings = squarings_of(desc.constants.sigma_n);
   out.signal_ = signal;
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();
-  if (const auto s = out.create_passes(device, frame, libraries); !s) return s.error();
-  if (!is_temporal(desc.method)) {
-    if (const auto s = out.add_spatial(device, frame); !s) return s.error();
-    return out;
-  }
-  for (std::uint32_t parity = 0; parity < 2; ++parity) {
-    if (const auto s = out.add_temporal(device, frame, parity); !s) return s.error();
+  const Recorder recorder = {device, frame, libraries};
+  const std::uint32_t parities = is_temporal(desc.method) ? 2 : 1;
+  for (std::uint32_t parity = 0; parity < parities; ++parity) {
+    const auto s =
+        is_temporal(desc.method) ? out.add_temporal(recorder, parity) : out.add_spatial(recorder);
+    if (!s) return s.error();
   }
   return out;
 }
 
 rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame& frame) {
-  std::vector<std::pair<Texture*, const char*>> pictures = {{&result_, " denoised"}};
-  if (desc_.method != DenoiseMethod::kNone) pictures.push_back({&accumulated_, " accumulated"});
-  if (is_temporal(desc_.method)) {
-    pictures.insert(pictures.end(), {{&history_, " history"},
-                                     {&guide_, " guide"},
-                                     {&moments_[0], " moments 0"},
-                                     {&moments_[1], " moments 1"}});
-  }
-  for (const auto& [texture, suffix] : pictures) {
+  struct Picture {
+    Texture* texture;
+    const char* suffix;
+  };
+  const Picture pictures[] = {{&result_, " denoised"},      {&accumulated_, " accumulated"},
+                              {&guides_[0], " guides 0"},   {&guides_[1], " guides 1"},
+                              {&history_, " history"},      {&moments_[0], " moments 0"},
+                              {&moments_[1], " moments 1"}, {&clamped_, " clamped"}};
+  const std::size_t count = desc_.method == DenoiseMethod::kNone      ? 1
+                            : desc_.method == DenoiseMethod::kControl ? std::size(pictures)
+                            : is_temporal(desc_.method)               ? std::size(pictures) - 1
+                                                                      : 3;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [texture, suffix] = pictures[i];
     const auto created =
         frame.create_picture(device, name_ + suffix, rtapi::Format::kR32G32B32A32Float);
     if (!created) return created.error();
@@ -110,118 +127,141 @@ rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame
   return {};
 }
 
-rtapi::Status Denoiser::create_passes(const rtapi::Device& device, const Frame& frame,
-                                      const DenoiseLibraries& libraries) {
-  struct Entry {
-    const rtapi::ShaderLibrary* library;
-    const char* name;
-  };
-  const Entry entries[kPassCount] = {{&libraries.spatial, "Copy"},
-                                     {&libraries.spatial, "Gaussian"},
-                                     {&libraries.spatial, "BilateralSeparable"},
-                                     {&libraries.spatial, "BilateralExact"},
-                                     {&libraries.svgf, "TemporalAccumulation"},
-                                     {&libraries.svgf, "EstimateVariance"},
-                                     {&libraries.svgf, "Atrous"},
-                                     {&libraries.svgf, "StoreGuide"}};
-  for (const Entry& entry : entries) {
-    const auto pass = ComputePass::create(device, frame, *entry.library, entry.name);
-    if (!pass) return pass.error();
-    passes_.push_back(std::make_shared<ComputePass>(*pass));
+rtapi::Status Denoiser::add(const Recorder& to, std::uint32_t parity, const Kernel& kernel,
+                            std::initializer_list<Binding> bindings,
+                            const DenoiseConstants& constants) {
+  const rtapi::ShaderLibrary& library = to.libraries.*kernel.library;
+  const auto pass = to.libraries.pipelines->get(to.device, to.frame, library, kernel.name);
+  if (!pass) return pass.error();
+  auto views = to.frame.create_pass_views(to.device);
+  if (!views) return views.error();
+  for (const Binding& binding : bindings) {
+    if (const auto s = views->set_unordered_access(binding.u, *binding.texture); !s) return s;
   }
+  steps_[parity].push_back({*pass, *views, constants});
   return {};
 }
 
-rtapi::Status Denoiser::add_spatial(const rtapi::Device& device, const Frame& frame) {
-  if (desc_.method == DenoiseMethod::kNone) return add_copy(device, frame, 0, signal_, result_);
+rtapi::Status Denoiser::add_spatial(const Recorder& to) {
+  if (desc_.method == DenoiseMethod::kNone) return add_copy(to, 0, signal_, result_);
+  if (const auto s = add_guides(to, 0); !s) return s;
   const bool exact = desc_.method == DenoiseMethod::kBilateralExact;
-  const PassId pass = desc_.method == DenoiseMethod::kGaussian ? kGaussian
-                      : exact                                  ? kBilateralExact
-                                                               : kBilateral;
+  const Kernel kernel = desc_.method == DenoiseMethod::kGaussian ? kGaussian
+                        : exact                                  ? kBilateralExact
+                                                                 : kBilateral;
   const Texture* from = &signal_;
   for (std::uint32_t vertical = 0; vertical < (exact ? 1u : 2u); ++vertical) {
-    const Texture* to = exact || vertical == 1 ? &result_ : &accumulated_;
-    const auto views = bind(device, frame, {{0, from}, {1, to}});
-    if (!views) return views.error();
+    const Texture* into = exact || vertical == 1 ? &result_ : &accumulated_;
     DenoiseConstants constants = desc_.constants;
     constants.vertical = vertical;
-    steps_[0].push_back({passes_[pass].get(), *views, constants});
-    from = to;
+    if (const auto s = add(to, 0, kernel, {{0, from}, {1, into}, {3, &guides_[0]}}, constants);
+        !s) {
+      return s;
+    }
+    from = into;
   }
   return {};
 }
 
-rtapi::Status Denoiser::add_copy(const rtapi::Device& device, const Frame& frame,
-                                 std::uint32_t parity, const Texture& from, const Texture& to) {
-  const auto views = bind(device, frame, {{0, &from}, {1, &to}});
-  if (!views) return views.error();
-  steps_[parity].push_back({passes_[kCopy].get(), *views, desc_.constants});
-  return {};
+rtapi::Status Denoiser::add_guides(const Recorder& to, std::uint32_t parity) {
+  return add(to, parity, kPrepareGuides, {{3, &guides_[parity]}}, desc_.constants);
 }
 
-rtapi::Status Denoiser::add_filter(const rtapi::Device& device, const Frame& frame,
-                                   std::uint32_t parity, const Texture& from, const Texture& to,
-                                   std::int32_t step) {
-  const auto views = bind(device, frame, {{0, &from}, {4, &to}});
-  if (!views) return views.error();
+rtapi::Status Denoiser::add_copy(const Recorder& to, std::uint32_t parity, const Texture& from,
+                                 const Texture& into) {
+  return add(to, parity, kCopy, {{0, &from}, {1, &into}}, desc_.constants);
+}
+
+rtapi::Status Denoiser::add_filter(const Recorder& to, std::uint32_t parity, const Texture& from,
+                                   const Texture& into, std::int32_t step) {
   DenoiseConstants constants = desc_.constants;
   constants.step = step;
-  steps_[parity].push_back({passes_[kAtrous].get(), *views, constants});
+  return add(to, parity, kAtrous, {{0, &from}, {3, &guides_[parity]}, {4, &into}}, constants);
+}
+
+rtapi::Status Denoiser::add_temporal(const Recorder& to, std::uint32_t parity) {
+  const Texture& before = moments_[1 - parity];
+  const bool is_control = desc_.method == DenoiseMethod::kControl;
+  const Texture& noisy = is_control ? clamped_ : signal_;
+  const std::initializer_list<Binding> all = {{0, &noisy},
+                                              {1, &history_},
+                                              {2, &before},
+                                              {3, &guides_[parity]},
+                                              {4, &accumulated_},
+                                              {5, &moments_[parity]},
+                                              {6, &guides_[1 - parity]}};
+  if (const auto s = add_guides(to, parity); !s) return s;
+  if (is_control) {
+    if (const auto s = add(to, parity, kClampFireflies,
+                           {{0, &signal_}, {1, &clamped_}, {3, &guides_[parity]}}, desc_.constants);
+        !s) {
+      return s;
+    }
+  }
+  if (const auto s = add(to, parity, kTemporal, all, desc_.constants); !s) return s;
+  if (is_control) return add_lobe_filter(to, parity, before);
+  if (desc_.method == DenoiseMethod::kTemporal) {
+    if (const auto s = add_copy(to, parity, accumulated_, history_); !s) return s;
+    return add_copy(to, parity, accumulated_, result_);
+  }
+  // Into the moments of the frame before, which are done with.
+  if (const auto s = add(to, parity, kVariance, all, desc_.constants); !s) return s;
+  return add_wavelet(to, parity, before);
+}
+
+rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, std::uint32_t parity,
+                                        const Texture& scratch) {
+  if (const auto s = add_copy(to, parity, accumulated_, history_); !s) return s;
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Texture& from = i % 2 == 0 ? accumulated_ : scratch;
+    const Texture& into = i % 2 == 0 ? scratch : i == 3 ? result_ : accumulated_;
+    DenoiseConstants constants = desc_.constants;
+    constants.vertical = i % 2;
+    constants.step = i < 2 ? 1 : 2;
+    if (const auto s =
+            add(to, parity, kFilterLobe,
+                {{0, &from}, {1, &into}, {2, &clamped_}, {3, &guides_[parity]}}, constants);
+        !s) {
+      return s;
+    }
+  }
   return {};
 }
 
-rtapi::Status Denoiser::add_temporal(const rtapi::Device& device, const Frame& frame,
-                                     std::uint32_t parity) {
-  const Texture& before = moments_[1 - parity];
-  const auto views = bind(device, frame,
-                          {{0, &signal_},
-                           {1, &history_},
-                           {2, &before},
-                           {3, &guide_},
-                           {4, &accumulated_},
-                           {5, &moments_[parity]}});
-  if (!views) return views.error();
-  const auto add = [&](PassId pass) {
-    steps_[parity].push_back({passes_[pass].get(), *views, desc_.constants});
-  };
-  add(kTemporal);
-  if (desc_.method == DenoiseMethod::kTemporal) {
-    if (const auto s = add_copy(device, frame, parity, accumulated_, history_); !s) return s;
-    if (const auto s = add_copy(device, frame, parity, accumulated_, result_); !s) return s;
-    add(kStoreGuide);
-    return {};
-  }
-  add(kVariance);  // into the moments of the frame before, which are done with
+rtapi::Status Denoiser::add_wavelet(const Recorder& to, std::uint32_t parity,
+                                    const Texture& first) {
   // The first pass's result is what the next frame starts from. [Schied et al. 2017]
-  const Texture* from = &before;
+  const Texture* from = &first;
   for (std::uint32_t i = 0; i < desc_.iterations; ++i) {
     const bool last = i + 1 == desc_.iterations;
-    const Texture* to = i == 0                  ? &history_
-                        : last                  ? &result_
-                        : from == &accumulated_ ? &before
-                                                : &accumulated_;
-    if (const auto s = add_filter(device, frame, parity, *from, *to, 1 << i); !s) return s;
-    from = to;
+    const Texture* into = i == 0                  ? &history_
+                          : last                  ? &result_
+                          : from == &accumulated_ ? &first
+                                                  : &accumulated_;
+    if (const auto s = add_filter(to, parity, *from, *into, 1 << i); !s) return s;
+    from = into;
   }
   if (desc_.iterations == 0) {
-    if (const auto s = add_copy(device, frame, parity, *from, history_); !s) return s;
+    if (const auto s = add_copy(to, parity, *from, history_); !s) return s;
   }
-  if (desc_.iterations < 2) {
-    if (const auto s = add_copy(device, frame, parity, history_, result_); !s) return s;
-  }
-  add(kStoreGuide);
+  if (desc_.iterations < 2) return add_copy(to, parity, history_, result_);
   return {};
 }
 
 rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& frame,
-                                    const DenoiseLibraries& libraries, const Texture& sum) {
+                                    const DenoiseLibraries& libraries, const Texture& sum,
+                                    std::uint32_t step) {
   const bool scalar = sum.GetDesc().Format == rtapi::Format::kR32Float;
-  const auto pass =
-      ComputePass::create(device, frame, libraries.spatial, scalar ? "LoadScalar" : "LoadColor");
+  const auto& library = step == 2 ? libraries.upscale : libraries.spatial;
+  const char* const name = step == 2 ? (scalar ? "UpscaleScalar" : "UpscaleColor")
+                                     : (scalar ? "LoadScalar" : "LoadColor");
+  const auto pass = libraries.pipelines->get(device, frame, library, name);
   if (!pass) return pass.error();
-  const auto views = bind(device, frame, {{1, &signal_}, {scalar ? 2u : 0u, &sum}});
+  auto views = frame.create_pass_views(device);
   if (!views) return views.error();
-  load_pass_ = std::make_shared<ComputePass>(*pass);
+  if (const auto s = views->set_unordered_access(1, signal_); !s) return s;
+  if (const auto s = views->set_unordered_access(scalar ? 2 : 0, sum); !s) return s;
+  load_pass_ = *pass;
   load_views_ = *views;
   return {};
 }

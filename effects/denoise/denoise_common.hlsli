@@ -21,9 +21,17 @@ struct DenoiseConstants {
   int radius;          // taps to each side
   uint vertical;       // separable filters: 0 rows, 1 columns
   float scale;         // of the loaded signal
+  int normal_squarings;  // sigma_n = 2^this; -1: it is another number
+  float lobe_scale;      // of the radius that a lobe covers; 0: the radius is fixed
+  float sigma_hit;       // difference of hit distances, relative to the farther one
+  float sigma_roughness;
 };
 
 ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
+
+// Written once a frame by PrepareGuides, so that no tap decodes anything: shading normal, view depth.
+// All zero where there is no surface.
+RWTexture2D<float4> guides : register(u3, space3);
 
 float Luminance(float3 color) { return dot(color, float3(0.2126, 0.7152, 0.0722)); }
 
@@ -38,6 +46,16 @@ float3 FiniteOrZero(float3 color) {
   return float3(FiniteOrZero(color.x), FiniteOrZero(color.y), FiniteOrZero(color.z));
 }
 
+bool IsInside(int2 pixel, int2 size) {
+  return all(pixel >= int2(0, 0)) && all(pixel < size);
+}
+
+int2 SizeOf(RWTexture2D<float4> picture) {
+  uint width, height;
+  picture.GetDimensions(width, height);
+  return int2(width, height);
+}
+
 // Change of the view depth from one pixel to the next, on the smaller side, so that an edge of the
 // object does not count as a slope. Where the sides go apart, at a ridge or at a pixel that stands
 // alone, there is none: rounding would choose between them.
@@ -47,11 +65,11 @@ float Smaller(float a, float b) {
 }
 
 float2 DepthGradient(int2 pixel, int2 size) {
-  const float z = g_view_z[pixel];
-  const float left = g_view_z[int2(max(pixel.x - 1, 0), pixel.y)];
-  const float right = g_view_z[int2(min(pixel.x + 1, size.x - 1), pixel.y)];
-  const float up = g_view_z[int2(pixel.x, max(pixel.y - 1, 0))];
-  const float down = g_view_z[int2(pixel.x, min(pixel.y + 1, size.y - 1))];
+  const float z = guides[pixel].w;
+  const float left = guides[int2(max(pixel.x - 1, 0), pixel.y)].w;
+  const float right = guides[int2(min(pixel.x + 1, size.x - 1), pixel.y)].w;
+  const float up = guides[int2(pixel.x, max(pixel.y - 1, 0))].w;
+  const float down = guides[int2(pixel.x, min(pixel.y + 1, size.y - 1))].w;
   // At the border one side has no neighbour.
   const float dx = pixel.x == 0 ? right - z : pixel.x == size.x - 1 ? z - left : Smaller(right - z, z - left);
   const float dy = pixel.y == 0 ? down - z : pixel.y == size.y - 1 ? z - up : Smaller(down - z, z - up);
@@ -61,30 +79,47 @@ float2 DepthGradient(int2 pixel, int2 size) {
 struct Guide {
   float view_z;
   float3 normal;
-  float2 gradient;
+  float2 gradient;    // times sigma_z
+  float least_slope;  // what the depth may change at least
+  int squarings;      // denoise.normal_squarings
 };
 
 Guide LoadGuide(int2 pixel, int2 size) {
+  const float4 own = guides[pixel];
   Guide guide;
-  guide.view_z = g_view_z[pixel];
-  guide.normal = OctahedralDecode(g_shading_normal[pixel]);
-  guide.gradient = DepthGradient(pixel, size);
+  guide.view_z = own.w;
+  guide.normal = own.xyz;
+  guide.gradient = denoise.sigma_z * DepthGradient(pixel, size);
+  // All relative to the depth: a scene of other units gives the same picture.
+  guide.least_slope = 1e-4 * own.w;
+  guide.squarings = denoise.normal_squarings;
   return guide;
 }
 
-// How much a pixel `offset` away belongs to the same surface. Sky (depth 0) belongs to none.
-float GuideWeight(Guide guide, int2 other, int2 offset) {
-  const float z = g_view_z[other];
-  if (z == 0.0) return 0.0;
-  // All relative to the depth: a scene of other units gives the same picture.
-  const float slope = denoise.sigma_z * abs(dot(guide.gradient, float2(offset)));
-  const float by_depth = exp(-abs(z - guide.view_z) / (slope + 1e-4 * guide.view_z));
-  const float3 normal = OctahedralDecode(g_shading_normal[other]);
-  return by_depth * pow(saturate(dot(normal, guide.normal)), denoise.sigma_n);
+// Weights below it, of a sum that begins with some tenths, are less than rounding.
+static const float kNoWeight = 1e-12;
+static const float kNoWeightLogarithm = 27.6;
+
+// How much the normal of a pixel says that it belongs to the same surface. Where there is none, 0.
+float NormalWeight(Guide guide, float4 other) {
+  float weight = saturate(dot(other.xyz, guide.normal));
+  if (guide.squarings < 0) return pow(weight, denoise.sigma_n);
+  for (int i = 0; i < guide.squarings; ++i) weight *= weight;
+  return weight;
 }
 
-bool IsInside(int2 pixel, int2 size) {
-  return all(pixel >= int2(0, 0)) && all(pixel < size);
+// The same of its depth, `offset` pixels away: the negative logarithm of the weight.
+float DepthDistance(Guide guide, float4 other, int2 offset) {
+  const float slope = abs(dot(guide.gradient, float2(offset)));
+  return abs(other.w - guide.view_z) / (slope + guide.least_slope);
+}
+
+float GuideWeight(Guide guide, int2 pixel, int2 offset) {
+  const float4 other = guides[pixel];
+  const float weight = NormalWeight(guide, other);
+  if (weight < kNoWeight) return 0.0;
+  const float distance = DepthDistance(guide, other, offset);
+  return distance <= kNoWeightLogarithm ? weight * exp(-distance) : 0.0;
 }
 
 #endif

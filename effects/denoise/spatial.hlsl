@@ -6,10 +6,16 @@ RWTexture2D<float4> source : register(u0, space3);
 RWTexture2D<float4> result : register(u1, space3);
 RWTexture2D<float> scalar_source : register(u2, space3);
 
-int2 SizeOf(RWTexture2D<float4> picture) {
-  uint width, height;
-  picture.GetDimensions(width, height);
-  return int2(width, height);
+// What the other passes of the frame guide themselves by.
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void PrepareGuides(uint3 id : SV_DispatchThreadID) {
+  const int2 pixel = int2(id.xy);
+  if (!IsInside(pixel, SizeOf(guides))) return;
+  const float z = g_view_z[pixel];
+  const float4 guide = float4(OctahedralDecode(g_shading_normal[pixel]), z);
+  // What is not a number would spread from here; it guides nobody.
+  guides[pixel] = z > 0.0 && all(isfinite(guide)) ? guide : float4(0, 0, 0, 0);
 }
 
 // A sum of one channel becomes a signal: three equal channels.

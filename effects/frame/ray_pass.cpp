@@ -111,7 +111,8 @@ rtapi::Result<RayPass> RayPass::create(const Device& device, const Frame& frame,
 
 void RayPass::dispatch(CommandList& list, const Frame& frame, const PassConstants& constants,
                        std::uint32_t row_count, const PassArguments& arguments) const {
-  dispatch_grid(list, frame, constants, frame.width(), row_count, arguments);
+  const std::uint32_t step = constants.pixel_step;
+  dispatch_grid(list, frame, constants, (frame.width() + step - 1) / step, row_count, arguments);
 }
 
 void RayPass::dispatch_grid(CommandList& list, const Frame& frame, const PassConstants& constants,

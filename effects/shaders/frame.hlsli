@@ -48,6 +48,7 @@ struct PassConstants {
   float radius;       // metres; of ambient occlusion
   uint first_row;     // of the picture: a dispatch takes a band of rows
   uint sorted;        // 1: the pixels are taken in the order of ray_order
+  uint pixel_step;    // 2: rays at even pixels of even rows only, and rows count those
 };
 
 // Where an instance was one frame ago. [effects/scene/gpu_scene.h]
@@ -133,7 +134,7 @@ static const uint kSunPair = 1;
 uint2 FramePixel() {
   const uint2 index = DispatchRaysIndex().xy;
   const uint2 place = uint2(index.x, index.y + pass_constants.first_row);
-  if (pass_constants.sorted == 0) return place;
+  if (pass_constants.sorted == 0) return place * pass_constants.pixel_step;
   const uint pixel = ray_order[place.y * DispatchRaysDimensions().x + place.x];
   return uint2(pixel & 0xFFFFu, pixel >> 16);
 }

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "kaamos/shader/texture_view.h"
 #include "rtapi/src/device_impl.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace rtapi::detail {
 

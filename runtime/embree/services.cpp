@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/services.h"
 
+#include <atomic>
+
 #include "runtime/backend.h"
 #include "runtime/checks/code_findings.h"
 #include "runtime/embree/compute.h"
@@ -31,6 +33,17 @@ void report(shader::Invocation& invocation, const shader::CheckReport& found) {
   checks::report_finding(*dispatch.context->reporter, *dispatch.context->addresses, place, found);
 }
 
+std::atomic<RayListener> ray_listener = nullptr;
+
+void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArguments& arguments,
+                     void* payload, shader::RayLanes origin_t_min,
+                     shader::RayLanes direction_t_max) {
+  if (const RayListener listener = ray_listener) {
+    listener(arguments, origin_t_min, direction_t_max);
+  }
+  trace_ray(invocation, arguments, payload, origin_t_min, direction_t_max);
+}
+
 shader::Services make_services() {
   shader::Services table = {};
   table.trace_ray = trace_ray;
@@ -49,7 +62,17 @@ shader::Services make_services() {
 
 const shader::Services& services() {
   static const shader::Services table = make_services();
-  return table;
+  if (ray_listener.load(std::memory_order_relaxed) == nullptr) return table;
+  static const shader::Services heard = [] {
+    shader::Services out = make_services();
+    out.trace_ray = heard_trace_ray;
+    return out;
+  }();
+  return heard;
+}
+
+void set_ray_listener(RayListener listener) {
+  ray_listener = listener;
 }
 
 }  // namespace kaamos::embree

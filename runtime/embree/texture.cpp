@@ -126,6 +126,12 @@ void Texture::fill(const runtime::TextureViewDesc& desc, shader::TextureView& vi
     }
   }
   view.mip_count = mips;
+  const bool is_plain =
+      view.swizzle[0] == 0 && view.swizzle[1] == 1 && view.swizzle[2] == 2 && view.swizzle[3] == 3;
+  if (is_plain && view.dimension == shader::TextureDimension::k2D && mips != 0 &&
+      view.mips[0].texels != nullptr) {
+    view.direct_format = view.format;
+  }
 }
 
 shader::SamplerState sampler_state_of(const rtapi::SamplerDesc& desc) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "kaamos/shader/texture_view.h"
 #include "runtime/backend.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::embree {
 

@@ -14,11 +14,11 @@
 #include <rtapi/explain.h>
 
 #include "kaamos/shader/abi.h"
+#include "kaamos/shader/texture_view.h"
 #include "runtime/address_map.h"
 #include "runtime/backend.h"
 #include "runtime/explain/scene.h"
 #include "runtime/linked_pipeline.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::explain {
 

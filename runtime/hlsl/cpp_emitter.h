@@ -56,6 +56,8 @@ class CppEmitter {
   std::string system_value(const ir::Expr& expr);
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
+  bool is_bound(const ir::Expr& expr) const;
+  std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);
   // The resource operand of an access to memory, in a checked library with the check around it, or
   // with `result` "_view" what is read or written. `element`: null for raw and constant buffers.
@@ -96,6 +98,7 @@ class CppEmitter {
   void emit_signature(const ir::Function& function);
   void emit_function(const ir::Function& function);
   void emit_entry(size_t index);
+  void emit_bound(const ir::EntryPoint& entry);
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);
   void emit_calls(size_t index, const ReachedCalls& calls);
@@ -136,6 +139,7 @@ class CppEmitter {
 
   const ir::Module& module_;
   const EmitCppOptions& options_;
+  bool binds_per_group_ = false;  // compute shaders only: bound.h
   std::string out_;
   int indent_ = 0;
 

@@ -91,7 +91,14 @@ const char* register_class_name(uint8_t register_class) {
 }  // namespace
 
 CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
-    : module_(module), options_(options) {}
+    : module_(module),
+      options_(options),
+      binds_per_group_(!module.check_access && module.library_functions.empty() &&
+                       !module.entry_points.empty()) {
+  for (const EntryPoint& entry : module.entry_points) {
+    binds_per_group_ = binds_per_group_ && entry.stage == kStageCompute;
+  }
+}
 
 // Which static globals a function can touch, and how much stack it may need; callees stand before
 // callers in the module.
@@ -183,6 +190,7 @@ void CppEmitter::emit_context() {
   line("bool ended = false;");
   line("ks::AnyHitResult any_hit = ks::AnyHitResult::kAccept;");
   line("Statics statics;");
+  if (binds_per_group_) line("const ks::BoundResource* bound = nullptr;");
   line("explicit Context(ks::Invocation& i) : invocation(i) {}");
   close("};");
 }
@@ -270,6 +278,21 @@ std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
   return out;
 }
 
+// Declares `bound` and fills what the entry point can reach.
+void CppEmitter::emit_bound(const EntryPoint& entry) {
+  if (!binds_per_group_) return;
+  std::string used;
+  uint32_t count = 0;
+  for (const uint32_t binding : entry.bindings) {
+    if (module_.bindings[binding].count != 1) continue;
+    used += std::to_string(binding) + "u, ";
+    ++count;
+  }
+  line("ks::BoundResource bound[" + std::to_string(module_.bindings.size() + 1) + "];");
+  line("static constexpr uint32_t used[] = {" + used + "0u};");
+  line("ks::bind(invocation, used, " + std::to_string(count) + "u, bound);");
+}
+
 void CppEmitter::emit_compute_entry(size_t index) {
   const EntryPoint& entry = module_.entry_points[index];
   const std::string number = std::to_string(index);
@@ -281,10 +304,15 @@ void CppEmitter::emit_compute_entry(size_t index) {
          "}, sizeof(u::Shared), group_" + number + ", nullptr};");
     return;
   }
+  // A group runs its threads itself and binds for all of them; else each thread is on its own.
+  const bool in_group = binds_per_group_ && !entry.function->has_barrier;
   open("static void thread_" + number +
-       "(ks::Invocation& invocation, ks::ComputeGroup& group, const uint32_t thread[3]) {");
+       "(ks::Invocation& invocation, ks::ComputeGroup& group, const uint32_t thread[3]" +
+       (in_group ? ", const ks::BoundResource* bound) {" : ") {"));
   line("[[maybe_unused]] constexpr uint32_t size[3] = {" + size + "};");
   line("u::Context ctx(invocation);");
+  if (!in_group) emit_bound(entry);
+  if (binds_per_group_) line("ctx.bound = bound;");
   line("ctx.group = &group;");
   line("ctx.shared = static_cast<u::Shared*>(group.shared);");
   emit_static_initialisers(*entry.function);
@@ -292,13 +320,14 @@ void CppEmitter::emit_compute_entry(size_t index) {
   close("}");
   if (!entry.function->has_barrier) {
     open("static void group_" + number + "(ks::Invocation& invocation, ks::ComputeGroup& group) {");
+    emit_bound(entry);
     line("uint32_t thread[3];");
     for (int axis = 2; axis >= 0; --axis) {
       const std::string t = "thread[" + std::to_string(axis) + "]";
       line("for (" + t + " = 0; " + t + " < " + std::to_string(entry.thread_group[axis]) + "u; ++" +
            t + ")");
     }
-    line("  thread_" + number + "(invocation, group, thread);");
+    line("  thread_" + number + "(invocation, group, thread" + (in_group ? ", bound);" : ");"));
     close("}");
   }
   line("static const ks::ComputeDesc compute_" + number + " = {{" + size +

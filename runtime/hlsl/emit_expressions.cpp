@@ -305,7 +305,18 @@ std::string CppEmitter::binding(const Expr& expr) {
     return "ks::checked::resource(ctx.invocation, " + site(expr.location) + ", " +
            std::to_string(expr.index) + "u, " + index + ")";
   }
+  if (is_bound(expr)) return "ctx.bound[" + std::to_string(expr.index) + "].descriptor";
   return "ks::resource(ctx.invocation, " + std::to_string(expr.index) + "u, " + index + ")";
+}
+
+// Looked up by the group: compute shaders only, whose functions no ray shader calls.
+bool CppEmitter::is_bound(const Expr& expr) const {
+  return binds_per_group_ && expr.kind == ExprKind::kBinding && expr.operands.empty();
+}
+
+std::string CppEmitter::texture(const Expr* expr) {
+  if (is_bound(*expr)) return "ctx.bound[" + std::to_string(expr->index) + "]";
+  return value(expr);
 }
 
 std::string CppEmitter::texel_coordinates(const Type* resource, const Expr* coordinates,
@@ -331,7 +342,7 @@ std::string CppEmitter::typed_load(const Expr& expr) {
   }
   const Expr* mip = expr.operands.size() > 2 ? expr.operands[2] : nullptr;
   const Expr* offset = expr.operands.size() > 3 ? expr.operands[3] : nullptr;
-  return "ks::load_texel" + result + "(ctx.invocation, " + value(expr.operands[0]) + ", " +
+  return "ks::load_texel" + result + "(ctx.invocation, " + texture(expr.operands[0]) + ", " +
          texel_coordinates(resource, expr.operands[1], mip, offset) + ")";
 }
 

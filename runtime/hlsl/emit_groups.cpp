@@ -46,8 +46,8 @@ bool CppEmitter::emit_split_group(size_t index) {
        "(ks::Invocation& invocation, ks::ComputeGroup& group) {");
   local_names_.push();
   // What the emitted code itself calls so; HLSL's variables of these names get others.
-  for (const char* name :
-       {"invocation", "group", "thread", "size", "n", "alive", "ended", "statics"}) {
+  for (const char* name : {"invocation", "group", "thread", "size", "n", "alive", "ended",
+                           "statics", "bound", "used"}) {
     local_names_.declare(name);
   }
   emit_group_body(entry, *plan);
@@ -64,6 +64,8 @@ void CppEmitter::emit_group_body(const EntryPoint& entry, const GroupPlan& plan)
        ", " + std::to_string(entry.thread_group[1]) + ", " + std::to_string(entry.thread_group[2]) +
        "};");
   line("u::Context ctx(invocation);");
+  emit_bound(entry);
+  if (binds_per_group_) line("ctx.bound = bound;");
   line("ctx.shared = static_cast<u::Shared*>(group.shared);");
   emit_group_variables(entry, plan);
   emit_first_piece(entry, plan);

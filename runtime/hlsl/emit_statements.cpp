@@ -265,7 +265,7 @@ void CppEmitter::statement(const Stmt& stmt) {
       const Type* resource = stmt.operands[0]->type;
       const bool buffer = resource->resource == ResourceKind::kRWBuffer;
       line(std::string(buffer ? "ks::store_typed" : "ks::store_texel") + "(ctx.invocation, " +
-           value(stmt.operands[0]) + ", " +
+           (buffer ? value(stmt.operands[0]) : texture(stmt.operands[0])) + ", " +
            (buffer ? "uint32_t(" + value(stmt.operands[1]) + ")"
                    : texel_coordinates(resource, stmt.operands[1], nullptr, nullptr)) +
            ", " + value(stmt.value) + ");");

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "embree_loops.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -247,6 +249,35 @@ void EmbreeScene::visible(tbb::task_arena& arena, const RayGrid& grid,
       results[index] = ray.tfar >= 0 ? 1 : 0;
     };
   });
+}
+
+uint64_t EmbreeScene::trace(tbb::task_arena& arena, const std::vector<FrameRay>& rays) const {
+  constexpr uint32_t kTask = 256;
+  const auto tasks = static_cast<uint32_t>((rays.size() + kTask - 1) / kTask);
+  std::atomic<uint64_t> hits = 0;
+  // Cells of a grid one cell high: 16 tasks to a tile.
+  for_each_cell(arena, tasks, 1, [&] {
+    shim::QueryContext query;
+    shim::init(query);
+    return [this, &rays, &hits, query](uint32_t task) mutable {
+      uint64_t found = 0;
+      const size_t end = std::min(rays.size(), (size_t{task} + 1) * kTask);
+      for (size_t i = size_t{task} * kTask; i < end; ++i) {
+        RTCRayHit hit;
+        begin_ray(rays[i].ray, hit.ray);
+        if (rays[i].visibility) {
+          shim::occluded(scene_, query, &hit.ray);
+          found += hit.ray.tfar < 0 ? 1 : 0;
+        } else {
+          begin_hit(hit.hit);
+          shim::intersect(scene_, query, &hit);
+          found += hit.hit.geomID != RTC_INVALID_GEOMETRY_ID ? 1 : 0;
+        }
+      }
+      hits.fetch_add(found, std::memory_order_relaxed);
+    };
+  });
+  return hits;
 }
 
 void EmbreeScene::shade(const RTCRayHit& hit, ShadedResult& result) const {

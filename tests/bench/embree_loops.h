@@ -35,6 +35,12 @@ struct RayGrid {
   std::vector<Ray> rays;
 };
 
+// A ray of a frame, and whether only the existence of a hit counts.
+struct FrameRay {
+  Ray ray;
+  bool visibility = false;
+};
+
 // As the Embree backend starts it.
 RTCDevice new_embree_device();
 
@@ -58,6 +64,9 @@ class EmbreeScene {
   void visible(tbb::task_arena& arena, const RayGrid& grid, std::vector<uint32_t>& results) const;
   void shaded(tbb::task_arena& arena, const RayGrid& grid,
               std::vector<ShadedResult>& results) const;
+
+  // Traces them in their order, 256 to a task, and returns how many hit something.
+  uint64_t trace(tbb::task_arena& arena, const std::vector<FrameRay>& rays) const;
 
   // For the filter.
   struct GeometryUse {

@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "kaamos/shader/abi.h"
+#include "kaamos/shader/texture_view.h"
 #include "runtime/shader/texture/format_codec.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::shader {
 

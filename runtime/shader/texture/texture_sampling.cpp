@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/shader/texture/texture_sampling.h"
+#include "kaamos/shader/texture_view.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +10,6 @@
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/texel_access.h"
 #include "runtime/shader/texture/texture_address.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::shader {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "kaamos/shader/abi.h"
+#include "kaamos/shader/texture_view.h"
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/texel_access.h"
 #include "runtime/shader/texture/texture_sampling.h"
-#include "runtime/shader/texture/texture_view.h"
 
 namespace kaamos::shader {
 

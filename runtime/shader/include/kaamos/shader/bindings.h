@@ -69,9 +69,19 @@ KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* argum
   return result;
 }
 
-// Out of line: its code would keep the compiler from inlining the functions of a shader.
-[[gnu::noinline]] inline Descriptor resolve(const Invocation& invocation, const BindingSlot& slot,
-                                            uint32_t index) {
+KAAMOS_INLINE Descriptor root_constants(const BindingSlot& slot, const uint8_t* arguments) {
+  Descriptor result;
+  result.kind = DescriptorKind::kConstantBuffer;
+  result.access = DescriptorAccess::kOther;
+  result.address = reinterpret_cast<uintptr_t>(arguments + slot.argument_offset);
+  result.size_bytes = slot.size_bytes;
+  return result;
+}
+
+// Out of line: its code would keep the compiler from inlining the functions of a shader. Pure: what
+// a loop reads of other memory stays known around it.
+[[gnu::noinline, gnu::pure]] inline Descriptor resolve(const Invocation& invocation,
+                                                       const BindingSlot& slot, uint32_t index) {
   if (slot.source == SlotSource::kUnbound) return {};
   if (slot.source == SlotSource::kStaticSampler) {
     return slot.static_sampler != nullptr && index == 0 ? *slot.static_sampler : Descriptor{};
@@ -83,12 +93,27 @@ KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* argum
   }
   if (index != 0) return {};  // root parameters are no arrays
   if (slot.source == SlotSource::kRootDescriptor) return from_root(slot, arguments);
-  Descriptor result;
-  result.kind = DescriptorKind::kConstantBuffer;
-  result.access = DescriptorAccess::kOther;
-  result.address = reinterpret_cast<uintptr_t>(arguments + slot.argument_offset);
-  result.size_bytes = slot.size_bytes;
-  return result;
+  return root_constants(slot, arguments);
+}
+
+// The usual case of from_table(): one descriptor of a global table, as the slot wants it. Else
+// null.
+KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
+                                                  const BindingSlot& slot) {
+  const Dispatch& dispatch = *invocation.dispatch;
+  if (slot.source != SlotSource::kDescriptorTable || slot.local || slot.descriptor_count == 0 ||
+      dispatch.root_arguments == nullptr) {
+    return nullptr;
+  }
+  const uint64_t address = read_address(dispatch.root_arguments + slot.argument_offset) +
+                           uint64_t{slot.descriptor_index} * sizeof(Descriptor);
+  const uint64_t first = reinterpret_cast<uintptr_t>(dispatch.view_heap_begin);
+  const uint64_t last = reinterpret_cast<uintptr_t>(dispatch.view_heap_end);
+  const uint64_t at = address - first;
+  if (at >= last - first || at % sizeof(Descriptor) != 0) return nullptr;
+  const auto* found = dispatch.view_heap_begin + at / sizeof(Descriptor);
+  // Both at once: access is exact for what shaders read most.
+  return found->kind == slot.kind && found->access == slot.access ? found : nullptr;
 }
 
 }  // namespace bindings
@@ -96,7 +121,14 @@ KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* argum
 // The resource of binding `slot` of the running export; index is 0 unless the binding is an array.
 KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, uint32_t index = 0) {
   const BindingSlot& binding = invocation.slots[slot];
-  // In place, because shaders read root descriptors most; the other kinds stay out of the way.
+  // In place, because shaders read these most; the other kinds stay out of the way.
+  if (index == 0) {
+    if (const Descriptor* found = bindings::from_global_table(invocation, binding)) return *found;
+    const uint8_t* arguments = invocation.dispatch->root_arguments;
+    if (binding.source == SlotSource::kRootConstants && !binding.local && arguments != nullptr) {
+      return bindings::root_constants(binding, arguments);
+    }
+  }
   if (binding.source == SlotSource::kRootDescriptor && index == 0) {
     return bindings::from_root(binding, bindings::arguments_of(invocation, binding));
   }

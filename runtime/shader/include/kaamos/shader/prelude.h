@@ -10,6 +10,7 @@
 #include "kaamos/shader/abi.h"
 #include "kaamos/shader/atomics.h"
 #include "kaamos/shader/bindings.h"
+#include "kaamos/shader/bound.h"
 #include "kaamos/shader/convert.h"
 #include "kaamos/shader/half.h"
 #include "kaamos/shader/intrinsics_bits.h"

@@ -7,6 +7,8 @@
 
 #include "kaamos/shader/abi.h"
 #include "kaamos/shader/convert.h"
+#include "kaamos/shader/operators.h"
+#include "kaamos/shader/texture_view.h"
 
 namespace kaamos::shader {
 namespace texture_access {
@@ -128,17 +130,77 @@ KAAMOS_INLINE int4 texel_coordinates_1d_array(const V& at, int32_t mip, const Of
   return {{plain.e[0], 0, plain.e[1], plain.e[3]}};
 }
 
+namespace texture_access {
+
+// The DXGI_FORMAT whose texels are a V as it lies in memory; 0: there is none.
+template <class V>
+constexpr uint32_t direct_format() {
+  using T = scalar_of<V>;
+  constexpr int kFloat = std::is_same_v<T, float>      ? 0
+                         : std::is_same_v<T, uint32_t> ? 1
+                         : std::is_same_v<T, int32_t>  ? 2
+                                                       : 3;
+  constexpr uint32_t kFormats[4][5] = {
+      {0, 41, 16, 6, 2}, {0, 42, 17, 7, 3}, {0, 43, 18, 8, 4}, {0, 0, 0, 0, 0}};
+  return kFormats[kFloat][shape<V>::count];
+}
+
+// The texel, where it can be used as it lies in memory; else null.
+template <class V>
+KAAMOS_INLINE uint8_t* direct_texel(const Descriptor& texture, const int4& at) {
+  const auto* view = reinterpret_cast<const TextureView*>(texture.address);
+  if (texture.kind != DescriptorKind::kTexture || view == nullptr ||
+      view->direct_format != direct_format<V>()) {
+    return nullptr;
+  }
+  static_assert(sizeof(V) == 4 * shape<V>::count);
+  const TextureMip& mip = view->mips[0];
+  const auto x = static_cast<uint32_t>(at.e[0]);
+  const auto y = static_cast<uint32_t>(at.e[1]);
+  if (x >= mip.width || y >= mip.height || at.e[3] != 0) return nullptr;
+  return mip.texels + static_cast<uint64_t>(y) * mip.row_pitch + x * sizeof(V);
+}
+
+// Out of line: conversions, arrays, and what is out of bounds. Pure: what a loop reads of other
+// memory stays known around it.
+template <class V>
+[[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation, const Descriptor& texture,
+                                          int4 coordinates) {
+  return from_texel<V>(invocation.dispatch->services->load_texel(texture, coordinates.e));
+}
+template <class V>
+[[gnu::noinline]] inline void store_converted(const Invocation& invocation,
+                                              const Descriptor& texture, int4 coordinates,
+                                              V value) {
+  invocation.dispatch->services->store_texel(texture, coordinates.e, to_texel(value));
+}
+
+}  // namespace texture_access
+
 template <class V>
 KAAMOS_INLINE V load_texel(const Invocation& invocation, const Descriptor& texture,
                            const int4& coordinates) {
-  return texture_access::from_texel<V>(
-      invocation.dispatch->services->load_texel(texture, coordinates.e));
+  if constexpr (texture_access::direct_format<V>() != 0) {
+    if (const uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates)) {
+      V value;
+      __builtin_memcpy(&value, texel, sizeof(V));
+      return value;
+    }
+  }
+  return texture_access::load_converted<V>(invocation, texture, coordinates);
 }
 template <class V>
 KAAMOS_INLINE void store_texel(const Invocation& invocation, const Descriptor& texture,
                                const int4& coordinates, const V& value) {
-  invocation.dispatch->services->store_texel(texture, coordinates.e,
-                                             texture_access::to_texel(value));
+  if constexpr (texture_access::direct_format<V>() != 0) {
+    uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates);
+    if (texel != nullptr &&
+        reinterpret_cast<const TextureView*>(texture.address)->unordered_access) {
+      __builtin_memcpy(texel, &value, sizeof(V));
+      return;
+    }
+  }
+  texture_access::store_converted<V>(invocation, texture, coordinates, value);
 }
 template <class T>
 KAAMOS_INLINE T* texel_address(const Invocation& invocation, const Descriptor& texture,

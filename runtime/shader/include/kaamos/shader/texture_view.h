@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the address of a texture's or sampler's descriptor points to on a backend that samples in
-// software. Plain data: the backend owns it and the texels.
+// What the address of a texture's or sampler's descriptor points to for native shader code: part of
+// the interface, so that plain loads and stores need no call. Plain data: the backend owns it and
+// the texels.
 #pragma once
 
 #include <cstdint>
@@ -42,6 +43,9 @@ struct TextureView {
   uint32_t mip_count = 0;    // of the view; at most kMaxTextureMips
   uint32_t slice_count = 1;  // array elements of the view; cube faces, a multiple of 6
   float min_lod = 0;         // ResourceMinLODClamp, counted from the view's first mip
+  // `format` where texels of mip 0 may be read (and written, if unordered_access) as they lie in
+  // memory: 2-D, channels in their order, texels not null. Else 0.
+  uint32_t direct_format = 0;
   TextureMip mips[kMaxTextureMips];
 };
 

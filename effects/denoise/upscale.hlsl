@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+// From a quarter of the pixels to all of them: joint bilateral upscaling. [effects-spec B7.2]
+#include "denoise_common.hlsli"
+
+// Sums over samples, written at even pixels only.
+RWTexture2D<float4> source : register(u0, space3);
+RWTexture2D<float4> result : register(u1, space3);
+RWTexture2D<float> scalar_source : register(u2, space3);
+
+static const int kStep = 2;  // pixels from one that was traced to the next
+
+struct Traced {
+  float4 light;
+  bool valid;
+};
+
+struct Sum {
+  float4 light;
+  float weight;
+};
+
+bool IsFinite(float4 value) { return all(isfinite(value)); }
+
+float Tent(int distance) { return max(1.0 - abs(float(distance)) / float(kStep), 0.0); }
+
+// How much a pixel that was traced says of one that was not: by what stands there, not by how far.
+float SurfaceWeight(Guide guide, int2 traced, int2 offset) {
+  const float z = g_view_z[traced];
+  if (!(z > 0.0)) return 0.0;
+  const float4 other = float4(OctahedralDecode(g_shading_normal[traced]), z);
+  const float weight = NormalWeight(guide, other) * exp(-DepthDistance(guide, other, offset));
+  return isfinite(weight) ? weight : 0.0;
+}
+
+float DepthAt(int2 pixel, int2 size) {
+  return g_view_z[clamp(pixel, int2(0, 0), size - int2(1, 1))];
+}
+
+// As LoadGuide(), of the G-buffer itself: this runs before the guides are prepared.
+Guide GuideOf(int2 pixel, int2 size) {
+  Guide guide;
+  guide.view_z = g_view_z[pixel];
+  guide.normal = OctahedralDecode(g_shading_normal[pixel]);
+  guide.gradient.x = Smaller(DepthAt(pixel + int2(1, 0), size) - guide.view_z,
+                             guide.view_z - DepthAt(pixel - int2(1, 0), size));
+  guide.gradient.y = Smaller(DepthAt(pixel + int2(0, 1), size) - guide.view_z,
+                             guide.view_z - DepthAt(pixel - int2(0, 1), size));
+  guide.gradient *= denoise.sigma_z;
+  guide.least_slope = 1e-3 * guide.view_z;
+  guide.squarings = 4;  // the sixteenth power
+  return guide;
+}
+
+Traced LoadTraced(int2 pixel, bool is_scalar) {
+  Traced traced;
+  if (is_scalar) {
+    const float value = scalar_source[pixel];
+    traced.light = float4(value, value, value, 0.0);
+  } else {
+    traced.light = source[pixel];
+  }
+  traced.valid = IsFinite(traced.light);
+  traced.light *= denoise.scale;
+  return traced;
+}
+
+// `reach`: traced pixels to each side of the one at or before this pixel.
+Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
+  Sum sum;
+  sum.light = float4(0, 0, 0, 0);
+  sum.weight = 0.0;
+  const int2 corner = pixel / kStep;
+  for (int y = 1 - reach; y <= reach; ++y) {
+    for (int x = 1 - reach; x <= reach; ++x) {
+      const int2 other = (corner + int2(x, y)) * kStep;
+      if (!IsInside(other, size)) continue;
+      const int2 offset = other - pixel;
+      const float by_place = reach == 1 ? Tent(offset.x) * Tent(offset.y)
+                                        : exp(-0.5 * dot(float2(offset), float2(offset)));
+      if (by_place == 0.0) continue;
+      const float weight = by_place * SurfaceWeight(guide, other, offset);
+      if (weight == 0.0) continue;
+      const Traced traced = LoadTraced(other, is_scalar);
+      if (!traced.valid) continue;
+      sum.light += weight * traced.light;
+      sum.weight += weight;
+    }
+  }
+  return sum;
+}
+
+// The nearest in depth, where nothing near is of the same surface: thin things.
+float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
+  float4 light = float4(0, 0, 0, 0);
+  float least = 3.402823466e+38;
+  const int2 corner = pixel / kStep;
+  for (int y = -1; y <= 2; ++y) {
+    for (int x = -1; x <= 2; ++x) {
+      const int2 other = (corner + int2(x, y)) * kStep;
+      if (!IsInside(other, size)) continue;
+      const float z = g_view_z[other];
+      const float difference = abs(z - guide.view_z);
+      if (!(z > 0.0) || !(difference < least)) continue;
+      const Traced traced = LoadTraced(other, is_scalar);
+      if (!traced.valid) continue;
+      light = traced.light;
+      least = difference;
+    }
+  }
+  return light;
+}
+
+float4 Upscaled(int2 pixel, int2 size, bool is_scalar) {
+  if (!(g_view_z[pixel] > 0.0)) return float4(0, 0, 0, 0);
+  const Guide guide = GuideOf(pixel, size);
+  Sum sum = Gather(pixel, size, guide, 1, is_scalar);
+  // Of less than a thousandth rounding would make the picture.
+  if (!(sum.weight > 1e-3)) sum = Gather(pixel, size, guide, 2, is_scalar);
+  if (!(sum.weight > 1e-6)) return NearestInDepth(pixel, size, guide, is_scalar);
+  return sum.light / sum.weight;
+}
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void UpscaleScalar(uint3 id : SV_DispatchThreadID) {
+  const int2 pixel = int2(id.xy);
+  const int2 size = SizeOf(result);
+  if (!IsInside(pixel, size)) return;
+  result[pixel] = Upscaled(pixel, size, true);
+}
+
+[shader("compute")]
+[numthreads(8, 8, 1)]
+void UpscaleColor(uint3 id : SV_DispatchThreadID) {
+  const int2 pixel = int2(id.xy);
+  const int2 size = SizeOf(result);
+  if (!IsInside(pixel, size)) return;
+  result[pixel] = Upscaled(pixel, size, false);
+}

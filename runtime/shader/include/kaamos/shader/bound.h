@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// Bindings of a compute shader, looked up once for all threads of a group: neither root arguments
+// nor descriptors change while a dispatch runs.
+#pragma once
+
+#include "kaamos/shader/bindings.h"
+#include "kaamos/shader/texture_access.h"
+
+namespace kaamos::shader {
+
+struct BoundResource {
+  Descriptor descriptor;
+  // Textures whose texels may be used as they lie in memory, of mip 0; else without texels.
+  uint32_t direct_format = 0;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  uint32_t row_pitch = 0;
+  uint8_t* texels = nullptr;
+  bool writable = false;
+};
+
+// `used`: the bindings that are no arrays, `count` of them. Others are left as they are.
+[[gnu::noinline]] inline void bind(const Invocation& invocation, const uint32_t* used,
+                                   uint32_t count, BoundResource* bound) {
+  for (uint32_t i = 0; i < count; ++i) {
+    BoundResource& out = bound[used[i]];
+    out.descriptor = resource(invocation, used[i], 0);
+    const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
+    if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
+        view->direct_format == 0) {
+      continue;
+    }
+    const TextureMip& mip = view->mips[0];
+    out.direct_format = view->direct_format;
+    out.width = mip.width;
+    out.height = mip.height;
+    out.row_pitch = mip.row_pitch;
+    out.texels = mip.texels;
+    out.writable = view->unordered_access;
+  }
+}
+
+namespace texture_access {
+
+template <class V>
+KAAMOS_INLINE uint8_t* direct_texel(const BoundResource& texture, const int4& at) {
+  const auto x = static_cast<uint32_t>(at.e[0]);
+  const auto y = static_cast<uint32_t>(at.e[1]);
+  const bool is_direct = texture.direct_format == direct_format<V>() && x < texture.width &&
+                         y < texture.height && at.e[3] == 0;
+  if (!is_direct) return nullptr;
+  return texture.texels + static_cast<uint64_t>(y) * texture.row_pitch + x * sizeof(V);
+}
+
+}  // namespace texture_access
+
+template <class V>
+KAAMOS_INLINE V load_texel(const Invocation& invocation, const BoundResource& texture,
+                           const int4& coordinates) {
+  if constexpr (texture_access::direct_format<V>() != 0) {
+    if (const uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates)) {
+      V value;
+      __builtin_memcpy(&value, texel, sizeof(V));
+      return value;
+    }
+  }
+  return texture_access::load_converted<V>(invocation, texture.descriptor, coordinates);
+}
+template <class V>
+KAAMOS_INLINE void store_texel(const Invocation& invocation, const BoundResource& texture,
+                               const int4& coordinates, const V& value) {
+  if constexpr (texture_access::direct_format<V>() != 0) {
+    uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates);
+    if (texel != nullptr && texture.writable) {
+      __builtin_memcpy(texel, &value, sizeof(V));
+      return;
+    }
+  }
+  texture_access::store_converted<V>(invocation, texture.descriptor, coordinates, value);
+}
+
+}  // namespace kaamos::shader

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "frame_run.h"
+
+#include <atomic>
+#include <mutex>
+#include <stdexcept>
+
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/scene/lounge.h"
+#include "effects/sun_shadow/sun_shadow.h"
+#include "runtime/embree/ray_state.h"
+#include "runtime/embree/services.h"
+
+namespace kaamos::bench {
+namespace {
+
+// What RayListener writes to: a list for each thread.
+std::mutex heard_mutex;
+std::vector<std::unique_ptr<std::vector<FrameRay>>> heard;
+std::atomic<uint32_t> recording = 0;  // a number for each
+
+void hear(const shader::TraceRayArguments& arguments, shader::RayLanes origin,
+          shader::RayLanes direction) {
+  thread_local std::vector<FrameRay>* list = nullptr;
+  thread_local uint32_t list_of = 0;
+  if (list == nullptr || list_of != recording) {
+    const std::lock_guard lock(heard_mutex);
+    list = heard.emplace_back(std::make_unique<std::vector<FrameRay>>()).get();
+    list_of = recording;
+  }
+  constexpr uint32_t kVisibility =
+      embree::kRaySkipClosestHitShader | embree::kRayAcceptFirstHitAndEndSearch;
+  const Ray ray = {{origin[0], origin[1], origin[2]},
+                   origin[3],
+                   {direction[0], direction[1], direction[2]},
+                   direction[3]};
+  list->push_back({ray, (arguments.ray_flags & kVisibility) == kVisibility});
+}
+
+northlight::Options frame_options(uint32_t width, uint32_t height) {
+  northlight::Options options;
+  options.width = width;
+  options.height = height;
+  options.local = options.contact = options.gi = options.reflections = options.transparent = true;
+  options.ao_samples = options.sun_samples = 1;
+  options.gi_bake_samples = 4;  // what the volume holds costs nothing
+  return options;
+}
+
+}  // namespace
+
+FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
+    : scene_(effects::make_lounge()) {
+  const northlight::Options options = frame_options(width, height);
+  rtapi::DeviceDesc desc;
+  desc.Threads = threads;
+  desc.CollectStatistics = true;
+  device_ = rtapi::CreateDevice(desc).value();
+  queue_ = device_.CreateCommandQueue().value();
+  const effects::Camera& camera = scene_.cameras.front();
+  gpu_ = effects::create_gpu_scene(device_, queue_, scene_, camera.position()).value();
+  effects::FrameDesc frame_desc;
+  frame_desc.width = width;
+  frame_desc.height = height;
+  frame_ = effects::Frame::create(device_, queue_, scene_, gpu_, camera, frame_desc).value();
+  libraries_ = northlight::built_in_libraries().value();
+  const std::atomic<bool> never = false;
+  effects_
+      .create(
+          device_, queue_, frame_, gpu_, scene_, options, libraries_, [](double) {}, never)
+      .value();
+  add(effects::gbuffer_pass(libraries_.gbuffer), {});
+  add(effects::ambient_occlusion_pass(libraries_.ambient_occlusion), {});
+  add(effects::sun_shadow_pass(libraries_.sun_shadow), {});
+  for (const northlight::RayStep& step : effects_.steps()) add(step.desc, step.arguments);
+}
+
+void FrameRun::add(const effects::RayPassDesc& desc, const effects::PassArguments& arguments) {
+  passes_.push_back({effects::RayPass::create(device_, frame_, gpu_, desc).value(), arguments});
+}
+
+void FrameRun::trace_and_shade() {
+  rtapi::CommandList list = device_.CreateCommandList().value();
+  frame_.clear(list, effects::kAmbientOcclusionSum);
+  frame_.clear(list, effects::kSunVisibilitySum);
+  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  effects::PassConstants constants;
+  constants.sample_count = 1;
+  constants.radius = 4;
+  for (size_t i = 0; i < passes_.size(); ++i) {
+    passes_[i].pass.dispatch(list, frame_, constants, frame_.height(), passes_[i].arguments);
+    if (i == 0) effects_.light(list, frame_);  // reads the G-buffer, the others read it
+  }
+  queue_.ExecuteAndWait(list).value();
+}
+
+void FrameRun::denoise_and_compose() {
+  rtapi::CommandList list = device_.CreateCommandList().value();
+  for (const auto& filter : effects_.filters(frame_)) filter.record(list);
+  effects_.compose(list, frame_);
+  queue_.ExecuteAndWait(list).value();
+}
+
+std::vector<FrameRay> FrameRun::record(uint64_t& hits) {
+  heard.clear();
+  ++recording;
+  device_.ResetStatistics();
+  embree::set_ray_listener(hear);
+  trace_and_shade();
+  embree::set_ray_listener(nullptr);
+  std::vector<FrameRay> rays;
+  for (const auto& list : heard) rays.insert(rays.end(), list->begin(), list->end());
+  heard.clear();
+  const rtapi::RaytracingStatistics statistics = device_.GetStatistics();
+  if (statistics.TraceRayCalls != rays.size()) {
+    throw std::runtime_error("the frame traced " + std::to_string(statistics.TraceRayCalls) +
+                             " rays, " + std::to_string(rays.size()) + " were heard of");
+  }
+  hits = statistics.Hits;
+  return rays;
+}
+
+SceneData FrameRun::scene_at_camera() const {
+  SceneData data = make_scene_data();
+  const glm::dvec3 camera = scene_.cameras.front().position();
+  for (InstanceData& instance : data.instances) {
+    for (int axis = 0; axis < 3; ++axis) {
+      float& offset = instance.transform[4 * axis + 3];
+      offset = static_cast<float>(offset - camera[axis]);
+    }
+  }
+  return data;
+}
+
+}  // namespace kaamos::bench
