@@ -102,8 +102,10 @@ static const float kNoWeightLogarithm = 27.6;
 
 // How much the normal of a pixel says that it belongs to the same surface. Where there is none, 0.
 float NormalWeight(Guide guide, float4 other) {
+  if (other.w == 0.0) return 0.0;
   float weight = saturate(dot(other.xyz, guide.normal));
-  if (guide.squarings < 0) return pow(weight, denoise.sigma_n);
+  // The power 0 of 0 is no number.
+  if (guide.squarings < 0) return pow(max(weight, 1e-30), denoise.sigma_n);
   for (int i = 0; i < guide.squarings; ++i) weight *= weight;
   return weight;
 }

@@ -1,100 +1,20 @@
 // SPDX-License-Identifier: MIT
 // What each method keeps and what it loses, on signals that are known.
-#include "effects/denoise/denoise.h"
-
-#include <gtest/gtest.h>
-
-#include <rtapi/upload.h>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <random>
 
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
+#include "effects/denoise/denoise_fixture.h"
 #include "effects/image/metrics.h"
-#include "effects/scene/oracle_scenes.h"
 
 namespace kaamos::effects {
 namespace {
 
-constexpr std::uint32_t kWidth = 64, kHeight = 40;
-
-// A sphere over a plane, its G-buffer, and one signal that the test writes.
-class DenoiseTest : public testing::Test {
- protected:
-  DenoiseTest() : scene_(make_sphere_oracle(1.0, 1.5)) {
-    device_ = rtapi::CreateDevice().value();
-    queue_ = device_.CreateCommandQueue().value();
-    const Camera& camera = scene_.cameras.front();
-    gpu_ = create_gpu_scene(device_, queue_, scene_, camera.position()).value();
-    FrameDesc desc;
-    desc.width = kWidth;
-    desc.height = kHeight;
-    frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
-    gbuffer_ =
-        RayPass::create(device_, frame_, gpu_, gbuffer_pass(gbuffer_library().value())).value();
-    signal_ = frame_.create_picture(device_, "signal", rtapi::Format::kR32G32B32A32Float).value();
-    render_gbuffer();
-  }
-
-  void render_gbuffer() {
-    rtapi::CommandList list = device_.CreateCommandList().value();
-    gbuffer_.dispatch(list, frame_, {}, kHeight);
-    queue_.ExecuteAndWait(list).value();
-    view_z_ = frame_.read(device_, queue_, kViewZ).value();
-    ids_ = frame_.read(device_, queue_, kIds).value();
-    position_ = frame_.read(device_, queue_, kPosition).value();
-  }
-
-  Denoiser make(const DenoiseDesc& desc) {
-    return Denoiser::create(device_, frame_, denoise_libraries().value(), "test", signal_, desc)
-        .value();
-  }
-
-  // One frame of a grey signal.
-  FloatImage run(Denoiser& denoiser,
-                 const std::function<float(std::uint32_t, std::uint32_t)>& value) {
-    FloatImage image(kWidth, kHeight, 4, 0.0f);
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x) {
-        for (std::uint32_t c = 0; c < 3; ++c) image.at(x, y, c) = value(x, y);
-      }
-    }
-    rtapi::UploadTexture(device_, queue_, signal_, 0, std::as_bytes(std::span(image.values)))
-        .value();
-    rtapi::CommandList list = device_.CreateCommandList().value();
-    denoiser.dispatch(list, frame_);
-    queue_.ExecuteAndWait(list).value();
-    return read_picture(device_, queue_, denoiser.result()).value();
-  }
-
-  bool is_surface(std::uint32_t x, std::uint32_t y) const { return view_z_.at(x, y) > 0; }
-  bool is_sphere(std::uint32_t x, std::uint32_t y) const { return ids_.at(x, y, 0) == 2.0f; }
-
-  // Over the surface pixels of a picture's first channel.
-  template <class F>
-  void for_surface(F visit) const {
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
-      for (std::uint32_t x = 0; x < kWidth; ++x) {
-        if (is_surface(x, y)) visit(x, y);
-      }
-    }
-  }
-
-  Scene scene_;
-  rtapi::Device device_;
-  rtapi::CommandQueue queue_;
-  GpuScene gpu_;
-  Frame frame_;
-  RayPass gbuffer_;
-  rtapi::Texture signal_;
-  FloatImage view_z_, ids_, position_;
-};
+class DenoiseTest : public DenoiseFixture {};
 
 const DenoiseMethod kAll[] = {DenoiseMethod::kNone,      DenoiseMethod::kGaussian,
                               DenoiseMethod::kBilateral, DenoiseMethod::kBilateralExact,
-                              DenoiseMethod::kTemporal,  DenoiseMethod::kSvgf};
+                              DenoiseMethod::kTemporal,  DenoiseMethod::kSvgf,
+                              DenoiseMethod::kControl};
 
 TEST_F(DenoiseTest, ConstantsStay) {
   for (const DenoiseMethod method : kAll) {
@@ -139,6 +59,7 @@ TEST_F(DenoiseTest, GuidesStopTheLightAtSilhouettes) {
   EXPECT_LT(leak(DenoiseMethod::kBilateral), 0.05 * gaussian);
   EXPECT_LT(leak(DenoiseMethod::kBilateralExact), 0.05 * gaussian);
   EXPECT_LT(leak(DenoiseMethod::kSvgf), 0.05 * gaussian);
+  EXPECT_LT(leak(DenoiseMethod::kControl), 0.05 * gaussian);
 }
 
 TEST_F(DenoiseTest, SeparableIsCloseToExact) {
@@ -253,6 +174,95 @@ TEST_F(DenoiseTest, MotionThatIsWildIsNoHistory) {
       .value();
   const FloatImage out = run(denoiser, [](auto, auto) { return 0.9f; });
   for_surface([&](auto x, auto y) { ASSERT_NEAR(out.at(x, y), 0.9, 1e-5); });
+}
+
+// [effects-spec E.2: Gaussian and bilateral]
+TEST_F(DenoiseTest, AFilterWithoutWidthIsNone) {
+  const auto value = [](auto x, auto y) { return static_cast<float>((7 * x + 3 * y) % 5); };
+  for (const DenoiseMethod method :
+       {DenoiseMethod::kGaussian, DenoiseMethod::kBilateral, DenoiseMethod::kBilateralExact}) {
+    for (const bool no_sigma : {true, false}) {
+      DenoiseDesc desc = default_denoise(method);
+      if (no_sigma) {
+        desc.constants.sigma_pixels = 0;
+      } else {
+        desc.constants.radius = 0;
+      }
+      Denoiser denoiser = make(desc);
+      const FloatImage out = run(denoiser, value);
+      for_surface([&](auto x, auto y) { ASSERT_EQ(out.at(x, y), value(x, y)); });
+    }
+  }
+}
+
+TEST_F(DenoiseTest, SigmasThatAreNothingOrEverythingStayFinite) {
+  float DenoiseConstants::*const sigmas[] = {&DenoiseConstants::sigma_z, &DenoiseConstants::sigma_n,
+                                             &DenoiseConstants::sigma_l,
+                                             &DenoiseConstants::sigma_pixels};
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> uniform;
+  for (const DenoiseMethod method : kAll) {
+    for (const auto sigma : sigmas) {
+      for (const float value : {0.0f, 1e30f}) {
+        DenoiseDesc desc = default_denoise(method);
+        desc.constants.*sigma = value;
+        Denoiser denoiser = make(desc);
+        for (int frame = 0; frame < 2; ++frame) {
+          const FloatImage out = run(denoiser, [&](auto, auto) { return uniform(random); });
+          for_surface([&](auto x, auto y) {
+            ASSERT_GE(out.at(x, y), 0) << static_cast<int>(method);
+            ASSERT_LE(out.at(x, y), 1.000001f) << static_cast<int>(method);
+          });
+        }
+      }
+    }
+  }
+}
+
+// [effects-spec E.2: Temporal/SVGF]
+TEST_F(DenoiseTest, HistoryThatIsBrokenOrTooLongIsLetGo) {
+  for (const DenoiseMethod method :
+       {DenoiseMethod::kTemporal, DenoiseMethod::kSvgf, DenoiseMethod::kControl}) {
+    Denoiser denoiser = make(default_denoise(method));
+    run(denoiser, [](auto, auto) { return 0.5f; });
+    FloatImage moments = read_picture(device_, queue_, denoiser.moments()).value();
+    for_surface([&](auto x, auto y) {
+      moments.at(x, y, 2) = x % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : 255.0f;
+    });
+    upload(denoiser.moments(), moments);
+    FloatImage out = run(denoiser, [](auto, auto) { return 0.5f; });
+    for_surface([&](auto x, auto y) { ASSERT_NEAR(out.at(x, y), 0.5, 1e-5); });
+    moments = read_picture(device_, queue_, denoiser.moments()).value();
+    for_surface([&](auto x, auto y) {
+      ASSERT_LE(moments.at(x, y, 2), 32.0f);
+      ASSERT_GE(moments.at(x, y, 2), 1.0f);
+    });
+  }
+}
+
+TEST_F(DenoiseTest, ACutStartsAnew) {
+  for (const DenoiseMethod method :
+       {DenoiseMethod::kTemporal, DenoiseMethod::kSvgf, DenoiseMethod::kControl}) {
+    Denoiser denoiser = make(default_denoise(method));
+    for (int i = 0; i < 3; ++i) run(denoiser, [](auto, auto) { return 9.0f; });
+    denoiser.reset();
+    const FloatImage out = run(denoiser, [](auto, auto) { return 0.25f; });
+    const FloatImage moments = read_picture(device_, queue_, denoiser.moments()).value();
+    for_surface([&](auto x, auto y) {
+      ASSERT_NEAR(out.at(x, y), 0.25, 1e-6);
+      ASSERT_EQ(moments.at(x, y, 2), 1.0f);
+    });
+  }
+}
+
+TEST_F(DenoiseTest, SignalsShareTheirPipelines) {
+  const DenoiseLibraries libraries = denoise_libraries().value();
+  const auto pass = [&](const char* name) {
+    return libraries.pipelines->get(device_, frame_, libraries.svgf, name).value();
+  };
+  const auto atrous = pass("Atrous");
+  EXPECT_EQ(atrous, pass("Atrous"));
+  EXPECT_NE(atrous, pass("EstimateVariance"));
 }
 
 }  // namespace

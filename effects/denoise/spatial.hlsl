@@ -46,6 +46,8 @@ void Copy(uint3 id : SV_DispatchThreadID) {
 }
 
 float GaussianWeight(int2 offset) {
+  // The pixel itself counts in full, whatever the filter's width.
+  if (all(offset == int2(0, 0))) return 1.0;
   const float2 o = float2(offset);
   return exp(-dot(o, o) / (2.0 * denoise.sigma_pixels * denoise.sigma_pixels));
 }

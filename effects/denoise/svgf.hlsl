@@ -71,6 +71,8 @@ Reprojected Reproject(int2 pixel, int2 size) {
   }
   result.color /= result.weight;
   result.moments /= result.weight;
+  // What is not a number would stay for ever.
+  if (!all(isfinite(result.color)) || !all(isfinite(result.moments))) result.weight = 0.0;
   return result;
 }
 

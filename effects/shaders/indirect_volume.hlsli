@@ -58,9 +58,16 @@ VolumeCell SampleVolume(float3 position, out float weight) {
   if (any(abs(at) > 1e6)) return sum;
   const float3 corner = floor(at);
   const float3 part = at - corner;
+  // Mostly all eight lie in one brick, which is looked up once.
+  const int3 low = int3(corner);
+  const bool one_brick = all(low >= int3(0, 0, 0)) &&
+                         all(low % kBrickCells < int3(kBrickCells - 1, kBrickCells - 1, kBrickCells - 1));
+  const uint first = one_brick ? VolumeIndex(volume, low) : 0;
+  if (first == kNoBrick) return sum;
   for (int i = 0; i < 8; ++i) {
     const int3 offset = int3(i & 1, (i >> 1) & 1, i >> 2);
-    const uint index = VolumeIndex(volume, int3(corner) + offset);
+    const uint index = one_brick ? first + uint((offset.z * kBrickCells + offset.y) * kBrickCells + offset.x)
+                                 : VolumeIndex(volume, low + offset);
     if (index == kNoBrick) continue;
     const VolumeCell cell = volume_cells[index];
     const float w = (offset.x == 1 ? part.x : 1.0 - part.x) * (offset.y == 1 ? part.y : 1.0 - part.y) *

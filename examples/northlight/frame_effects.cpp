@@ -30,6 +30,7 @@ DenoiseMethod denoise_method(const std::string& name) {
   if (name == "gaussian") return DenoiseMethod::kGaussian;
   if (name == "bilateral") return DenoiseMethod::kBilateral;
   if (name == "temporal") return DenoiseMethod::kTemporal;
+  if (name == "control") return DenoiseMethod::kControl;
   return DenoiseMethod::kSvgf;
 }
 
@@ -111,13 +112,15 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
     if (const auto s = add_transparent(); !s) return s;
   }
   if (options.ao) {
-    if (const auto s = add_signal("ao", frame.texture(kAmbientOcclusionSum), options.ao_samples);
+    if (const auto s = add_signal("ao", frame.texture(kAmbientOcclusionSum), options.ao_samples,
+                                  options.pixel_step("ao"));
         !s) {
       return s;
     }
   }
   if (options.sun && scene.sun) {
-    if (const auto s = add_signal("sun", frame.texture(kSunVisibilitySum), options.sun_samples);
+    if (const auto s = add_signal("sun", frame.texture(kSunVisibilitySum), options.sun_samples,
+                                  options.pixel_step("sun"));
         !s) {
       return s;
     }
@@ -138,20 +141,24 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
 }
 
 rtapi::Status FrameEffects::add_signal(const std::string& name, const rtapi::Texture& sum,
-                                       std::uint32_t samples) {
+                                       std::uint32_t samples, std::uint32_t pixel_step) {
   auto signal = std::make_unique<Signal>();
   signal->name = name;
   signal->sum = sum;
   signal->samples = samples;
+  signal->pixel_step = pixel_step;
   const auto mean = given_.frame->create_picture(given_.device, name + " mean", kSignalFormat);
   if (!mean) return mean.error();
   signal->mean = *mean;
-  auto denoiser = Denoiser::create(given_.device, *given_.frame, given_.libraries->denoise, name,
-                                   *mean, default_denoise(denoise_method(given_.options.denoise)));
+  DenoiseDesc desc = default_denoise(denoise_method(given_.options.denoise));
+  // Only its signal tells how far away its hits are.
+  if (desc.method == DenoiseMethod::kControl && name == "reflection") desc.constants.lobe_scale = 1;
+  auto denoiser =
+      Denoiser::create(given_.device, *given_.frame, given_.libraries->denoise, name, *mean, desc);
   if (!denoiser) return denoiser.error();
   signal->denoiser = std::move(*denoiser);
   if (const auto s = signal->denoiser.create_load(given_.device, *given_.frame,
-                                                  given_.libraries->denoise, sum);
+                                                  given_.libraries->denoise, sum, pixel_step);
       !s) {
     return s;
   }
@@ -170,8 +177,11 @@ rtapi::Status FrameEffects::add_contact() {
   ContactShadowConstants constants;
   constants.length = given_.options.contact_length;
   steps_.push_back({contact_shadow_pass(given_.libraries->contact_shadow),
-                    given_.options.contact_samples, PassArguments(contact_views_, constants)});
-  return add_signal("contact", *sum, given_.options.contact_samples);
+                    given_.options.contact_samples,
+                    PassArguments(contact_views_, constants),
+                    {},
+                    given_.options.pixel_step("contact")});
+  return add_signal("contact", *sum, given_.options.contact_samples, steps_.back().pixel_step);
 }
 
 rtapi::Status FrameEffects::add_indirect() {
@@ -189,8 +199,11 @@ rtapi::Status FrameEffects::add_indirect() {
                    : mode == "hit-black" ? IndirectMode::kHitBlack
                                          : IndirectMode::kNearField;
   steps_.push_back({indirect_diffuse_pass(given_.libraries->indirect_diffuse),
-                    given_.options.gi_samples, PassArguments(indirect_views_, constants)});
-  return add_signal("indirect", *sum, given_.options.gi_samples);
+                    given_.options.gi_samples,
+                    PassArguments(indirect_views_, constants),
+                    {},
+                    given_.options.pixel_step("gi")});
+  return add_signal("indirect", *sum, given_.options.gi_samples, steps_.back().pixel_step);
 }
 
 rtapi::Status FrameEffects::add_reflections() {
@@ -206,8 +219,11 @@ rtapi::Status FrameEffects::add_reflections() {
   constants.firefly_limit = given_.options.firefly_limit;
   steps_.push_back({reflections_pass(given_.libraries->reflections),
                     given_.options.reflection_samples,
-                    PassArguments(reflection_views_, constants)});
-  return add_signal("reflection", *sum, given_.options.reflection_samples);
+                    PassArguments(reflection_views_, constants),
+                    {},
+                    given_.options.pixel_step("reflections")});
+  return add_signal("reflection", *sum, given_.options.reflection_samples,
+                    steps_.back().pixel_step);
 }
 
 // One ray a pixel and no noise: nothing to denoise.
@@ -327,7 +343,9 @@ std::vector<FrameEffects::Layer> FrameEffects::layers() const {
   for (const auto& signal : signals_) {
     // The raw ones of ambient occlusion and the sun are layers of every frame.
     if (signal->sum.GetDesc().Format == kSignalFormat) {
-      out.push_back({signal->name, signal->sum, 1.0f / static_cast<float>(signal->samples)});
+      const bool half = signal->pixel_step != 1;  // the sum has holes
+      out.push_back({signal->name, half ? signal->mean : signal->sum,
+                     half ? 1.0f : 1.0f / static_cast<float>(signal->samples)});
     }
     out.push_back({signal->name + "_denoised", signal->denoiser.result(), 1});
   }

@@ -51,6 +51,7 @@ struct RayStep {
   std::uint32_t samples = 1;
   kaamos::effects::PassArguments arguments;
   std::vector<kaamos::effects::FrameTexture> writes = {};  // of the frame's pictures
+  std::uint32_t pixel_step = 1;  // 2: at half resolution
 };
 
 class FrameEffects {
@@ -105,10 +106,11 @@ class FrameEffects {
     rtapi::Texture sum;   // what the step adds to
     rtapi::Texture mean;  // the denoiser's input
     std::uint32_t samples = 1;
+    std::uint32_t pixel_step = 1;
     kaamos::effects::Denoiser denoiser;
   };
   rtapi::Status add_signal(const std::string& name, const rtapi::Texture& sum,
-                           std::uint32_t samples);
+                           std::uint32_t samples, std::uint32_t pixel_step);
   rtapi::Status add_contact();
   rtapi::Status add_indirect();
   rtapi::Status add_reflections();

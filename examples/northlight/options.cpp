@@ -203,9 +203,15 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
   app.add_option("--denoise", options.denoise,
-                 "of the whole frame's effects: none, gaussian, bilateral, temporal, svgf")
+                 "of the whole frame's effects: none, gaussian, bilateral, temporal, svgf, "
+                 "control")
       ->capture_default_str()
-      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf"}));
+      ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
+  app.add_option("--half-resolution", options.half_resolution,
+                 "of the whole frame: effects that trace a quarter of the pixels, comma-separated: "
+                 "ao, sun, contact, gi, reflections; or all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"ao", "sun", "contact", "gi", "reflections", "all"}));
   app.add_option("--contact-samples", options.contact_samples,
                  "contact shadow rays per pixel and light")
       ->capture_default_str()

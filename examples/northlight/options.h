@@ -28,6 +28,15 @@ struct Options {
   // Whether any effect besides ambient occlusion and the sun is rendered.
   bool whole_frame() const { return local || gi || reflections || transparent; }
   std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, temporal, svgf
+  std::vector<std::string> half_resolution;  // effects that trace a quarter of the pixels; "all"
+  // 2 for those, else 1. Without denoising passes nothing would fill the other pixels.
+  std::uint32_t pixel_step(const std::string& effect) const {
+    if (!whole_frame()) return 1;
+    for (const std::string& name : half_resolution) {
+      if (name == effect || name == "all") return 2;
+    }
+    return 1;
+  }
   std::uint32_t contact_samples = 1;
   float contact_length = 1.0f;         // metres
   std::string gi_mode = "near-field";  // direct, hit-black, near-field

@@ -198,19 +198,23 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
   double order_ms = 0;
   device_.ResetStatistics();
   const auto start = Clock::now();
-  std::uint32_t rows = std::min<std::uint32_t>(32, options_.height);
+  const std::uint32_t step = pass.step.pixel_step;
+  const std::uint32_t height = (options_.height + step - 1) / step;
+  std::uint32_t rows = std::min<std::uint32_t>(32, height);
   for (std::uint32_t sample = 0; sample < samples; sample += kSamplesPerDispatch) {
     PassConstants constants;
     constants.first_sample = first + sample;
     constants.sample_count = std::min(kSamplesPerDispatch, samples - sample);
     constants.radius = options_.ao_radius;
-    if (pass.keys) {
+    constants.pixel_step = step;
+    // The order is one of all pixels.
+    if (pass.keys && step == 1) {
       if (const auto sorted = sort_rays(pass, constants, order_ms); !sorted) return sorted;
       constants.sorted = 1;
     }
-    for (std::uint32_t row = 0; row < options_.height;) {
+    for (std::uint32_t row = 0; row < height;) {
       if (stop) return stopped();
-      const std::uint32_t count = std::min(rows, options_.height - row);
+      const std::uint32_t count = std::min(rows, height - row);
       constants.first_row = row;
       if (const auto reset = list->Reset(); !reset) return reset;
       pass.pass.dispatch(*list, frame_, constants, count, pass.step.arguments);
@@ -218,11 +222,10 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
       if (const auto done = execute_band(*list, name, row, count, result); !done) return done;
       const double seconds = std::chrono::duration<double>(Clock::now() - before).count();
       const double fit = rows * std::clamp(kDispatchSeconds / std::max(seconds, 1e-4), 0.5, 2.0);
-      rows = static_cast<std::uint32_t>(std::clamp(fit, 1.0, static_cast<double>(options_.height)));
+      rows = static_cast<std::uint32_t>(std::clamp(fit, 1.0, static_cast<double>(height)));
       row += count;
       progress(name,
-               (sample + constants.sample_count * (static_cast<double>(row) / options_.height)) /
-                   samples);
+               (sample + constants.sample_count * (static_cast<double>(row) / height)) / samples);
     }
   }
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -256,11 +259,15 @@ std::vector<RayStep> Renderer::steps(const ShaderLibraries& libraries) const {
     out.push_back({ambient_occlusion_pass(libraries.ambient_occlusion),
                    options_.ao_samples,
                    {},
-                   {kAmbientOcclusionSum}});
+                   {kAmbientOcclusionSum},
+                   options_.pixel_step("ao")});
   }
   if (options_.sun && scene_.sun) {
-    out.push_back(
-        {sun_shadow_pass(libraries.sun_shadow), options_.sun_samples, {}, {kSunVisibilitySum}});
+    out.push_back({sun_shadow_pass(libraries.sun_shadow),
+                   options_.sun_samples,
+                   {},
+                   {kSunVisibilitySum},
+                   options_.pixel_step("sun")});
   }
   return out;
 }

@@ -40,7 +40,9 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
       {"reflections/reflections", &libraries.reflections},
       {"transparent/transparent", &libraries.transparent},
       {"denoise/spatial", &libraries.denoise.spatial},
-      {"denoise/svgf", &libraries.denoise.svgf}};
+      {"denoise/svgf", &libraries.denoise.svgf},
+      {"denoise/control", &libraries.denoise.control},
+      {"denoise/upscale", &libraries.denoise.upscale}};
   if (whole_frame_) parts.insert(parts.end(), std::begin(more), std::end(more));
   if (sorts_) parts.emplace_back("ray_order/ray_order", &libraries.ray_order);
   files_.clear();

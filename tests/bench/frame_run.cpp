@@ -84,6 +84,7 @@ void FrameRun::trace_and_shade() {
   rtapi::CommandList list = device_.CreateCommandList().value();
   frame_.clear(list, effects::kAmbientOcclusionSum);
   frame_.clear(list, effects::kSunVisibilitySum);
+  effects_.begin_frame(list, scene_.cameras.front().position(), false);
   list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
   effects::PassConstants constants;
   constants.sample_count = 1;

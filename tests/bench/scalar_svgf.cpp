@@ -17,9 +17,14 @@ float luminance(const Float4& color) {
   return color.x * 0.2126f + color.y * 0.7152f + color.z * 0.0722f;
 }
 
+// The square of more light, summed over a filter, would not be finite.
+constexpr float kMostLight = 1e17f;
+
+float finite_or_zero(float light) {
+  return std::isfinite(light) ? std::min(std::max(light, -kMostLight), kMostLight) : 0.0f;
+}
 Float4 finite_or_zero(const Float4& color) {
-  return {std::isfinite(color.x) ? color.x : 0.0f, std::isfinite(color.y) ? color.y : 0.0f,
-          std::isfinite(color.z) ? color.z : 0.0f, 0.0f};
+  return {finite_or_zero(color.x), finite_or_zero(color.y), finite_or_zero(color.z), 0.0f};
 }
 
 void add(Float4& sum, float weight, const Float4& value) {
@@ -47,9 +52,12 @@ struct ScalarSvgf::Center {
   const effects::DenoiseConstants* constants;
 
   float normal_weight(const Float4& other) const {
+    if (other.w == 0.0f) return 0;
     const float cosine = other.x * guide.x + other.y * guide.y + other.z * guide.z;
     float weight = std::min(std::max(cosine, 0.0f), 1.0f);
-    if (constants->normal_squarings < 0) return std::pow(weight, constants->sigma_n);
+    if (constants->normal_squarings < 0) {
+      return std::pow(std::max(weight, 1e-30f), constants->sigma_n);
+    }
     for (int i = 0; i < constants->normal_squarings; ++i) weight *= weight;
     return weight;
   }
@@ -148,6 +156,12 @@ ScalarSvgf::Reprojected ScalarSvgf::reproject(const SvgfInput& input, int x, int
   if (out.weight < 0.01f) return {};
   for (Float4* sum : {&out.color, &out.moments}) {
     *sum = {sum->x / out.weight, sum->y / out.weight, sum->z / out.weight, sum->w / out.weight};
+  }
+  for (const Float4& mean : {out.color, out.moments}) {
+    if (!std::isfinite(mean.x) || !std::isfinite(mean.y) || !std::isfinite(mean.z) ||
+        !std::isfinite(mean.w)) {
+      return {};
+    }
   }
   return out;
 }

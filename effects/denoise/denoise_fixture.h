@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// A sphere over a plane, its G-buffer, and one signal that a test writes.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <rtapi/upload.h>
+
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "effects/denoise/denoise.h"
+#include "effects/frame/picture.h"
+#include "effects/frame/ray_pass.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/scene/oracle_scenes.h"
+
+namespace kaamos::effects {
+
+class DenoiseFixture : public testing::Test {
+ protected:
+  explicit DenoiseFixture(std::uint32_t width = 64, std::uint32_t height = 40)
+      : kWidth(width), kHeight(height), scene_(make_sphere_oracle(1.0, 1.5)) {
+    device_ = rtapi::CreateDevice().value();
+    queue_ = device_.CreateCommandQueue().value();
+    const Camera& camera = scene_.cameras.front();
+    gpu_ = create_gpu_scene(device_, queue_, scene_, camera.position()).value();
+    FrameDesc desc;
+    desc.width = kWidth;
+    desc.height = kHeight;
+    frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
+    gbuffer_ =
+        RayPass::create(device_, frame_, gpu_, gbuffer_pass(gbuffer_library().value())).value();
+    signal_ = frame_.create_picture(device_, "signal", rtapi::Format::kR32G32B32A32Float).value();
+    render_gbuffer();
+  }
+
+  void render_gbuffer() {
+    rtapi::CommandList list = device_.CreateCommandList().value();
+    gbuffer_.dispatch(list, frame_, {}, kHeight);
+    queue_.ExecuteAndWait(list).value();
+    view_z_ = frame_.read(device_, queue_, kViewZ).value();
+    ids_ = frame_.read(device_, queue_, kIds).value();
+    position_ = frame_.read(device_, queue_, kPosition).value();
+  }
+
+  Denoiser make(const DenoiseDesc& desc) {
+    return Denoiser::create(device_, frame_, denoise_libraries().value(), "test", signal_, desc)
+        .value();
+  }
+
+  using Value = std::function<float(std::uint32_t, std::uint32_t)>;
+
+  void upload(const rtapi::Texture& texture, const FloatImage& image) {
+    rtapi::UploadTexture(device_, queue_, texture, 0, std::as_bytes(std::span(image.values)))
+        .value();
+  }
+
+  // One frame of a grey signal; `hit`: its w.
+  FloatImage run(Denoiser& denoiser, const Value& value, float hit = 0.0f) {
+    FloatImage image(kWidth, kHeight, 4, hit);
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const float v = value(x, y);
+        for (std::uint32_t c = 0; c < 3; ++c) image.at(x, y, c) = v;
+      }
+    }
+    upload(signal_, image);
+    rtapi::CommandList list = device_.CreateCommandList().value();
+    denoiser.dispatch(list, frame_);
+    queue_.ExecuteAndWait(list).value();
+    return read_picture(device_, queue_, denoiser.result()).value();
+  }
+
+  bool is_surface(std::uint32_t x, std::uint32_t y) const { return view_z_.at(x, y) > 0; }
+  bool is_sphere(std::uint32_t x, std::uint32_t y) const { return ids_.at(x, y, 0) == 2.0f; }
+
+  // Over the surface pixels of a picture's first channel.
+  template <class F>
+  void for_surface(F visit) const {
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        if (is_surface(x, y)) visit(x, y);
+      }
+    }
+  }
+
+  const std::uint32_t kWidth, kHeight;
+  Scene scene_;
+  rtapi::Device device_;
+  rtapi::CommandQueue queue_;
+  GpuScene gpu_;
+  Frame frame_;
+  RayPass gbuffer_;
+  rtapi::Texture signal_;
+  FloatImage view_z_, ids_, position_;
+};
+
+}  // namespace kaamos::effects
