@@ -18,6 +18,10 @@ float FootprintRadius(float roughness, float distance, float view_z) {
   return denoise.lobe_scale * tangent * seen / frame.pixel_angle;
 }
 
+float SmoothnessWeight(int2 pixel, int2 other) {
+  return exp(-abs(g_material[other].x - g_material[pixel].x) / denoise.sigma_roughness);
+}
+
 // A pixel may not be brighter than the brightest of its neighbours on the same surface.
 [shader("compute")]
 [numthreads(8, 8, 1)]
@@ -40,8 +44,9 @@ void ClampFireflies(uint3 id : SV_DispatchThreadID) {
       const int2 offset = int2(x, y);
       const int2 other = pixel + offset;
       if ((x == 0 && y == 0) || !IsInside(other, size)) continue;
-      const float weight = GuideWeight(guide, other, offset);
-      if (weight == 0.0) continue;
+      float weight = GuideWeight(guide, other, offset);
+      if (denoise.lobe_scale > 0.0) weight *= SmoothnessWeight(pixel, other);
+      if (!(weight > 0.0)) continue;
       const float4 tap = source[other];
       if (weight > 0.1) brightest = max(brightest, Luminance(FiniteOrZero(tap.rgb)));
       distance += weight * (isfinite(tap.w) ? max(tap.w, 0.0) : 0.0);
@@ -94,8 +99,8 @@ void FilterLobe(uint3 id : SV_DispatchThreadID) {
     if (by_lobe) {
       const float hit = clamped[other].w;
       const float farther = max(max(hit, distance), 1e-20);
-      weight *= exp(-abs(hit - distance) / (denoise.sigma_hit * farther) -
-                    abs(g_material[other].x - roughness) / denoise.sigma_roughness);
+      weight *= exp(-abs(hit - distance) / (denoise.sigma_hit * farther)) *
+                SmoothnessWeight(pixel, other);
     }
     if (!(weight > kNoWeight)) continue;
     sum += weight * source[other].rgb;

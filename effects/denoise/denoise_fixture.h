@@ -28,6 +28,7 @@ class DenoiseFixture : public testing::Test {
     FrameDesc desc;
     desc.width = kWidth;
     desc.height = kHeight;
+    desc.max_pass_views = 4096;  // a test makes many denoisers
     frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
     gbuffer_ =
         RayPass::create(device_, frame_, gpu_, gbuffer_pass(gbuffer_library().value())).value();

@@ -192,12 +192,18 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float kernel[3] = {0.375, 0.25, 0.0625};  // the cubic B-spline, from its middle
-  const Guide guide = LoadGuide(pixel, size);
   const float deviation = sqrt(max(SmoothVariance(pixel, size), 0.0));
-  // Without variance there is no noise: only equal light is mixed.
+  if (deviation == 0.0) {
+    // Without variance there is no noise: only equal light would be mixed.
+    accumulated[pixel] = center;
+    return;
+  }
+  const Guide guide = LoadGuide(pixel, size);
   const float luminance = Luminance(center.rgb);
+  // Light that is equal but for rounding is mixed in any case. A variance is a difference of squares,
+  // so rounding alone makes it 1e-7 of the light's square.
   const float per_luminance =
-      1.0 / (denoise.sigma_l * deviation + 1e-8 * luminance + 1e-30);
+      1.0 / (denoise.sigma_l * max(deviation, 1e-3 * luminance) + 1e-30);
   float weights = kernel[0] * kernel[0];
   float3 color = center.rgb * weights;
   float variance = center.w * weights * weights;

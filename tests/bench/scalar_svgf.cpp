@@ -35,6 +35,7 @@ void add(Float4& sum, float weight, const Float4& value) {
 }
 
 float smaller(float a, float b) {
+  if (!(a * b > 0.0f)) return 0.0f;
   return std::fabs(a) < std::fabs(b) ? a : b;
 }
 
@@ -58,7 +59,16 @@ struct ScalarSvgf::Center {
     if (constants->normal_squarings < 0) {
       return std::pow(std::max(weight, 1e-30f), constants->sigma_n);
     }
-    for (int i = 0; i < constants->normal_squarings; ++i) weight *= weight;
+    int squarings = constants->normal_squarings;
+    if (squarings >= 5) {
+      weight *= weight;
+      weight *= weight;
+      weight *= weight;
+      weight *= weight;
+      weight *= weight;
+      squarings -= 5;
+    }
+    for (int i = 0; i < squarings; ++i) weight *= weight;
     return weight;
   }
   float depth_distance(const Float4& other, int dx, int dy) const {
@@ -280,11 +290,15 @@ void ScalarSvgf::filter(const std::vector<Float4>& from, std::vector<Float4>& to
     return;
   }
   constexpr float kKernel[3] = {0.375f, 0.25f, 0.0625f};
-  const Center here = center(x, y);
   const float deviation = std::sqrt(std::max(smooth_variance(from, x, y), 0.0f));
+  if (deviation == 0.0f) {
+    to[i] = own;
+    return;
+  }
+  const Center here = center(x, y);
   const float own_luminance = luminance(own);
   const float per_luminance =
-      1.0f / (constants_.sigma_l * deviation + 1e-8f * own_luminance + 1e-30f);
+      1.0f / (constants_.sigma_l * std::max(deviation, 1e-3f * own_luminance) + 1e-30f);
   float weights = kKernel[0] * kKernel[0];
   Float4 color;
   add(color, weights, own);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/shader/texture/texture_sampling.h"
-#include "kaamos/shader/texture_view.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
+#include "kaamos/shader/texture_view.h"
 #include "runtime/shader/texture/cube_face.h"
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/texel_access.h"

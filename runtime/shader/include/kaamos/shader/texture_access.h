@@ -145,33 +145,110 @@ constexpr uint32_t direct_format() {
   return kFormats[kFloat][shape<V>::count];
 }
 
-// The texel, where it can be used as it lies in memory; else null.
-template <class V>
-KAAMOS_INLINE uint8_t* direct_texel(const Descriptor& texture, const int4& at) {
+// Pictures are often stored shorter than shaders read them.
+inline constexpr uint32_t kR16G16B16A16Float = 10, kR8G8B8A8Unorm = 28, kR16G16Snorm = 37;
+
+// A texel of `bytes` in a texture that is stored in that format, where it can be used in place;
+// else null.
+KAAMOS_INLINE uint8_t* texel_in_place(const Descriptor& texture, const int4& at, uint32_t format,
+                                      uint32_t bytes) {
   const auto* view = reinterpret_cast<const TextureView*>(texture.address);
   if (texture.kind != DescriptorKind::kTexture || view == nullptr ||
-      view->direct_format != direct_format<V>()) {
+      view->direct_format != format) {
     return nullptr;
   }
-  static_assert(sizeof(V) == 4 * shape<V>::count);
   const TextureMip& mip = view->mips[0];
   const auto x = static_cast<uint32_t>(at.e[0]);
   const auto y = static_cast<uint32_t>(at.e[1]);
   if (x >= mip.width || y >= mip.height || at.e[3] != 0) return nullptr;
-  return mip.texels + static_cast<uint64_t>(y) * mip.row_pitch + x * sizeof(V);
+  return mip.texels + static_cast<uint64_t>(y) * mip.row_pitch + uint64_t{x} * bytes;
+}
+
+// The texel, where it can be used as it lies in memory; else null.
+template <class V>
+KAAMOS_INLINE uint8_t* direct_texel(const Descriptor& texture, const int4& at) {
+  static_assert(sizeof(V) == 4 * shape<V>::count);
+  return texel_in_place(texture, at, direct_format<V>(), sizeof(V));
+}
+
+// Stored integers and floats, as runtime/shader/texture/format_codec.cpp has them; its test
+// compares.
+KAAMOS_INLINE float from_snorm16(int16_t stored) {
+  const float x = static_cast<float>(stored) / 32767.0f;
+  return x < -1.0f ? -1.0f : x;
+}
+KAAMOS_INLINE int16_t to_snorm16(float x) {
+  if (x != x) return 0;
+  x = (x < -1.0f ? -1.0f : x > 1.0f ? 1.0f : x) * 32767.0f;
+  return static_cast<int16_t>(static_cast<int32_t>(x + (x < 0.0f ? -0.5f : 0.5f)));
+}
+KAAMOS_INLINE uint8_t to_unorm8(float x) {
+  if (!(x > 0.0f)) return 0;
+  return x >= 1.0f ? 255 : static_cast<uint8_t>(static_cast<uint32_t>(x * 255.0f + 0.5f));
+}
+
+// Whether one of the short formats was read.
+template <class V>
+KAAMOS_INLINE bool load_short(const Descriptor& texture, const int4& at, V& value) {
+  if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {
+    const uint8_t* texel = texel_in_place(texture, at, kR16G16Snorm, 4);
+    if (texel == nullptr) return false;
+    int16_t stored[2];
+    __builtin_memcpy(stored, texel, sizeof(stored));
+    for (int i = 0; i < 2; ++i) component(value, i) = from_snorm16(stored[i]);
+    return true;
+  }
+  if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 4) {
+    const uint8_t* texel = texel_in_place(texture, at, kR8G8B8A8Unorm, 4);
+    if (texel == nullptr) return false;
+    for (int i = 0; i < 4; ++i) component(value, i) = static_cast<float>(texel[i]) / 255.0f;
+    return true;
+  }
+  return false;
+}
+template <class V>
+KAAMOS_INLINE bool store_short(const Descriptor& texture, const int4& at, const V& value) {
+  const auto writable = [&] {
+    return reinterpret_cast<const TextureView*>(texture.address)->unordered_access;
+  };
+  if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {
+    uint8_t* texel = texel_in_place(texture, at, kR16G16Snorm, 4);
+    if (texel == nullptr || !writable()) return false;
+    const int16_t stored[2] = {to_snorm16(component(value, 0)), to_snorm16(component(value, 1))};
+    __builtin_memcpy(texel, stored, sizeof(stored));
+    return true;
+  }
+  if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 4) {
+    if (uint8_t* texel = texel_in_place(texture, at, kR8G8B8A8Unorm, 4)) {
+      if (!writable()) return false;
+      for (int i = 0; i < 4; ++i) texel[i] = to_unorm8(component(value, i));
+      return true;
+    }
+    if (uint8_t* texel = texel_in_place(texture, at, kR16G16B16A16Float, 8)) {
+      if (!writable()) return false;
+      uint16_t stored[4];
+      for (int i = 0; i < 4; ++i) stored[i] = to_half(component(value, i)).bits;
+      __builtin_memcpy(texel, stored, sizeof(stored));
+      return true;
+    }
+  }
+  return false;
 }
 
 // Out of line: conversions, arrays, and what is out of bounds. Pure: what a loop reads of other
 // memory stays known around it.
 template <class V>
-[[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation, const Descriptor& texture,
-                                          int4 coordinates) {
+[[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation,
+                                                     const Descriptor& texture, int4 coordinates) {
+  V value{};
+  if (load_short(texture, coordinates, value)) return value;
   return from_texel<V>(invocation.dispatch->services->load_texel(texture, coordinates.e));
 }
 template <class V>
 [[gnu::noinline]] inline void store_converted(const Invocation& invocation,
                                               const Descriptor& texture, int4 coordinates,
                                               V value) {
+  if (store_short(texture, coordinates, value)) return;
   invocation.dispatch->services->store_texel(texture, coordinates.e, to_texel(value));
 }
 
