@@ -111,7 +111,11 @@ float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
 }
 
 float4 Upscaled(int2 pixel, int2 size, bool is_scalar) {
-  if (!(g_view_z[pixel] > 0.0)) return float4(0, 0, 0, 0);
+  if (!(g_view_z[pixel] > 0.0)) {
+    const int2 near = pixel / kStep * kStep;
+    const Traced traced = LoadTraced(near, is_scalar);
+    return traced.valid && !(g_view_z[near] > 0.0) ? traced.light : float4(0, 0, 0, 0);
+  }
   const Guide guide = GuideOf(pixel, size);
   Sum sum = Gather(pixel, size, guide, 1, is_scalar);
   // Of less than a thousandth rounding would make the picture.

@@ -27,17 +27,25 @@ struct Access {
   }
 };
 
-TestTexture random_texture(uint32_t format, bool direct) {
-  TestTexture out(TextureDimension::k2D, format, kWidth, kHeight, 1, 1,
-                  [](uint32_t, uint32_t, uint32_t, uint32_t) { return Texel{}; });
-  std::mt19937 random(format);
-  for (uint8_t& byte : out.memory) byte = static_cast<uint8_t>(random());
-  out.view.direct_format = direct ? format : 0;
-  return out;
-}
+struct RandomTexture : TestTexture {
+  RandomTexture(uint32_t format, bool direct)
+      : TestTexture(TextureDimension::k2D, format, kWidth, kHeight, 1, 1,
+                    [](uint32_t, uint32_t, uint32_t, uint32_t) { return Texel{}; }) {
+    std::mt19937 random(format);
+    for (uint8_t& byte : memory) byte = static_cast<uint8_t>(random());
+    view.direct_format = direct ? format : 0;
+  }
+};
 
 float value_of(std::mt19937& random) {
-  const float special[] = {0.0f, -0.0f, 1.0f, -1.0f, 2.5f, -7.0f, 1e-9f, 70000.0f,
+  const float special[] = {0.0f,
+                           -0.0f,
+                           1.0f,
+                           -1.0f,
+                           2.5f,
+                           -7.0f,
+                           1e-9f,
+                           70000.0f,
                            std::numeric_limits<float>::infinity(),
                            -std::numeric_limits<float>::infinity(),
                            std::numeric_limits<float>::quiet_NaN()};
@@ -54,13 +62,8 @@ bool same(const V& a, const V& b) {
 template <class V>
 void expect_same(uint32_t format) {
   Access access;
-  TestTexture direct = random_texture(format, true);
-  TestTexture called = random_texture(format, false);
-  // The view moved with the texture.
-  direct.descriptor.address = reinterpret_cast<uintptr_t>(&direct.view);
-  called.descriptor.address = reinterpret_cast<uintptr_t>(&called.view);
-  direct.view.mips[0].texels = direct.memory.data() + 64;
-  called.view.mips[0].texels = called.memory.data() + 64;
+  RandomTexture direct(format, true);
+  RandomTexture called(format, false);
   BoundResource bound;
   bound.descriptor = direct.descriptor;
   bound.direct_format = format;
@@ -121,7 +124,7 @@ TEST(DirectAccess, ConvertsAsTheServicesDo) {
   expect_same<vec<float, 4>>(28);
   expect_same<vec<float, 4>>(10);
   // Of formats that are not read in place, and of another number of channels.
-  expect_same<vec<float, 4>>(29);
+  expect_same<vec<float, 4>>(11);
   expect_same<vec<float, 4>>(37);
   expect_same<float>(28);
 }
