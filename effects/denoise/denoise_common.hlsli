@@ -106,16 +106,7 @@ float NormalWeight(Guide guide, float4 other) {
   float weight = saturate(dot(other.xyz, guide.normal));
   // The power 0 of 0 is no number.
   if (guide.squarings < 0) return pow(max(weight, 1e-30), denoise.sigma_n);
-  int squarings = guide.squarings;
-  if (squarings >= 5) {  // the usual powers, 32 and 128
-    weight *= weight;
-    weight *= weight;
-    weight *= weight;
-    weight *= weight;
-    weight *= weight;
-    squarings -= 5;
-  }
-  for (int i = 0; i < squarings; ++i) weight *= weight;
+  for (int i = 0; i < guide.squarings; ++i) weight *= weight;
   return weight;
 }
 

@@ -59,16 +59,7 @@ struct ScalarSvgf::Center {
     if (constants->normal_squarings < 0) {
       return std::pow(std::max(weight, 1e-30f), constants->sigma_n);
     }
-    int squarings = constants->normal_squarings;
-    if (squarings >= 5) {
-      weight *= weight;
-      weight *= weight;
-      weight *= weight;
-      weight *= weight;
-      weight *= weight;
-      squarings -= 5;
-    }
-    for (int i = 0; i < squarings; ++i) weight *= weight;
+    for (int i = 0; i < constants->normal_squarings; ++i) weight *= weight;
     return weight;
   }
   float depth_distance(const Float4& other, int dx, int dy) const {

@@ -10,26 +10,6 @@
 namespace kaamos::shader {
 
 // ---------------------------------------------------------------------------------------------
-// e^x within one unit in the last place. In place: a call would cost as much again, and save every
-// register of the loop around it. [Cody and Waite 1980]
-KAAMOS_CONSTEXPR float exponential(float x) {
-  // Results that are denormal, infinite or no number are not worth code in every shader.
-  if (!(x > -87.0f && x < 88.0f)) return __builtin_expf(x);
-  constexpr float kRound = 0x1.8p23f;  // its sum is whole, in its lowest bits
-  const float shifted = x * 1.44269504f + kRound;
-  const float power = shifted - kRound;
-  const float rest = (x - power * 0.693359375f) - power * -2.12194440e-4f;  // of ln 2, in two parts
-  float p = 1.9875691500e-4f;
-  p = p * rest + 1.3981999507e-3f;
-  p = p * rest + 8.3334519073e-3f;
-  p = p * rest + 4.1665795894e-2f;
-  p = p * rest + 1.6666665459e-1f;
-  p = p * rest + 5.0000001201e-1f;
-  const float mantissa = (p * rest * rest + rest) + 1.0f;
-  return __builtin_bit_cast(float, __builtin_bit_cast(uint32_t, mantissa) +
-                                       (__builtin_bit_cast(uint32_t, shifted) << 23));
-}
-
 // Functions of one floating-point argument: f32 and f64 are expressions in x.
 
 #define KAAMOS_FLOAT_FUNCTION(name, f32, f64)                                       \
@@ -52,7 +32,7 @@ KAAMOS_FLOAT_FUNCTION(ceil, __builtin_ceilf(x), __builtin_ceil(x))
 KAAMOS_FLOAT_FUNCTION(cos, __builtin_cosf(x), __builtin_cos(x))
 KAAMOS_FLOAT_FUNCTION(cosh, __builtin_coshf(x), __builtin_cosh(x))
 KAAMOS_FLOAT_FUNCTION(degrees, x * 57.2957795130823209f, x * 57.2957795130823209)
-KAAMOS_FLOAT_FUNCTION(exp, exponential(x), __builtin_exp(x))
+KAAMOS_FLOAT_FUNCTION(exp, __builtin_expf(x), __builtin_exp(x))
 KAAMOS_FLOAT_FUNCTION(exp2, __builtin_exp2f(x), __builtin_exp2(x))
 KAAMOS_FLOAT_FUNCTION(floor, __builtin_floorf(x), __builtin_floor(x))
 KAAMOS_FLOAT_FUNCTION(log, __builtin_logf(x), __builtin_log(x))
