@@ -32,8 +32,15 @@ float SurfaceWeight(Guide guide, int2 traced, int2 offset) {
   return isfinite(weight) ? weight : 0.0;
 }
 
-float DepthAt(int2 pixel, int2 size) {
-  return g_view_z[clamp(pixel, int2(0, 0), size - int2(1, 1))];
+// Change of the depth to the next pixel along an axis. At the border one side has no neighbour.
+float Slope(int2 pixel, int2 axis, int2 size) {
+  const float z = g_view_z[pixel];
+  const bool has_before = IsInside(pixel - axis, size);
+  const bool has_after = IsInside(pixel + axis, size);
+  const float before = has_before ? z - g_view_z[pixel - axis] : 0.0;
+  const float after = has_after ? g_view_z[pixel + axis] - z : 0.0;
+  if (!has_before) return after;
+  return has_after ? Smaller(before, after) : before;
 }
 
 // As LoadGuide(), of the G-buffer itself: this runs before the guides are prepared.
@@ -41,12 +48,9 @@ Guide GuideOf(int2 pixel, int2 size) {
   Guide guide;
   guide.view_z = g_view_z[pixel];
   guide.normal = OctahedralDecode(g_shading_normal[pixel]);
-  guide.gradient.x = Smaller(DepthAt(pixel + int2(1, 0), size) - guide.view_z,
-                             guide.view_z - DepthAt(pixel - int2(1, 0), size));
-  guide.gradient.y = Smaller(DepthAt(pixel + int2(0, 1), size) - guide.view_z,
-                             guide.view_z - DepthAt(pixel - int2(0, 1), size));
+  guide.gradient = float2(Slope(pixel, int2(1, 0), size), Slope(pixel, int2(0, 1), size));
   guide.gradient *= denoise.sigma_z;
-  guide.least_slope = 1e-3 * guide.view_z;
+  guide.least_slope = 5e-3 * guide.view_z;
   guide.squarings = 4;  // the sixteenth power
   return guide;
 }
