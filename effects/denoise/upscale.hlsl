@@ -93,25 +93,27 @@ Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
   return sum;
 }
 
-// The nearest in depth, where nothing near is of the same surface: thin things.
+// Mostly of the nearest in depth, where nothing near is of the same surface: thin things. Those that
+// are as near count alike, so that rounding does not choose between them.
 float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
   float4 light = float4(0, 0, 0, 0);
-  float least = 3.402823466e+38;
+  float weights = 0.0;
   const int2 corner = pixel / kStep;
   for (int y = -1; y <= 2; ++y) {
     for (int x = -1; x <= 2; ++x) {
       const int2 other = (corner + int2(x, y)) * kStep;
       if (!IsInside(other, size)) continue;
       const float z = g_view_z[other];
-      const float difference = abs(z - guide.view_z);
-      if (!(z > 0.0) || !(difference < least)) continue;
       const Traced traced = LoadTraced(other, is_scalar);
-      if (!traced.valid) continue;
-      light = traced.light;
-      least = difference;
+      if (!(z > 0.0) || !traced.valid) continue;
+      const float away = abs(z - guide.view_z) / guide.view_z + 1e-2;
+      const float weight = 1.0 / (away * away);
+      if (!isfinite(weight)) continue;
+      light += weight * traced.light;
+      weights += weight;
     }
   }
-  return light;
+  return weights > 0.0 ? light / weights : float4(0, 0, 0, 0);
 }
 
 float4 Upscaled(int2 pixel, int2 size, bool is_scalar) {

@@ -87,6 +87,9 @@ void FrameRun::trace_and_shade() {
   effects_.begin_frame(list, scene_.cameras.front().position(), false);
   list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
   effects::PassConstants constants;
+  // Other samples in each frame, as in a sequence: noise that stands still would be no noise to
+  // the filters.
+  constants.first_sample = frames_++;
   constants.sample_count = 1;
   constants.radius = 4;
   for (size_t i = 0; i < passes_.size(); ++i) {

@@ -50,6 +50,7 @@ class FrameRun {
   northlight::ShaderLibraries libraries_;
   northlight::FrameEffects effects_;
   std::vector<Pass> passes_;
+  uint32_t frames_ = 0;  // that were traced
 };
 
 }  // namespace kaamos::bench
