@@ -4,9 +4,11 @@
 // backend looks up what it is about to read or write while it executes.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <shared_mutex>
@@ -72,11 +74,22 @@ class AddressMap {
     for (const auto& [address, allocation] : allocations_) out.push_back(allocation);
     return out;
   }
-  // Their places only, by rising address.
+  // A view of a texture: lives as long as that. `key`: shader::view_key.
+  void insert_view(uint64_t key, std::weak_ptr<const void> texture) {
+    std::unique_lock lock(mutex_);
+    views_[key] = std::move(texture);
+  }
+  // The places of allocations and live views only, by rising address.
   std::vector<shader::AddressRange> ranges() const {
     std::shared_lock lock(mutex_);
     std::vector<shader::AddressRange> out;
     for (const auto& [address, a] : allocations_) out.push_back({address, a.size_bytes});
+    const auto middle = static_cast<std::ptrdiff_t>(out.size());
+    for (const auto& [key, texture] : views_) {
+      if (!texture.expired()) out.push_back({key, 1});
+    }
+    std::inplace_merge(out.begin(), out.begin() + middle, out.end(),
+                       [](const auto& a, const auto& b) { return a.address < b.address; });
     return out;
   }
   // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.
@@ -96,6 +109,7 @@ class AddressMap {
 
   mutable std::shared_mutex mutex_;
   std::map<uint64_t, Allocation> allocations_;
+  std::map<uint64_t, std::weak_ptr<const void>> views_;
   std::atomic<uint64_t> version_{0};
 };
 

@@ -120,6 +120,12 @@ class BackendDevice {
   virtual void reset_statistics() {}
 };
 
+// A call of a checked shader whose arguments are no constants.
+struct ReachedFrom {
+  const LinkedShader* shader = nullptr;
+  shader::ReachedCall call;
+};
+
 // Checked mode's layer, told of each command by the backend that executes it: what a command reads
 // from GPU memory is only then what it will read.
 class CommandObserver {
@@ -129,8 +135,19 @@ class CommandObserver {
   // work before is done, if needs_memory().
   virtual void before(const Command& command, const std::string& label) = 0;
   virtual void after(const Command& command, bool succeeded) = 0;
+  // Between the two: what a dispatch reached that was not known before it ran. Each different call
+  // once, as far as there was room.
+  virtual void reached(const Command& command, std::span<const ReachedFrom> calls) {
+    (void)command;
+    (void)calls;
+  }
   // Whether before() or after() reads GPU memory for this command.
   virtual bool needs_memory(const Command& command) const = 0;
+  // Whether after() reads what the command wrote.
+  virtual bool needs_memory_after(const Command& command) const {
+    (void)command;
+    return false;
+  }
 };
 
 // What a backend gets from rtapi; all of it outlives the backend.

@@ -143,6 +143,7 @@ struct CopyTextureCommand {
   TextureCopyPlace dest;
   TextureCopyPlace source;
   uint32_t extent[3] = {0, 0, 0};
+  bool any_state = false;  // by a helper that takes resources in any state
 };
 
 // Writes every element of an unordered access view: a typed, raw or structured buffer, or a
@@ -163,6 +164,7 @@ struct BarrierCommand {
   std::shared_ptr<BackendTexture> texture;
   rtapi::ResourceStates before = rtapi::ResourceStates::kCommon;
   rtapi::ResourceStates after = rtapi::ResourceStates::kCommon;
+  bool part = false;  // one subresource of several
 };
 
 struct EventCommand {

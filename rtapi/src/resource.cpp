@@ -228,6 +228,9 @@ Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   texture->device = impl_;
   texture->desc = std::move(resolved);
   texture->memory = std::move(*memory);
+  if (impl_->checks) {
+    impl_->checks->textures().add(texture->memory, texture->desc.InitialState, texture->desc.Name);
+  }
   return Texture(std::move(texture));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "rtapi/src/command_list_impl.h"
 #include "rtapi/src/device_impl.h"
 
 namespace rtapi {
@@ -41,6 +42,13 @@ Status CheckQueue(const Device& device, const CommandQueue& queue) {
     return MakeError(Id::kNullHandle, device ? "the queue" : "the device", " is an empty handle");
   }
   return {};
+}
+
+// Texture helpers take textures in any state.
+void MarkAsHelper(const CommandList& list) {
+  for (runtime::Command& command : *list.impl()->commands) {
+    if (auto* copy = std::get_if<runtime::CopyTextureCommand>(&command)) copy->any_state = true;
+  }
 }
 
 }  // namespace
@@ -109,6 +117,7 @@ Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& t
   auto list = device.CreateCommandList();
   if (!list.ok()) return list.error();
   list->CopyTextureRegion({texture, subresource}, 0, 0, 0, {staging->buffer, staging->layout});
+  MarkAsHelper(*list);
   return queue.ExecuteAndWait(*list);
 }
 
@@ -120,6 +129,7 @@ Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueu
   auto list = device.CreateCommandList();
   if (!list.ok()) return list.error();
   list->CopyTextureRegion({staging->buffer, staging->layout}, 0, 0, 0, {texture, subresource});
+  MarkAsHelper(*list);
   if (Status s = queue.ExecuteAndWait(*list); !s.ok()) return s.error();
   std::vector<std::byte> texels(RowCount(*staging) * staging->row_bytes);
   const std::byte* in = staging->buffer.data<std::byte>().data();

@@ -221,6 +221,9 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
   if (!object.ok()) return object.error();
   device->views.AddView(*object, {desc.Name, desc, resolved, texture.impl()->memory});
+  const uint64_t key = kaamos::shader::view_key(*object, view.uav);
+  device->addresses.insert_view(key, texture.impl()->memory);
+  if (device->checks) device->checks->textures().add_view(key, texture.impl()->memory);
   Descriptor descriptor;
   descriptor.kind = DescriptorKind::kTexture;
   descriptor.access =

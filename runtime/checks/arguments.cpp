@@ -306,6 +306,11 @@ void collect_uses(const runtime::LinkedShader& shader, const Arguments& argument
                           descriptor.kind == DescriptorKind::kStructuredBuffer ||
                           descriptor.kind == DescriptorKind::kTypedBuffer;
       if (buffer) use.address = descriptor.address;
+      if (descriptor.kind == DescriptorKind::kTexture && descriptor.address != 0) {
+        const bool writable = descriptor.access == DescriptorAccess::kUnorderedAccess;
+        use.texture = true;
+        use.address = shader::view_key(descriptor.address, writable);
+      }
     }
     if (use.address != 0) uses.push_back(std::move(use));
   }

@@ -164,6 +164,8 @@ Id id_of(const CheckReport& r) {
       return Id::kQueryNoHit;
     case Finding::kCommitOutOfRange:
       return Id::kCommitOutOfRange;
+    case Finding::kStaleView:
+      return Id::kStaleView;
     case Finding::kPayloadMismatch:
       return r.values[2] == 0 ? Id::kPayloadMismatch : Id::kCallableMismatch;
     default:
@@ -232,6 +234,11 @@ std::string describe(const runtime::AddressMap& addresses, const CheckReport& r)
     case Finding::kCommitOutOfRange:
       return "t " + float_text(v[0]) + " is outside of TMin " + float_text(v[1]) +
              " to the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
+    case Finding::kStaleView:
+      return "element " + text_of(v[2]) + " is " + kind_name(v[1]) +
+             (v[1] == 5 ? std::string() : ", at address " + hex(v[0])) +
+             ", which was freed since; it reads as a null descriptor. Write the slot again, or "
+             "keep the resource";
     default:
       return "a finding of an unknown kind";
   }

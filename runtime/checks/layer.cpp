@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/checks/layer.h"
 
+#include <array>
 #include <cstring>
 #include <set>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
+#include "runtime/indirect.h"
 #include "runtime/structure_commands.h"
 
 namespace kaamos::checks {
@@ -40,9 +42,56 @@ class Hash {
   uint64_t state_ = 0xCBF29CE484222325u;
 };
 
+struct NamedTable {
+  const char* name;
+  rtapi::GpuVirtualAddressRangeAndStride range;
+};
+std::array<NamedTable, 4> tables_of(const rtapi::DispatchRaysDesc& desc) {
+  const auto& first = desc.RayGenerationShaderRecord;
+  return {{{"ray generation record", {first.StartAddress, first.SizeInBytes, 0}},
+           {"miss table", desc.MissShaderTable},
+           {"hit group table", desc.HitGroupTable},
+           {"callable table", desc.CallableShaderTable}}};
+}
+
+const char* layout_of(const runtime::LinkedShader& shader) {
+  const char* layout = shader.code->attribute_layout;
+  return layout == nullptr ? "" : layout;
+}
+
 }  // namespace
 
+// Sizes that disagree are refused when the state object is made; types of one size are only seen
+// here. [DXR: Intersection attributes structure]
+void Layer::created(const runtime::LinkedPipeline& pipeline) {
+  identifiers_.add(pipeline);
+  for (const auto& record : pipeline.records) {
+    const runtime::LinkedShader* first = nullptr;
+    for (const runtime::LinkedShader* shader :
+         {record->intersection, record->any_hit, record->closest_hit}) {
+      if (shader == nullptr || shader->code == nullptr || shader->code->attribute_type == 0) {
+        continue;
+      }
+      if (first == nullptr) first = shader;
+      if (first->code->attribute_type == shader->code->attribute_type) continue;
+      const auto with = [](const runtime::LinkedShader& s) {
+        const std::string layout = layout_of(s);
+        return std::string(stage_name(s.stage)) + " shader " + quoted(s.name) +
+               (s.code->attribute_type == 1 ? " reports hits with several types"
+                : layout.empty()            ? ""
+                                            : " (" + layout + ")");
+      };
+      reporter_.report(Id::kAttributeMismatch,
+                       "hit group " + quoted(record->name) + ": the attributes of " + with(*first) +
+                           " and of " + with(*shader) +
+                           " are of other scalars. All shaders of a hit group must use one type.");
+      break;
+    }
+  }
+}
+
 void Layer::before(const runtime::Command& command, const std::string& label) {
+  labels_.push_back(label);
   reporter_.begin(label);
   hazards_.begin_command(label);
   std::visit([this](const auto& c) { check(c); }, command);
@@ -53,12 +102,91 @@ void Layer::after(const runtime::Command& command, bool succeeded) {
   instances_.clear();
   contents_.clear();
   reporter_.end();
+  labels_.pop_back();
+  if (!labels_.empty()) reporter_.begin(labels_.back());
 }
 
 bool Layer::needs_memory(const runtime::Command& command) const {
-  return std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
-         std::holds_alternative<runtime::DispatchCommand>(command) ||
+  return needs_memory_after(command) || std::holds_alternative<runtime::DispatchCommand>(command) ||
          std::holds_alternative<runtime::BuildCommand>(command);
+}
+
+bool Layer::needs_memory_after(const runtime::Command& command) const {
+  return std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
+         std::holds_alternative<runtime::ExecuteIndirectCommand>(command);
+}
+
+void Layer::keep_tables(const rtapi::DispatchRaysDesc& desc) {
+  for (const auto& [name, range] : tables_of(desc)) {
+    if (range.SizeInBytes == 0 || !addresses_.contains(range.StartAddress, range.SizeInBytes)) {
+      continue;
+    }
+    Hash hash;
+    hash.add(addresses_.host(range.StartAddress), range.SizeInBytes);
+    used_tables_.push_back({name, range.StartAddress, range.SizeInBytes, hash.value()});
+  }
+}
+
+void Layer::hold_tables() {
+  if (labels_.size() > 1) return;  // with the whole ExecuteIndirect
+  for (const UsedTable& table : used_tables_) {
+    if (!addresses_.contains(table.address, table.size_bytes)) continue;
+    Hash hash;
+    hash.add(addresses_.host(table.address), table.size_bytes);
+    if (hash.value() == table.hash) continue;
+    reporter_.report(Id::kTableWritten,
+                     std::string("the ") + table.name + " is " +
+                         range_name(addresses_, table.address, table.size_bytes) +
+                         ", and these bytes are others now than when the command began. Write "
+                         "tables in a command before, and put a barrier between the two.");
+  }
+  used_tables_.clear();
+}
+
+void Layer::check(const runtime::ExecuteIndirectCommand& command) {
+  used_tables_.clear();
+  hazards_.use(command.arguments->address(), ResourceStates::kIndirectArgument,
+               "the buffer of indirect arguments");
+  if (command.count != nullptr) {
+    hazards_.use(command.count->address(), ResourceStates::kIndirectArgument, "the count");
+  }
+  // What is wrong with the arguments is told when they are used.
+  (void)runtime::execute_indirect(
+      addresses_, command, label(), [&](const runtime::Command& dispatch, uint32_t) {
+        const auto* rays = std::get_if<runtime::DispatchRaysCommand>(&dispatch);
+        if (rays != nullptr) keep_tables(rays->desc);
+        return rtapi::Status();
+      });
+}
+
+void Layer::reached(const runtime::Command& command, std::span<const runtime::ReachedFrom> calls) {
+  const auto* rays = std::get_if<runtime::DispatchRaysCommand>(&command);
+  if (rays == nullptr) {
+    for (const auto& [shader, call] : calls) {
+      if (call.acceleration_structure == 0) continue;
+      check_top_level(inputs(), call.acceleration_structure,
+                      "compute shader " + quoted(shader->name));
+    }
+    return;
+  }
+  if (rays->linked == nullptr) return;
+  uint64_t all = 0;  // in any order
+  for (const auto& [shader, call] : calls) {
+    Hash hash;
+    hash.add(reinterpret_cast<uintptr_t>(shader));
+    hash.add(reinterpret_cast<const uint8_t*>(&call), sizeof(call));
+    all += hash.value();
+  }
+  Hash key;
+  key.add(proof_key(*rays));
+  key.add(all);
+  if (const auto it = proven_.find(key.value()); it != proven_.end()) return check_uses(it->second);
+  std::vector<ShaderUse> uses;
+  const bool good = prove_reached(inputs(), *rays, calls, uses);
+  check_uses(uses);
+  if (!good) return;
+  if (proven_.size() >= kMostProven) proven_.clear();
+  proven_[key.value()] = std::move(uses);
 }
 
 uint64_t Layer::proof_key(const runtime::DispatchRaysCommand& command) const {
@@ -74,13 +202,7 @@ uint64_t Layer::proof_key(const runtime::DispatchRaysCommand& command) const {
     hash.add(heap->host(), heap->size_bytes());
   }
   const rtapi::DispatchRaysDesc& desc = command.desc;
-  const auto& first = desc.RayGenerationShaderRecord;
-  const rtapi::GpuVirtualAddressRangeAndStride tables[] = {
-      {first.StartAddress, first.SizeInBytes, 0},
-      desc.MissShaderTable,
-      desc.HitGroupTable,
-      desc.CallableShaderTable};
-  for (const auto& table : tables) {
+  for (const auto& [name, table] : tables_of(desc)) {
     hash.add(table.StartAddress);
     hash.add(table.SizeInBytes);
     hash.add(table.StrideInBytes);
@@ -95,6 +217,10 @@ uint64_t Layer::proof_key(const runtime::DispatchRaysCommand& command) const {
 void Layer::check(const runtime::DispatchRaysCommand& command) {
   if (command.linked == nullptr) return;
   const auto& desc = command.desc;
+  if (labels_.size() == 1) {
+    used_tables_.clear();
+    keep_tables(desc);
+  }
   for (const uint64_t table :
        {desc.RayGenerationShaderRecord.StartAddress, desc.MissShaderTable.StartAddress,
         desc.HitGroupTable.StartAddress, desc.CallableShaderTable.StartAddress}) {
@@ -113,6 +239,10 @@ void Layer::check(const runtime::DispatchRaysCommand& command) {
 void Layer::check_uses(const std::vector<ShaderUse>& uses) {
   std::set<uint64_t> levels;
   for (const ShaderUse& use : uses) {
+    if (use.texture) {
+      textures_.use_view(use.address, use.state, use.what, label());
+      continue;
+    }
     if (!use.structure) {
       hazards_.use(use.address, use.state, use.what);
       continue;
@@ -233,6 +363,15 @@ void Layer::check(const runtime::CopyBufferCommand& command) {
 }
 
 void Layer::check(const runtime::CopyTextureCommand& command) {
+  if (command.any_state) return;
+  if (command.source.texture != nullptr) {
+    textures_.use(command.source.texture.get(), ResourceStates::kCopySource,
+                  "the texture copy's source", label());
+  }
+  if (command.dest.texture != nullptr) {
+    textures_.use(command.dest.texture.get(), ResourceStates::kCopyDest,
+                  "the texture copy's destination", label());
+  }
   if (command.source.buffer != nullptr) {
     hazards_.use(command.source.buffer->address(), ResourceStates::kCopySource,
                  "the texture copy's source");
@@ -241,6 +380,14 @@ void Layer::check(const runtime::CopyTextureCommand& command) {
     hazards_.use(command.dest.buffer->address(), ResourceStates::kCopyDest,
                  "the texture copy's destination");
   }
+}
+
+void Layer::check(const runtime::ClearUavCommand& command) {
+  if (command.view.kind == shader::DescriptorKind::kTexture) {
+    return textures_.use_view(shader::view_key(command.view.address, true),
+                              ResourceStates::kUnorderedAccess, "the view to clear", label());
+  }
+  hazards_.use(command.view.address, ResourceStates::kUnorderedAccess, "the view to clear");
 }
 
 void Layer::note(const runtime::BuildCommand& command) {

@@ -15,6 +15,7 @@
 #include "runtime/checks/report.h"
 #include "runtime/checks/structures.h"
 #include "runtime/checks/table_proof.h"
+#include "runtime/checks/texture_states.h"
 
 namespace kaamos::checks {
 
@@ -24,27 +25,40 @@ class Layer : public runtime::CommandObserver {
       : addresses_(addresses),
         reporter_(reporter),
         structures_(addresses),
-        hazards_(addresses, reporter) {}
+        hazards_(addresses, reporter),
+        textures_(reporter) {}
 
   // A state object was made.
-  void created(const runtime::LinkedPipeline& pipeline) { identifiers_.add(pipeline); }
+  void created(const runtime::LinkedPipeline& pipeline);
+  TextureStates& textures() { return textures_; }
 
   // The next commands are those of another list.
-  void begin_list() { hazards_.begin_list(); }
+  void begin_list() {
+    hazards_.begin_list();
+    textures_.begin_list();
+  }
 
   void before(const runtime::Command& command, const std::string& label) override;
   void after(const runtime::Command& command, bool succeeded) override;
   bool needs_memory(const runtime::Command& command) const override;
+  bool needs_memory_after(const runtime::Command& command) const override;
+  void reached(const runtime::Command& command,
+               std::span<const runtime::ReachedFrom> calls) override;
 
  private:
   void check(const runtime::DispatchRaysCommand& command);
   void check(const runtime::DispatchCommand& command);
+  void check(const runtime::ExecuteIndirectCommand& command);
   void check(const runtime::BuildCommand& command);
   void check(const runtime::EmitPostbuildInfoCommand& command);
   void check(const runtime::CopyAccelerationStructureCommand& command);
   void check(const runtime::CopyBufferCommand& command);
   void check(const runtime::CopyTextureCommand& command);
-  void check(const runtime::BarrierCommand& command) { hazards_.barrier(command); }
+  void check(const runtime::ClearUavCommand& command);
+  void check(const runtime::BarrierCommand& command) {
+    hazards_.barrier(command);
+    textures_.barrier(command, label());
+  }
   template <class T>
   void check(const T&) {}
 
@@ -53,12 +67,19 @@ class Layer : public runtime::CommandObserver {
   void note(const runtime::CopyBufferCommand& command);
   void note(const runtime::CopyTextureCommand& command);
   void note(const runtime::ClearUavCommand& command);
+  void note(const runtime::DispatchRaysCommand&) { hold_tables(); }
+  void note(const runtime::ExecuteIndirectCommand&) { hold_tables(); }
   template <class T>
   void note(const T&) {}
 
   // Order and states of what shaders use.
   void check_uses(const std::vector<ShaderUse>& uses);
   uint64_t bytes_at(uint64_t address) const;  // of the structure there
+
+  // Tables stay as they are while they are used.
+  void keep_tables(const rtapi::DispatchRaysDesc& desc);
+  void hold_tables();
+  const std::string& label() const { return labels_.back(); }
 
   // What a proof depended on: while it is the same, a table that was proven stays proven.
   uint64_t proof_key(const runtime::DispatchRaysCommand& command) const;
@@ -68,10 +89,19 @@ class Layer : public runtime::CommandObserver {
   Reporter& reporter_;
   Structures structures_;
   Hazards hazards_;
+  TextureStates textures_;
   Identifiers identifiers_;
   std::vector<GeometryContents> contents_;                // of the build under way
   std::vector<rtapi::RaytracingInstanceDesc> instances_;  // of the build under way
   std::unordered_map<uint64_t, std::vector<ShaderUse>> proven_;
+  std::vector<std::string> labels_;  // of the command, and of the ExecuteIndirect around it
+  struct UsedTable {
+    const char* name = "";
+    uint64_t address = 0;
+    uint64_t size_bytes = 0;
+    uint64_t hash = 0;
+  };
+  std::vector<UsedTable> used_tables_;
 };
 
 }  // namespace kaamos::checks

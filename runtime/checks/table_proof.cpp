@@ -83,6 +83,15 @@ class Proof {
 
   bool run() {
     reach(RecordKind::kRayGeneration, 0, {});
+    return follow_all();
+  }
+  bool run(std::span<const runtime::ReachedFrom> calls) {
+    for (const runtime::ReachedFrom& each : calls) reach_from(each);
+    return follow_all();
+  }
+
+ private:
+  bool follow_all() {
     while (!pending_.empty()) {
       const auto [shader, record] = pending_.back();
       pending_.pop_back();
@@ -91,7 +100,6 @@ class Proof {
     return good_;
   }
 
- private:
   struct Table {
     const char* name = "";
     rtapi::GpuVirtualAddressRangeAndStride range = {};
@@ -149,6 +157,8 @@ class Proof {
              const std::string& where, const std::string& reason);
   void follow(const LinkedShader& shader, const Arguments& arguments);
   void follow_ray(const LinkedShader& shader, const TraceCall& call, const Arguments& arguments);
+  void reach_from(const runtime::ReachedFrom& from);
+  void reach_hits(uint64_t scene, Reason reason);
 
   const ProofInputs& inputs_;
   const runtime::DispatchRaysCommand& command_;
@@ -355,29 +365,60 @@ void Proof::follow_ray(const LinkedShader& shader, const TraceCall& call,
       scenes.push_back(address);
     }
   }
-  for (const uint64_t scene : scenes) {
-    StructureState state;
-    const TrackedStructure* top = inputs_.structures.find(scene, state);
-    if (top == nullptr || state != StructureState::kAlive || !top->top) continue;
-    for (uint32_t i = 0; i < top->instances.size(); ++i) {
-      const TrackedInstance& instance = top->instances[i];
-      if ((instance.mask & call.mask) == 0 || instance.version == 0) continue;
-      const TrackedStructure* level = inputs_.structures.find(instance.bottom_level, state);
-      if (level == nullptr || level->version != instance.version || level->top) continue;
-      reason.instance = i;
-      reason.contribution = instance.contribution;
-      for (uint32_t g = 0; g < level->geometries.size(); ++g) {
-        const runtime::GeometryShape& shape = level->geometries[g];
-        if (!reaches(call, instance, shape, static_cast<uint32_t>(linked_.flags))) continue;
-        reason.geometry = g;
-        reason.procedural = shape.type == rtapi::RaytracingGeometryType::kProceduralPrimitiveAabbs;
-        reach(
-            RecordKind::kHitGroup,
+  for (const uint64_t scene : scenes) reach_hits(scene, reason);
+}
+
+// The hit records that a ray of `reason` can reach in a top level.
+void Proof::reach_hits(uint64_t scene, Reason reason) {
+  const TraceCall& call = *reason.call;
+  StructureState state;
+  const TrackedStructure* top = inputs_.structures.find(scene, state);
+  if (top == nullptr || state != StructureState::kAlive || !top->top) return;
+  for (uint32_t i = 0; i < top->instances.size(); ++i) {
+    const TrackedInstance& instance = top->instances[i];
+    if ((instance.mask & call.mask) == 0 || instance.version == 0) continue;
+    const TrackedStructure* level = inputs_.structures.find(instance.bottom_level, state);
+    if (level == nullptr || level->version != instance.version || level->top) continue;
+    reason.instance = i;
+    reason.contribution = instance.contribution;
+    for (uint32_t g = 0; g < level->geometries.size(); ++g) {
+      const runtime::GeometryShape& shape = level->geometries[g];
+      if (!reaches(call, instance, shape, static_cast<uint32_t>(linked_.flags))) continue;
+      reason.geometry = g;
+      reason.procedural = shape.type == rtapi::RaytracingGeometryType::kProceduralPrimitiveAabbs;
+      reach(RecordKind::kHitGroup,
             uint64_t{instance.contribution} + uint64_t{call.multiplier} * g + call.ray_contribution,
             reason);
-      }
     }
   }
+}
+
+void Proof::reach_from(const runtime::ReachedFrom& from) {
+  const shader::ReachedCall& reached = from.call;
+  Reason reason;
+  reason.shader = from.shader;
+  if (reached.by == shader::ReachedBy::kCallShader) {
+    reason.callable = reached.indices;
+    return reach(RecordKind::kCallable, reached.indices, reason);
+  }
+  const uint64_t scene = reached.acceleration_structure;
+  if (scene != 0 && structures_.insert(scene).second &&
+      !check_top_level(inputs_, scene, shader_name(*from.shader))) {
+    good_ = false;
+  }
+  if (reached.by != shader::ReachedBy::kTraceRay) return;
+  const uint32_t file = reached.site >> 20;
+  TraceCall call = {};
+  call.ray_flags = reached.ray_flags;
+  call.mask = reached.indices & 0xFFu;
+  call.ray_contribution = reached.indices >> 8 & 15u;
+  call.multiplier = reached.indices >> 12 & 15u;
+  call.miss_index = reached.indices >> 16;
+  call.line = reached.site & 0xFFFFFu;
+  call.file = file < from.shader->library->file_count ? from.shader->library->files[file] : "";
+  reason.call = &call;
+  reach(RecordKind::kMiss, call.miss_index, reason);
+  reach_hits(scene, reason);
 }
 
 }  // namespace
@@ -385,6 +426,11 @@ void Proof::follow_ray(const LinkedShader& shader, const TraceCall& call,
 bool prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
                   std::vector<ShaderUse>& uses) {
   return Proof(inputs, command, uses).run();
+}
+
+bool prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
+                   std::span<const runtime::ReachedFrom> calls, std::vector<ShaderUse>& uses) {
+  return Proof(inputs, command, uses).run(calls);
 }
 
 bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // The shader tables of a dispatch, proven before it runs: which records any instance, geometry and
-// ray type can reach, and whether each holds what it must. Of a TraceRay whose arguments are not
-// constants nothing is known ahead; the backends say what such a ray meets (KA0894-0896).
-// [DXR: Shader tables; Hit group table indexing]
+// ray type can reach, and whether each holds what it must. Every ray counts as able to miss, and to
+// meet each geometry that its mask and flags let through. A TraceRay whose arguments are not
+// constants is proven when it has run, of each set of arguments that checked code gave it. [DXR:
+// Shader tables; Hit group table indexing]
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,10 +26,11 @@ struct ProofInputs {
   Reporter& reporter;
 };
 
-// A buffer or structure that a reached shader can read or write.
+// A buffer, texture or structure that a reached shader can read or write.
 struct ShaderUse {
   uint64_t address = 0;
   bool structure = false;
+  bool texture = false;                                          // `address` is a shader::view_key
   rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;  // of buffers
   std::string what;  // "miss shader \"Miss\", t1 \"sky\""
 };
@@ -35,6 +38,10 @@ struct ShaderUse {
 // Reports what is wrong; true if nothing is. Adds what the reached shaders use to `uses`.
 bool prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
                   std::vector<ShaderUse>& uses);
+
+// The same of calls whose arguments are no constants, when they have run.
+bool prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
+                   std::span<const runtime::ReachedFrom> calls, std::vector<ShaderUse>& uses);
 
 // The structure behind one acceleration structure binding: stands there, is a top level, is not
 // stale. `user` says who traces: "ray generation shader \"RayGen\", t0 \"scene\"". False: reported.

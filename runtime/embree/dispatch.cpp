@@ -165,6 +165,7 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   DispatchResult result;
   const std::lock_guard lock(dispatch.mutex);
   result.counters = dispatch.counters;
+  result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
     result.warnings.push_back(
         {"KA0894", "rays were traced against address " + std::to_string(address) +

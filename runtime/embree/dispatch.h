@@ -33,6 +33,7 @@ struct DispatchResult {
     std::string text;
   };
   std::vector<Warning> warnings;
+  std::vector<runtime::ReachedFrom> reached = {};  // on checked devices
 };
 
 // Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.

@@ -63,18 +63,23 @@ class Executor {
   rtapi::Status finish(DispatchResult result);
 
   Device& device_;
+  const runtime::Command* running_ = nullptr;
   size_t index_ = 0;
   std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
 };
 
 rtapi::Status Executor::finish(DispatchResult result) {
+  if (auto* observer = device_.context().observer; observer != nullptr && !result.reached.empty()) {
+    observer->reached(*running_, result.reached);
+  }
   device_.add_counters(result.counters);
   for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
   return std::move(result.status);
 }
 
 rtapi::Status Executor::run(const runtime::Command& command) {
+  running_ = &command;
   runtime::CommandObserver* observer = device_.context().observer;
   if (observer != nullptr) observer->before(command, label(runtime::command_name(command)));
   auto status = std::visit(*this, command);

@@ -2,6 +2,8 @@
 #include "runtime/embree/services.h"
 
 #include <atomic>
+#include <iterator>
+#include <mutex>
 
 #include "runtime/backend.h"
 #include "runtime/checks/code_findings.h"
@@ -44,6 +46,29 @@ void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArgum
   trace_ray(invocation, arguments, payload, origin_t_min, direction_t_max);
 }
 
+constexpr size_t kMostReached = 1024;
+
+void reached(shader::Invocation& invocation, const shader::ReachedCall& call) {
+  Worker& worker = worker_of(invocation);
+  DispatchState& dispatch = *worker.dispatch;
+  if (dispatch.context == nullptr || worker.running == nullptr) return;
+  uint64_t hash = reinterpret_cast<uintptr_t>(worker.running->linked);
+  for (const uint64_t part :
+       {call.acceleration_structure, uint64_t{call.site} << 2 | static_cast<uint64_t>(call.by),
+        uint64_t{call.ray_flags} << 32 | call.indices}) {
+    hash = (hash ^ part) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  }
+  hash |= uint64_t{1} << 63;
+  uint64_t& late = worker.reached_hashes[hash % std::size(worker.reached_hashes)];
+  if (late == hash) return;
+  late = hash;
+  const std::lock_guard lock(dispatch.mutex);
+  if (dispatch.reached.size() >= kMostReached) return;
+  if (!dispatch.reached_hashes.insert(hash).second) return;
+  dispatch.reached.push_back({worker.running->linked, call});
+}
+
 shader::Services make_services() {
   shader::Services table = {};
   table.trace_ray = trace_ray;
@@ -54,6 +79,7 @@ shader::Services make_services() {
   table.group_barrier = group_barrier;
   table.remove_device = remove;
   table.report = report;
+  table.reached = reached;
   shader::set_texture_services(table);
   return table;
 }

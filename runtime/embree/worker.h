@@ -11,9 +11,11 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "kaamos/shader/abi.h"
+#include "runtime/backend.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::runtime {
@@ -84,6 +86,8 @@ struct DispatchState {
   std::mutex mutex;                             // guards the members below
   Removal removal;
   Counters counters;
+  std::vector<runtime::ReachedFrom> reached;  // each once, by hash
+  std::unordered_set<uint64_t> reached_hashes;
 };
 
 struct Worker {
@@ -101,6 +105,7 @@ struct Worker {
   int fault_signal = 0;
   uintptr_t fault_address = 0;
   Counters counters;
+  uint64_t reached_hashes[64] = {};  // of late, by the low bits of the hash
 };
 
 inline Worker& worker_of(const shader::Invocation& invocation) {

@@ -24,6 +24,10 @@ Access access_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
 // Equal for types of the same scalars in the same order, whatever their names.
 // [DXR: payload and callable types must match]
+// Of two reported types: 0 is none, 1 several.
+constexpr uint32_t joined_type(uint32_t a, uint32_t b) {
+  return a == 0 || a == b ? b : b == 0 ? a : 1;
+}
 uint32_t type_hash(const ir::Type* type);
 
 // What the descriptor of a resource must be.

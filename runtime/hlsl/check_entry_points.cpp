@@ -5,6 +5,7 @@
 
 #include "checker.h"
 #include "mangle.h"
+#include "runtime/hlsl/check_access.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -180,6 +181,7 @@ bool Checker::check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry
       entry.parameters.push_back(ir::EntryParameter::kAttributes);
       entry.attributes = parameter.type->ir;
       entry.attribute_bytes = bytes;
+      entry.attribute_type = type_hash(entry.attributes);
       if (bytes > 32) {
         report(CheckId::kAttributeSize, location,
                {to_string(parameter.type), std::to_string(bytes)});

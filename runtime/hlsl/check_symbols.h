@@ -114,6 +114,7 @@ struct FunctionInfo {
   bool calls_shader = false;
   bool ends_shader = false;
   uint32_t reported_bytes = 0;  // the largest attributes that it gives to ReportHit
+  uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
   bool has_barrier = false;
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;

@@ -448,7 +448,7 @@ void CppEmitter::emit_tables() {
                                     : ", nullptr, 0u") +
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
-         quote(value_layout(e.attributes)) + "},");
+         quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) + "},");
   }
   for (size_t i = 0; i < module_.library_functions.size(); ++i) {
     const LibraryFunction& f = module_.library_functions[i];

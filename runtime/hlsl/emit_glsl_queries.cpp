@@ -5,6 +5,7 @@
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -110,8 +111,11 @@ std::string GlslEmitter::query_trace_function() {
       "void g_query_trace(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
       "mask, " +
           ray + " ray" +
-          (module_.check_access ? ", uint site) {\n  k_check_ray(" + origin + ", " + t_min + ", " +
-                                      direction + ", " + t_max + ", flags, true, site);\n"
+          (module_.check_access ? ", uint site, bool unknown) {\n  if (unknown) "
+                                  "k_reached(1u, site, k_structure_of(scene), flags, mask & "
+                                  "0xFFu);\n  k_check_ray(" +
+                                      origin + ", " + t_min + ", " + direction + ", " + t_max +
+                                      ", flags, true, site);\n"
                                 : std::string(") {\n")) +
           "  s = g_Query(5u, flags & 0x3FFu, " + t_min + ", " + t_max + ", " + origin + ", " +
           direction +
@@ -140,7 +144,9 @@ void GlslEmitter::query(const Stmt& stmt) {
       for (const Expr* operand : stmt.operands) {
         text += ", " + value(operand);
       }
-      if (module_.check_access) text += ", " + site(stmt.location);
+      if (module_.check_access) {
+        text += ", " + site(stmt.location) + (is_unknown(module_, stmt) ? ", true" : ", false");
+      }
       return line(text + ");");
     }
     case QueryOp::kProceed:

@@ -7,6 +7,7 @@
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/glsl_emitter.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -241,9 +242,13 @@ std::string GlslEmitter::trace_function(const Type* payload) {
       "void " + function +
       "(k_Descriptor scene, uint flags, uint mask, uint contribution, uint multiplier, "
       "uint miss, " +
-      ray + " ray, inout " + type(payload) + " payload" + (checked ? ", uint site" : "") + ") {\n" +
+      ray + " ray, inout " + type(payload) + " payload" +
+      (checked ? ", uint site, bool unknown" : "") + ") {\n" +
       (checked
-           ? "  k_check_ray(" + member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) +
+           ? "  if (unknown) k_reached(0u, site, k_structure_of(scene), flags, (mask & 0xFFu) | "
+             "(contribution & 15u) << 8 | (multiplier & 15u) << 12 | miss << 16);\n"
+             "  k_check_ray(" +
+                 member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) +
                  ", flags, false, site);\n"
                  "  k_check_depth(g_depths & 0xFFFFu, site);\n" +
                  header(out, payload)
@@ -281,7 +286,10 @@ void GlslEmitter::trace_ray(const Stmt& stmt) {
   std::string text = call(function, stmt.operands);
   text.pop_back();
   line(text + ", " + path(stmt.place).text +
-       (module_.check_access ? ", " + site(stmt.location) : "") + ");");
+       (module_.check_access
+            ? ", " + site(stmt.location) + (is_unknown(module_, stmt) ? ", true" : ", false")
+            : "") +
+       ");");
 }
 
 std::string GlslEmitter::call_shader_function(const Type* data) {
@@ -322,6 +330,9 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
 
 void GlslEmitter::call_shader(const Stmt& stmt) {
   const std::string function = call_shader_function(stmt.place->type);
+  if (module_.check_access && is_unknown(module_, stmt)) {
+    line("k_reached(2u, " + site(stmt.location) + ", 0UL, 0u, " + value(stmt.operands[0]) + ");");
+  }
   line(function + "(" + value(stmt.operands[0]) + ", " + path(stmt.place).text + ");");
 }
 

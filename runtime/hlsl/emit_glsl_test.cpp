@@ -59,11 +59,13 @@ std::string validate(const std::vector<uint32_t>& words) {
 }
 
 // How many entry points pass; messages of those that do not.
-int sweep_file(const fs::path& path, std::string& wrong) {
+int sweep_file(const fs::path& path, bool checked, std::string& wrong) {
   DiskFileLoader loader;
   SourceManager sources(loader);
   DiagnosticEngine diagnostics;
-  const auto module = compile_to_ir(options_of(path), sources, diagnostics);
+  FrontendOptions options = options_of(path);
+  options.check_access = checked;
+  const auto module = compile_to_ir(options, sources, diagnostics);
   if (!module) {
     wrong += path.string() + ": " + render_all(diagnostics, sources);
     return 0;
@@ -81,7 +83,7 @@ int sweep_file(const fs::path& path, std::string& wrong) {
   return passed;
 }
 
-void sweep(const std::string& folder, int at_least) {
+void sweep(const std::string& folder, int at_least, bool checked = false) {
   std::vector<fs::path> files;
   for (const auto& file : fs::recursive_directory_iterator(kRoot + "/" + folder)) {
     if (file.path().extension() == ".hlsl") files.push_back(file.path());
@@ -89,7 +91,7 @@ void sweep(const std::string& folder, int at_least) {
   std::sort(files.begin(), files.end());
   int passed = 0;
   std::string wrong;
-  for (const fs::path& file : files) passed += sweep_file(file, wrong);
+  for (const fs::path& file : files) passed += sweep_file(file, checked, wrong);
   EXPECT_EQ(wrong, "");
   EXPECT_GE(passed, at_least);
 }
@@ -111,6 +113,20 @@ TEST(EmitGlsl, Examples) {
 }
 TEST(EmitGlsl, Effects) {
   sweep("effects", 4);
+}
+
+// What a checked device runs.
+TEST(EmitCheckedGlsl, Effects) {
+  sweep("effects", 40, true);
+}
+TEST(EmitCheckedGlsl, Examples) {
+  sweep("examples", 20, true);
+}
+TEST(EmitCheckedGlsl, Conformance) {
+  sweep("tests/conformance", 100, true);
+}
+TEST(EmitCheckedGlsl, CheckedCode) {
+  sweep("tests/checked_code", 20, true);
 }
 
 std::string glsl_of(const std::string& text, const std::string& entry = "main") {

@@ -3,6 +3,7 @@
 // RayQuery: its methods, and the values that it has.
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -70,9 +71,13 @@ void CppEmitter::query(const Stmt& stmt) {
   const bool checked =
       module_.check_access && stmt.query != QueryOp::kProceed && stmt.query != QueryOp::kAbort;
   std::string text = stmt.result != nullptr ? variable(stmt.result) + " = ks::" : "ks::";
-  text += std::string(checked ? "checked::" : "") + kNames[static_cast<int>(stmt.query)] + "(" +
-          (searches || checked ? "ctx.invocation, " : "") +
-          (checked ? site(stmt.location) + ", " : "") + place(stmt.place);
+  text +=
+      std::string(checked ? "checked::" : "") + kNames[static_cast<int>(stmt.query)] + "(" +
+      (searches || checked ? "ctx.invocation, " : "") +
+      (checked ? site(stmt.location) + ", " : "") +
+      (checked && stmt.query == QueryOp::kTrace ? (is_unknown(module_, stmt) ? "true, " : "false, ")
+                                                : "") +
+      place(stmt.place);
   for (const Expr* operand : stmt.operands) {
     text += ", " + value(operand);
   }

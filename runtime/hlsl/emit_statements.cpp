@@ -3,6 +3,7 @@
 // Statements: everything that has an effect.
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
 
@@ -168,7 +169,8 @@ void CppEmitter::trace_ray(const Stmt& stmt) {
   std::string text = "ks::trace_ray(ctx.invocation";
   if (module_.check_access) {
     text = "ks::checked::trace_ray(ctx.invocation, " + site(stmt.location) + ", " +
-           std::to_string(type_hash(stmt.place->type)) + "u";
+           std::to_string(type_hash(stmt.place->type)) + "u, " +
+           (is_unknown(module_, stmt) ? "true" : "false");
   }
   for (const Expr* operand : stmt.operands) {
     text += ", " + value(operand);
@@ -287,9 +289,11 @@ void CppEmitter::statement(const Stmt& stmt) {
       report_hit(stmt);
       break;
     case StmtKind::kCallShader:
-      line((module_.check_access ? "ks::checked::call_shader(ctx.invocation, " +
-                                       std::to_string(type_hash(stmt.place->type)) + "u, "
-                                 : std::string("ks::call_shader(ctx.invocation, ")) +
+      line((module_.check_access
+                ? "ks::checked::call_shader(ctx.invocation, " + site(stmt.location) + ", " +
+                      std::to_string(type_hash(stmt.place->type)) + "u, " +
+                      (is_unknown(module_, stmt) ? "true, " : "false, ")
+                : std::string("ks::call_shader(ctx.invocation, ")) +
            value(stmt.operands[0]) + ", " + place(stmt.place) + ");");
       break;
     case StmtKind::kIgnoreHit:

@@ -118,6 +118,7 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.payload_bytes = callable ? 0 : entry.payload_bytes;
   out.payload_storage_bytes = code.payload_bytes;
   out.attribute_bytes = entry.attribute_bytes;
+  out.attribute_type = entry.attribute_type;
   out.callable_data_bytes = callable ? entry.payload_bytes : 0;
   out.stack_bytes = code.code->stack_bytes + code.static_bytes;
   out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "runtime/hlsl/interpret_evaluate.h"
+#include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl::interpret {
 
@@ -120,6 +121,14 @@ void trace_ray(const Action& action, Frame& frame) {
   arguments.payload_bytes = action.place->bytes;
   const auto ray = evaluate_as<shader::RayDesc>(*operands[6], frame);
   if (frame.context->program->checked) {
+    if (is_unknown(*frame.context->program->module, *action.stmt)) {
+      using namespace shader::checked;
+      reached(invocation, shader::ReachedBy::kTraceRay, site_of(action.stmt->location),
+              structure_of(scene), arguments.ray_flags,
+              trace_indices(
+                  arguments.instance_inclusion_mask, arguments.ray_contribution_to_hit_group_index,
+                  arguments.multiplier_for_geometry_contribution, arguments.miss_shader_index));
+    }
     shader::checked::check_trace(invocation, site_of(action.stmt->location), arguments.ray_flags,
                                  ray);
   }
@@ -137,6 +146,13 @@ void run_query(const Action& action, Frame& frame) {
   const uint32_t site = site_of(action.stmt->location);
   switch (action.stmt->query) {
     case ir::QueryOp::kTrace:
+      if (checked && is_unknown(*frame.context->program->module, *action.stmt)) {
+        shader::checked::reached(
+            invocation, shader::ReachedBy::kTraceRayInline, site,
+            shader::checked::structure_of(evaluate_as<shader::Descriptor>(*operands[0], frame)),
+            evaluate_as<uint32_t>(*operands[1], frame),
+            evaluate_as<uint32_t>(*operands[2], frame) & 0xFFu);
+      }
       if (checked) {
         shader::checked::check_query_trace(invocation, site,
                                            evaluate_as<uint32_t>(*operands[1], frame),
@@ -188,6 +204,11 @@ void report_hit(const Action& action, Frame& frame) {
 void call_shader(const Action& action, Frame& frame) {
   shader::Invocation& invocation = *frame.context->invocation;
   const auto index = evaluate_as<uint32_t>(*action.operands[0], frame);
+  if (frame.context->program->checked &&
+      is_unknown(*frame.context->program->module, *action.stmt)) {
+    shader::checked::reached(invocation, shader::ReachedBy::kCallShader,
+                             site_of(action.stmt->location), 0, 0, index);
+  }
   call_with_header(action, frame, [&](void* data) {
     invocation.dispatch->services->call_shader(invocation, index, data, action.place->bytes);
   });

@@ -425,6 +425,7 @@ struct EntryPoint {
   bool unbounded_payload = false;
   uint32_t payload_bytes = 0;    // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
+  uint32_t attribute_type = 0;   // shader::ExportDesc::attribute_type
   uint32_t thread_group[3] = {1, 1, 1};
   std::vector<uint32_t> bindings;  // indices into Module::bindings that it can reach
   bool uses_view_heap = false;

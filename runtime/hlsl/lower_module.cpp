@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checker.h"
+#include "runtime/hlsl/check_access.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -17,6 +18,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
   function->visit_mark = mark;
   if (function->ir) function->ir->stages |= entry.stage;
   entry.attribute_bytes = std::max(entry.attribute_bytes, function->reported_bytes);
+  entry.attribute_type = joined_type(entry.attribute_type, function->reported_type);
   for (const StageUse& use : function->stage_uses) {
     if (use.stages & entry.stage) continue;
     if (!reported_uses_.insert({use.location.raw, entry.stage}).second) continue;

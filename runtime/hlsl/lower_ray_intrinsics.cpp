@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "checker.h"
+#include "runtime/hlsl/check_access.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -111,6 +112,9 @@ Value Checker::call_report_hit(std::vector<Value>& arguments, SourceLocation loc
   const ir::Expr* data = load(arguments[2]);
   if (!t || !kind || !data) return error_value();
   at(location);
+  if (function_) {
+    function_->reported_type = joined_type(function_->reported_type, type_hash(data->type));
+  }
   const ir::Variable* result = empty_temporary(types_.boolean()->ir);
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kReportHit);
   statement->operands = {t, kind, data};

@@ -169,7 +169,36 @@ class Walk {
   uint32_t calls_ = 0;
 };
 
+bool is_constant(const Expr& expr) {
+  switch (expr.kind) {
+    case ExprKind::kZero:
+    case ExprKind::kLiteral:
+      return true;
+    case ExprKind::kConvert:
+      return is_constant(*expr.operands[0]);
+    case ExprKind::kVariable:
+      return expr.variable->storage == Storage::kConstant;
+    case ExprKind::kBinary:
+      return is_constant(*expr.operands[0]) && is_constant(*expr.operands[1]);
+    default:
+      return false;
+  }
+}
+
 }  // namespace
+
+bool is_unknown(const Module& module, const Stmt& call) {
+  if (call.kind == StmtKind::kCallShader) return !is_constant(*call.operands[0]);
+  const Expr& scene = *call.operands[0];
+  const bool direct = scene.kind == ExprKind::kBinding && !module.bindings[scene.index].is_array;
+  if (!direct) return true;
+  // Queries reach no records.
+  if (call.kind == StmtKind::kQuery) return false;
+  for (size_t i = 1; i <= 5; ++i) {
+    if (!is_constant(*call.operands[i])) return true;
+  }
+  return false;
+}
 
 ReachedCalls collect_calls(const Module& module, const EntryPoint& entry) {
   Walk walk(module);

@@ -20,4 +20,9 @@ struct ReachedCalls {
 // Equal ones stand once. File names point into the module.
 ReachedCalls collect_calls(const ir::Module& module, const ir::EntryPoint& entry);
 
+// Whether something of a TraceRay, CallShader or TraceRayInline is no constant of the function that
+// holds it: where its structure stands, its flags, mask or indices. Then checked code tells of it
+// when it runs.
+bool is_unknown(const ir::Module& module, const ir::Stmt& call);
+
 }  // namespace kaamos::hlsl

@@ -29,6 +29,10 @@ struct Node {
 static_assert(sizeof(Node) == 56);
 
 constexpr float kRelativePadding = 1e-6f;
+// Further out than so many of its own sizes a tree is left alone: the padding would be large beside
+// its triangles, and the driver's triangle test, which rounds in world units, is then the larger
+// fault: with more candidates it finds more wrong hits.
+constexpr float kMostSizesOut = 100;
 
 template <typename T>
 T read(std::span<const uint8_t> bytes, uint64_t offset) {
@@ -78,10 +82,13 @@ bool pad_boxes(std::span<uint8_t> structure, uint64_t leaves) {
     return false;
   }
   float largest = 0;
+  float size = 0;
   for (int i = 0; i < 3; ++i) {
     largest =
         std::max({largest, std::fabs(header.bounds.lower[i]), std::fabs(header.bounds.upper[i])});
+    size = std::max(size, header.bounds.upper[i] - header.bounds.lower[i]);
   }
+  if (largest > kMostSizesOut * size) return true;
   const float padding = kRelativePadding * largest;
   for (uint64_t n = 0; n < inner_nodes; ++n) {
     const uint64_t offset = sizeof(Header) + n * sizeof(Node);

@@ -13,9 +13,12 @@ namespace {
 using shader::spirv::CheckEntry;
 using shader::spirv::CheckState;
 using shader::spirv::kCheckEntries;
+using shader::spirv::kReachedEntries;
+using shader::spirv::ReachedEntry;
 
 constexpr uint64_t kEntriesAt = 64;
-constexpr uint64_t kRangesAt = kEntriesAt + kCheckEntries * sizeof(CheckEntry);
+constexpr uint64_t kReachedAt = kEntriesAt + kCheckEntries * sizeof(CheckEntry);
+constexpr uint64_t kRangesAt = kReachedAt + kReachedEntries * sizeof(ReachedEntry);
 
 bool is_checked(const DispatchEnvironment& environment) {
   return environment.context != nullptr && environment.context->reporter != nullptr;
@@ -33,18 +36,21 @@ rtapi::Result<uint64_t> begin_checks(const DispatchEnvironment& environment,
   const uint64_t address = (*buffer)->address();
   uint8_t* host = (*buffer)->host();
   const CheckState state = {address + kRangesAt, address + kEntriesAt,
-                            static_cast<uint32_t>(ranges.size()), max_recursion_depth};
+                            static_cast<uint32_t>(ranges.size()), max_recursion_depth,
+                            address + kReachedAt};
   std::memset(host, 0, kRangesAt);
   std::memcpy(host, &state, sizeof(state));
   if (range_bytes != 0) std::memcpy(host + kRangesAt, ranges.data(), range_bytes);
   return address;
 }
 
-void tell_checks(const DispatchEnvironment& environment,
-                 std::span<const runtime::LinkedShader* const> shaders, checks::CodePlace place) {
-  if (!is_checked(environment)) return;
+std::vector<runtime::ReachedFrom> tell_checks(const DispatchEnvironment& environment,
+                                              std::span<const runtime::LinkedShader* const> shaders,
+                                              checks::CodePlace place) {
+  std::vector<runtime::ReachedFrom> out;
+  if (!is_checked(environment)) return out;
   auto buffer = environment.checks->get(environment.stream->gpu(), kRangesAt);
-  if (!buffer) return;
+  if (!buffer) return out;
   for (uint32_t i = 0; i < kCheckEntries; ++i) {
     CheckEntry entry;
     std::memcpy(&entry, (*buffer)->host() + kEntriesAt + i * sizeof(entry), sizeof(entry));
@@ -55,6 +61,13 @@ void tell_checks(const DispatchEnvironment& environment,
     checks::report_finding(*environment.context->reporter, *environment.context->addresses, place,
                            entry.report, std::max(entry.count, 1u));
   }
+  for (uint32_t i = 0; i < kReachedEntries; ++i) {
+    ReachedEntry entry;
+    std::memcpy(&entry, (*buffer)->host() + kReachedAt + i * sizeof(entry), sizeof(entry));
+    if (entry.key == 0 || entry.shader - 1 >= shaders.size()) continue;
+    out.push_back({shaders[entry.shader - 1], entry.call});
+  }
+  return out;
 }
 
 }  // namespace kaamos::vulkan

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
+#include "runtime/backend.h"
 #include "runtime/checks/code_findings.h"
 #include "runtime/vulkan/dispatch.h"
 
@@ -15,7 +17,9 @@ namespace kaamos::vulkan {
 rtapi::Result<uint64_t> begin_checks(const DispatchEnvironment& environment,
                                      uint32_t max_recursion_depth);
 // When it has run. `shaders`: by kShaderConstant - 1; of `place` all but shader and index counts.
-void tell_checks(const DispatchEnvironment& environment,
-                 std::span<const runtime::LinkedShader* const> shaders, checks::CodePlace place);
+// Returns what was reached that was not known before.
+std::vector<runtime::ReachedFrom> tell_checks(const DispatchEnvironment& environment,
+                                              std::span<const runtime::LinkedShader* const> shaders,
+                                              checks::CodePlace place);
 
 }  // namespace kaamos::vulkan

@@ -19,7 +19,7 @@ GridLimits limits_of(const Gpu& gpu) {
 }
 
 rtapi::Status run(const DispatchEnvironment& environment, const runtime::DispatchCommand& command,
-                  const std::string& label) {
+                  const std::string& label, std::vector<runtime::ReachedFrom>& reached) {
   CommandStream& stream = *environment.stream;
   Gpu& gpu = stream.gpu();
   if (auto s = stream.flush(); !s) return s;
@@ -47,7 +47,7 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
   checks::CodePlace place;
   std::copy(command.groups, command.groups + 3, place.dimensions);
   const runtime::LinkedShader* const shader = &pipeline.shader();
-  tell_checks(environment, {&shader, 1}, place);
+  reached = tell_checks(environment, {&shader, 1}, place);
   return status;
 }
 
@@ -55,7 +55,9 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
 
 DispatchResult dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label) {
-  return {run(environment, command, label), {}};
+  DispatchResult result;
+  result.status = run(environment, command, label, result.reached);
+  return result;
 }
 
 }  // namespace kaamos::vulkan

@@ -259,7 +259,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   place.dimensions[1] = desc.Height;
   place.dimensions[2] = desc.Depth;
   place.tables = &desc;
-  tell_checks(environment_, pipeline_.stage_shaders(), place);
+  result_.reached = tell_checks(environment_, pipeline_.stage_shaders(), place);
   warn_of_structure();
   return status;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/backend.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/dispatch_split.h"
@@ -55,6 +56,7 @@ struct DispatchResult {
   // Where the device collects them. A miss without a miss shader counts as a hit: only shaders can
   // count.
   rtapi::RaytracingStatistics statistics;
+  std::vector<runtime::ReachedFrom> reached = {};  // on checked devices
 };
 
 // `label` names the dispatch in messages.

@@ -73,21 +73,30 @@ class Executor {
     return indirect_ ? runtime::indirect_label(what, *indirect_, text) : text;
   }
   rtapi::Status finish(DispatchResult result) {
+    auto* observer = device_.context().observer;
+    if (observer != nullptr && !result.reached.empty()) {
+      observer->reached(*running_, result.reached);
+    }
     for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
     device_.add(result.statistics);
     return std::move(result.status);
   }
 
   Device& device_;
+  const runtime::Command* running_ = nullptr;
   size_t index_ = 0;
   std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
 };
 
 rtapi::Status Executor::run(const runtime::Command& command) {
+  running_ = &command;
   auto status = device_.observe(command, label(runtime::command_name(command)));
   if (status) status = std::visit(*this, command);
-  if (auto* observer = device_.context().observer) observer->after(command, status.ok());
+  if (auto* observer = device_.context().observer) {
+    if (status && observer->needs_memory_after(command)) status = device_.stream().flush();
+    observer->after(command, status.ok());
+  }
   return status;
 }
 

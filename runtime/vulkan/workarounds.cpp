@@ -22,7 +22,7 @@ constexpr WorkaroundInfo kTable[] = {
     {Workaround::kCopyHitBuiltins, "B3", kLavapipe, kFirst, kOpen, true,
      shader::spirv::kCopyHitBuiltins,
      "a nested trace overwrites PrimitiveIndex, InstanceID, HitKind and transforms of the caller"},
-    {Workaround::kPadBoxes, "B4", kLavapipe, 25000, 25000, false, 0,
+    {Workaround::kPadBoxes, "B4", kLavapipe, 25000, 25000, true, 0,
      "boxes without padding let rays at shared edges through; rewrites the driver's tree"},
     {Workaround::kFirstVertexInAddress, "B5", kLavapipe, kFirst, kOpen, true, 0,
      "firstVertex is applied twice"},

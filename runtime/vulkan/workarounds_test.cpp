@@ -29,7 +29,7 @@ TEST(Workarounds, AreForTheirDriverOnly) {
   const Workarounds lavapipe = of(VK_DRIVER_ID_MESA_LLVMPIPE, kMesa);
   EXPECT_TRUE(lavapipe.has(Workaround::kOwnIntersectionStages));
   EXPECT_TRUE(lavapipe.has(Workaround::kSortPrimitives));
-  EXPECT_FALSE(lavapipe.has(Workaround::kPadBoxes));
+  EXPECT_TRUE(lavapipe.has(Workaround::kPadBoxes));
   EXPECT_EQ(lavapipe.shader_bits(),
             shader::spirv::kRestoreAttributes | shader::spirv::kCopyHitBuiltins |
                 shader::spirv::kTrackReportedT | shader::spirv::kInterleaveRows);

@@ -28,6 +28,11 @@ cbuffer Settings : register(b0) {
 };
 ByteAddressBuffer leaf : register(t0, space1);
 
+ByteAddressBuffer many[3] : register(t0, space2);
+ByteAddressBuffer any_number[] : register(t0, space3);
+Texture2D<float> pictures[] : register(t0, space4);
+RaytracingAccelerationStructure scenes[] : register(t0, space5);
+
 RayDesc ray_at(float x) {
   RayDesc ray;
   ray.Origin = float3(x, 0, -1);
@@ -159,3 +164,45 @@ RayDesc ray_at(float x) {
 [shader("callable")] void Call(inout Data data) { data.value += 1; }
 
 [shader("callable")] void CallWide(inout Payload payload) { payload.depth += 1; }
+
+[shader("raygeneration")] void ReadMany() { result[0] = many[index].Load(0); }
+
+[shader("raygeneration")] void ReadAnyNumber() { result[0] = any_number[index].Load(0); }
+
+[shader("raygeneration")] void ReadPicture() {
+  result[0] = asuint(pictures[index].Load(int3(0, 0, 0)));
+}
+
+// Nothing of these calls is a constant.
+[shader("raygeneration")] void TraceAny() {
+  Payload payload = {float3(0, 0, 0), 0};
+  TraceRay(scene, 0, 0xFF, index & 0xFF, 0, index >> 8, ray_at(0), payload);
+  result[0] = payload.depth;
+}
+
+[shader("raygeneration")] void CallAny() {
+  Data data = {1};
+  CallShader(index, data);
+  result[0] = data.value;
+}
+
+[shader("raygeneration")] void TraceAnyScene() {
+  Payload payload = {float3(0, 0, 0), 0};
+  TraceRay(scenes[index], 0, 0xFF, 0, 1, 0, ray_at(0), payload);
+  result[0] = payload.depth;
+}
+
+[shader("raygeneration")] void QueryAnyScene() {
+  RayQuery<RAY_FLAG_FORCE_OPAQUE> query;
+  query.TraceRayInline(scenes[index], 0, 0xFF, ray_at(0));
+  query.Proceed();
+  result[0] = query.CommittedStatus();
+}
+
+struct OtherAttributes {
+  uint2 place;
+};
+
+[shader("closesthit")] void BoxHitOther(inout Payload payload, OtherAttributes attributes) {
+  payload.depth = attributes.place.x;
+}

@@ -7,6 +7,8 @@
 #include <shaders/code.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
@@ -110,6 +112,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     box.AABBs.AABBCount = 1;
     box.AABBs.AABBs = {upload(boxes, "boxes").GetGPUVirtualAddress(), sizeof(RaytracingAabb)};
     const Buffer levels[] = {bottom_level(triangle, "triangle"), bottom_level(box, "box")};
+    bottom_ = levels[0];
     std::vector<RaytracingInstanceDesc> instances(2);
     for (uint32_t i = 0; i < 2; ++i) {
       instances[i].Transform[0][0] = instances[i].Transform[1][1] = instances[i].Transform[2][2] =
@@ -126,7 +129,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   // Slot 0: "raw" as it should be; slot 1: a typed buffer.
   void build_heap() {
     DescriptorHeapDesc desc;
-    desc.NumDescriptors = 4;
+    desc.NumDescriptors = 6;
     desc.Flags = DescriptorHeapFlags::kShaderVisible;
     heap_ = device_.CreateDescriptorHeap(desc).value();
     raw_ = upload(std::vector<uint32_t>(8, 5), "raw");
@@ -144,7 +147,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   void run(const char* raygen, const Settings& settings = {}) {
     StateObjectDesc desc;
     DxilLibraryDesc code{library_, {}};
-    for (const char* name : {raygen, "Hit", "Leaf", "Box", "BoxHit", "Miss", callable_}) {
+    for (const char* name : {raygen, "Hit", "Leaf", "Box", box_hit_, "Miss", callable_}) {
       code.Exports.push_back({name, ""});
     }
     desc.Add(code);
@@ -156,14 +159,18 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     HitGroupDesc boxes;
     boxes.HitGroupExport = "Boxes";
     boxes.Type = HitGroupType::kProceduralPrimitive;
-    boxes.ClosestHitShaderImport = "BoxHit";
+    boxes.ClosestHitShaderImport = box_hit_;
     boxes.IntersectionShaderImport = "Box";
     desc.Add(boxes);
     const RootSignature global =
         device_
             .CreateRootSignature(
                 "RootFlags(CBV_SRV_UAV_HEAP_DIRECTLY_INDEXED), SRV(t0), SRV(t1), UAV(u0), "
-                "DescriptorTable(SRV(t2)), RootConstants(b0, num32BitConstants = 4)")
+                "DescriptorTable(SRV(t2)), RootConstants(b0, num32BitConstants = 4), "
+                "DescriptorTable(SRV(t0, space = 2, numDescriptors = 3), "
+                "SRV(t0, space = 3, numDescriptors = unbounded, offset = 0), "
+                "SRV(t0, space = 4, numDescriptors = unbounded, offset = 0), "
+                "SRV(t0, space = 5, numDescriptors = unbounded, offset = 0))")
             .value();
     desc.Add(GlobalRootSignature{global});
     const RootSignature local =
@@ -199,11 +206,19 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     list.SetComputeRootUnorderedAccessView(2, result_.GetGPUVirtualAddress());
     list.SetComputeRootDescriptorTable(3, heap_.GetGPUDescriptorHandle(table_slot_));
     list.SetComputeRoot32BitConstants(4, 4, &settings, 0);
+    list.SetComputeRootDescriptorTable(5, heap_.GetGPUDescriptorHandle(0));
     list.DispatchRays(rays);
+    told_before_ = std::move(messages_);
     messages_.clear();
     status_ = queue_.ExecuteAndWait(list);
   }
 
+  std::vector<uint32_t> result_of() {
+    const auto bytes = ReadbackBuffer(device_, queue_, result_).value();
+    std::vector<uint32_t> out(bytes.size() / 4);
+    std::memcpy(out.data(), bytes.data(), out.size() * 4);
+    return out;
+  }
   // What was told under this id; empty: nothing.
   std::string told(const std::string& id) const {
     for (const std::string& message : messages_) {
@@ -236,10 +251,11 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   Device device_;
   CommandQueue queue_;
   ShaderLibrary library_;
-  Buffer vertices_, leaf_, result_, scene_, raw_;
+  Buffer vertices_, leaf_, result_, scene_, bottom_, raw_;
   DescriptorHeap heap_;
   std::vector<Buffer> keep_;
   std::vector<std::string> messages_;
+  std::vector<std::string> told_before_;  // when the pipeline was made
   Status status_;
   // What a test spoils.
   uint64_t leaf_address_ = 0;
@@ -247,6 +263,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   uint32_t table_slot_ = 0;
   uint32_t width_ = 1;
   const char* callable_ = "Call";
+  const char* box_hit_ = "BoxHit";
 };
 
 TEST_P(CheckedCode, CleanCodeIsSilent) {
@@ -314,9 +331,134 @@ TEST_P(CheckedCode, WrongDescriptorInATable) {
                     "declares a raw buffer to read (SRV)"});
 }
 
+TEST_P(CheckedCode, IndexPastAnArray) {
+  run("ReadMany", {0});
+  EXPECT_EQ(all(), "");
+  run("ReadMany", {3});
+  expect("KA0420", {"ray generation \"ReadMany\"",
+                    "parameter t0, space 2 \"many\": index 3 of 3 "
+                    "elements; it reads as a null descriptor"});
+  run("ReadAnyNumber", {6});
+  expect("KA0421", {"parameter t0, space 3 \"any_number\"", "which has 6 descriptors"});
+}
+
+TEST_P(CheckedCode, WrongDescriptorInAnArray) {
+  run("ReadMany", {1});
+  expect("KA0422", {"parameter t0, space 2 \"many\": the slot holds a typed buffer"});
+  run("ReadAnyNumber", {1});
+  expect("KA0422", {"parameter t0, space 3 \"any_number\": the slot holds a typed buffer"});
+}
+
+TEST_P(CheckedCode, FreedResourceInAnArray) {
+  ShaderResourceViewDesc view;
+  view.ViewDimension = SrvDimension::kBuffer;
+  view.Format = Format::kR32Typeless;
+  view.Buffer.NumElements = 4;
+  view.Buffer.Flags = BufferSrvFlags::kRaw;
+  Buffer short_lived = CreateUploadBuffer(device_, std::vector<uint32_t>(4, 9), "gone").value();
+  device_.CreateShaderResourceView(short_lived, view, heap_.GetCPUDescriptorHandle(2)).value();
+  run("ReadMany", {2});
+  EXPECT_EQ(all(), "");
+  short_lived = {};
+  run("ReadMany", {2});
+  expect("KA0425", {"parameter t0, space 2 \"many\": element 2 is a raw buffer, at address 0x",
+                    "which was freed since; it reads as a null descriptor"});
+  EXPECT_EQ(result_of()[0], 0u);
+  TextureDesc texture_desc;
+  texture_desc.Width = texture_desc.Height = 4;
+  texture_desc.Format = Format::kR32Float;
+  Texture picture = device_.CreateTexture(texture_desc).value();
+  ShaderResourceViewDesc picture_view;
+  picture_view.ViewDimension = SrvDimension::kTexture2D;
+  picture_view.Format = Format::kR32Float;
+  picture_view.Texture2D.MipLevels = 1;
+  device_.CreateShaderResourceView(picture, picture_view, heap_.GetCPUDescriptorHandle(3)).value();
+  run("ReadPicture", {3});
+  EXPECT_EQ(all(), "");
+  picture = {};
+  run("ReadPicture", {3});
+  expect("KA0425", {"parameter t0, space 4 \"pictures\": element 3 is a texture, which was freed"});
+}
+
+TEST_P(CheckedCode, StructureOfAnArray) {
+  const auto view_of = [&](uint64_t address, uint32_t slot) {
+    ShaderResourceViewDesc view;
+    view.ViewDimension = SrvDimension::kRaytracingAccelerationStructure;
+    view.RaytracingAccelerationStructure.Location = address;
+    device_.CreateShaderResourceView(Resource(), view, heap_.GetCPUDescriptorHandle(slot)).value();
+  };
+  view_of(scene_.GetGPUVirtualAddress(), 4);
+  view_of(bottom_.GetGPUVirtualAddress(), 5);
+  for (const char* shader : {"TraceAnyScene", "QueryAnyScene"}) {
+    run(shader, {4});
+    EXPECT_EQ(all(), "");
+    run(shader, {5});
+    expect("KA0464", {std::string("ray generation shader \"") + shader + "\" uses",
+                      "there stands a bottom level"});
+  }
+}
+
+TEST_P(CheckedCode, RecordsThatNoConstantsReach) {
+  run("TraceAny", {0});
+  EXPECT_EQ(all(), "");
+  run("TraceAny", {7});
+  expect("KA0430", {"hit group table record 7, reached from ray generation shader \"TraceAny\" "
+                    "(code.hlsl:",
+                    ") at instance 0, geometry 0, ray type 7: instance contribution 0 + "
+                    "multiplier 0 * geometry 0 + ray contribution 7"});
+  run("TraceAny", {0x300});
+  expect("KA0430", {"miss table record 3, reached from ray generation shader \"TraceAny\"",
+                    "with MissShaderIndex 3"});
+  run("TraceAny", {1});
+  expect("KA0434",
+         {"hit group table record 1 holds hit group \"Boxes\"", "is reached by triangles"});
+  run("CallAny", {0});
+  EXPECT_EQ(all(), "");
+  run("CallAny", {9});
+  expect("KA0430", {"callable table record 9, reached from ray generation shader \"CallAny\" by "
+                    "CallShader(9)"});
+}
+
+TEST_P(CheckedCode, AttributesOfAnotherType) {
+  run("TraceBox");
+  EXPECT_TRUE(told_before_.empty());
+  box_hit_ = "BoxHitOther";
+  run("TraceBox");
+  ASSERT_EQ(told_before_.size(), 1u);
+  EXPECT_EQ(
+      told_before_[0],
+      "KA0412 attributes of another type: hit group \"Boxes\": the attributes of intersection "
+      "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
+      "other scalars. All shaders of a hit group must use one type.");
+}
+
+// Libraries as they may come from elsewhere: without their source, to a machine without a compiler.
+TEST_P(CheckedCode, CodeThatIsNotCheckedOrIsSlow) {
+  if (std::string(GetParam()) == "interpreted") GTEST_SKIP() << "of libraries with native code";
+  static shader::LibraryDesc bare = *kaamos_shaders_code();
+  bare.source = nullptr;
+  library_ = LoadShaderLibrary(&bare).value();
+  run("Clean", {127});
+  ASSERT_FALSE(told_before_.empty());
+  EXPECT_EQ(told_before_[0].find("KA0423 shader code is not checked: \""), 0u) << told_before_[0];
+  EXPECT_NE(told_before_[0].find("runs without checks of its code: it carries no source"),
+            std::string::npos);
+  if (std::string(GetParam()) != "native") return;
+  static shader::LibraryDesc slow = *kaamos_shaders_code();
+  library_ = LoadShaderLibrary(&slow).value();
+  setenv("KAAMOS_CXX", "no-such-compiler", 1);
+  run("Clean", {127});
+  unsetenv("KAAMOS_CXX");
+  ASSERT_FALSE(told_before_.empty());
+  EXPECT_EQ(told_before_[0].find("KA0424 shader code is interpreted: \""), 0u) << told_before_[0];
+  EXPECT_NE(told_before_[0].find("about a hundred times slower: the compiler \"no-such-compiler\""),
+            std::string::npos);
+  EXPECT_EQ(all(), "");
+}
+
 TEST_P(CheckedCode, HeapIndex) {
-  run("ReadHeap", {4});
-  expect("KA0421", {"index 4 into a heap of 4 descriptors"});
+  run("ReadHeap", {6});
+  expect("KA0421", {"index 6 into a heap of 6 descriptors"});
   run("ReadHeap", {1});
   expect("KA0422", {"the slot holds a typed buffer"});
 }

@@ -74,3 +74,26 @@ ByteAddressBuffer source : register(t1);
 void CopyBytes() {
   results.Store4(0, source.Load4(0));
 }
+
+// Spoils what stands behind u0.
+[shader("raygeneration")]
+void RayGenWrites() {
+  Payload payload = { 0 };
+  TraceRay(scene, RAY_FLAG_NONE, 0xFF, 0, 1, 0, straight(), payload);
+  results.Store(4, payload.value + 5);
+}
+
+RWTexture2D<float> picture : register(u1);
+Texture2D<float> seen : register(t2);
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void Paint() {
+  picture[uint2(0, 0)] = 1.0;
+}
+
+[shader("compute")]
+[numthreads(1, 1, 1)]
+void Look() {
+  results.Store(0, asuint(seen.Load(int3(0, 0, 0))));
+}

@@ -174,6 +174,7 @@ TEST_P(Tables, MisalignedArgument) {
   dispatch(set.desc);
   const auto texts = told();
   ASSERT_FALSE(texts.empty());
+  EXPECT_EQ(texts[0].substr(0, 6), "KA0438");
   EXPECT_NE(texts[0].find("byte 2 of buffer \"local data\" (16 bytes); a buffer starts at a "
                           "multiple of 4"),
             std::string::npos)

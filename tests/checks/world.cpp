@@ -133,6 +133,7 @@ StateObject World::make_pipeline(const std::string& global) {
   desc.Add(DxilLibraryDesc{pipeline_library(),
                            {{"RayGen"},
                             {"RayGenTwo"},
+                            {"RayGenWrites"},
                             {"RayGenCall"},
                             {"Hit"},
                             {"HitLocal"},

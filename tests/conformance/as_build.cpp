@@ -523,7 +523,7 @@ std::vector<RuleTest> as_build_tests() {
           {"AS-04", inputs_may_go},
           {"AS-05", indexed_is_expanded},
           {"AS-06", index_formats},
-          {"AS-07", indices_past_the_vertices},
+          {"AS-07", indices_past_the_vertices, "KA0472"},
           {"AS-08", primitives_are_whole_ones},
           {"AS-09", vertex_formats},
           {"AS-10", flat_formats_are_transformed_in_space},

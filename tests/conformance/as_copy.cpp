@@ -242,10 +242,13 @@ void copies_touch_no_bottom_level(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> as_copy_tests() {
-  return {{"AS-70", copies_leave_the_source},     {"AS-71", clones},
-          {"AS-72, ERR-14", compaction},          {"AS-73", serialized_form},
-          {"AS-74", deserialized_structures},     {"AS-75", identifiers_of_drivers},
-          {"AS-76", copies_touch_no_bottom_level}};
+  return {{"AS-70", copies_leave_the_source},
+          {"AS-71", clones},
+          {"AS-72, ERR-14", compaction},
+          {"AS-73", serialized_form},
+          {"AS-74", deserialized_structures},
+          {"AS-75", identifiers_of_drivers},
+          {"AS-76", copies_touch_no_bottom_level, "KA0463"}};
 }
 
 }  // namespace kaamos::conformance

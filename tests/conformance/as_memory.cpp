@@ -424,12 +424,18 @@ void bottom_levels_may_come_later(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> as_memory_tests() {
-  return {{"AS-20", instanced_addresses_are_aligned},  {"AS-21", buffers_of_structures},
-          {"AS-22", the_state_is_permanent},           {"AS-23", structures_share_no_memory},
-          {"AS-24", states_of_inputs_and_results},     {"AS-25", uav_barriers_order},
-          {"AS-26", info_of_a_build_is_that_of_emit},  {"AS-27", scratch_holds_nothing},
-          {"AS-28", allowed_on_compute_lists},         {"AS-29", structures_are_immutable},
-          {"AS-30", a_build_over_it_ends_a_structure}, {"AS-31", top_levels_follow_bottom_levels},
+  return {{"AS-20", instanced_addresses_are_aligned, "KA0476"},
+          {"AS-21", buffers_of_structures},
+          {"AS-22", the_state_is_permanent},
+          {"AS-23", structures_share_no_memory},
+          {"AS-24", states_of_inputs_and_results},
+          {"AS-25", uav_barriers_order},
+          {"AS-26", info_of_a_build_is_that_of_emit},
+          {"AS-27", scratch_holds_nothing},
+          {"AS-28", allowed_on_compute_lists},
+          {"AS-29", structures_are_immutable, "KA0476"},
+          {"AS-30", a_build_over_it_ends_a_structure, "KA0476"},
+          {"AS-31", top_levels_follow_bottom_levels},
           {"AS-32", bottom_levels_may_come_later}};
 }
 

@@ -371,7 +371,7 @@ std::vector<RuleTest> as_update_tests() {
           {"AS-58", preferences_change_no_hits},
           {"AS-60", updates_of_triangles},
           {"AS-61", updates_of_boxes},
-          {"AS-62", what_updates_may_not_change},
+          {"AS-62", what_updates_may_not_change, "KA0470"},
           {"AS-63", inputs_at_other_addresses},
           {"AS-64", instances_may_be_redefined},
           {"AS-65", instances_may_be_activated}};

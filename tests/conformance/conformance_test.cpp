@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <limits>
 #include <set>
 
 #include "tests/conformance/run.h"
@@ -64,8 +65,36 @@ const bool kRegistered = [] {
                             [=]() -> RulesHold* { return new RulesHold(section, target); });
     }
   }
+  // Nothing is told of sound programs in checked mode. A part of the rules: the code of each
+  // library is compiled again for it. `kaamos-conformance --checked` holds all of them.
+  for (Target target : {Target(), vulkan}) {
+    const std::string suite = "Checked_" + target.backend;
+    target.checked = true;
+    const std::set<std::string> chosen = target.backend == "embree"
+                                             ? std::set<std::string>{"sbt", "root", "flg_legality"}
+                                             : std::set<std::string>{"sbt"};
+    for (const Section& section : all_sections()) {
+      if (chosen.count(section.name) == 0) continue;
+      testing::RegisterTest(suite.c_str(), section.name, nullptr, nullptr, __FILE__, __LINE__,
+                            [=]() -> RulesHold* { return new RulesHold(section, target); });
+    }
+  }
   return true;
 }();
+
+TEST(ConformanceList, AFalseAlarmOfCheckedModeFailsTheRule) {
+  RuleTest test = {"TRV-59", [](Context& t) {
+                     Geometry wrong = triangle(5);
+                     wrong.vertices[1] = std::numeric_limits<float>::quiet_NaN();
+                     t.bottom_level({wrong});
+                   }};
+  Target checked;
+  EXPECT_EQ(run_here(test, checked), "");
+  checked.checked = true;
+  EXPECT_EQ(run_here(test, checked).find("checked mode says: KA0473 NaN in a vertex"), 0u);
+  test.provokes = "KA0470, KA0473";
+  EXPECT_EQ(run_here(test, checked), "");
+}
 
 TEST(ConformanceList, EveryTestNamesRulesOfTheList) {
   EXPECT_TRUE(kRegistered);

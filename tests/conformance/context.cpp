@@ -48,12 +48,23 @@ Pool& pool() {
   return devices;
 }
 
-std::unique_ptr<SharedDevice> new_device(const DeviceDesc& desc) {
-  return std::make_unique<SharedDevice>(SharedDevice{CreateDevice(desc).value()});
+std::unique_ptr<SharedDevice> new_device(DeviceDesc desc) {
+  SharedDevice out;
+  if (desc.Checked && !desc.OnMessage) {
+    out.messages = std::make_shared<std::vector<Message>>();
+    // One at a time: each device is one context's.
+    desc.OnMessage = [to = out.messages](const Message& message) { to->push_back(message); };
+  }
+  out.device = CreateDevice(desc).value();
+  return std::make_unique<SharedDevice>(std::move(out));
+}
+
+std::string pool_name(const Target& target) {
+  return target.name() + (target.checked ? "/checked" : "");
 }
 
 std::unique_ptr<SharedDevice> take_device(const Target& target) {
-  auto& free = pool()[target.name()];
+  auto& free = pool()[pool_name(target)];
   if (free.empty()) return new_device(target.device_desc());
   auto out = std::move(free.back());
   free.pop_back();
@@ -65,6 +76,7 @@ std::unique_ptr<SharedDevice> take_device(const Target& target) {
 Context::Context(std::unique_ptr<SharedDevice> shared, const Target& target, bool goes_on)
     : target_(target), shared_(std::move(shared)), goes_on_(goes_on), device_(shared_->device) {
   queue_ = device_.CreateCommandQueue().value();
+  if (shared_->messages) shared_->messages->clear();
 }
 
 Context::Context(const DeviceDesc& desc, const Target& target)
@@ -74,13 +86,23 @@ Context::Context(const Target& target) : Context(take_device(target), target, tr
 
 Context::~Context() {
   if (!goes_on_ || !device_.GetDeviceRemovedReason()) return;
-  pool()[target_.name()].push_back(std::move(shared_));
+  pool()[pool_name(target_)].push_back(std::move(shared_));
+}
+
+std::vector<std::string> Context::reports() const {
+  std::vector<std::string> out;
+  if (!shared_->messages) return out;
+  for (const Message& message : *shared_->messages) {
+    if (message.Id >= "KA0400" && message.Id < "KA0500") out.push_back(message.Text);
+  }
+  return out;
 }
 
 DeviceDesc Target::device_desc() const {
   DeviceDesc desc;
   desc.Backend = backend;
   desc.Precision = precision;
+  desc.Checked = checked;
   return desc;
 }
 

@@ -19,7 +19,8 @@ namespace kaamos::conformance {
 struct Target {
   std::string backend = "embree";
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;
-  std::string name() const;  // "embree/robust", "vulkan"
+  bool checked = false;      // checked mode
+  std::string name() const;  // "embree/robust", "vulkan"; the same for checked ones
   rtapi::DeviceDesc device_desc() const;
 };
 
@@ -45,6 +46,8 @@ struct SharedDevice {
   };
   rtapi::Device device;
   std::map<std::string, Pipeline> pipelines = {};  // by Program's name for them
+  // What the device said; not of a description of the test's own.
+  std::shared_ptr<std::vector<rtapi::Message>> messages = {};
 };
 
 class Context {
@@ -87,6 +90,8 @@ class Context {
   }
   void fail(std::string message) { failures_.push_back(std::move(message)); }
   const std::vector<std::string>& failures() const { return failures_; }
+  // Of checked mode (KA0400 to KA0499) since the context began.
+  std::vector<std::string> reports() const;
 
   // Buffers live as long as the context.
   template <class T>
@@ -135,6 +140,9 @@ rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom_level, float 
 struct RuleTest {
   const char* rules;
   void (*run)(Context& t);
+  // Messages of checked mode that its breaches must bring, "KA0401, KA0402"; others are false
+  // alarms. "*": its purpose is what checked mode speaks of.
+  const char* provokes = "";
 };
 struct Section {
   const char* name;  // "sbt_undefined"

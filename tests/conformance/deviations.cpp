@@ -18,10 +18,6 @@ constexpr char kEmbreesT[] =
 constexpr char kLavapipesEdges[] =
     "fault of Mesa 25.0's triangle test: edges belong to both of their triangles, so that rays "
     "that meet one exactly hit both";
-// Boxes widened by 1e-6 in the driver's memory cure it: fault B4 of runtime/vulkan/README.md.
-constexpr char kLavapipesBoxes[] =
-    "fault B4 of Mesa 25.0: boxes are tested without room for rounding; "
-    "KAAMOS_VULKAN_ENABLE_WORKAROUNDS=B4 keeps the rule";
 // DispatchRays.CallablesNestToTheirLimit of vulkan_test ends so with kMaxCallableDepth at 47.
 constexpr char kLavapipesCallables[] =
     "fault of Mesa 25.0: with 47 callables nested its own code faults although the pipeline stack "
@@ -29,11 +25,11 @@ constexpr char kLavapipesCallables[] =
 constexpr char kMesa[] = "Mesa 25.0.";
 
 constexpr Deviation kDeviations[] = {
-    {"TRV-03", "embree/fast", "", kEmbreesT},       {"TRV-70", "embree/fast", "", kEmbreesEdges},
-    {"TRV-71", "embree/fast", "", kEmbreesEdges},   {"TRV-72", "embree/fast", "", kEmbreesEdges},
-    {"TRV-70", "embree/robust", "", kEmbreesEdges}, {"TRV-71", "embree/robust", "", kEmbreesEdges},
-    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},   {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
-    {"TRV-72", "vulkan", kMesa, kLavapipesBoxes},   {"SO-48", "vulkan", kMesa, kLavapipesCallables},
+    {"TRV-03", "embree/fast", "", kEmbreesT},        {"TRV-70", "embree/fast", "", kEmbreesEdges},
+    {"TRV-71", "embree/fast", "", kEmbreesEdges},    {"TRV-72", "embree/fast", "", kEmbreesEdges},
+    {"TRV-70", "embree/robust", "", kEmbreesEdges},  {"TRV-71", "embree/robust", "", kEmbreesEdges},
+    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},    {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
+    {"SO-48", "vulkan", kMesa, kLavapipesCallables},
 };
 
 }  // namespace

@@ -68,15 +68,16 @@ struct Scene : Program {
     group("Plain", "Floor");
     group("Nested", "Deeper");
     group("Boxes", "", "", "Front");
-    local(kOneConstant, {"Plain"});
+    group("Odd", "", "", "Reports");
+    local(kOneConstant, {"Plain", "Odd"});
     scene = t.scene({triangle(5)});
     rays = t.upload(std::vector<Ray>{Ray()});
   }
-  void add(const std::string& hit_group) {
+  void add(const std::string& hit_group, const Constants& constants = {}) {
     raygen("One");
     miss("Sky");
-    if (hit_group == "Plain") {
-      hit(hit_group, {LocalArgument::Constants(Constants{})});
+    if (hit_group == "Plain" || hit_group == "Odd") {
+      hit(hit_group, {LocalArgument::Constants(constants)});
     } else {
       hit(hit_group);
     }
@@ -350,6 +351,126 @@ void instance_flags(Context& t) {
   c.told("force opaque and force non-opaque", "KA0474");
 }
 
+void illegal_rays(Context& t) {
+  Checked c(t);
+  Scene s(c);
+  s.add("Plain");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto run = [&](const std::string& what, void (*spoil)(Ray&, float), const char* id) {
+    Ray ray;
+    spoil(ray, nan);
+    s.rays = c.upload(std::vector<Ray>{ray});
+    s.run();
+    if (id != nullptr) {
+      c.told(what, id);
+    } else {
+      c.silent(what);
+    }
+  };
+  run(
+      "a sound ray", [](Ray&, float) {}, nullptr);
+  run(
+      "a ray of no length", [](Ray& ray, float) { ray.t_max = ray.t_min; }, nullptr);
+  run(
+      "NaN origin", [](Ray& ray, float n) { ray.origin[1] = n; }, "KA0401");
+  run(
+      "NaN direction", [](Ray& ray, float n) { ray.direction[2] = n; }, "KA0401");
+  run(
+      "NaN TMax", [](Ray& ray, float n) { ray.t_max = n; }, "KA0401");
+  run(
+      "negative TMin", [](Ray& ray, float) { ray.t_min = -1; }, "KA0402");
+  run(
+      "TMin above TMax", [](Ray& ray, float) { ray.t_min = 2000; }, "KA0402");
+}
+
+void parameters_of_other_types(Context& t) {
+  Checked c(t);
+  for (const bool right : {true, false}) {
+    Scene s(c);
+    s.raygen("One");
+    s.miss(right ? "Sky" : "OtherSky");
+    s.scene = c.scene({});
+    s.run();
+    if (right) {
+      c.silent("payloads of one type");
+    } else {
+      c.told("a miss shader with another payload", "KA0407");
+    }
+  }
+  for (const bool right : {true, false}) {
+    Scene calls(c);
+    calls.raygen("Calls");
+    calls.callable(right ? "Takes" : "TakesOne");
+    calls.run();
+    if (right) {
+      c.silent("callable data of one type");
+    } else {
+      c.told("callable data of another type", "KA0408");
+    }
+  }
+  Scene large(c);
+  for (StateSubobject& each : large.desc.Subobjects) {
+    if (auto* config = std::get_if<RaytracingShaderConfig>(&each)) {
+      config->MaxPayloadSizeInBytes = 12;
+    }
+  }
+  c.refused("a payload of 16 bytes where 12 are declared", large.try_create(), "KA0522");
+}
+
+void reported_hits(Context& t) {
+  Checked c(t);
+  for (const uint32_t kind : {0u, 127u, 128u, 255u}) {
+    Scene s(c);
+    s.scene = c.scene({box(5)});
+    Constants constants;
+    constants.reported_kind = kind;
+    s.add("Odd", constants);
+    s.run();
+    if (kind <= 127) {
+      c.silent("hit kind " + std::to_string(kind));
+    } else {
+      c.told("hit kind " + std::to_string(kind), "KA0406");
+    }
+  }
+  Scene s(c);
+  s.raygen("Commits");
+  s.scene = c.scene({box(5)});
+  for (const float at : {5.0f, -1.0f, 2000.0f}) {
+    Ray ray;
+    std::memcpy(&ray.extra[0], &at, sizeof at);
+    s.rays = c.upload(std::vector<Ray>{ray});
+    s.run();
+    if (at == 5) {
+      c.silent("a hit inside of the ray");
+    } else {
+      c.told("a hit at " + std::to_string(at), "KA0411");
+    }
+  }
+}
+
+// An index times a stride needs 64 bits: in 32 record 2^20 + 1 of stride 4096 is record 1, which
+// stands there.
+void far_records(Context& t) {
+  Checked c(t);
+  Scene s(c);
+  s.raygen("One");
+  s.miss("Sky");
+  for (uint32_t i = 0; i < 2; ++i) {
+    s.hit("Plain", {LocalArgument::Constants(Constants{.ordinal = 70 + i})});
+  }
+  s.scene = c.scene({triangle(5)}, (1u << 20) + 1);
+  DispatchRaysDesc desc = s.tables();
+  std::vector<uint8_t> wide(2 * 4096);
+  const auto narrow = s.shader_tables[2].buffer().data<const uint8_t>();
+  for (size_t i = 0; i < 2; ++i) {
+    std::memcpy(&wide[i * 4096], &narrow[i * desc.HitGroupTable.StrideInBytes], 48);
+  }
+  desc.HitGroupTable = {c.upload(wide).GetGPUVirtualAddress(), wide.size(), 4096};
+  const Seen seen = seen_of(s.run(desc), 1)[0];
+  c.equal("what ran of a record 4 GiB away", seen.end, uint32_t{kNothingRan});
+  c.told("record 1048577 of 2, 4294971392 bytes into the table", "KA0430");
+}
+
 void tables_of_records(Context& t) {
   Checked c(t);
   {
@@ -476,9 +597,13 @@ std::vector<RuleTest> err_tests() {
       {"ERR-16", lives_of_structures},
       {"ERR-17", count_limits},
       {"ERR-18", instance_flags},
+      {"ERR-19", illegal_rays},
       {"ERR-20, SBT-28", tables_of_records},
+      {"ERR-20, SBT-07", far_records},
       {"ERR-21, SBT-16", strides_of_records},
       {"ERR-22", other_root_signature},
+      {"ERR-23", parameters_of_other_types},
+      {"ERR-24", reported_hits},
       {"ERR-27", stack_size},
       {"ERR-28", dispatch_calls},
       {"ERR-29", local_root_signatures},

@@ -32,3 +32,50 @@ void Front() {
   attributes.barycentrics = float2(0, 0);
   ReportHit(1.0, 0, attributes);
 }
+
+// A hit kind of the record's choosing.
+[shader("intersection")]
+void Reports() {
+  BuiltInTriangleIntersectionAttributes attributes;
+  attributes.barycentrics = float2(0, 0);
+  ReportHit(reportedT, reportedKind, attributes);
+}
+
+// One ray with a query, which commits boxes at `extra.x`.
+[shader("raygeneration")]
+void Commits() {
+  RayQuery<RAY_FLAG_SKIP_TRIANGLES> query;
+  query.TraceRayInline(scene, 0, 0xFF, describe(rays[0]));
+  while (query.Proceed()) {
+    query.CommitProceduralPrimitiveHit(asfloat(rays[0].extra.x));
+  }
+  words.Store(0, query.CommittedStatus());
+}
+
+struct Other {
+  float4 color;
+};
+
+[shader("miss")]
+void OtherSky(inout Other other) { other.color = float4(0, 0, 1, 1); }
+
+struct Numbers {
+  uint first;
+  uint second;
+};
+struct Number {
+  uint only;
+};
+
+[shader("raygeneration")]
+void Calls() {
+  Numbers numbers = {1, 2};
+  CallShader(0, numbers);
+  words.Store(0, numbers.first);
+}
+
+[shader("callable")]
+void Takes(inout Numbers numbers) { numbers.first += numbers.second; }
+
+[shader("callable")]
+void TakesOne(inout Number number) { number.only += 1; }

@@ -171,13 +171,13 @@ void pipeline_flags_and_queries(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> flg_legality_tests() {
-  return {{"FLG-02", one_opacity_flag},
-          {"FLG-03", one_culled_face},
-          {"FLG-04", skipped_triangles_stand_alone},
+  return {{"FLG-02", one_opacity_flag, "KA0403"},
+          {"FLG-03", one_culled_face, "KA0403"},
+          {"FLG-04", skipped_triangles_stand_alone, "KA0403"},
           {"FLG-05", skip_flags_need_tier_1_1},
-          {"FLG-06", one_instance_opacity_flag},
-          {"FLG-07", queries_have_no_closest_hit_shader},
-          {"FLG-08", later_tiers_are_refused},
+          {"FLG-06", one_instance_opacity_flag, "KA0474"},
+          {"FLG-07", queries_have_no_closest_hit_shader, "KA0404"},
+          {"FLG-08", later_tiers_are_refused, "KA0403"},
           {"FLG-28", pipeline_flags_and_queries}};
 }
 

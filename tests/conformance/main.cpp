@@ -37,7 +37,8 @@ void list_rules(const std::string& filter) {
 }
 
 // Without a precision Embree's two that keep most rules.
-std::vector<Target> targets_of(const std::string& backend, const std::string& precision) {
+std::vector<Target> targets_of(const std::string& backend, const std::string& precision,
+                               bool checked) {
   using rtapi::TraversalPrecision;
   const std::pair<const char*, TraversalPrecision> precisions[] = {
       {"exact", TraversalPrecision::kExact},
@@ -46,9 +47,9 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   std::vector<Target> out;
   for (const auto& [name, value] : precisions) {
     const bool wanted = precision.empty() ? value != TraversalPrecision::kFast : precision == name;
-    if (wanted && backend != "vulkan") out.push_back({"embree", value});
+    if (wanted && backend != "vulkan") out.push_back({"embree", value, checked});
   }
-  if (backend != "embree") out.push_back({"vulkan"});
+  if (backend != "embree") out.push_back({"vulkan", TraversalPrecision::kRobust, checked});
   return out;
 }
 
@@ -56,7 +57,7 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
 
 int main(int argc, char** argv) {
   std::string backend, filter, json, precision;
-  bool list = false;
+  bool list = false, checked = false;
   CLI::App app("Holds this machine's backends against the rules of DirectX Raytracing.");
   app.add_option("--backend", backend, "embree or vulkan; without it every one there is")
       ->check(CLI::IsMember({"embree", "vulkan"}));
@@ -65,6 +66,8 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"fast", "robust", "exact"}));
   app.add_option("--filter", filter, "only rules whose number begins so, e.g. SBT-");
   app.add_option("--json", json, "writes the results into this file");
+  app.add_flag("--checked", checked,
+               "in checked mode; what it says of a test without a breach fails the rule");
   app.add_flag("--list", list, "prints the rules and runs nothing");
   app.add_flag("--summary", g_summary_only, "prints failures and the summary only");
   CLI11_PARSE(app, argc, argv);
@@ -74,7 +77,7 @@ int main(int argc, char** argv) {
   }
   std::vector<TargetResults> results;
   bool failed = false;
-  for (const Target& target : targets_of(backend, precision)) {
+  for (const Target& target : targets_of(backend, precision, checked)) {
     const DeviceCheck device = check_device(target);
     if (!device.error.empty()) {
       std::cerr << target.name() << ": no device: " << device.error << "\n";

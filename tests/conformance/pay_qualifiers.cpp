@@ -136,6 +136,7 @@ void annotated_and_plain_payloads(Context& t) {
   program.hit("Qualified");
   program.record("Plain");
   program.miss("MissQualified");
+  program.miss_records(1);
   program.scene = t.scene({triangle(5)});
   program.prepare({Ray{}});
   const Words words = program.run();

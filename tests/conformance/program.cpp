@@ -123,6 +123,13 @@ DispatchRaysDesc Program::tables() {
   return out;
 }
 
+DispatchRaysDesc Program::tables_without_miss() {
+  DispatchRaysDesc out = tables();
+  const Buffer records = context_->upload(std::vector<uint32_t>(16));
+  out.MissShaderTable = {records.GetGPUVirtualAddress(), records.size(), 32};
+  return out;
+}
+
 std::vector<uint32_t> Program::run(const DispatchRaysDesc& dispatch) {
   const Buffer words = context_->zeros(word_bytes);
   CommandList list = context_->device().CreateCommandList().value();

@@ -92,6 +92,8 @@ class Program {
   uint32_t raygen(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
 
   rtapi::DispatchRaysDesc tables();
+  // With a miss table of null records, for rays that are meant to hit.
+  rtapi::DispatchRaysDesc tables_without_miss();
   // All words of u0 after the dispatch; they start at zero.
   std::vector<uint32_t> run(const rtapi::DispatchRaysDesc& desc);
   std::vector<uint32_t> run(uint32_t width = 1, uint32_t height = 1, uint32_t depth = 1);

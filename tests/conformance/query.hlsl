@@ -241,7 +241,7 @@ struct Nothing {
 [shader("raygeneration")]
 void StagesAsk() {
   Seen seen = nothingSeen();
-  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), seen);
+  TraceRay(scene, RAY_FLAG_SKIP_TRIANGLES, 0xFF, 0, 0, 0, describe(rays[0]), seen);
   Seen missed = nothingSeen();
   TraceRay(scene, 0, 0, 0, 0, 0, describe(rays[0]), missed);
   Nothing nothing = {0};

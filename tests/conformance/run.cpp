@@ -127,6 +127,11 @@ bool test_covers(const RuleTest& test, std::string_view rule) {
   return std::string_view(test.rules).find(rule) != std::string_view::npos;
 }
 
+bool may_provoke(const RuleTest& test, std::string_view report) {
+  const std::string_view allowed = test.provokes;
+  return allowed == "*" || allowed.find(report.substr(0, 6)) != std::string_view::npos;
+}
+
 std::string run_here(const RuleTest& test, const Target& target) {
   std::string out;
   try {
@@ -140,6 +145,9 @@ std::string run_here(const RuleTest& test, const Target& target) {
       context.fail("device removed: " + removed.error().message);
     }
     for (const std::string& failure : context.failures()) out += failure + "\n";
+    for (const std::string& report : context.reports()) {
+      if (!may_provoke(test, report)) out += "checked mode says: " + report + "\n";
+    }
   } catch (const std::exception& error) {
     out += std::string(error.what()) + "\n";
   }

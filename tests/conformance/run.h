@@ -17,6 +17,9 @@ std::vector<Section> all_sections();
 std::vector<RuleTest> all_tests();
 bool test_covers(const RuleTest& test, std::string_view rule);
 
+// Whether a message of checked mode is what the test's breaches must bring.
+bool may_provoke(const RuleTest& test, std::string_view report);
+
 // In this process. What was expected and found, one a line; empty: the rules hold.
 std::string run_here(const RuleTest& test, const Target& target);
 // In order, in another process, so that a driver that crashes or hangs fails one test: the next

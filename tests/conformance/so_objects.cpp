@@ -139,7 +139,7 @@ class Deep : public Program {
     words_ = t.zeros(64);
   }
   CommandList record(uint32_t limit) {
-    DispatchRaysDesc dispatch = tables();
+    DispatchRaysDesc dispatch = tables_without_miss();
     dispatch.Width = dispatch.Height = dispatch.Depth = 1;
     CommandList list = context_.device().CreateCommandList().value();
     list.SetComputeRootSignature(global);

@@ -84,7 +84,10 @@ void dispatch_values_at_any_depth(Context& t) {
   program.hit("Echo");
   program.callable("EchoCall");
   program.scene = t.scene({triangle(5)});
-  const auto words = program.run(3, 2, 2);
+  DispatchRaysDesc desc = program.tables_without_miss();
+  desc.Width = 3;
+  desc.Height = desc.Depth = 2;
+  const auto words = program.run(desc);
   for (uint32_t i = 0; i < 12; ++i) {
     const std::vector<uint32_t> index = {i % 3, i / 3 % 2, i / 6};
     const auto at = [&](size_t word) {

@@ -242,7 +242,7 @@ void long_triangles_show_once(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> trv_any_hit_tests() {
-  return {{"TRV-09", odd_rays},
+  return {{"TRV-09", odd_rays, "KA0401, KA0402"},
           {"TRV-10", rays_without_direction},
           {"TRV-20", any_hit_truth_table},
           {"TRV-24", payload_outlives_ignored_and_ended},

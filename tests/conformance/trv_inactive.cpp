@@ -240,9 +240,12 @@ void updates_change_activity(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> trv_inactive_tests() {
-  return {{"TRV-59", a_nan_beside_x},          {"TRV-60", normalised_vertices_are_active},
-          {"TRV-61", updates_change_activity}, {"TRV-62", degenerate_ones_count},
-          {"TRV-65", inverted_boxes},          {"TRV-66", updates_collapse_and_restore}};
+  return {{"TRV-59", a_nan_beside_x, "KA0473"},
+          {"TRV-60", normalised_vertices_are_active},
+          {"TRV-61", updates_change_activity, "KA0470"},
+          {"TRV-62", degenerate_ones_count},
+          {"TRV-65", inverted_boxes},
+          {"TRV-66", updates_collapse_and_restore}};
 }
 
 }  // namespace kaamos::conformance

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told.
 set -euo pipefail
 rule=$1
 cd "$2"
@@ -85,6 +85,19 @@ check_listed() {
     done
 }
 
+# Each message of checked mode has a test that holds its id; one of the tests of the list's section 12 or of
+# tests/checks and tests/checked_code provokes it.
+check_told() {
+  local file=runtime/checks/messages.inc line text id
+  grep -nE '^KAAMOS_CHECK\(' "$file" | while IFS=: read -r line text; do
+    id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_CHECK(\([0-9]*\),.*/\1/' <<<"$text")")
+    if ! list_files -name '*_test.cpp' -o -path './tests/conformance/err.cpp' |
+      xargs -r -d '\n' grep -qF "\"$id"; then
+      echo "$file:$line: no test holds $id"
+    fi
+  done
+}
+
 # Nobody installs what nothing uses.
 check_used() {
   local package pattern
@@ -100,7 +113,7 @@ check_used() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | length | listed | used) ;;
+  spdx | paths | marks | readme | length | listed | used | told) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

@@ -23,6 +23,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_C
   uint64_t entries;
   uint range_count;
   uint max_recursion_depth;
+  uint64_t reached;
+};
+//@ k_ReachedEntry
+// shader::spirv::ReachedEntry
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer k_ReachedEntry {
+  uint key;
+  uint shader;
+  uint64_t acceleration_structure;
+  uint by;
+  uint site;
+  uint ray_flags;
+  uint indices;
 };
 //@ k_CheckStatus
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_CheckStatus {
@@ -71,6 +83,37 @@ void k_tell(uint finding, uint site, uint origin, uint write, uint64_t a, uint64
       return;
     }
   }
+}
+
+// A call whose arguments are no constants: each different one once, as far as there is room.
+//@ k_reached
+uint g_check_shader();
+void k_reached(uint by, uint site, uint64_t scene, uint flags, uint indices) {
+  uint64_t checks = k_checks();
+  if (checks == 0UL) return;
+  uint64_t entries = k_CheckState(checks).reached;
+  uvec2 address = unpackUint2x32(scene);
+  uint key = (site * 0x9E3779B1u ^ flags) * 0x85EBCA6Bu ^ (indices * 0xC2B2AE35u) ^
+             (address.x >> 8) * 0x27D4EB2Fu ^ address.y ^ (g_check_shader() << 4) ^ by;
+  key = (key ^ key >> 15) | 1u;
+  for (uint i = 0u; i < 16u; ++i) {
+    k_ReachedEntry entry = k_ReachedEntry(entries + uint64_t(((key >> 1) + i) & 1023u) * 32UL);
+    uint old = entry.key;
+    if (old == 0u) old = atomicCompSwap(entry.key, 0u, key);
+    if (old == key) return;
+    if (old != 0u) continue;
+    entry.shader = g_check_shader();
+    entry.acceleration_structure = scene;
+    entry.by = by;
+    entry.site = site;
+    entry.ray_flags = flags;
+    entry.indices = indices;
+    return;
+  }
+}
+//@ k_structure_of
+uint64_t k_structure_of(k_Descriptor scene) {
+  return (scene.kind_access & 0xFFFFu) == 7u ? scene.address : 0UL;
 }
 
 //@ k_bytes_from
@@ -132,6 +175,12 @@ k_Descriptor k_resolve_checked(uint source, uint offset, uint index, uint count,
   }
   return d;
 }
+//@ k_stale
+bool k_stale(k_Descriptor d) {
+  uint kind = d.kind_access & 0xFFFFu;
+  uint64_t key = d.address | (d.kind_access == 0x10005u ? 1UL << 62 : 0UL);
+  return kind != 0u && kind != 6u && d.address != 0UL && k_bytes_from(key) == 0UL;
+}
 // A descriptor that is used, now.
 //@ k_used
 k_Descriptor k_used(k_Descriptor d, uint source, uint offset, uint index, uint count,
@@ -139,6 +188,13 @@ k_Descriptor k_used(k_Descriptor d, uint source, uint offset, uint index, uint c
   uint from = source & 0xFFu;
   if (from == 3u && (d.kind_access & 0xFFFFu) == 0u) {
     k_explain_missing(site, binding, source, offset, index, count, array_index);
+  }
+  if (from == 3u && count != 1u && k_stale(d)) {
+    k_tell(17u, site, binding, 0u, d.address, uint64_t(d.kind_access & 0xFFFFu),
+           uint64_t(array_index), 0UL);
+    d.kind_access = 0u;
+    d.address = 0UL;
+    d.size = 0UL;
   }
   if (from == 2u && (source >> 16 & 0xFFu) == 1u && (d.address & 255UL) != 0UL) {
     k_tell(3u, site, binding, 0u, d.address, 0UL, 0UL, 256UL);
@@ -164,6 +220,11 @@ k_Descriptor k_heap_resource_checked(uint index, uint kind, uint access, uint si
   } else if ((d.kind_access & 0xFFFFu) != 0u && !k_matches(d, kind, access)) {
     k_tell(6u, site, 0u, 0u, uint64_t(d.kind_access & 0xFFFFu), uint64_t(d.kind_access >> 16),
            uint64_t(kind), uint64_t(access));
+  } else if (k_stale(d)) {
+    k_tell(17u, site, 0u, 0u, d.address, uint64_t(d.kind_access & 0xFFFFu), uint64_t(index), 0UL);
+    d.kind_access = 0u;
+    d.address = 0UL;
+    d.size = 0UL;
   }
   return d;
 }

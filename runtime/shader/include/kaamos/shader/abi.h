@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 6;
+inline constexpr uint32_t kAbiVersion = 7;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -80,7 +80,10 @@ struct BindingSlot {
 
 struct Services;
 
-// Memory that an allocation holds.
+// Memory that an allocation holds; of a view of a live texture one byte at its view_key().
+constexpr uint64_t view_key(uint64_t address, bool unordered_access) {
+  return address | (unordered_access ? uint64_t{1} << 62 : 0);
+}
 struct AddressRange {
   uint64_t address = 0;
   uint64_t size_bytes = 0;
@@ -97,8 +100,8 @@ struct Dispatch {
   const Descriptor* sampler_heap_begin = nullptr;
   const Descriptor* sampler_heap_end = nullptr;
   void* backend = nullptr;  // the backend's own dispatch state
-  // For checked libraries: every allocation, by rising address. Both null: root descriptors have no
-  // bounds.
+  // For checked libraries: every allocation and view of a texture, by rising address. Both null:
+  // root descriptors have no bounds.
   const AddressRange* ranges_begin = nullptr;
   const AddressRange* ranges_end = nullptr;
   uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
@@ -300,6 +303,7 @@ enum class Finding : uint32_t {
   kNoCandidate,       // what Proceed has not found, or of another type, was read or committed
   kNoCommittedHit,    // hit data read without a hit
   kCommitOutOfRange,  // values: bits of t, of TMin and of the committed t
+  kStaleView,         // a descriptor of an array whose resource is gone; values: address, kind
   kCount
 };
 
@@ -315,6 +319,21 @@ static_assert(sizeof(CheckReport) == 64);
 constexpr uint32_t make_site(uint32_t file, uint32_t line) {
   return (file < 0xFFFu ? file : 0xFFFu) << 20 | (line < 0xFFFFFu ? line : 0);
 }
+
+// A call whose arguments are not all constants of the shader: what it reaches is only known now.
+enum class ReachedBy : uint32_t { kTraceRay, kTraceRayInline, kCallShader };
+struct ReachedCall {
+  uint64_t acceleration_structure = 0;
+  ReachedBy by = ReachedBy::kTraceRay;
+  uint32_t site = 0;  // as CheckReport's
+  uint32_t ray_flags = 0;
+  // TraceRay: mask | contribution << 8 | multiplier << 12 | miss index << 16; CallShader: the
+  // index.
+  uint32_t indices = 0;
+
+  bool operator==(const ReachedCall&) const = default;
+};
+static_assert(sizeof(ReachedCall) == 24);
 
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
@@ -345,7 +364,8 @@ struct Services {
 
   void (*group_barrier)(ComputeGroup&);  // fibers only
   void (*remove_device)(Invocation&, RemovalReason);
-  void (*report)(Invocation&, const CheckReport&);  // null: nobody listens
+  void (*report)(Invocation&, const CheckReport&);   // null: nobody listens
+  void (*reached)(Invocation&, const ReachedCall&);  // the same
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -393,13 +413,13 @@ struct BindingDesc {
 };
 
 enum ExportFlags : uint32_t {
-  kExportTraces = 1,           // can reach TraceRay
-  kExportCalls = 2,            // can reach CallShader
-  kExportUsesViewHeap = 4,     // ResourceDescriptorHeap[]
-  kExportUsesSamplerHeap = 8,  // SamplerDescriptorHeap[]
-  kExportUsesRayQuery = 32,    // TraceRayInline
+  kExportTraces = 1,             // can reach TraceRay
+  kExportCalls = 2,              // can reach CallShader
+  kExportUsesViewHeap = 4,       // ResourceDescriptorHeap[]
+  kExportUsesSamplerHeap = 8,    // SamplerDescriptorHeap[]
+  kExportUsesRayQuery = 32,      // TraceRayInline
   kExportQualifiedPayload = 64,  // shader model 6.7+: MaxPayloadSizeInBytes does not bound it
-  kExportReadsHitKind = 16,    // HitKind; without it a closest-hit shader may find any value there
+  kExportReadsHitKind = 16,  // HitKind; without it a closest-hit shader may find any value there
 };
 
 struct ComputeDesc {
@@ -459,6 +479,9 @@ struct ExportDesc {
   // matrix one after another. Null: not known. For people; nothing depends on it.
   const char* payload_layout = nullptr;
   const char* attribute_layout = nullptr;
+  // Hash of the attributes' scalars in order: what ReportHit gives or the parameter has. 0: none,
+  // or not known; 1: several types are reported.
+  uint32_t attribute_type = 0;
 };
 
 // Subobjects written in HLSL. Which members count depends on type (numbers of

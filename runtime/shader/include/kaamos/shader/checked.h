@@ -76,6 +76,14 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
          static_cast<uint64_t>(binding.kind), static_cast<uint64_t>(binding.access));
 }
 
+// The resource of a view is gone; null descriptors and samplers never are.
+inline bool stale(const Dispatch& dispatch, const Descriptor& found) {
+  if (found.kind == DescriptorKind::kNull || found.kind == DescriptorKind::kSampler) return false;
+  const bool writable_texture =
+      found.kind == DescriptorKind::kTexture && found.access == DescriptorAccess::kUnorderedAccess;
+  return found.address != 0 && bytes_from(dispatch, view_key(found.address, writable_texture)) == 0;
+}
+
 [[gnu::noinline]] inline Descriptor resource(Invocation& invocation, uint32_t site, uint32_t slot,
                                              uint32_t index) {
   const BindingSlot& binding = invocation.slots[slot];
@@ -91,6 +99,11 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
   } else if (binding.source == SlotSource::kDescriptorTable &&
              found.kind == DescriptorKind::kNull) {
     explain_missing(invocation, site, slot, index);
+  } else if (binding.source == SlotSource::kDescriptorTable && binding.descriptor_count != 1 &&
+             stale(*invocation.dispatch, found)) {
+    report(invocation, Finding::kStaleView, site, slot + 1, 0, found.address,
+           static_cast<uint64_t>(found.kind), index);
+    return {};
   }
   return found;
 }
@@ -111,6 +124,10 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
     report(invocation, Finding::kWrongDescriptor, site, 0, 0, static_cast<uint64_t>(found.kind),
            static_cast<uint64_t>(found.access), static_cast<uint64_t>(kind),
            static_cast<uint64_t>(access));
+  } else if (stale(dispatch, found)) {
+    report(invocation, Finding::kStaleView, site, 0, 0, found.address,
+           static_cast<uint64_t>(found.kind), index);
+    return {};
   }
   return found;
 }
@@ -242,11 +259,31 @@ inline void check_payload(Invocation& invocation, uint32_t site, const void* pay
   report(invocation, Finding::kPayloadMismatch, site, 0, 0, header.bytes, bytes, callable ? 1 : 0);
 }
 
+// Tells of a call that is `unknown` before it runs: not all of its arguments are constants.
+[[gnu::noinline]] inline void reached(Invocation& invocation, ReachedBy by, uint32_t site,
+                                      uint64_t acceleration_structure, uint32_t ray_flags,
+                                      uint32_t indices) {
+  const auto tell = invocation.dispatch->services->reached;
+  if (tell != nullptr) tell(invocation, {acceleration_structure, by, site, ray_flags, indices});
+}
+constexpr uint32_t trace_indices(uint32_t mask, uint32_t ray_contribution, uint32_t multiplier,
+                                 uint32_t miss_index) {
+  return (mask & 0xFFu) | (ray_contribution & 15u) << 8 | (multiplier & 15u) << 12 |
+         miss_index << 16;
+}
+inline uint64_t structure_of(const Descriptor& scene) {
+  return scene.kind == DescriptorKind::kAccelerationStructure ? scene.address : 0;
+}
+
 template <class Ray, class Payload>
-inline void trace_ray(Invocation& invocation, uint32_t site, uint32_t type,
+inline void trace_ray(Invocation& invocation, uint32_t site, uint32_t type, bool unknown,
                       const Descriptor& acceleration_structure, uint32_t flags, uint32_t mask,
                       uint32_t ray_contribution, uint32_t multiplier, uint32_t miss_index,
                       const Ray& ray, Payload& payload) {
+  if (unknown) {
+    reached(invocation, ReachedBy::kTraceRay, site, structure_of(acceleration_structure), flags,
+            trace_indices(mask, ray_contribution, multiplier, miss_index));
+  }
   RayDesc plain;
   __builtin_memcpy(&plain, &ray, sizeof(plain));
   check_trace(invocation, site, flags, plain);
@@ -257,7 +294,9 @@ inline void trace_ray(Invocation& invocation, uint32_t site, uint32_t type,
 }
 
 template <class Data>
-inline void call_shader(Invocation& invocation, uint32_t type, uint32_t shader_index, Data& data) {
+inline void call_shader(Invocation& invocation, uint32_t site, uint32_t type, bool unknown,
+                        uint32_t shader_index, Data& data) {
+  if (unknown) reached(invocation, ReachedBy::kCallShader, site, 0, 0, shader_index);
   PayloadBox<Data> box = {{kPayloadMagic, type, sizeof(Data), 0}, data, {}};
   shader::call_shader(invocation, shader_index, box.value);
   data = box.value;
@@ -287,9 +326,12 @@ inline void check_query_trace(Invocation& invocation, uint32_t site, uint32_t fl
 }
 
 template <class Ray>
-inline void trace_ray_inline(Invocation& invocation, uint32_t site, RayQuery& query,
+inline void trace_ray_inline(Invocation& invocation, uint32_t site, bool unknown, RayQuery& query,
                              const Descriptor& scene, uint32_t flags, uint32_t mask,
                              const Ray& ray) {
+  if (unknown) {
+    reached(invocation, ReachedBy::kTraceRayInline, site, structure_of(scene), flags, mask & 0xFFu);
+  }
   RayDesc plain;
   __builtin_memcpy(&plain, &ray, sizeof(plain));
   check_query_trace(invocation, site, flags, plain);

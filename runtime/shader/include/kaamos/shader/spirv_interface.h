@@ -155,6 +155,7 @@ struct CheckState {
   uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table that starts with zeros
   uint32_t range_count = 0;
   uint32_t max_recursion_depth = 0;
+  uint64_t reached = 0;  // ReachedEntry[kReachedEntries], the same
 };
 inline constexpr uint32_t kCheckEntries = 256;
 struct CheckEntry {
@@ -167,6 +168,13 @@ struct CheckEntry {
 };
 static_assert(sizeof(CheckEntry) == 96);
 static_assert(offsetof(CheckEntry, index) == 72);
+inline constexpr uint32_t kReachedEntries = 1024;
+struct ReachedEntry {
+  uint32_t key = 0;     // 0: free
+  uint32_t shader = 0;  // kShaderConstant
+  ReachedCall call;
+};
+static_assert(sizeof(ReachedEntry) == 32);
 
 // ---------------------------------------------------------------------------------------------
 // Payloads, callable data and attributes
