@@ -102,7 +102,8 @@ void Layer::after(const runtime::Command& command, bool succeeded) {
   instances_.clear();
   contents_.clear();
   reporter_.end();
-  labels_.pop_back();
+  // A backend that could not begin the command comes here at once.
+  if (!labels_.empty()) labels_.pop_back();
   if (!labels_.empty()) reporter_.begin(labels_.back());
 }
 

@@ -106,7 +106,8 @@ void identifiers_of_an_addition(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> sbt_undefined_tests() {
-  return {{"SBT-23", records_that_are_none}, {"SBT-33", identifiers_of_an_addition}};
+  return {{"SBT-23", records_that_are_none, "KA0430, KA0431, KA0432"},
+          {"SBT-33", identifiers_of_an_addition, "KA0432"}};
 }
 
 }  // namespace kaamos::conformance
