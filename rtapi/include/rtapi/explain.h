@@ -58,7 +58,7 @@ struct ExplainedShader {
   std::vector<ExplainedValue> Attributes = {};
   std::vector<ExplainedValue> Before = {};  // payload or callable data
   std::vector<ExplainedValue> After = {};
-  std::vector<ExplainedCall> Calls = {};
+  std::vector<ExplainedCall> Calls;
   std::string Result = {};  // any-hit: "accepted", "ignored", "accepted, search ended"
 };
 
