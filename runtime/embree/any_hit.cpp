@@ -65,7 +65,7 @@ shader::AnyHitResult run_any_hit(RayState& state, const ShaderRecord& record,
   const Shader& shader = *record.target->any_hit;
   ++worker.counters.any_hit_calls;
   RayInvocation invocation(state, shader, record,
-                           hit_values(state, *state.instance, candidate.geometry,
+                           hit_values(state, instance_index(state), candidate.geometry,
                                       candidate.primitive, candidate.hit_kind, candidate.t));
   const RunningShader running(worker, shader);
   return shader.as<shader::AnyHitFn>()(invocation, state.payload, candidate.attributes);

@@ -21,6 +21,7 @@ void call_shader(shader::Invocation& caller, uint32_t shader_index, void* data, 
   for (int i = 0; i < 3; ++i) invocation.index[i] = caller.index[i];
   invocation.depth = caller.depth;
   invocation.backend = caller.backend;
+  invocation.bound = worker.bound[shader.number];
   const RunningShader running(worker, shader);
   shader.as<shader::CallableFn>()(invocation, data);
 }

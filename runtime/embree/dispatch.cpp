@@ -53,6 +53,7 @@ void run_tile(void* argument) {
   invocation.slots = shader.slots;
   invocation.local_arguments = tile.record->local_arguments();
   invocation.backend = &worker;
+  invocation.bound = worker.bound[shader.number];
   for (uint32_t z = tile.first[2]; z < tile.last[2]; ++z) {
     for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
       for (uint32_t x = tile.first[0]; x < tile.last[0]; ++x) {
@@ -118,6 +119,25 @@ void warn_of_records(const char* name, const RecordTable& table, const RecordPro
   }
 }
 
+// Looks up what every shader of the pipeline finds bound.
+void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
+  size_t count = 0;
+  for (const Shader* shader : pipeline.shaders()) count += shader->linked->slots.size();
+  dispatch.bound_resources.resize(count);
+  shader::BoundResource* place = dispatch.bound_resources.data();
+  shader::Invocation invocation;
+  invocation.dispatch = &dispatch.abi;
+  for (const Shader* shader : pipeline.shaders()) {
+    const shader::ExportDesc& code = *shader->linked->code;
+    dispatch.bound.push_back(place);
+    invocation.slots = shader->slots;
+    if ((code.flags & shader::kExportReadsBound) != 0) {
+      shader::bind(invocation, code.bindings, code.binding_count, place);
+    }
+    place += shader->linked->slots.size();
+  }
+}
+
 struct RecordRead {
   const RaytracingPipeline* pipeline;
   const rtapi::GpuVirtualAddressRange* range;
@@ -151,6 +171,7 @@ void begin_dispatch(const DispatchEnvironment& environment, const runtime::Dispa
   abi.services = &services();
   abi.root_arguments = state.root_arguments->bytes.data();
   abi.backend = &dispatch;
+  abi.direct_texels = true;
   const auto range = [](const std::shared_ptr<runtime::BackendBuffer>& heap,
                         const shader::Descriptor*& begin, const shader::Descriptor*& end) {
     if (heap == nullptr) return;
@@ -190,6 +211,7 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
 void begin_worker(DispatchState& dispatch, Worker& worker) {
   dispatch.begun.load(std::memory_order_acquire);
   worker.dispatch = &dispatch;
+  worker.bound = dispatch.bound.data();
   worker.stack_left = dispatch.stack_bytes;
 }
 
@@ -238,6 +260,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   if (read.record.target->shader == nullptr || grid.tile_count() == 0) {
     return end_dispatch(dispatch);
   }
+  bind_shaders(pipeline, dispatch);
   dispatch.begun.store(true, std::memory_order_release);
   parallel_ranges(*environment.arena, grid.tile_count(), [&](uint64_t begin, uint64_t end) {
     run_tiles(dispatch, grid, read.record, begin, end);

@@ -35,7 +35,7 @@ void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t pr
   const bool committed = hit != nullptr && hit->geomID != RTC_INVALID_GEOMETRY_ID;
   IntersectionInvocation invocation = {
       RayInvocation(state, shader, record,
-                    hit_values(state, *state.instance, geometry.index, primitive, 0,
+                    hit_values(state, instance_index(state), geometry.index, primitive, 0,
                                committed ? ray.tfar : state.t_max)),
       &state,
       &geometry,

@@ -54,7 +54,8 @@ inline bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
 }
 
 inline const TopLevel* find_top_level(Worker& worker, uint64_t address) {
-  if (address == worker.cached_address) return worker.cached_top_level.get();
+  if (address == worker.cached_address) [[likely]]
+    return worker.cached_top_level.get();
   return look_up_top_level(worker, address);
 }
 

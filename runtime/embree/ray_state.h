@@ -4,6 +4,7 @@
 // query context, which is its first member.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cfloat>
 #include <cstdint>
@@ -85,7 +86,8 @@ struct RayInvocation : shader::Invocation {
                            &values,
                            {state.caller->index[0], state.caller->index[1], state.caller->index[2]},
                            state.caller->depth + 1,
-                           state.caller->backend},
+                           state.caller->backend,
+                           state.worker->bound[shader.number]},
         values(system_values) {}
 };
 
@@ -100,21 +102,26 @@ inline shader::RaySystemValues ray_values(const RayState& state, float t_current
 }
 
 // What shaders of a hit, or of a candidate for one, see.
-inline shader::RaySystemValues hit_values(const RayState& state, const InstanceNode& instance,
+inline shader::RaySystemValues hit_values(const RayState& state, uint32_t instance_index,
                                           uint32_t geometry, uint32_t primitive, uint32_t hit_kind,
                                           float t_current) {
-  const uint32_t index = static_cast<uint32_t>(&instance - state.top_level->nodes());
-  const InstanceDetail& detail = state.top_level->detail(index);
+  const InstanceNode& instance = state.top_level->nodes()[instance_index];
+  const InstanceDetail& detail = state.top_level->detail(instance_index);
   return {state.ray,
           t_current,
           reported_ray_flags(state),
           hit_kind,
-          index,
+          instance_index,
           detail.id,
           geometry,
           primitive,
           instance.object_to_world,
           detail.world_to_object};
+}
+
+// Of the instance that is being traversed.
+inline uint32_t instance_index(const RayState& state) {
+  return static_cast<uint32_t>(state.instance - state.top_level->nodes());
 }
 
 // Opacity by the order geometry, instance, ray; each replaces what is before it.
@@ -153,12 +160,15 @@ inline void clamp_barycentrics(float& u, float& v) {
 }
 
 // The open interval of triangles as Embree's closed one. Denormals are flushed to zero, so that the
-// smallest t above 0 is FLT_MIN. [DXR: Ray extents]
+// smallest t above 0 is FLT_MIN. Without branches: of floats that are not negative, their bits have
+// the same order. [DXR: Ray extents]
 inline float next_above(float t) {
-  return t < FLT_MIN ? FLT_MIN : std::bit_cast<float>(std::bit_cast<uint32_t>(t) + 1);
+  constexpr auto kBelowSmallest = std::bit_cast<uint32_t>(FLT_MIN) - 1;
+  return std::bit_cast<float>(std::max(std::bit_cast<uint32_t>(t), kBelowSmallest) + 1);
 }
 inline float next_below(float t) {
-  return t <= FLT_MIN ? 0.0f : std::bit_cast<float>(std::bit_cast<uint32_t>(t) - 1);
+  const uint32_t below = std::bit_cast<uint32_t>(t) - 1;
+  return std::bit_cast<float>(t <= FLT_MIN ? 0u : below);
 }
 
 // Takes a shader's share of the pipeline's stack while it runs, and names it for fault messages.
@@ -166,7 +176,7 @@ class RunningShader {
  public:
   RunningShader(Worker& worker, const Shader& shader) : worker_(worker), caller_(worker.running) {
     worker.running = &shader;
-    if (worker.stack_left < shader.stack_bytes) {
+    if (worker.stack_left < shader.stack_bytes) [[unlikely]] {
       remove_device(worker, shader::RemovalReason::kStackOverflow);
     }
     worker.stack_left -= shader.stack_bytes;

@@ -28,6 +28,7 @@ struct Shader {
   const shader::BindingSlot* slots = nullptr;
   uint32_t stack_bytes = 0;  // what it takes of the pipeline's stack
   bool reads_hit_kind = false;
+  uint32_t number = 0;                            // of the pipeline's shaders
   const runtime::LinkedShader* linked = nullptr;  // for messages; may be null
 
   template <typename Function>
@@ -83,11 +84,13 @@ class RecordTable {
   // size_bytes runs nothing [DXR: Out of bounds shader table indexing].
   ShaderRecord at(uint64_t index) const {
     const uint64_t slot = stride_bytes_ == 0 ? 0 : index;
-    if (slot >= count_) return out_of_bounds(index);
+    if (slot >= count_) [[unlikely]]
+      return out_of_bounds(index);
     const uint8_t* address = start_ + slot * stride_bytes_;
-    if (slot < cached_) {
+    if (slot < cached_) [[likely]] {
       const RecordTarget* target = cache_.get()[slot].load(std::memory_order_relaxed);
-      if (target != nullptr) return {target, address};
+      if (target != nullptr) [[likely]]
+        return {target, address};
     }
     return resolve(slot, address);
   }

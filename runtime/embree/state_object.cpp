@@ -20,12 +20,13 @@ RecordKind kind_of(runtime::RecordKind kind) {
   return RecordKind::kNone;
 }
 
-Shader flatten(const runtime::LinkedShader& shader) {
+Shader flatten(const runtime::LinkedShader& shader, uint32_t number) {
   return {shader.name.c_str(),
           shader.code->entry,
           shader.slots.data(),
           static_cast<uint32_t>(shader.stack_bytes),
           (shader.code->flags & shader::kExportReadsHitKind) != 0,
+          number,
           &shader};
 }
 
@@ -47,7 +48,10 @@ RaytracingPipeline::RaytracingPipeline(std::shared_ptr<const runtime::LinkedPipe
 
 const Shader* RaytracingPipeline::add(const runtime::LinkedShader* shader) {
   if (shader == nullptr) return nullptr;
-  return &shaders_.emplace(shader, flatten(*shader)).first->second;
+  const auto number = static_cast<uint32_t>(numbered_.size());
+  const auto [place, is_new] = shaders_.emplace(shader, flatten(*shader, number));
+  if (is_new) numbered_.push_back(&place->second);
+  return &place->second;
 }
 
 const RecordTarget* RaytracingPipeline::find(const void* self, const uint8_t* identifier) {
@@ -59,6 +63,6 @@ const RecordTarget* RaytracingPipeline::find(const void* self, const uint8_t* id
 }
 
 ComputePipeline::ComputePipeline(std::shared_ptr<const runtime::LinkedCompute> linked)
-    : linked_(std::move(linked)), shader_(flatten(linked_->shader)) {}
+    : linked_(std::move(linked)), shader_(flatten(linked_->shader, 0)) {}
 
 }  // namespace kaamos::embree

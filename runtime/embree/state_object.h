@@ -7,6 +7,7 @@
 #include <deque>
 #include <memory>
 #include <unordered_map>
+#include <vector>
 
 #include "runtime/backend.h"
 #include "runtime/embree/shader_record.h"
@@ -19,6 +20,8 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
 
   const runtime::LinkedPipeline& linked() const { return *linked_; }
   TargetLookup lookup() const { return {find, this}; }
+  // By Shader::number.
+  const std::vector<const Shader*>& shaders() const { return numbered_; }
 
  private:
   static const RecordTarget* find(const void* self, const uint8_t* identifier);
@@ -26,6 +29,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
 
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
   std::unordered_map<const runtime::LinkedShader*, Shader> shaders_;  // nodes do not move
+  std::vector<const Shader*> numbered_;
   std::unordered_map<const runtime::LinkedRecord*, RecordTarget> targets_;
 };
 

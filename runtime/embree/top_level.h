@@ -19,8 +19,8 @@
 
 namespace kaamos::embree {
 
-// What only shaders need of an instance.
-struct InstanceDetail {
+// What only shaders need of an instance; a cache line.
+struct alignas(64) InstanceDetail {
   float world_to_object[12];  // 3x4, row-major
   uint32_t id;                // InstanceID, 24 bits
 };

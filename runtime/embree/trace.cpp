@@ -26,9 +26,11 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
 }
 
 void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
-  const InstanceNode& instance = state.top_level->nodes()[ray_hit.hit.instID[0]];
+  const uint32_t index = ray_hit.hit.instID[0];
+  const InstanceNode& instance = state.top_level->nodes()[index];
   const ShaderRecord record = hit_record(state, instance, ray_hit.hit.geomID);
-  if (record.target->closest_hit == nullptr) return;
+  if (record.target->closest_hit == nullptr) [[unlikely]]
+    return;
   const Shader& shader = *record.target->closest_hit;
   ++state.worker->counters.closest_hit_calls;
 
@@ -38,7 +40,7 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
-  if (!instance.procedural) {
+  if (!instance.procedural) [[likely]] {
     if (shader.reads_hit_kind) {
       hit_kind = exact ? state.exact->hit_kind : committed_hit_kind(instance, ray_hit);
     }
@@ -49,7 +51,7 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
   }
   RayInvocation invocation(
       state, shader, record,
-      hit_values(state, instance, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t));
+      hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t));
   const RunningShader running(*state.worker, shader);
   shader.as<shader::ClosestHitFn>()(invocation, state.payload, attributes);
 }
@@ -58,7 +60,8 @@ void run_miss(RayState& state) {
   ++state.worker->counters.misses;
   const uint32_t index = state.arguments->miss_shader_index & 0xFFFFu;
   const ShaderRecord record = state.worker->dispatch->miss_table.at(index);
-  if (record.target->shader == nullptr) return;
+  if (record.target->shader == nullptr) [[unlikely]]
+    return;
   const Shader& shader = *record.target->shader;
   ++state.worker->counters.miss_calls;
   RayInvocation invocation(state, shader, record, ray_values(state, state.ray.t_max));
@@ -74,7 +77,7 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   check_stack(worker);
   // Ray generation is depth 0; at the declared depth TraceRay removes the device.
   // [DXR: Ray recursion limit]
-  if (caller.depth >= worker.dispatch->max_recursion_depth) {
+  if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
     remove_device(worker, shader::RemovalReason::kRecursionDepth);
   }
   ++worker.counters.rays;
@@ -89,7 +92,8 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   const ObjectRay world = {without_fourth_lane(origin_t_min), without_fourth_lane(direction_t_max)};
   const float t_min = origin_t_min[3];
   const float t_max = direction_t_max[3];
-  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max)) {
+  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max))
+      [[unlikely]] {
     return run_miss(state);
   }
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
@@ -97,7 +101,7 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
 
   RTCRayHit ray_hit;
   ExactState exact;
-  if (top_level->exact_frame() == nullptr) {
+  if (top_level->exact_frame() == nullptr) [[likely]] {
     begin_embree_ray(state, world, ray_hit.ray);
   } else if (!begin_exact_ray(state, exact, ray_hit.ray)) {
     return run_miss(state);

@@ -14,7 +14,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "kaamos/shader/abi.h"
+#include "kaamos/shader/bound.h"
 #include "runtime/backend.h"
 #include "runtime/embree/shader_record.h"
 
@@ -72,6 +72,9 @@ struct DispatchState {
   uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
   const Memory* memory = nullptr;
+  // What the shaders of a ray tracing pipeline find bound, by Shader::number.
+  std::vector<shader::BoundResource> bound_resources;
+  std::vector<const shader::BoundResource*> bound;
   // Checked mode; null without.
   const runtime::Context* context = nullptr;
   const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
@@ -92,6 +95,7 @@ struct DispatchState {
 
 struct Worker {
   DispatchState* dispatch = nullptr;
+  const shader::BoundResource* const* bound = nullptr;  // the dispatch's
   // The acceleration structure of the last ray. Address 0 is the null structure.
   uint64_t cached_address = 0;
   std::shared_ptr<const TopLevel> cached_top_level;

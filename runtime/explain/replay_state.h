@@ -3,6 +3,9 @@
 // What one shader invocation, one TraceRay and one RayQuery have while they are replayed.
 #pragma once
 
+#include <vector>
+
+#include "kaamos/shader/bound.h"
 #include "runtime/explain/replay.h"
 #include "runtime/explain/verdict.h"
 
@@ -42,6 +45,7 @@ struct Replay::Frame : shader::Invocation {
   Trace* trace = nullptr;                // intersection shaders
   const Candidate* candidate = nullptr;  // the same
   Record record;
+  std::vector<shader::BoundResource> bound_resources;
 
   void begin(Replay& self, const runtime::LinkedShader& linked, const Record& its_record,
              uint32_t its_depth) {
@@ -53,6 +57,12 @@ struct Replay::Frame : shader::Invocation {
     for (int i = 0; i < 3; ++i) index[i] = self.index_[i];
     depth = its_depth;
     backend = this;
+    if ((linked.code->flags & shader::kExportReadsBound) != 0) {
+      bound_resources.resize(linked.slots.size());
+      shader::bind(*this, linked.code->bindings, linked.code->binding_count,
+                   bound_resources.data());
+      bound = bound_resources.data();
+    }
   }
 };
 

@@ -140,6 +140,7 @@ class CppEmitter {
   const ir::Module& module_;
   const EmitCppOptions& options_;
   bool binds_per_group_ = false;  // compute shaders only: bound.h
+  bool reads_bound_ = false;      // Invocation::bound
   std::string out_;
   int indent_ = 0;
 

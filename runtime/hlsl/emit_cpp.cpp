@@ -98,6 +98,7 @@ CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
   for (const EntryPoint& entry : module.entry_points) {
     binds_per_group_ = binds_per_group_ && entry.stage == kStageCompute;
   }
+  reads_bound_ = !module.check_access && !binds_per_group_;
 }
 
 // Which static globals a function can touch, and how much stack it may need; callees stand before
@@ -280,7 +281,7 @@ std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
 
 // Declares `bound` and fills what the entry point can reach.
 void CppEmitter::emit_bound(const EntryPoint& entry) {
-  if (!binds_per_group_) return;
+  if (!binds_per_group_ && !reads_bound_) return;
   std::string used;
   uint32_t count = 0;
   for (const uint32_t binding : entry.bindings) {
@@ -291,6 +292,7 @@ void CppEmitter::emit_bound(const EntryPoint& entry) {
   line("ks::BoundResource bound[" + std::to_string(module_.bindings.size() + 1) + "];");
   line("static constexpr uint32_t used[] = {" + used + "0u};");
   line("ks::bind(invocation, used, " + std::to_string(count) + "u, bound);");
+  if (reads_bound_) line("invocation.bound = bound;");
 }
 
 void CppEmitter::emit_compute_entry(size_t index) {
@@ -305,10 +307,11 @@ void CppEmitter::emit_compute_entry(size_t index) {
     return;
   }
   // A group runs its threads itself and binds for all of them; else each thread is on its own.
-  const bool in_group = binds_per_group_ && !entry.function->has_barrier;
+  const bool in_group = !module_.check_access && !entry.function->has_barrier;
+  const bool passes_bound = in_group && binds_per_group_;
   open("static void thread_" + number +
        "(ks::Invocation& invocation, ks::ComputeGroup& group, const uint32_t thread[3]" +
-       (in_group ? ", const ks::BoundResource* bound) {" : ") {"));
+       (passes_bound ? ", const ks::BoundResource* bound) {" : ") {"));
   line("[[maybe_unused]] constexpr uint32_t size[3] = {" + size + "};");
   line("u::Context ctx(invocation);");
   if (!in_group) emit_bound(entry);
@@ -327,7 +330,7 @@ void CppEmitter::emit_compute_entry(size_t index) {
       line("for (" + t + " = 0; " + t + " < " + std::to_string(entry.thread_group[axis]) + "u; ++" +
            t + ")");
     }
-    line("  thread_" + number + "(invocation, group, thread" + (in_group ? ", bound);" : ");"));
+    line("  thread_" + number + "(invocation, group, thread" + (passes_bound ? ", bound);" : ");"));
     close("}");
   }
   line("static const ks::ComputeDesc compute_" + number + " = {{" + size +
@@ -436,7 +439,7 @@ void CppEmitter::emit_tables() {
                      (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
                      (e.uses_sampler_heap ? 8u : 0u) |
                      (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u) |
-                     (e.unbounded_payload ? 64u : 0u);
+                     (e.unbounded_payload ? 64u : 0u) | (reads_bound_ && !compute ? 128u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +
          (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +

@@ -306,6 +306,9 @@ std::string CppEmitter::binding(const Expr& expr) {
            std::to_string(expr.index) + "u, " + index + ")";
   }
   if (is_bound(expr)) return "ctx.bound[" + std::to_string(expr.index) + "].descriptor";
+  if (reads_bound_ && expr.operands.empty()) {
+    return "ks::bound_resource(ctx.invocation, " + std::to_string(expr.index) + "u)";
+  }
   return "ks::resource(ctx.invocation, " + std::to_string(expr.index) + "u, " + index + ")";
 }
 
@@ -316,6 +319,9 @@ bool CppEmitter::is_bound(const Expr& expr) const {
 
 std::string CppEmitter::texture(const Expr* expr) {
   if (is_bound(*expr)) return "ctx.bound[" + std::to_string(expr->index) + "]";
+  if (reads_bound_ && expr->kind == ExprKind::kBinding && expr->operands.empty()) {
+    return "ks::bound_texture(ctx.invocation, " + std::to_string(expr->index) + "u)";
+  }
   return value(expr);
 }
 

@@ -23,6 +23,7 @@ struct Access {
   Access() {
     set_texture_services(services);
     dispatch.services = &services;
+    dispatch.direct_texels = true;
     invocation.dispatch = &dispatch;
   }
 };

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 7;
+inline constexpr uint32_t kAbiVersion = 8;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -105,6 +105,9 @@ struct Dispatch {
   const AddressRange* ranges_begin = nullptr;
   const AddressRange* ranges_end = nullptr;
   uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
+  // Whether shaders may read and write texels where a descriptor's TextureView has them; else only
+  // the services know what a texture's address stands for.
+  bool direct_texels = false;
 };
 
 // HLSL's RayDesc. [DXR: RayDesc structure]
@@ -130,6 +133,8 @@ struct RaySystemValues {
   const float* world_to_object = nullptr;  // 3x4, row-major
 };
 
+struct BoundResource;
+
 // One shader invocation. Lives on the backend's stack for the time of the call.
 struct Invocation {
   const Dispatch* dispatch = nullptr;
@@ -139,6 +144,8 @@ struct Invocation {
   uint32_t index[3] = {0, 0, 0};             // DispatchRaysIndex
   uint32_t depth = 0;                        // ray generation is 0 [DXR: Ray recursion limit]
   void* backend = nullptr;                   // the backend's state of this call chain
+  // Indexed as `slots`, filled by bind() (bound.h); what kExportReadsBound needs.
+  const BoundResource* bound = nullptr;
 };
 
 // One thread group of a compute dispatch.
@@ -420,6 +427,7 @@ enum ExportFlags : uint32_t {
   kExportUsesRayQuery = 32,      // TraceRayInline
   kExportQualifiedPayload = 64,  // shader model 6.7+: MaxPayloadSizeInBytes does not bound it
   kExportReadsHitKind = 16,  // HitKind; without it a closest-hit shader may find any value there
+  kExportReadsBound = 128,   // Invocation::bound must hold the bindings of the export
 };
 
 struct ComputeDesc {

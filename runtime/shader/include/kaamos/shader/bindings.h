@@ -59,7 +59,8 @@ KAAMOS_INLINE const uint8_t* arguments_of(const Invocation& invocation, const Bi
 KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* arguments) {
   const uint64_t address =
       arguments != nullptr ? read_address(arguments + slot.argument_offset) : 0;
-  if (address == 0) return {};
+  if (address == 0) [[unlikely]]
+    return {};
   Descriptor result;
   result.kind = slot.kind;
   result.access = slot.access;
@@ -133,6 +134,17 @@ KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, u
     return bindings::from_root(binding, bindings::arguments_of(invocation, binding));
   }
   return bindings::resolve(invocation, binding, index);
+}
+
+// The same, index 0, where the binding is of the shader record.
+KAAMOS_INLINE Descriptor local_resource(const Invocation& invocation, uint32_t slot) {
+  const BindingSlot& binding = invocation.slots[slot];
+  const uint8_t* arguments = invocation.local_arguments;
+  if (binding.source == SlotSource::kRootDescriptor) return bindings::from_root(binding, arguments);
+  if (binding.source == SlotSource::kRootConstants && arguments != nullptr) {
+    return bindings::root_constants(binding, arguments);
+  }
+  return bindings::resolve(invocation, binding, 0);
 }
 
 // ResourceDescriptorHeap[index], SamplerDescriptorHeap[index]

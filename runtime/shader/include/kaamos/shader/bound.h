@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bindings of a compute shader, looked up once for all threads of a group: neither root arguments
-// nor descriptors change while a dispatch runs.
+// Bindings looked up once for many invocations, since neither root arguments nor descriptors change
+// while a dispatch runs: for all threads of a compute group, for all invocations of a ray shader.
 #pragma once
 
 #include "kaamos/shader/bindings.h"
@@ -18,6 +18,7 @@ struct BoundResource {
   uint32_t row_pitch = 0;
   uint8_t* texels = nullptr;
   bool writable = false;
+  bool ready = false;  // false: of the shader record, another one for each invocation
 };
 
 // `used`: the bindings that are no arrays, `count` of them. Others are left as they are.
@@ -25,7 +26,10 @@ struct BoundResource {
                                    uint32_t count, BoundResource* bound) {
   for (uint32_t i = 0; i < count; ++i) {
     BoundResource& out = bound[used[i]];
+    out.ready = !invocation.slots[used[i]].local;
+    if (!out.ready) continue;
     out.descriptor = resource(invocation, used[i], 0);
+    if (!invocation.dispatch->direct_texels) continue;
     const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
     if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
         view->direct_format == 0) {
@@ -39,6 +43,21 @@ struct BoundResource {
     out.texels = mip.texels;
     out.writable = view->unordered_access;
   }
+}
+
+// A binding that is no array, of a ray shader. [kExportReadsBound]
+KAAMOS_INLINE Descriptor bound_resource(const Invocation& invocation, uint32_t slot) {
+  const BoundResource& bound = invocation.bound[slot];
+  if (bound.ready) [[likely]]
+    return bound.descriptor;
+  return local_resource(invocation, slot);
+}
+KAAMOS_INLINE BoundResource bound_texture(const Invocation& invocation, uint32_t slot) {
+  if (invocation.bound[slot].ready) [[likely]]
+    return invocation.bound[slot];
+  BoundResource texture;
+  texture.descriptor = local_resource(invocation, slot);
+  return texture;
 }
 
 namespace texture_access {

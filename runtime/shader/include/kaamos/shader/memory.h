@@ -89,11 +89,13 @@ constexpr uint32_t aligned_offset(uint32_t offset) {
 }
 
 KAAMOS_INLINE Window element_window(const Descriptor& buffer, uint32_t index, uint32_t offset) {
-  if (buffer.kind != DescriptorKind::kStructuredBuffer || offset >= buffer.stride_bytes) {
+  if (buffer.kind != DescriptorKind::kStructuredBuffer || offset >= buffer.stride_bytes)
+      [[unlikely]] {
     return {nullptr, 0};
   }
   const uint64_t at = static_cast<uint64_t>(index) * buffer.stride_bytes + offset;
-  if (at >= buffer.size_bytes) return {nullptr, 0};
+  if (at >= buffer.size_bytes) [[unlikely]]
+    return {nullptr, 0};
   // An element ends at the view's stride, even where the shader believes it to be longer.
   const uint64_t in_buffer = buffer.size_bytes - at;
   const uint64_t in_element = buffer.stride_bytes - offset;

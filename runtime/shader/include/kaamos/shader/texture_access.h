@@ -241,14 +241,14 @@ template <class V>
 [[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation,
                                                      const Descriptor& texture, int4 coordinates) {
   V value{};
-  if (load_short(texture, coordinates, value)) return value;
+  if (invocation.dispatch->direct_texels && load_short(texture, coordinates, value)) return value;
   return from_texel<V>(invocation.dispatch->services->load_texel(texture, coordinates.e));
 }
 template <class V>
 [[gnu::noinline]] inline void store_converted(const Invocation& invocation,
                                               const Descriptor& texture, int4 coordinates,
                                               V value) {
-  if (store_short(texture, coordinates, value)) return;
+  if (invocation.dispatch->direct_texels && store_short(texture, coordinates, value)) return;
   invocation.dispatch->services->store_texel(texture, coordinates.e, to_texel(value));
 }
 
@@ -258,7 +258,10 @@ template <class V>
 KAAMOS_INLINE V load_texel(const Invocation& invocation, const Descriptor& texture,
                            const int4& coordinates) {
   if constexpr (texture_access::direct_format<V>() != 0) {
-    if (const uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates)) {
+    const uint8_t* texel = invocation.dispatch->direct_texels
+                               ? texture_access::direct_texel<V>(texture, coordinates)
+                               : nullptr;
+    if (texel != nullptr) {
       V value;
       __builtin_memcpy(&value, texel, sizeof(V));
       return value;
@@ -270,7 +273,9 @@ template <class V>
 KAAMOS_INLINE void store_texel(const Invocation& invocation, const Descriptor& texture,
                                const int4& coordinates, const V& value) {
   if constexpr (texture_access::direct_format<V>() != 0) {
-    uint8_t* texel = texture_access::direct_texel<V>(texture, coordinates);
+    uint8_t* texel = invocation.dispatch->direct_texels
+                         ? texture_access::direct_texel<V>(texture, coordinates)
+                         : nullptr;
     if (texel != nullptr &&
         reinterpret_cast<const TextureView*>(texture.address)->unordered_access) {
       __builtin_memcpy(texel, &value, sizeof(V));
