@@ -18,10 +18,10 @@ constexpr char kEmbreesT[] =
 constexpr char kLavapipesEdges[] =
     "fault of Mesa 25.0's triangle test: edges belong to both of their triangles, so that rays "
     "that meet one exactly hit both";
-// DispatchRays.CallablesNestToTheirLimit of vulkan_test ends so with kMaxCallableDepth at 47.
+// Without anything of the backend: tests/vulkan/callable_probe.
 constexpr char kLavapipesCallables[] =
-    "fault of Mesa 25.0: with 47 callables nested its own code faults although the pipeline stack "
-    "holds them; the backend removes the device after 31";
+    "fault of Mesa 25.0: it reserves memory for 31 nested callables, whatever the pipeline's stack "
+    "size is, and deeper ones write over other memory; the backend removes the device after 31";
 constexpr char kMesa[] = "Mesa 25.0.";
 
 constexpr Deviation kDeviations[] = {

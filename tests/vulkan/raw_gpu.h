@@ -94,8 +94,9 @@ class Gpu {
              bool update = false);
   void free(Accel& accel);
 
+  // own_stack: vkCmdSetRayTracingPipelineStackSizeKHR says how large its stack is.
   Pipeline pipeline(const std::vector<Stage>& stages, const std::vector<Group>& groups,
-                    uint32_t recursion);
+                    uint32_t recursion, bool own_stack = false);
   VkPipeline compute(const Stage& stage);
   void free(VkPipeline pipeline);
 

@@ -116,7 +116,7 @@ void Gpu::free(Accel& accel) {
 }
 
 Pipeline Gpu::pipeline(const std::vector<Stage>& stages, const std::vector<Group>& groups,
-                       uint32_t recursion) {
+                       uint32_t recursion, bool own_stack) {
   std::map<const std::vector<uint32_t>*, VkShaderModule> modules;
   std::vector<std::unique_ptr<Constants>> constants;
   std::vector<VkPipelineShaderStageCreateInfo> infos;
@@ -152,6 +152,11 @@ Pipeline Gpu::pipeline(const std::vector<Stage>& stages, const std::vector<Group
   create.pGroups = group_infos.data();
   create.maxPipelineRayRecursionDepth = recursion;
   create.layout = layout_;
+  const VkDynamicState stack_state = VK_DYNAMIC_STATE_RAY_TRACING_PIPELINE_STACK_SIZE_KHR;
+  VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
+  dynamic.dynamicStateCount = 1;
+  dynamic.pDynamicStates = &stack_state;
+  if (own_stack) create.pDynamicState = &dynamic;
   Pipeline result;
   const VkResult created = vkCreateRayTracingPipelinesKHR(device_, VK_NULL_HANDLE, VK_NULL_HANDLE,
                                                           1, &create, nullptr, &result.pipeline);

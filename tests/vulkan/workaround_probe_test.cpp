@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Workarounds that change no pixel, with and without: B11 (which thread works) and PAYLOAD (whether
-// the process lives). The others' tests compare pixels: runtime/vulkan/README.md says where.
+// the process lives). The others' tests compare pixels: runtime/vulkan/README.md says where. And
+// the driver's fault behind the limit of nested callables.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -19,12 +20,11 @@ struct Outcome {
   std::string line;
 };
 
-// `before`: shell commands. The probe does not dump its core, and its validation layers are off:
-// they have stacks and threads of their own.
+// `before`: shell commands; `what`: the program and its arguments. The probe does not dump its
+// core, and its validation layers are off: they have stacks and threads of their own.
 Outcome probe(const std::string& what, const std::string& before) {
   const std::string command = "bash -c 'unset KAAMOS_VULKAN_VALIDATION; ulimit -c 0; " + before +
-                              KAAMOS_BINARY_DIR "/bin/workaround_probe " + what +
-                              " 2>&1; exit $?' 2>/dev/null";
+                              KAAMOS_BINARY_DIR "/bin/" + what + " 2>&1; exit $?' 2>/dev/null";
   Outcome outcome;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
@@ -35,7 +35,7 @@ Outcome probe(const std::string& what, const std::string& before) {
 }
 
 double busiest_share(const std::string& before) {
-  const Outcome outcome = probe("balance", before);
+  const Outcome outcome = probe("workaround_probe balance", before);
   EXPECT_EQ(outcome.status, 0) << outcome.line;
   return std::atof(outcome.line.c_str());
 }
@@ -55,7 +55,7 @@ constexpr char kSmallStacks[] = "ulimit -s 1024; ";
 
 TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepRemoveTheDevice) {
   KAAMOS_NEED_VULKAN();
-  const Outcome with = probe("payload", kSmallStacks);
+  const Outcome with = probe("workaround_probe payload", kSmallStacks);
   EXPECT_EQ(with.status, 0);
   EXPECT_NE(with.line.find("KA0890"), std::string::npos) << with.line;
   EXPECT_NE(with.line.find("a depth of 11 "), std::string::npos) << with.line;
@@ -63,23 +63,36 @@ TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepRemoveTheDevice) {
 
 TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepEndTheProcessOtherwise) {
   KAAMOS_NEED_VULKAN();
-  const Outcome without = probe(
-      "payload", std::string("export KAAMOS_VULKAN_DISABLE_WORKAROUNDS=PAYLOAD; ") + kSmallStacks);
+  const Outcome without =
+      probe("workaround_probe payload",
+            std::string("export KAAMOS_VULKAN_DISABLE_WORKAROUNDS=PAYLOAD; ") + kSmallStacks);
   EXPECT_GE(without.status, 128) << without.line;
 }
 
 TEST(VulkanWorkarounds, UsualStacksAreLargeEnough) {
   KAAMOS_NEED_VULKAN();
-  const Outcome outcome = probe("payload", "ulimit -s 8192; ");
+  const Outcome outcome = probe("workaround_probe payload", "ulimit -s 8192; ");
   EXPECT_EQ(outcome.line, "finished: 38\n");
 }
 
 // Without a limit threads get 2 MiB.
 TEST(VulkanWorkarounds, StacksWithoutALimitAreSmaller) {
   KAAMOS_NEED_VULKAN();
-  const Outcome outcome = probe("payload", "ulimit -s unlimited; ");
+  const Outcome outcome = probe("workaround_probe payload", "ulimit -s unlimited; ");
   EXPECT_EQ(outcome.status, 0) << outcome.line;
   EXPECT_NE(outcome.line.find("a depth of 23 "), std::string::npos) << outcome.line;
+}
+
+// Without anything of the backend in the process. [SO-48]
+TEST(VulkanDriver, DeepCallablesRunOverTheirMemory) {
+  KAAMOS_NEED_VULKAN();
+  const Outcome few = probe("callable_probe 31", "");
+  if (few.line.find("llvmpipe") == std::string::npos) GTEST_SKIP() << few.line;
+  EXPECT_NE(few.line.find("\nlevels: 31 of 31\n"), std::string::npos) << few.line;
+  const Outcome many = probe("callable_probe 300", "");
+  EXPECT_EQ(many.line.find("\nlevels: 300"), std::string::npos) << many.line;
+  const Outcome with = probe("callable_probe 300 --frame 8192", "");
+  EXPECT_NE(with.line.find("\nlevels: 300 of 300\n"), std::string::npos) << with.line;
 }
 
 }  // namespace
