@@ -13,7 +13,10 @@ SharedObject build_library(const HostCompiler& compiler, const ir::Module& modul
                            const BuildOptions& options) {
   const uint32_t flags =
       options.optimisation == Optimisation::kDebug ? uint32_t{shader::kLibraryDebug} : 0u;
-  std::string content = emit_cpp(module, {.flags = flags});
+  // A debugger shows one thread after the other.
+  const bool is_wide = options.wide && flags != shader::kLibraryDebug;
+  const WideThreads wide = is_wide ? WideThreads::kWhereFaster : WideThreads::kNever;
+  std::string content = emit_cpp(module, {.flags = flags, .wide = wide});
   if (!options.spirv) {
     return build_shared_object(compiler, content, options.optimisation, options.cache);
   }
@@ -34,7 +37,7 @@ SharedObject build_library(const HostCompiler& compiler, const ir::Module& modul
       }
       modules.push_back(std::move(spirv.words));
     }
-    return emit_cpp(module, {.spirv = modules, .flags = flags});
+    return emit_cpp(module, {.spirv = modules, .flags = flags, .wide = wide});
   };
   return build_shared_object(compiler, content, make_source, options.optimisation, options.cache);
 }

@@ -14,6 +14,7 @@ namespace kaamos::hlsl {
 struct BuildOptions {
   Optimisation optimisation = Optimisation::kFull;
   bool spirv = true;  // false: the library runs on the CPU only
+  bool wide = true;   // compute shaders run several threads at once, except in a debug build
   std::filesystem::path cache = cache_folder();
 };
 

@@ -2,7 +2,8 @@
 //
 // The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
 // structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
-// tables), emit_groups.cpp (compute shaders with barriers).
+// tables), emit_groups.cpp (compute shaders with barriers). Those that run several threads at once
+// are WideEmitter's.
 //
 // The emitted unit: prelude as namespace `ks`, everything of the library in namespace `u`:
 // structs, constants, `u::Context` (one for each shader invocation: the ABI's Invocation, static
@@ -11,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -25,6 +27,7 @@
 namespace kaamos::hlsl {
 
 struct ReachedCalls;
+class WideEmitter;
 
 class CppEmitter {
  public:
@@ -32,6 +35,8 @@ class CppEmitter {
   std::string run();
 
  private:
+  friend class WideEmitter;  // prints into the same unit
+
   // emit_types.cpp
   std::string type(const ir::Type* type);
   void emit_structs();
@@ -68,12 +73,16 @@ class CppEmitter {
   // CheckReport::site, of the expression or else of the statement that is being printed.
   std::string site(const ir::Location& location) const;
   std::string typed_load(const ir::Expr& expr);
-  std::string sample(const ir::Expr& expr);
+  // The same of operands that the caller has printed.
+  using TextOf = std::function<std::string(const ir::Expr*)>;
+  std::string sample_text(const ir::Expr& expr, const TextOf& text);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
   std::string variable(const ir::Variable* variable);
   // Texel coordinates as the ABI wants them: {x, y, z or array element, mip}.
   std::string texel_coordinates(const ir::Type* resource, const ir::Expr* coordinates,
                                 const ir::Expr* mip, const ir::Expr* offset);
+  std::string texel_coordinates_text(const ir::Type* resource, const std::string& coordinates,
+                                     const std::string& mip, const std::string& offset);
 
   // emit_statements.cpp
   void block(const ir::Block& body);
@@ -81,7 +90,7 @@ class CppEmitter {
   void declare(const ir::Stmt& stmt);
   void assign(const ir::Expr* target, const std::string& value);
   void store(const ir::Stmt& stmt);
-  void atomic(const ir::Stmt& stmt);
+  std::string atomic_text(const ir::Stmt& stmt, const TextOf& text);
   void call_function(const ir::Stmt& stmt);
   void trace_ray(const ir::Stmt& stmt);
   void report_hit(const ir::Stmt& stmt);

@@ -10,6 +10,7 @@
 #include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/trace_calls.h"
 #include "runtime/hlsl/value_layout.h"
+#include "runtime/hlsl/wide_emitter.h"
 
 namespace kaamos::hlsl {
 
@@ -499,12 +500,17 @@ std::string CppEmitter::run() {
   line("#include <kaamos/shader/prelude.h>");
   line("#include <kaamos/shader/views.h>");
   if (module_.check_access) line("#include <kaamos/shader/checked.h>");
+  const auto is_compute = [](const EntryPoint& e) { return e.stage == kStageCompute; };
+  if (options_.wide != WideThreads::kNever &&
+      std::any_of(module_.entry_points.begin(), module_.entry_points.end(), is_compute)) {
+    line("#include <kaamos/shader/wide_memory.h>");
+  }
   line("namespace {");
   // A namespace of its own lets several units stand in one file.
   line("namespace unit_" + options_.entry_point + " {");
   line("namespace ks = kaamos::shader;");
   line("namespace u {");
-  for (const char* reserved : {"Shared", "Statics", "Context"}) {
+  for (const char* reserved : {"Shared", "Statics", "Context", "WideStatics", "WideContext"}) {
     global_names_.add(reserved);
   }
   collect_static_use();
@@ -513,10 +519,13 @@ std::string CppEmitter::run() {
   emit_constants();
   emit_context();
   emit_functions();
+  WideEmitter wide(*this);
+  for (const EntryPoint& entry : module_.entry_points) wide.plan(entry);
+  wide.emit_declarations();
   at_generated();
   line("}  // namespace u");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
-    emit_entry(i);
+    if (!wide.emit_group(i)) emit_entry(i);
   }
   emit_tables();
   line("}}");

@@ -14,6 +14,13 @@
 
 namespace kaamos::hlsl {
 
+// Compute shaders that run several threads at once. [wide_plan.h]
+enum class WideThreads : uint8_t {
+  kNever,
+  kWhereFaster,  // groups have as many threads
+  kAlways,       // for tests: wherever it is possible
+};
+
 struct EmitCppOptions {
   // Name of the table's function. Libraries of one program need different names; a library that is
   // loaded at run time has shader::kLibraryEntryPoint.
@@ -23,6 +30,7 @@ struct EmitCppOptions {
   std::span<const std::vector<uint32_t>> spirv = {};
   uint32_t flags = 0;        // shader::LibraryFlags besides kLibraryChecked
   bool split_groups = true;  // compute: cut at barriers where possible, else fibers
+  WideThreads wide = WideThreads::kWhereFaster;
 };
 
 // The module must come from the checker without errors; emission cannot fail.

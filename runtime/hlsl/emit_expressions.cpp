@@ -325,17 +325,19 @@ std::string CppEmitter::texture(const Expr* expr) {
   return value(expr);
 }
 
-std::string CppEmitter::texel_coordinates(const Type* resource, const Expr* coordinates,
-                                          const Expr* mip, const Expr* offset) {
+std::string CppEmitter::texel_coordinates_text(const Type* resource, const std::string& coordinates,
+                                               const std::string& mip, const std::string& offset) {
   const bool array1d = resource->resource == ResourceKind::kTexture1DArray ||
                        resource->resource == ResourceKind::kRWTexture1DArray;
-  std::string out = array1d ? "ks::texel_coordinates_1d_array(" : "ks::texel_coordinates(";
-  out += value(coordinates);
-  out += ", " + (mip != nullptr ? "int32_t(" + value(mip) + ")" : std::string("0"));
-  if (offset != nullptr) {
-    out += ", " + value(offset);
-  }
-  return out + ")";
+  return (array1d ? "ks::texel_coordinates_1d_array(" : "ks::texel_coordinates(") + coordinates +
+         ", " + mip + (offset.empty() ? "" : ", ") + offset + ")";
+}
+
+std::string CppEmitter::texel_coordinates(const Type* resource, const Expr* coordinates,
+                                          const Expr* mip, const Expr* offset) {
+  return texel_coordinates_text(resource, value(coordinates),
+                                mip != nullptr ? "int32_t(" + value(mip) + ")" : "0",
+                                offset != nullptr ? value(offset) : "");
 }
 
 std::string CppEmitter::typed_load(const Expr& expr) {
@@ -352,9 +354,9 @@ std::string CppEmitter::typed_load(const Expr& expr) {
          texel_coordinates(resource, expr.operands[1], mip, offset) + ")";
 }
 
-std::string CppEmitter::sample(const Expr& expr) {
+std::string CppEmitter::sample_text(const Expr& expr, const TextOf& text) {
   const auto& operands = expr.operands;
-  const auto operand = [&](size_t i) { return value(operands[i]); };
+  const auto operand = [&](size_t i) { return text(operands[i]); };
   const char* function = "";
   std::string parameters;
   size_t fixed = 3;
@@ -458,7 +460,7 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kTypedLoad:
       return typed_load(expr);
     case ExprKind::kSample:
-      return sample(expr);
+      return sample_text(expr, [this](const Expr* operand) { return value(operand); });
     case ExprKind::kDimensions:
       return "ks::dimensions(ctx.invocation, " + value(expr.operands[0]) + ", " +
              (expr.operands.size() > 1 ? "uint32_t(" + value(expr.operands[1]) + ")" : "0u") + ")";

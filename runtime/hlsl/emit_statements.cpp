@@ -96,43 +96,41 @@ void CppEmitter::assign(const Expr* target, const std::string& text) {
   line(place(target) + " = " + text + ";");
 }
 
-void CppEmitter::atomic(const Stmt& stmt) {
+std::string CppEmitter::atomic_text(const Stmt& stmt, const TextOf& text) {
   const Expr* v = stmt.value;
   const std::string t = type(v->type);
   std::string address;
+  const auto memory = [&](const Expr* element, const Expr* offset) {
+    return module_.check_access ? accessed("", stmt.operands[0], element, offset, v->type,
+                                           Layout::kStructured, false, 2, stmt.location)
+                                : text(stmt.operands[0]);
+  };
   switch (stmt.target) {
     case AtomicTarget::kPlace:
       address = "&" + place(stmt.place);
       break;
     case AtomicTarget::kMemory:
-      address = "ks::memory_address<" + t + ">(" +
-                accessed("", stmt.operands[0], nullptr, stmt.operands[1], v->type,
-                         Layout::kStructured, false, 2, stmt.location) +
-                ", " + value(stmt.operands[1]) + ")";
+      address = "ks::memory_address<" + t + ">(" + memory(nullptr, stmt.operands[1]) + ", " +
+                text(stmt.operands[1]) + ")";
       break;
     case AtomicTarget::kElement:
-      address = "ks::element_address<" + t + ">(" +
-                accessed("", stmt.operands[0], stmt.operands[1], stmt.operands[2], v->type,
-                         Layout::kStructured, false, 2, stmt.location) +
-                ", " + value(stmt.operands[1]) + ", " + value(stmt.operands[2]) + ")";
+      address = "ks::element_address<" + t + ">(" + memory(stmt.operands[1], stmt.operands[2]) +
+                ", " + text(stmt.operands[1]) + ", " + text(stmt.operands[2]) + ")";
       break;
     case AtomicTarget::kTyped: {
       const Type* resource = stmt.operands[0]->type;
       const bool buffer = resource->resource == ResourceKind::kRWBuffer;
       address = std::string(buffer ? "ks::typed_address<" : "ks::texel_address<") + t +
-                ">(ctx.invocation, " + value(stmt.operands[0]) + ", " +
-                (buffer ? "uint32_t(" + value(stmt.operands[1]) + ")"
-                        : texel_coordinates(resource, stmt.operands[1], nullptr, nullptr)) +
+                ">(ctx.invocation, " + text(stmt.operands[0]) + ", " +
+                (buffer ? "uint32_t(" + text(stmt.operands[1]) + ")"
+                        : texel_coordinates_text(resource, text(stmt.operands[1]), "0", "")) +
                 ")";
       break;
     }
   }
-  std::string text = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
-  text += std::string("ks::") + name_of(stmt.atomic) + "(" + address + ", ";
-  if (stmt.compare != nullptr) {
-    text += value(stmt.compare) + ", ";
-  }
-  line(text + value(v) + ");");
+  std::string out = std::string("ks::") + name_of(stmt.atomic) + "(" + address + ", ";
+  if (stmt.compare != nullptr) out += text(stmt.compare) + ", ";
+  return out + text(v) + ")";
 }
 
 void CppEmitter::call_function(const Stmt& stmt) {
@@ -274,7 +272,8 @@ void CppEmitter::statement(const Stmt& stmt) {
       break;
     }
     case StmtKind::kAtomic:
-      atomic(stmt);
+      line((stmt.result != nullptr ? variable(stmt.result) + " = " : "") +
+           atomic_text(stmt, [this](const Expr* e) { return value(e); }) + ";");
       break;
     case StmtKind::kCall:
       call_function(stmt);

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/file_loader.h"
 #include "runtime/hlsl/host_compiler.h"
 #include "runtime/hlsl/interpret.h"
@@ -50,13 +49,14 @@ Compiled compile_interpreted(const hlsl::FrontendOptions& options) {
   return out;
 }
 
-std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources) {
+std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources,
+                                     hlsl::WideThreads wide) {
   std::vector<Compiled> out(sources.size());
   const auto name_of = [](size_t i) { return "kaamos_test_native_" + std::to_string(i); };
   std::string text;
   for (size_t i = 0; i < sources.size(); ++i) {
     const auto module = compile_module(sources[i], out[i].error);
-    if (module) text += hlsl::emit_cpp(*module, {.entry_point = name_of(i)});
+    if (module) text += hlsl::emit_cpp(*module, {.entry_point = name_of(i), .wide = wide});
   }
   std::string error;
   const auto compiler = hlsl::find_host_compiler(error);

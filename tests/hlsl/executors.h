@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/hlsl/emit_cpp.h"
 #include "runtime/hlsl/frontend.h"
 
 namespace kaamos::test {
@@ -25,7 +26,8 @@ std::unique_ptr<hlsl::ir::Module> compile_module(const hlsl::FrontendOptions& op
 Compiled compile_interpreted(const hlsl::FrontendOptions& options);
 // To native code, all in one shared object, which stays loaded: starting the C++ compiler costs
 // more than a small shader.
-std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources);
+std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& sources,
+                                     hlsl::WideThreads wide = hlsl::WideThreads::kWhereFaster);
 // To SPIR-V; there is no native code in it.
 Compiled compile_vulkan(const hlsl::FrontendOptions& options);
 

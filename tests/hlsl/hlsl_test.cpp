@@ -54,17 +54,18 @@ hlsl::FrontendOptions options_of(const HlslTest& test) {
 }
 
 // The emitted C++ of a file; empty with `error` where it does not compile.
-std::string emit(size_t index, std::string& error) {
+std::string emit(size_t index, hlsl::WideThreads wide, std::string& error) {
   const auto module = compile_module(options_of(all_tests()[index]), error);
-  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index)}) : std::string();
+  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index), .wide = wide})
+                : std::string();
 }
 
-std::map<size_t, Compiled> compile_batch(size_t batch) {
+std::map<size_t, Compiled> compile_batch(size_t batch, hlsl::WideThreads wide) {
   std::map<size_t, Compiled> out;
   std::string source;
   const size_t end = std::min(all_tests().size(), (batch + 1) * kBatch);
   for (size_t i = batch * kBatch; i < end; ++i) {
-    source += emit(i, out[i].error);
+    source += emit(i, wide, out[i].error);
   }
   std::string error;
   const auto compiler = hlsl::find_host_compiler(error);
@@ -87,10 +88,11 @@ std::map<size_t, Compiled> compile_batch(size_t batch) {
   return out;
 }
 
+template <hlsl::WideThreads kWide>
 Compiled compile_native(size_t index) {
   static std::map<size_t, std::map<size_t, Compiled>> batches;
   const size_t batch = index / kBatch;
-  if (batches.count(batch) == 0) batches[batch] = compile_batch(batch);
+  if (batches.count(batch) == 0) batches[batch] = compile_batch(batch, kWide);
   return batches[batch][index];
 }
 
@@ -101,7 +103,9 @@ struct Executor {
   Compiled (*compile)(size_t index);
 };
 const Executor kExecutors[] = {
-    {"native", "embree", compile_native},
+    {"native", "embree", compile_native<hlsl::WideThreads::kNever>},
+    // Compute shaders several threads at once, of which one is there.
+    {"wide", "embree", compile_native<hlsl::WideThreads::kAlways>},
     {"interpreted", "embree",
      [](size_t index) { return compile_interpreted(options_of(all_tests()[index])); }},
     {"vulkan", "vulkan",

@@ -70,17 +70,26 @@ TEST(RandomPrograms, VulkanAgreesWithTheInterpreter) {
   }
 }
 
-TEST(RandomPrograms, NativeCodeAgreesWithTheInterpreter) {
+void expect_native_as_interpreted(hlsl::WideThreads wide) {
   // Few: a C++ compiler takes a second for each.
   const std::vector<uint64_t> programs = seeds(2);
   std::vector<hlsl::FrontendOptions> sources;
   for (const uint64_t seed : programs) sources.push_back(options_of(random_program(seed)));
-  const std::vector<Compiled> native = compile_native(sources);
+  const std::vector<Compiled> native = compile_native(sources, wide);
   for (size_t i = 0; i < sources.size(); ++i) {
     SCOPED_TRACE("seed " + std::to_string(programs[i]));
     expect_equal(run("embree", compile_interpreted(sources[i])), run("embree", native[i]),
                  *sources[i].text);
   }
+}
+
+TEST(RandomPrograms, NativeCodeAgreesWithTheInterpreter) {
+  expect_native_as_interpreted(hlsl::WideThreads::kNever);
+}
+
+// Eight threads at once, which part at every second condition.
+TEST(RandomPrograms, WideCodeAgreesWithTheInterpreter) {
+  expect_native_as_interpreted(hlsl::WideThreads::kAlways);
 }
 
 }  // namespace

@@ -115,6 +115,7 @@ const std::vector<Option>& options() {
       {"-Zi", false, flag(&Arguments::debug), ""},
       {"-no-spirv", false, flag(&Arguments::no_spirv), ""},
       {"-no-source", false, flag(&Arguments::no_source), ""},
+      {"-no-wide", false, flag(&Arguments::no_wide), ""},
       {"-check-access", false, flag(&Arguments::check_access), ""},
       {"-check", false, flag(&Arguments::check_only), ""},
       {"-emit", true, parse_emit, "cpp, ir, reflection, object, glsl or spirv"},
@@ -228,6 +229,7 @@ Of its own:
                             root descriptors that are left, wrong descriptors, NaN rays; slower
   -no-source                leaves out the source, from which a checked device makes that code of
                             a library that was compiled without -check-access
+  -no-wide                  compute shaders run thread by thread, never 8 threads at once
   --strict                  refuses what DXC refuses, also where Kaamos could go on
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes the files that were read as a make rule

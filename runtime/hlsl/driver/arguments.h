@@ -33,6 +33,7 @@ struct Arguments {
   bool no_spirv = false;
   bool check_access = false;
   bool no_source = false;
+  bool no_wide = false;
   Emit emit = Emit::kCpp;
   std::string output;           // empty: standard output; kObject: required
   std::string dependency_file;  // -MF: a makefile rule for ninja and make

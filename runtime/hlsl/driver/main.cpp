@@ -92,7 +92,8 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
   const SharedObject object =
       build_library(*compiler, module,
                     {.optimisation = arguments.debug ? Optimisation::kDebug : Optimisation::kFull,
-                     .spirv = !arguments.no_spirv});
+                     .spirv = !arguments.no_spirv,
+                     .wide = !arguments.no_wide});
   if (!object.error.empty()) return fail(object.error);
   std::error_code failed;
   fs::copy_file(object.path, arguments.output, fs::copy_options::overwrite_existing, failed);
@@ -112,8 +113,11 @@ int write_cpp(const Arguments& arguments, const ir::Module& module) {
   SpirvLibrary library;
   if (!arguments.no_spirv) library = compile_spirv(module);
   if (!library.error.empty()) return fail(library.error);
-  return write_output(arguments, emit_cpp(module, {.entry_point = arguments.entry_function,
-                                                   .spirv = library.modules}));
+  return write_output(arguments,
+                      emit_cpp(module, {.entry_point = arguments.entry_function,
+                                        .spirv = library.modules,
+                                        .wide = arguments.no_wide ? WideThreads::kNever
+                                                                  : WideThreads::kWhereFaster}));
 }
 
 int write_text(const Arguments& arguments, const ir::Module& module) {

@@ -204,7 +204,8 @@ KAAMOS_CONSTEXPR subscript_of<V> element(const V& v, I index) {
 // The scratch object, which an index out of range refers to, lives to the end of the full
 // expression: use the reference there and then.
 template <class V, class I>
-KAAMOS_CONSTEXPR subscript_of<V>& element_ref(V& place, I index, subscript_of<V>&& scratch = {}) {
+KAAMOS_CONSTEXPR subscript_of<V>& element_ref(V& place, I index,
+                                              subscript_of<V>&& scratch = subscript_of<V>{}) {
   const uint32_t i = static_cast<uint32_t>(index);
   return i < subscript<V>::count ? place.e[i] : scratch;
 }

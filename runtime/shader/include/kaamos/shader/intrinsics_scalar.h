@@ -8,6 +8,38 @@
 #include "kaamos/shader/operators.h"
 
 namespace kaamos::shader {
+namespace op {
+
+// e^x within 1 ulp in the same steps for one number and for those of several threads, so that both
+// give the same bits: 2^k e^r with k an integer and r within ln(2) / 2, e^r by a polynomial.
+// F is float, or a vector of floats that `Bits` reads as integers and `Floats` as floats.
+template <class F, class Bits, class Floats, class Choose>
+KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose) {
+  const F low = choose(x < 89.0f, x, F{} + 89.0f);
+  const F bounded = choose(low > -104.0f, low, F{} - 104.0f);
+  const F shifted = bounded * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
+  const F k = shifted - 12582912.0f;
+  const F r = (bounded - k * 0.693359375f) - k * -2.12194440e-4f;
+  F p = r * 1.9875691500e-4f + 1.3981999507e-3f;
+  p = p * r + 8.3334519073e-3f;
+  p = p * r + 4.1665795894e-2f;
+  p = p * r + 1.6666665459e-1f;
+  p = p * r + 5.0000001201e-1f;
+  const F y = p * r * r + r + 1.0f;
+  // In two steps: 2^k alone may be more than a float holds.
+  const auto exponent = bits(shifted) - 0x4B400000;
+  const auto half = exponent >> 1;
+  const F result = y * floats((half + 127) << 23) * floats((exponent - half + 127) << 23);
+  return choose(x == x, result, x);
+}
+KAAMOS_INLINE float exponential(float x) {
+  return exponential(
+      x, [](float f) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(int32_t, f); },
+      [](int32_t i) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(float, i); },
+      [](bool c, float a, float b) KAAMOS_INLINE_LAMBDA { return c ? a : b; });
+}
+
+}  // namespace op
 
 // ---------------------------------------------------------------------------------------------
 // Functions of one floating-point argument: f32 and f64 are expressions in x.
@@ -32,7 +64,7 @@ KAAMOS_FLOAT_FUNCTION(ceil, __builtin_ceilf(x), __builtin_ceil(x))
 KAAMOS_FLOAT_FUNCTION(cos, __builtin_cosf(x), __builtin_cos(x))
 KAAMOS_FLOAT_FUNCTION(cosh, __builtin_coshf(x), __builtin_cosh(x))
 KAAMOS_FLOAT_FUNCTION(degrees, x * 57.2957795130823209f, x * 57.2957795130823209)
-KAAMOS_FLOAT_FUNCTION(exp, __builtin_expf(x), __builtin_exp(x))
+KAAMOS_FLOAT_FUNCTION(exp, exponential(x), __builtin_exp(x))
 KAAMOS_FLOAT_FUNCTION(exp2, __builtin_exp2f(x), __builtin_exp2(x))
 KAAMOS_FLOAT_FUNCTION(floor, __builtin_floorf(x), __builtin_floor(x))
 KAAMOS_FLOAT_FUNCTION(log, __builtin_logf(x), __builtin_log(x))

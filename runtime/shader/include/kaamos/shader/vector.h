@@ -86,7 +86,7 @@ struct shape<vec<T, N>> {
   static constexpr bool is_scalar = false, is_vector = true, is_matrix = false;
   static constexpr int rows = 1, columns = N, count = N;
   template <class To>
-  using rebind = vec<To, N>;
+  using rebind = vec<typename shape<T>::template rebind<To>, N>;
 };
 template <class T, int R, int C>
 struct shape<mat<T, R, C>> {
@@ -94,7 +94,7 @@ struct shape<mat<T, R, C>> {
   static constexpr bool is_scalar = false, is_vector = false, is_matrix = true;
   static constexpr int rows = R, columns = C, count = R * C;
   template <class To>
-  using rebind = mat<To, R, C>;
+  using rebind = mat<typename shape<T>::template rebind<To>, R, C>;
 };
 
 template <class V>
@@ -147,29 +147,43 @@ KAAMOS_CONSTEXPR void unroll(const F& f) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Component-wise application of Op::apply.
+// Component-wise application of Op::apply, or of wide_op<Op>::apply to components that hold the
+// values of several threads. [wide.h, wide_operators.h]
+
+template <class T>
+struct wide;
+template <class T>
+inline constexpr bool is_wide = false;
+template <class T>
+inline constexpr bool is_wide<wide<T>> = true;
+template <class Op>
+struct wide_op;
 
 template <class Op, class... T>
 KAAMOS_CONSTEXPR auto map(T... x) {
-  return Op::apply(x...);
+  if constexpr ((is_wide<T> && ...)) {
+    return wide_op<Op>::apply(x...);
+  } else {
+    return Op::apply(x...);
+  }
 }
 template <class Op, int N, class... T>
 KAAMOS_CONSTEXPR auto map_vector(const vec<T, N>&... v) {
-  using R = decltype(Op::apply(v.e[0]...));
+  using R = decltype(map<Op>(v.e[0]...));
   if constexpr (N == 1) {
-    return vec<R, 1>{{Op::apply(v.e[0]...)}};
+    return vec<R, 1>{{map<Op>(v.e[0]...)}};
   } else if constexpr (N == 2) {
-    return vec<R, 2>{{Op::apply(v.e[0]...), Op::apply(v.e[1]...)}};
+    return vec<R, 2>{{map<Op>(v.e[0]...), map<Op>(v.e[1]...)}};
   } else if constexpr (N == 3) {
-    return vec<R, 3>{{Op::apply(v.e[0]...), Op::apply(v.e[1]...), Op::apply(v.e[2]...)}};
+    return vec<R, 3>{{map<Op>(v.e[0]...), map<Op>(v.e[1]...), map<Op>(v.e[2]...)}};
   } else {
     return vec<R, 4>{
-        {Op::apply(v.e[0]...), Op::apply(v.e[1]...), Op::apply(v.e[2]...), Op::apply(v.e[3]...)}};
+        {map<Op>(v.e[0]...), map<Op>(v.e[1]...), map<Op>(v.e[2]...), map<Op>(v.e[3]...)}};
   }
 }
 template <class Op, int M, int N, class... T>
 KAAMOS_CONSTEXPR auto map_matrix(const mat<T, M, N>&... m) {
-  using R = decltype(Op::apply(m.e[0].e[0]...));
+  using R = decltype(map<Op>(m.e[0].e[0]...));
   if constexpr (M == 1) {
     return mat<R, 1, N>{{map_vector<Op, N>(m.e[0]...)}};
   } else if constexpr (M == 2) {
