@@ -126,6 +126,13 @@ struct ReachedFrom {
   shader::ReachedCall call;
 };
 
+// Tables that a dispatch was asked for records of which there are none, by RecordKind.
+struct MissingRecords {
+  bool past_the_end[4] = {};
+  // Without an identifier of that kind of this pipeline, and not NULL.
+  bool unknown[4] = {};
+};
+
 // Checked mode's layer, told of each command by the backend that executes it: what a command reads
 // from GPU memory is only then what it will read.
 class CommandObserver {
@@ -140,6 +147,12 @@ class CommandObserver {
   virtual void reached(const Command& command, std::span<const ReachedFrom> calls) {
     (void)command;
     (void)calls;
+  }
+  // Of each DispatchRays that ran, after reached(): where a backend cannot tell the tables apart,
+  // it names all that may be meant.
+  virtual void missed(const Command& command, const MissingRecords& records) {
+    (void)command;
+    (void)records;
   }
   // Whether before() or after() reads GPU memory for this command.
   virtual bool needs_memory(const Command& command) const = 0;

@@ -164,7 +164,7 @@ struct BarrierCommand {
   std::shared_ptr<BackendTexture> texture;
   rtapi::ResourceStates before = rtapi::ResourceStates::kCommon;
   rtapi::ResourceStates after = rtapi::ResourceStates::kCommon;
-  bool part = false;  // one subresource of several
+  uint32_t subresource = rtapi::kResourceBarrierAllSubresources;  // of the texture
 };
 
 struct EventCommand {

@@ -175,9 +175,7 @@ void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barrie
     if (const auto* b = std::get_if<Buffer>(&barrier.Resource)) command.buffer = b->impl()->memory;
     if (const auto* t = std::get_if<Texture>(&barrier.Resource)) {
       command.texture = t->impl()->memory;
-      const TextureDesc& desc = t->impl()->desc;
-      command.part = barrier.Subresource != kResourceBarrierAllSubresources &&
-                     (desc.MipLevels != 1 || detail::ArraySize(desc) != 1);
+      command.subresource = barrier.Subresource;
     }
     command.before = barrier.StateBefore;
     command.after = barrier.StateAfter;

@@ -229,7 +229,7 @@ Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   texture->desc = std::move(resolved);
   texture->memory = std::move(*memory);
   if (impl_->checks) {
-    impl_->checks->textures().add(texture->memory, texture->desc.InitialState, texture->desc.Name);
+    impl_->checks->textures().add(texture->memory, texture->desc);
   }
   return Texture(std::move(texture));
 }

@@ -223,7 +223,10 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   device->views.AddView(*object, {desc.Name, desc, resolved, texture.impl()->memory});
   const uint64_t key = kaamos::shader::view_key(*object, view.uav);
   device->addresses.insert_view(key, texture.impl()->memory);
-  if (device->checks) device->checks->textures().add_view(key, texture.impl()->memory);
+  if (device->checks) {
+    device->checks->textures().add_view(key, texture.impl()->memory,
+                                        {view.first_mip, view.mips, view.first_slice, view.slices});
+  }
   Descriptor descriptor;
   descriptor.kind = DescriptorKind::kTexture;
   descriptor.access =

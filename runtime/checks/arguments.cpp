@@ -70,27 +70,6 @@ const char* kind_name(DescriptorKind kind) {
   return "an unknown descriptor";
 }
 
-DescriptorKind wanted_kind(BindingType type) {
-  switch (type) {
-    case BindingType::kConstantBuffer:
-      return DescriptorKind::kConstantBuffer;
-    case BindingType::kRawBuffer:
-      return DescriptorKind::kRawBuffer;
-    case BindingType::kStructuredBuffer:
-      return DescriptorKind::kStructuredBuffer;
-    case BindingType::kTypedBuffer:
-      return DescriptorKind::kTypedBuffer;
-    case BindingType::kTexture:
-      return DescriptorKind::kTexture;
-    case BindingType::kSampler:
-    case BindingType::kComparisonSampler:
-      return DescriptorKind::kSampler;
-    case BindingType::kAccelerationStructure:
-      return DescriptorKind::kAccelerationStructure;
-  }
-  return DescriptorKind::kNull;
-}
-
 class ArgumentCheck {
  public:
   ArgumentCheck(const ProofInputs& inputs, const runtime::LinkedShader& shader,
@@ -200,7 +179,7 @@ class ArgumentCheck {
   void check_descriptor(const BindingDesc& binding, const BindingSlot& slot,
                         const Descriptor& descriptor, uint64_t index) {
     if (descriptor.kind == DescriptorKind::kNull) return;
-    const DescriptorKind wanted = wanted_kind(binding.type);
+    const DescriptorKind wanted = slot.kind;
     const std::string place =
         parameter(binding, slot) + ": descriptor " + std::to_string(index) + " of the heap is ";
     if (descriptor.kind != wanted) {

@@ -54,6 +54,10 @@ std::array<NamedTable, 4> tables_of(const rtapi::DispatchRaysDesc& desc) {
            {"callable table", desc.CallableShaderTable}}};
 }
 
+Subresources subresource_of(const runtime::TextureCopyPlace& place) {
+  return {place.mip, 1, place.array_element, 1};
+}
+
 const char* layout_of(const runtime::LinkedShader& shader) {
   const char* layout = shader.code->attribute_layout;
   return layout == nullptr ? "" : layout;
@@ -101,6 +105,7 @@ void Layer::after(const runtime::Command& command, bool succeeded) {
   if (succeeded) std::visit([this](const auto& c) { note(c); }, command);
   instances_.clear();
   contents_.clear();
+  missing_.clear();
   reporter_.end();
   // A backend that could not begin the command comes here at once.
   if (!labels_.empty()) labels_.pop_back();
@@ -182,12 +187,33 @@ void Layer::reached(const runtime::Command& command, std::span<const runtime::Re
   key.add(proof_key(*rays));
   key.add(all);
   if (const auto it = proven_.find(key.value()); it != proven_.end()) return check_uses(it->second);
-  std::vector<ShaderUse> uses;
-  const bool good = prove_reached(inputs(), *rays, calls, uses);
-  check_uses(uses);
-  if (!good) return;
+  take(prove_reached(inputs(), *rays, calls), key.value());
+}
+
+void Layer::take(ProofResults results, uint64_t key) {
+  check_uses(results.uses);
+  missing_.insert(missing_.end(), results.missing.begin(), results.missing.end());
+  if (!results.good) return;
   if (proven_.size() >= kMostProven) proven_.clear();
-  proven_[key.value()] = std::move(uses);
+  proven_[key] = std::move(results.uses);
+}
+
+void Layer::missed(const runtime::Command&, const runtime::MissingRecords& records) {
+  for (const MissingRecord& each : missing_) {
+    if (!each.reached(records)) continue;
+    reporter_.report(each.id, Reporter::key_of(each.text), each.order, [&] { return each.text; });
+  }
+  std::erase_if(missing_, [&](const MissingRecord& each) { return each.reached(records); });
+  // The rest is legal, and may be a mistake all the same: said once, with the first of them.
+  if (missing_.empty()) return;
+  const std::string& first = missing_.front().text;
+  if (noted_.size() >= kMostProven) noted_.clear();
+  if (noted_.insert(Reporter::key_of(first)).second) {
+    reporter_.report(Id::kRecordNotReached,
+                     std::to_string(missing_.size()) +
+                         " that rays or calls could reach, and none did. The first: " + first);
+  }
+  missing_.clear();
 }
 
 uint64_t Layer::proof_key(const runtime::DispatchRaysCommand& command) const {
@@ -229,12 +255,7 @@ void Layer::check(const runtime::DispatchRaysCommand& command) {
   }
   const uint64_t key = proof_key(command);
   if (const auto it = proven_.find(key); it != proven_.end()) return check_uses(it->second);
-  std::vector<ShaderUse> uses;
-  const bool good = prove_tables(inputs(), command, uses);
-  check_uses(uses);
-  if (!good) return;
-  if (proven_.size() >= kMostProven) proven_.clear();
-  proven_[key] = std::move(uses);
+  take(prove_tables(inputs(), command), key);
 }
 
 void Layer::check_uses(const std::vector<ShaderUse>& uses) {
@@ -366,12 +387,12 @@ void Layer::check(const runtime::CopyBufferCommand& command) {
 void Layer::check(const runtime::CopyTextureCommand& command) {
   if (command.any_state) return;
   if (command.source.texture != nullptr) {
-    textures_.use(command.source.texture.get(), ResourceStates::kCopySource,
-                  "the texture copy's source", label());
+    textures_.use(command.source.texture.get(), subresource_of(command.source),
+                  ResourceStates::kCopySource, "the texture copy's source", label());
   }
   if (command.dest.texture != nullptr) {
-    textures_.use(command.dest.texture.get(), ResourceStates::kCopyDest,
-                  "the texture copy's destination", label());
+    textures_.use(command.dest.texture.get(), subresource_of(command.dest),
+                  ResourceStates::kCopyDest, "the texture copy's destination", label());
   }
   if (command.source.buffer != nullptr) {
     hazards_.use(command.source.buffer->address(), ResourceStates::kCopySource,

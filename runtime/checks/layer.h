@@ -4,6 +4,7 @@
 // command against what stands in GPU memory at that moment.
 #pragma once
 
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -44,6 +45,7 @@ class Layer : public runtime::CommandObserver {
   bool needs_memory_after(const runtime::Command& command) const override;
   void reached(const runtime::Command& command,
                std::span<const runtime::ReachedFrom> calls) override;
+  void missed(const runtime::Command& command, const runtime::MissingRecords& records) override;
 
  private:
   void check(const runtime::DispatchRaysCommand& command);
@@ -72,6 +74,8 @@ class Layer : public runtime::CommandObserver {
   template <class T>
   void note(const T&) {}
 
+  // Takes over what a proof found; one with nothing wrong is kept under its key.
+  void take(ProofResults results, uint64_t key);
   // Order and states of what shaders use.
   void check_uses(const std::vector<ShaderUse>& uses);
   uint64_t bytes_at(uint64_t address) const;  // of the structure there
@@ -94,7 +98,9 @@ class Layer : public runtime::CommandObserver {
   std::vector<GeometryContents> contents_;                // of the build under way
   std::vector<rtapi::RaytracingInstanceDesc> instances_;  // of the build under way
   std::unordered_map<uint64_t, std::vector<ShaderUse>> proven_;
-  std::vector<std::string> labels_;  // of the command, and of the ExecuteIndirect around it
+  std::vector<MissingRecord> missing_;  // of the dispatch under way
+  std::set<uint64_t> noted_;            // missing records that nothing reached, by their text
+  std::vector<std::string> labels_;     // of the command, and of the ExecuteIndirect around it
   struct UsedTable {
     const char* name = "";
     uint64_t address = 0;

@@ -69,9 +69,8 @@ bool reaches(const TraceCall& call, const TrackedInstance& instance,
 
 class Proof {
  public:
-  Proof(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
-        std::vector<ShaderUse>& uses)
-      : inputs_(inputs), command_(command), linked_(*command.linked), uses_(uses) {
+  Proof(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command)
+      : inputs_(inputs), command_(command), linked_(*command.linked) {
     const rtapi::DispatchRaysDesc& desc = command.desc;
     const auto& first = desc.RayGenerationShaderRecord;
     set(RecordKind::kRayGeneration, "ray generation record",
@@ -81,23 +80,23 @@ class Proof {
     set(RecordKind::kHitGroup, "hit group table", desc.HitGroupTable);
   }
 
-  bool run() {
+  ProofResults run() {
     reach(RecordKind::kRayGeneration, 0, {});
     return follow_all();
   }
-  bool run(std::span<const runtime::ReachedFrom> calls) {
+  ProofResults run(std::span<const runtime::ReachedFrom> calls) {
     for (const runtime::ReachedFrom& each : calls) reach_from(each);
     return follow_all();
   }
 
  private:
-  bool follow_all() {
+  ProofResults follow_all() {
     while (!pending_.empty()) {
       const auto [shader, record] = pending_.back();
       pending_.pop_back();
       follow(*shader, record);
     }
-    return good_;
+    return std::move(results_);
   }
 
   struct Table {
@@ -121,7 +120,13 @@ class Proof {
 
   void report(Id id, const std::string& text) {
     inputs_.reporter.report(id, Reporter::key_of(text), told_++, [&] { return text; });
-    good_ = false;
+    results_.good = false;
+  }
+  // The ray generation record is reached in any case.
+  void report_missing(RecordKind kind, Id id, const std::string& text) {
+    if (kind == RecordKind::kRayGeneration) return report(id, text);
+    results_.missing.push_back({kind, id == Id::kRecordOutOfTable, id, told_++, text});
+    results_.good = false;
   }
 
   // "hit group table record 5", with how a ray gets there.
@@ -163,14 +168,13 @@ class Proof {
   const ProofInputs& inputs_;
   const runtime::DispatchRaysCommand& command_;
   const runtime::LinkedPipeline& linked_;
-  std::vector<ShaderUse>& uses_;
+  ProofResults results_;
   Table tables_[4];
   std::vector<std::pair<const LinkedShader*, Arguments>> pending_;
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
   std::set<const LinkedShader*> other_root_signature_;
   std::set<uint64_t> structures_;  // checked
   uint64_t told_ = 0;
-  bool good_ = true;
 };
 
 bool Proof::inside(RecordKind kind, Table& table, uint64_t index, uint64_t bytes,
@@ -178,13 +182,13 @@ bool Proof::inside(RecordKind kind, Table& table, uint64_t index, uint64_t bytes
   const auto& range = table.range;
   if (table.host == nullptr) {
     if (!table.layout_told) {
-      report(Id::kRecordOutOfTable,
-             where + reason + ", but there is no such table: " +
-                 (range.StartAddress == 0 || range.SizeInBytes == 0
-                      ? "its StartAddress or SizeInBytes is 0"
-                      : "it is " +
-                            range_name(inputs_.addresses, range.StartAddress, range.SizeInBytes)) +
-                 ". Set it in DispatchRaysDesc.");
+      report_missing(kind, Id::kRecordOutOfTable,
+                     where + reason + ", but there is no such table: " +
+                         (range.StartAddress == 0 || range.SizeInBytes == 0
+                              ? "its StartAddress or SizeInBytes is 0"
+                              : "it is " + range_name(inputs_.addresses, range.StartAddress,
+                                                      range.SizeInBytes)) +
+                         ". Set it in DispatchRaysDesc.");
     }
     table.layout_told = true;
     return false;
@@ -195,14 +199,14 @@ bool Proof::inside(RecordKind kind, Table& table, uint64_t index, uint64_t bytes
                          : range.StrideInBytes == 0
                              ? 1
                              : (range.SizeInBytes - 32) / range.StrideInBytes + 1;
-  report(Id::kRecordOutOfTable,
-         where + reason + ": bytes " + std::to_string(offset) + ".." +
-             std::to_string(offset + bytes) + " of a table of " +
-             std::to_string(range.SizeInBytes) + " bytes (" + std::to_string(count) +
-             " records of stride " + std::to_string(range.StrideInBytes) + ", " +
-             address_name(inputs_.addresses, range.StartAddress) +
-             "). Add the missing records, or mend SizeInBytes, StrideInBytes or the terms of the "
-             "index.");
+  report_missing(
+      kind, Id::kRecordOutOfTable,
+      where + reason + ": bytes " + std::to_string(offset) + ".." + std::to_string(offset + bytes) +
+          " of a table of " + std::to_string(range.SizeInBytes) + " bytes (" +
+          std::to_string(count) + " records of stride " + std::to_string(range.StrideInBytes) +
+          ", " + address_name(inputs_.addresses, range.StartAddress) +
+          "). Add the missing records, or mend SizeInBytes, StrideInBytes or the terms of the "
+          "index.");
   return false;
 }
 
@@ -214,27 +218,30 @@ const LinkedRecord* Proof::identify(RecordKind kind, Table& table, uint64_t inde
   if (record == nullptr) {
     if (table.layout_told) return nullptr;
     if (const std::string name = inputs_.identifiers.find(bytes); !name.empty()) {
-      report(Id::kRecordForeignIdentifier,
-             where + " holds the identifier of " + quoted(name) +
-                 " of another state object than the one that SetPipelineState1 set" + reason +
-                 ". Write the identifier that GetShaderIdentifier of this state object returns.");
+      report_missing(
+          kind, Id::kRecordForeignIdentifier,
+          where + " holds the identifier of " + quoted(name) +
+              " of another state object than the one that SetPipelineState1 set" + reason +
+              ". Write the identifier that GetShaderIdentifier of this state object returns.");
       return nullptr;
     }
     table.layout_told = true;
-    report(Id::kRecordUnknownIdentifier,
-           where + " holds no shader identifier" + reason + ": bytes " +
-               std::to_string(index * table.range.StrideInBytes) + ".. of the table, which is " +
-               address_name(inputs_.addresses, table.range.StartAddress) + " with stride " +
-               std::to_string(table.range.StrideInBytes) + ". " +
-               advice_on_layout({table.host, table.range.SizeInBytes, table.range.StrideInBytes,
-                                 index, inputs_.addresses.bytes_from(table.range.StartAddress)},
-                                linked_.identifiers, inputs_.identifiers));
+    report_missing(
+        kind, Id::kRecordUnknownIdentifier,
+        where + " holds no shader identifier" + reason + ": bytes " +
+            std::to_string(index * table.range.StrideInBytes) + ".. of the table, which is " +
+            address_name(inputs_.addresses, table.range.StartAddress) + " with stride " +
+            std::to_string(table.range.StrideInBytes) + ". " +
+            advice_on_layout({table.host, table.range.SizeInBytes, table.range.StrideInBytes, index,
+                              inputs_.addresses.bytes_from(table.range.StartAddress)},
+                             linked_.identifiers, inputs_.identifiers));
     return nullptr;
   }
   if (record->kind != kind) {
-    report(Id::kRecordWrongKind, where + " holds " + quoted(record->name) + ", which is a " +
-                                     record_kind_name(record->kind) + " export" + reason +
-                                     ". Put it into the table of its kind.");
+    report_missing(kind, Id::kRecordWrongKind,
+                   where + " holds " + quoted(record->name) + ", which is a " +
+                       record_kind_name(record->kind) + " export" + reason +
+                       ". Put it into the table of its kind.");
     return nullptr;
   }
   return record;
@@ -314,9 +321,9 @@ void Proof::enter(const LinkedShader* shader, const uint8_t* record, uint64_t by
   arguments.local_bytes = bytes - 32;
   arguments.state = &command_.state;
   if (!check_arguments(inputs_, *shader, arguments, where + ", " + shader_name(*shader))) {
-    good_ = false;
+    results_.good = false;
   }
-  collect_uses(*shader, arguments, shader_name(*shader), uses_);
+  collect_uses(*shader, arguments, shader_name(*shader), results_.uses);
   pending_.push_back({shader, arguments});
 }
 
@@ -329,7 +336,7 @@ void Proof::follow(const LinkedShader& shader, const Arguments& arguments) {
     for (const uint64_t address : structures_behind(shader, i, arguments)) {
       if (address == 0 || !structures_.insert(address).second) continue;
       if (!check_top_level(inputs_, address, shader_name(shader) + ", " + binding_name(binding))) {
-        good_ = false;
+        results_.good = false;
       }
     }
   }
@@ -404,7 +411,7 @@ void Proof::reach_from(const runtime::ReachedFrom& from) {
   const uint64_t scene = reached.acceleration_structure;
   if (scene != 0 && structures_.insert(scene).second &&
       !check_top_level(inputs_, scene, shader_name(*from.shader))) {
-    good_ = false;
+    results_.good = false;
   }
   if (reached.by != shader::ReachedBy::kTraceRay) return;
   const uint32_t file = reached.site >> 20;
@@ -423,14 +430,13 @@ void Proof::reach_from(const runtime::ReachedFrom& from) {
 
 }  // namespace
 
-bool prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
-                  std::vector<ShaderUse>& uses) {
-  return Proof(inputs, command, uses).run();
+ProofResults prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command) {
+  return Proof(inputs, command).run();
 }
 
-bool prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
-                   std::span<const runtime::ReachedFrom> calls, std::vector<ShaderUse>& uses) {
-  return Proof(inputs, command, uses).run(calls);
+ProofResults prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
+                           std::span<const runtime::ReachedFrom> calls) {
+  return Proof(inputs, command).run(calls);
 }
 
 bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user) {

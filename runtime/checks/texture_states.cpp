@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/checks/texture_states.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -14,33 +15,69 @@ using rtapi::HasAny;
 using rtapi::ResourceStates;
 
 void TextureStates::add(const std::shared_ptr<runtime::BackendTexture>& texture,
-                        ResourceStates initial, std::string name) {
+                        const rtapi::TextureDesc& desc) {
+  const bool volume = desc.Dimension == rtapi::ResourceDimension::kTexture3D;
   const std::lock_guard lock(mutex_);
-  states_[texture.get()] = {texture, std::move(name), initial, false, {}};
+  textures_[texture.get()] = {texture,
+                              desc.Name,
+                              desc.MipLevels,
+                              volume ? 1u : desc.DepthOrArraySize,
+                              {{desc.InitialState, false, {}}}};
 }
 
-void TextureStates::add_view(uint64_t key,
-                             const std::shared_ptr<runtime::BackendTexture>& texture) {
+void TextureStates::add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture,
+                             const Subresources& seen) {
   const std::lock_guard lock(mutex_);
-  views_[key] = texture;
+  views_[key] = {texture, seen};
 }
 
 void TextureStates::begin_list() {
   const std::lock_guard lock(mutex_);
-  for (auto it = states_.begin(); it != states_.end();) {
-    State& state = it->second;
-    if (state.promoted && !HasAny(state.state, ResourceStates::kCopyDest)) {
+  for (auto it = textures_.begin(); it != textures_.end();) {
+    for (State& state : it->second.states) {
+      if (!state.promoted || HasAny(state.state, ResourceStates::kCopyDest)) continue;
       state.state = ResourceStates::kCommon;
       state.promoted = false;
     }
-    it = state.texture.expired() ? states_.erase(it) : std::next(it);
+    it = it->second.texture.expired() ? textures_.erase(it) : std::next(it);
   }
 }
 
-std::string TextureStates::in_state(const State& state) const {
-  return (state.name.empty() ? std::string("an unnamed texture")
-                             : "texture " + quoted(state.name)) +
-         ", which is in state " + state_name(state.state) +
+// Indices in `states`, which has one for each subresource from here on, unless all are meant and
+// all have one state.
+std::vector<uint32_t> TextureStates::split(Tracked& texture, const Subresources& some) {
+  const auto cut = [](uint32_t first, uint32_t count, uint32_t all) {
+    first = std::min(first, all);
+    return std::pair(first, first + std::min(count, all - first));
+  };
+  const auto [mip, mip_end] = cut(some.first_mip, some.mip_count, texture.mips);
+  // Views of volumes count slices, which have no states of their own.
+  const auto [layer, layer_end] = texture.layers == 1
+                                      ? std::pair(0u, 1u)
+                                      : cut(some.first_layer, some.layer_count, texture.layers);
+  const bool all = mip_end - mip == texture.mips && layer_end - layer == texture.layers;
+  if (texture.states.size() == 1) {
+    if (all) return {0};
+    texture.states.resize(size_t{texture.mips} * texture.layers, State(texture.states[0]));
+  }
+  std::vector<uint32_t> out;
+  for (uint32_t l = layer; l < layer_end; ++l) {
+    for (uint32_t m = mip; m < mip_end; ++m) out.push_back(m + l * texture.mips);
+  }
+  return out;
+}
+
+std::string TextureStates::in_state(const Tracked& texture, uint32_t subresource) {
+  const bool several = texture.states.size() > 1;
+  const State& state = texture.states[several ? subresource : 0];
+  std::string text =
+      texture.name.empty() ? "an unnamed texture" : "texture " + quoted(texture.name);
+  if (several) {
+    text = "subresource " + std::to_string(subresource) + " (mip " +
+           std::to_string(subresource % texture.mips) + ", array element " +
+           std::to_string(subresource / texture.mips) + ") of " + text;
+  }
+  return text + ", which is in state " + state_name(state.state) +
          (state.by.empty() ? std::string(" since it was created") : " since " + state.by);
 }
 
@@ -48,61 +85,81 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
   if (command.texture == nullptr) return;
   if (command.kind != runtime::BarrierCommand::Kind::kTransition) return;
   const std::lock_guard lock(mutex_);
-  const auto it = states_.find(command.texture.get());
-  if (it == states_.end()) return;
-  // States are kept of whole textures: one that is in several is followed no further.
-  if (command.part) {
-    states_.erase(it);
-    return;
+  const auto it = textures_.find(command.texture.get());
+  if (it == textures_.end()) return;
+  Tracked& texture = it->second;
+  const uint32_t count = texture.mips * texture.layers;
+  const bool all = command.subresource == rtapi::kResourceBarrierAllSubresources || count == 1;
+  if (!all && command.subresource >= count) return;
+  if (!all && texture.states.size() == 1) {
+    texture.states.resize(count, State(texture.states[0]));
   }
-  State& state = it->second;
-  if (!state.promoted && state.state != command.before) {
+  const uint32_t first = all ? 0 : command.subresource;
+  const auto end = all ? static_cast<uint32_t>(texture.states.size()) : first + 1;
+  for (uint32_t i = first; i < end; ++i) {
+    const State& state = texture.states[i];
+    if (state.promoted || state.state == command.before) continue;
     reporter_.report(Id::kTransitionBefore, "StateBefore " + state_name(command.before) +
-                                                " is given for " + in_state(state) +
+                                                " is given for " + in_state(texture, i) +
                                                 ". Give the state that it is in.");
+    break;  // the others are likely alike
   }
-  state.state = command.after;
-  state.promoted = false;
-  state.by = label;
+  const State after = {command.after, false, label};
+  if (all) {
+    texture.states = {after};
+  } else {
+    texture.states[first] = after;
+  }
 }
 
-void TextureStates::use(const runtime::BackendTexture* texture, ResourceStates wanted,
-                        const std::string& what, const std::string& label) {
-  const std::lock_guard lock(mutex_);
-  const auto it = states_.find(texture);
-  if (it == states_.end()) return;
-  State& state = it->second;
-  if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return;
+// Whether a use of `state` is right; a state that the use promotes to is noted.
+bool TextureStates::allows(State& state, ResourceStates wanted, const std::string& label) {
+  if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return true;
   const bool read = !HasAny(wanted, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest);
-  const bool from_common = state.state == ResourceStates::kCommon;
-  if (from_common && wanted != ResourceStates::kUnorderedAccess) {
-    state.state = wanted;
-    state.promoted = true;
-    state.by = label;
-    return;
+  if (state.state == ResourceStates::kCommon && wanted != ResourceStates::kUnorderedAccess) {
+    state = {wanted, true, label};
+    return true;
   }
   if (state.promoted && read && !HasAny(state.state, ResourceStates::kCopyDest)) {
     state.state = state.state | wanted;
-    return;
+    return true;
   }
-  reporter_.report(Id::kResourceState,
-                   what + " is in " + in_state(state) + "; it must be in state " +
-                       state_name(wanted) + ". Record ResourceBarrier::Transition from " +
-                       state_name(state.state) + " to " + state_name(wanted) + " before.");
-  // Said once, not for each use that follows.
-  state.state = wanted;
-  state.promoted = false;
-  state.by = label;
+  return false;
+}
+
+void TextureStates::use(const runtime::BackendTexture* used_texture, const Subresources& used,
+                        ResourceStates wanted, const std::string& what, const std::string& label) {
+  const std::lock_guard lock(mutex_);
+  const auto it = textures_.find(used_texture);
+  if (it == textures_.end()) return;
+  Tracked& texture = it->second;
+  bool told = false;
+  for (const uint32_t index : split(texture, used)) {
+    State& state = texture.states[index];
+    if (allows(state, wanted, label)) continue;
+    if (!std::exchange(told, true)) {
+      reporter_.report(Id::kResourceState,
+                       what + " is in " + in_state(texture, index) + "; it must be in state " +
+                           state_name(wanted) + ". Record ResourceBarrier::Transition from " +
+                           state_name(state.state) + " to " + state_name(wanted) + " before.");
+    }
+    // Said once, not for each use that follows.
+    state = {wanted, false, label};
+  }
 }
 
 void TextureStates::use_view(uint64_t key, ResourceStates wanted, const std::string& what,
                              const std::string& label) {
   std::shared_ptr<runtime::BackendTexture> texture;
+  Subresources seen;
   {
     const std::lock_guard lock(mutex_);
-    if (const auto it = views_.find(key); it != views_.end()) texture = it->second.lock();
+    if (const auto it = views_.find(key); it != views_.end()) {
+      texture = it->second.texture.lock();
+      seen = it->second.seen;
+    }
   }
-  if (texture != nullptr) use(texture.get(), wanted, what, label);
+  if (texture != nullptr) use(texture.get(), seen, wanted, what, label);
 }
 
 }  // namespace kaamos::checks

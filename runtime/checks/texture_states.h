@@ -10,45 +10,68 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "runtime/checks/report.h"
 #include "runtime/commands.h"
 
 namespace kaamos::checks {
 
+// A rectangle of a texture's subresources: mips, and array elements or cube faces. Cut to those
+// that it has; by default all.
+struct Subresources {
+  uint32_t first_mip = 0;
+  uint32_t mip_count = UINT32_MAX;
+  uint32_t first_layer = 0;
+  uint32_t layer_count = UINT32_MAX;
+};
+
 // Thread-safe: textures and views are made while lists execute.
 class TextureStates {
  public:
   explicit TextureStates(Reporter& reporter) : reporter_(reporter) {}
 
-  void add(const std::shared_ptr<runtime::BackendTexture>& texture, rtapi::ResourceStates initial,
-           std::string name);
+  // MipLevels is resolved.
+  void add(const std::shared_ptr<runtime::BackendTexture>& texture, const rtapi::TextureDesc& desc);
   // `key`: shader::view_key of what its descriptors hold.
-  void add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture);
+  void add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture,
+                const Subresources& seen);
 
   void begin_list();
   // `label`: which command, "DispatchRays, command 3".
   void barrier(const runtime::BarrierCommand& command, const std::string& label);
-  void use(const runtime::BackendTexture* texture, rtapi::ResourceStates wanted,
-           const std::string& what, const std::string& label);
+  void use(const runtime::BackendTexture* texture, const Subresources& used,
+           rtapi::ResourceStates wanted, const std::string& what, const std::string& label);
   void use_view(uint64_t key, rtapi::ResourceStates wanted, const std::string& what,
                 const std::string& label);
 
  private:
   struct State {
-    std::weak_ptr<runtime::BackendTexture> texture;
-    std::string name;
     rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;
     bool promoted = false;  // by a use, not by a transition
     std::string by;         // empty: created so
   };
+  struct Tracked {
+    std::weak_ptr<runtime::BackendTexture> texture;
+    std::string name;
+    uint32_t mips = 1;
+    uint32_t layers = 1;
+    // By subresource, or one for all of them.
+    std::vector<State> states;
+  };
+  struct View {
+    std::weak_ptr<runtime::BackendTexture> texture;
+    Subresources seen;
+  };
 
-  std::string in_state(const State& state) const;
+  static std::vector<uint32_t> split(Tracked& texture, const Subresources& some);
+  static bool allows(State& state, rtapi::ResourceStates wanted, const std::string& label);
+  static std::string in_state(const Tracked& texture, uint32_t subresource);
 
   Reporter& reporter_;
   std::mutex mutex_;
-  std::map<const runtime::BackendTexture*, State> states_;
-  std::map<uint64_t, std::weak_ptr<runtime::BackendTexture>> views_;
+  std::map<const runtime::BackendTexture*, Tracked> textures_;
+  std::map<uint64_t, View> views_;
 };
 
 }  // namespace kaamos::checks

@@ -100,8 +100,11 @@ RecordTable table_of(const RaytracingPipeline& pipeline,
                      pipeline.lookup(), problems);
 }
 
-void warn_of_records(const char* name, const RecordTable& table, const RecordProblems& problems,
-                     const char* label, DispatchResult& result) {
+void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTable& table,
+                     const RecordProblems& problems, const char* label, DispatchResult& result) {
+  const auto which = static_cast<size_t>(kind);
+  result.missing.past_the_end[which] = problems.out_of_bounds != RecordProblems::kNone;
+  result.missing.unknown[which] = problems.unknown != RecordProblems::kNone;
   const std::string where = std::string(" (") + label + ").";
   if (const uint64_t index = problems.out_of_bounds; index != RecordProblems::kNone) {
     result.warnings.push_back(
@@ -194,12 +197,16 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
                        "). Was it built, and not overwritten or freed since?"});
   }
   const RecordTable one_record;
-  warn_of_records("hit group", dispatch.hit_table, dispatch.hit_problems, dispatch.label, result);
-  warn_of_records("miss", dispatch.miss_table, dispatch.miss_problems, dispatch.label, result);
-  warn_of_records("callable", dispatch.callable_table, dispatch.callable_problems, dispatch.label,
-                  result);
-  warn_of_records("ray generation", one_record, dispatch.ray_generation_problems, dispatch.label,
-                  result);
+  const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,
+                        const RecordProblems& problems) {
+    warn_of_records(name, kind, table, problems, dispatch.label, result);
+  };
+  warn("hit group", runtime::RecordKind::kHitGroup, dispatch.hit_table, dispatch.hit_problems);
+  warn("miss", runtime::RecordKind::kMiss, dispatch.miss_table, dispatch.miss_problems);
+  warn("callable", runtime::RecordKind::kCallable, dispatch.callable_table,
+       dispatch.callable_problems);
+  warn("ray generation", runtime::RecordKind::kRayGeneration, one_record,
+       dispatch.ray_generation_problems);
   if (dispatch.removed) {
     const std::string id = dispatch.removal.message.substr(0, 6);
     result.status =

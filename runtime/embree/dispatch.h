@@ -34,6 +34,7 @@ struct DispatchResult {
   };
   std::vector<Warning> warnings;
   std::vector<runtime::ReachedFrom> reached = {};  // on checked devices
+  runtime::MissingRecords missing = {};
 };
 
 // Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.

@@ -70,8 +70,9 @@ class Executor {
 };
 
 rtapi::Status Executor::finish(DispatchResult result) {
-  if (auto* observer = device_.context().observer; observer != nullptr && !result.reached.empty()) {
-    observer->reached(*running_, result.reached);
+  if (auto* observer = device_.context().observer) {
+    if (!result.reached.empty()) observer->reached(*running_, result.reached);
+    observer->missed(*running_, result.missing);
   }
   device_.add_counters(result.counters);
   for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);

@@ -199,6 +199,7 @@ void GlslEmitter::emit_main() {
            site(entry_.function->location) + ", 0u, 0u, uint64_t(g_in.bytes), " +
            std::to_string(4 * glsl::words(entry_.payload)) + "UL, " + (callable ? "1UL" : "0UL") +
            ", 0UL);");
+      if (entry_.stage != kStageAnyHit) line("g_in.type = 0u;");  // for the caller: this ran
     }
     line(type(entry_.payload) + " g_argument = " + convert_wire(entry_.payload, false) +
          "(g_in.data);");

@@ -272,10 +272,9 @@ std::string GlslEmitter::trace_function(const Type* payload) {
       "  traceRayEXT(accelerationStructureEXT(g_top_level(scene)), flags & 0x3FFu, "
       "mask & 0xFFu, "
       "contribution & 15u, multiplier & 15u, min(miss & 0xFFFFu, k_dispatch.miss_count), " +
-      member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number +
-      ");\n"
-      "  payload = " +
-      from + "(" + out +
+      member(0) + ", " + member(1) + ", " + member(2) + ", " + member(3) + ", " + number + ");\n" +
+      (checked ? "  if (" + out + ".type != 0u && (flags & 8u) == 0u) k_ran_nothing(1u);\n" : "") +
+      "  payload = " + from + "(" + out +
       ".data);\n"
       "}\n";
   return function;
@@ -319,10 +318,9 @@ std::string GlslEmitter::call_shader_function(const Type* data) {
               out + ".data = " + to +
               "(data);\n"
               "  executeCallableEXT(min(shader, k_dispatch.callable_count), " +
-              number +
-              ");\n"
-              "  data = " +
-              from + "(" + out +
+              number + ");\n" +
+              (module_.check_access ? "  if (" + out + ".type != 0u) k_ran_nothing(2u);\n" : "") +
+              "  data = " + from + "(" + out +
               ".data);\n"
               "}\n";
   return function;

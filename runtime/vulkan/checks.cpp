@@ -35,9 +35,9 @@ rtapi::Result<uint64_t> begin_checks(const DispatchEnvironment& environment,
   if (!buffer) return buffer.error();
   const uint64_t address = (*buffer)->address();
   uint8_t* host = (*buffer)->host();
-  const CheckState state = {address + kRangesAt, address + kEntriesAt,
-                            static_cast<uint32_t>(ranges.size()), max_recursion_depth,
-                            address + kReachedAt};
+  const CheckState state = {
+      address + kRangesAt, address + kEntriesAt, static_cast<uint32_t>(ranges.size()),
+      max_recursion_depth, address + kReachedAt, 0};
   std::memset(host, 0, kRangesAt);
   std::memcpy(host, &state, sizeof(state));
   if (range_bytes != 0) std::memcpy(host + kRangesAt, ranges.data(), range_bytes);
@@ -67,6 +67,24 @@ std::vector<runtime::ReachedFrom> tell_checks(const DispatchEnvironment& environ
     if (entry.key == 0 || entry.shader - 1 >= shaders.size()) continue;
     out.push_back({shaders[entry.shader - 1], entry.call});
   }
+  return out;
+}
+
+runtime::MissingRecords missing_records(const DispatchEnvironment& environment) {
+  runtime::MissingRecords out;
+  if (!is_checked(environment)) return out;
+  auto buffer = environment.checks->get(environment.stream->gpu(), kRangesAt);
+  if (!buffer) return out;
+  CheckState state;
+  std::memcpy(&state, (*buffer)->host(), sizeof(state));
+  const auto add = [&](runtime::RecordKind kind, uint32_t by) {
+    const bool missing = (state.ran_nothing & by) != 0;
+    out.past_the_end[static_cast<size_t>(kind)] = missing;
+    out.unknown[static_cast<size_t>(kind)] = missing;
+  };
+  add(runtime::RecordKind::kHitGroup, shader::spirv::kRayRanNothing);
+  add(runtime::RecordKind::kMiss, shader::spirv::kRayRanNothing);
+  add(runtime::RecordKind::kCallable, shader::spirv::kCallRanNothing);
   return out;
 }
 

@@ -21,5 +21,7 @@ rtapi::Result<uint64_t> begin_checks(const DispatchEnvironment& environment,
 std::vector<runtime::ReachedFrom> tell_checks(const DispatchEnvironment& environment,
                                               std::span<const runtime::LinkedShader* const> shaders,
                                               checks::CodePlace place);
+// Then: only shaders can tell, and what they know is that a ray or call ran nothing.
+runtime::MissingRecords missing_records(const DispatchEnvironment& environment);
 
 }  // namespace kaamos::vulkan

@@ -260,6 +260,7 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
   place.dimensions[2] = desc.Depth;
   place.tables = &desc;
   result_.reached = tell_checks(environment_, pipeline_.stage_shaders(), place);
+  result_.missing = missing_records(environment_);
   warn_of_structure();
   return status;
 }

@@ -56,7 +56,9 @@ struct DispatchResult {
   // Where the device collects them. A miss without a miss shader counts as a hit: only shaders can
   // count.
   rtapi::RaytracingStatistics statistics;
-  std::vector<runtime::ReachedFrom> reached = {};  // on checked devices
+  // On checked devices.
+  std::vector<runtime::ReachedFrom> reached = {};
+  runtime::MissingRecords missing = {};
 };
 
 // `label` names the dispatch in messages.

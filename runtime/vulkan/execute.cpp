@@ -73,9 +73,9 @@ class Executor {
     return indirect_ ? runtime::indirect_label(what, *indirect_, text) : text;
   }
   rtapi::Status finish(DispatchResult result) {
-    auto* observer = device_.context().observer;
-    if (observer != nullptr && !result.reached.empty()) {
-      observer->reached(*running_, result.reached);
+    if (auto* observer = device_.context().observer) {
+      if (!result.reached.empty()) observer->reached(*running_, result.reached);
+      observer->missed(*running_, result.missing);
     }
     for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
     device_.add(result.statistics);

@@ -22,7 +22,7 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
   uint64_t shading = 0;    // closest-hit and miss shaders, which may trace
   uint64_t traversal = 0;  // intersection shaders with the any-hit shaders that they call
   uint64_t callable = 0;
-  for (uint32_t i = 0; i < groups.size(); ++i) {
+  for (uint32_t i = 0; i < records.size(); ++i) {
     const auto bytes = [&](uint32_t used, VkShaderGroupShaderKHR shader) -> uint64_t {
       if (used == VK_SHADER_UNUSED_KHR) return 0;
       return gpu.vk().vkGetRayTracingShaderGroupStackSizeKHR(gpu.device(), pipeline, i, shader);

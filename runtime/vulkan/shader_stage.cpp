@@ -83,7 +83,7 @@ StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t wor
 }
 
 StageList::~StageList() {
-  for (const auto& [unused, module] : modules_) {
+  for (const VkShaderModule module : all_modules_) {
     gpu_.vk().vkDestroyShaderModule(gpu_.device(), module, nullptr);
   }
 }
@@ -104,14 +104,35 @@ rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& sha
             " uses RayQuery, and the device has no VK_KHR_ray_query: take another device "
             "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay."};
   }
+  auto made = create_module({shader.code->spirv, shader.code->spirv_words},
+                            "the module of shader \"" + shader.name + "\"");
+  if (made) modules_[shader.code] = *made;
+  return made;
+}
+
+rtapi::Result<VkShaderModule> StageList::create_module(std::span<const uint32_t> spirv,
+                                                       const std::string& name) {
   VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-  info.codeSize = size_t{shader.code->spirv_words} * sizeof(uint32_t);
-  info.pCode = shader.code->spirv;
+  info.codeSize = spirv.size_bytes();
+  info.pCode = spirv.data();
   VkShaderModule made = VK_NULL_HANDLE;
   const VkResult r = gpu_.vk().vkCreateShaderModule(gpu_.device(), &info, nullptr, &made);
-  if (r != VK_SUCCESS) return gpu_.error(r, "the module of shader \"" + shader.name + "\"");
-  modules_[shader.code] = made;
+  if (r != VK_SUCCESS) return gpu_.error(r, name);
+  all_modules_.push_back(made);
   return made;
+}
+
+uint32_t StageList::push(shader::Stage stage, VkShaderModule module, StageConstants constants) {
+  const StageConstants& kept = constants_.emplace_back(std::move(constants));
+  infos_.push_back({static_cast<uint32_t>(kept.entries.size()), kept.entries.data(),
+                    kept.values.size() * sizeof(uint32_t), kept.values.data()});
+  VkPipelineShaderStageCreateInfo info = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
+  info.stage = stage_of(stage);
+  info.module = module;
+  info.pName = "main";
+  info.pSpecializationInfo = &infos_.back();
+  stages_.push_back(info);
+  return static_cast<uint32_t>(stages_.size() - 1);
 }
 
 rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool own) {
@@ -123,19 +144,19 @@ rtapi::Result<uint32_t> StageList::add(const runtime::LinkedShader& shader, bool
   StageOptions options = options_;
   options.shader = static_cast<uint32_t>(stages_.size() + 1);
   shaders_.push_back(&shader);
-  const StageConstants& constants =
-      constants_.emplace_back(stage_constants(shader, gpu_.workarounds().shader_bits(), options));
-  infos_.push_back({static_cast<uint32_t>(constants.entries.size()), constants.entries.data(),
-                    constants.values.size() * sizeof(uint32_t), constants.values.data()});
-  VkPipelineShaderStageCreateInfo stage = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-  stage.stage = stage_of(shader.code->stage);
-  stage.module = *made;
-  stage.pName = "main";
-  stage.pSpecializationInfo = &infos_.back();
-  stages_.push_back(stage);
-  const auto index = static_cast<uint32_t>(stages_.size() - 1);
+  const uint32_t index = push(shader.code->stage, *made,
+                              stage_constants(shader, gpu_.workarounds().shader_bits(), options));
   if (!own) indices_[&shader] = index;
   return index;
+}
+
+rtapi::Result<uint32_t> StageList::add(std::span<const uint32_t> spirv, shader::Stage stage,
+                                       uint32_t constant) {
+  auto made = create_module(spirv, "a module of the backend's own");
+  if (!made) return made.error();
+  Constants constants;
+  constants.add(0, constant);
+  return push(stage, *made, std::move(constants.result));
 }
 
 }  // namespace kaamos::vulkan

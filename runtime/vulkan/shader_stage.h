@@ -7,6 +7,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,18 @@ class StageList {
   // The index of the shader's stage, the same for each call unless `own`. Errors: KA0954 no SPIR-V
   // for it, KA0952.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
+  // One of the backend's own, after all others; `constant` is its specialization constant 0.
+  rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, shader::Stage stage,
+                              uint32_t constant);
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
-  // Of each stage.
+  // Of each stage that is not the backend's own.
   const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:
   rtapi::Result<VkShaderModule> module(const runtime::LinkedShader& shader);
+  rtapi::Result<VkShaderModule> create_module(std::span<const uint32_t> spirv,
+                                              const std::string& name);
+  uint32_t push(shader::Stage stage, VkShaderModule module, StageConstants constants);
 
   Gpu& gpu_;
   StageOptions options_;
@@ -56,6 +63,7 @@ class StageList {
   std::vector<const runtime::LinkedShader*> shaders_;
   std::deque<StageConstants> constants_;  // do not move: the infos point to them
   std::deque<VkSpecializationInfo> infos_;
+  std::vector<VkShaderModule> all_modules_;
   std::map<const shader::ExportDesc*, VkShaderModule> modules_;
   std::map<const runtime::LinkedShader*, uint32_t> indices_;
 };

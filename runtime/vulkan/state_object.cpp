@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/vulkan/callable_frame.h"
 #include "runtime/vulkan/pipeline_stack.h"
 #include "runtime/vulkan/shader_stage.h"
 
@@ -16,7 +17,7 @@ constexpr VkShaderStageFlags kAllStages =
     VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR |
     VK_SHADER_STAGE_COMPUTE_BIT;
 
-// Groups of the pipeline, and the records whose identifiers stand for them.
+// Groups of the pipeline, and the records whose identifiers stand for the first ones.
 struct Groups {
   std::vector<VkRayTracingShaderGroupCreateInfoKHR> infos;
   std::vector<const runtime::LinkedRecord*> records;
@@ -33,6 +34,15 @@ rtapi::Status add_stage(StageList& stages, const runtime::LinkedShader* shader, 
   return {};
 }
 
+VkRayTracingShaderGroupCreateInfoKHR general_group(uint32_t stage) {
+  VkRayTracingShaderGroupCreateInfoKHR info = {
+      VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
+  info.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
+  info.generalShader = stage;
+  info.closestHitShader = info.anyHitShader = info.intersectionShader = VK_SHADER_UNUSED_KHR;
+  return info;
+}
+
 rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersection,
                         StageList& stages, Groups& groups) {
   const bool procedural = record.kind == runtime::RecordKind::kHitGroup &&
@@ -40,12 +50,8 @@ rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersecti
   // Vulkan has no procedural group without an intersection shader. Nothing is ever hit through it,
   // which a null record does as well.
   if (procedural && record.intersection == nullptr) return {};
-  VkRayTracingShaderGroupCreateInfoKHR info = {
-      VK_STRUCTURE_TYPE_RAY_TRACING_SHADER_GROUP_CREATE_INFO_KHR};
-  info.generalShader = info.closestHitShader = info.anyHitShader = info.intersectionShader =
-      VK_SHADER_UNUSED_KHR;
+  VkRayTracingShaderGroupCreateInfoKHR info = general_group(VK_SHADER_UNUSED_KHR);
   if (record.kind != runtime::RecordKind::kHitGroup) {
-    info.type = VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR;
     if (auto s = add_stage(stages, record.shader, false, &info.generalShader); !s) return s;
     if (info.generalShader == VK_SHADER_UNUSED_KHR) return {};
   } else {
@@ -131,6 +137,13 @@ rtapi::Status RaytracingPipeline::start() {
     max_callable_depth =
         std::min(max_callable_depth, nested_payload_limit(largest_callable_data(*linked_), stack));
   }
+  CallableFrame frame;
+  if (gpu.workarounds().has(Workaround::kReserveCallables)) {
+    frame = callable_frame(*linked_, max_callable_depth, default_thread_stack_bytes());
+    max_callable_depth = frame.depth;
+  } else if (gpu.is_lavapipe()) {
+    max_callable_depth = std::min(max_callable_depth, kMaxBareCallableDepth);
+  }
   groups_ = GroupHandles(gpu.properties().ray_tracing.shaderGroupHandleSize);
   StageList stages(gpu, {max_trace_depth_, max_callable_depth, layout_->collect_statistics()});
   const bool own_intersection = gpu.workarounds().has(Workaround::kOwnIntersectionStages);
@@ -139,6 +152,11 @@ rtapi::Status RaytracingPipeline::start() {
   for (const auto& record : linked_->records) {
     if (auto s = add_group(*record, own_intersection, stages, groups); !s) return s;
     runs |= record->kind == runtime::RecordKind::kRayGeneration;
+  }
+  if (frame.words != 0) {
+    auto stage = stages.add(callable_frame_spirv(), shader::Stage::kCallable, frame.words);
+    if (!stage) return stage.error();
+    groups.infos.push_back(general_group(*stage));
   }
   stage_shaders_ = stages.shaders();
   if (!runs) return {};

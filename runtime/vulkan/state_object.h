@@ -96,8 +96,10 @@ class ComputePipeline final : public runtime::BackendPipeline {
   VkPipeline handle_ = VK_NULL_HANDLE;
 };
 
-// Levels of callable shaders that call each other: what lavapipe was found to bear. DXR bounds them
-// by the stack alone. [DXR: Ray recursion limit]
-inline constexpr uint32_t kMaxCallableDepth = 31;
+// Levels of callable shaders that call each other. DXR bounds them by the stack alone, and drivers
+// have no way to ask. [DXR: Ray recursion limit]
+inline constexpr uint32_t kMaxCallableDepth = 63;
+// Of lavapipe without workaround CALLABLES.
+inline constexpr uint32_t kMaxBareCallableDepth = 31;
 
 }  // namespace kaamos::vulkan

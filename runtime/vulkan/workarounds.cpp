@@ -40,6 +40,8 @@ constexpr WorkaroundInfo kTable[] = {
      "textures of 8 bits are filtered in 8 bits; applied when its first device starts"},
     {Workaround::kBoundPayloads, "PAYLOAD", kLavapipe, kFirst, kOpen, true, 0,
      "large payloads of deeply nested traces overflow the stack of a driver's thread"},
+    {Workaround::kReserveCallables, "CALLABLES", kLavapipe, kFirst, kOpen, true, 0,
+     "callables nested deeper than 31 run over their memory, whatever the stack size is"},
 };
 
 bool lists_workaround(std::string_view list, std::string_view name) {

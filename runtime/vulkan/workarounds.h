@@ -26,6 +26,7 @@ enum class Workaround : uint32_t {
   kSortPrimitives,         // SORT
   kFilterInFloats,         // FILTER
   kBoundPayloads,          // PAYLOAD
+  kReserveCallables,       // CALLABLES
 };
 
 // Versions of drivers as one number: major * 1000 + minor.

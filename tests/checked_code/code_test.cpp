@@ -409,7 +409,7 @@ TEST_P(CheckedCode, RecordsThatNoConstantsReach) {
                     "(code.hlsl:",
                     ") at instance 0, geometry 0, ray type 7: instance contribution 0 + "
                     "multiplier 0 * geometry 0 + ray contribution 7"});
-  run("TraceAny", {0x300});
+  run("TraceAny", {.index = 0x300, .t_min = 50});
   expect("KA0430", {"miss table record 3, reached from ray generation shader \"TraceAny\"",
                     "with MissShaderIndex 3"});
   run("TraceAny", {1});

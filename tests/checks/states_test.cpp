@@ -2,6 +2,7 @@
 //
 // States of textures and of indirect arguments, and dispatches whose tables come from a buffer.
 #include <cstring>
+#include <utility>
 
 #include "tests/checks/world.h"
 
@@ -52,9 +53,11 @@ TEST_P(Indirect, TablesAreProvenWhenTheyAreKnown) {
   expect_none();
   DispatchRaysDesc wrong = set_.desc;
   wrong.MissShaderTable = {};
+  const Buffer scene = std::exchange(top_, build(top_inputs({}), "nothing"));
   run({set_.desc, wrong});
   expect_one("KA0430", {"miss table record 0", "there is no such table",
                         "(DispatchRays 1 of ExecuteIndirect, command 2)"});
+  top_ = scene;
   wrong = set_.desc;
   wrong.HitGroupTable = set_.desc.MissShaderTable;
   run({wrong});
@@ -140,9 +143,11 @@ class Textures : public World {
     desc.EntryPoint = entry;
     return device_.CreateComputePipelineState(desc).value();
   }
-  void create(ResourceStates state) {
+  // The view to write is of the first mip, that to read of the last one.
+  void create(ResourceStates state, uint16_t mips = 1) {
     TextureDesc desc;
     desc.Width = desc.Height = 4;
+    desc.MipLevels = mips;
     desc.Format = Format::kR32Float;
     desc.Flags = ResourceFlags::kAllowUnorderedAccess;
     desc.InitialState = state;
@@ -155,6 +160,7 @@ class Textures : public World {
     ShaderResourceViewDesc srv;
     srv.ViewDimension = SrvDimension::kTexture2D;
     srv.Format = Format::kR32Float;
+    srv.Texture2D.MostDetailedMip = mips - 1u;
     srv.Texture2D.MipLevels = 1;
     device_.CreateShaderResourceView(texture_, srv, heap_.GetCPUDescriptorHandle(1)).value();
   }
@@ -167,8 +173,9 @@ class Textures : public World {
     commands.SetPipelineState(pipeline);
     commands.Dispatch(1, 1, 1);
   }
-  void transition(CommandList& commands, ResourceStates before, ResourceStates after) {
-    commands.ResourceBarrier(ResourceBarrier::Transition(texture_, before, after));
+  void transition(CommandList& commands, ResourceStates before, ResourceStates after,
+                  uint32_t subresource = kResourceBarrierAllSubresources) {
+    commands.ResourceBarrier(ResourceBarrier::Transition(texture_, before, after, subresource));
   }
   void run(CommandList& commands) { EXPECT_TRUE(execute(commands).ok()); }
 
@@ -249,6 +256,32 @@ TEST_P(Textures, TransitionFromAnotherState) {
   run(commands);
   expect_one("KA0452", {"StateBefore kCopyDest is given for texture \"wall\", which is in state "
                         "kUnorderedAccess since it was created. Give the state that it is in."});
+}
+
+TEST_P(Textures, SubresourcesHaveStatesOfTheirOwn) {
+  create(kUav, 2);
+  CommandList commands = list();
+  transition(commands, kUav, kRead, 1);
+  record(commands, paint_);
+  record(commands, look_);
+  transition(commands, kRead, kUav, 1);
+  transition(commands, kUav, kRead);
+  record(commands, look_);
+  run(commands);
+  expect_none();
+  create(kUav, 2);
+  CommandList other = list();
+  transition(other, kUav, kRead, 0);
+  record(other, look_);
+  run(other);
+  expect_one("KA0451", {"t2 \"seen\" is in subresource 1 (mip 1, array element 0) of texture "
+                        "\"wall\", which is in state kUnorderedAccess since it was created"});
+  CommandList all = list();
+  transition(all, kUav, kRead);
+  run(all);
+  expect_one("KA0452", {"StateBefore kUnorderedAccess is given for subresource 0 (mip 0, array "
+                        "element 0) of texture \"wall\", which is in state "
+                        "kNonPixelShaderResource since ResourceBarrier, command 0"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Textures, ::testing::Values("embree"));

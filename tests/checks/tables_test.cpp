@@ -26,7 +26,7 @@ TEST_P(Tables, NothingWrongNothingSaid) {
   TableSet set = make_tables(pipeline_, "RayGen", {"WithData"});
   dispatch(set.desc);
   dispatch(set.desc);
-  // Records that nothing reaches may hold anything. [SBT-24]
+  // Records that nothing can reach may hold anything. [SBT-24]
   set = make_tables(pipeline_, "RayGen", {"Plain", "Plain"});
   std::memset(bytes(set, 2).data() + set.desc.HitGroupTable.StrideInBytes, 0xAB, 32);
   dispatch(set.desc);
@@ -54,9 +54,32 @@ TEST_P(Tables, RecordOutsideItsTable) {
       << texts[0];
 }
 
+// The rays of this world hit: the miss table is not reached, which is legal. [SBT-24]
+TEST_P(Tables, RecordsThatCouldBeReached) {
+  TableSet set = make_tables(pipeline_);
+  set.desc.MissShaderTable = {};
+  dispatch(set.desc);
+  ASSERT_FALSE(messages_.empty());
+  EXPECT_EQ(messages_[0].Severity, MessageSeverity::kInfo);
+  expect_one("KA0442", {"1 that rays or calls could reach, and none did. The first: miss table "
+                        "record 0, reached from ray generation shader \"RayGen\" (checks.hlsl",
+                        "there is no such table"});
+  dispatch(set.desc);
+  expect_none();  // said once
+  set = make_tables(pipeline_, "RayGen", {"Plain", "Plain"});
+  bottom_ = build(bottom_inputs(triangles()), "floor");
+  auto aside = instance(bottom_, 1);
+  aside.Transform[0][3] = 1000;
+  top_ = build(top_inputs({instance(bottom_), aside}), "scene");
+  std::memset(bytes(set, 2).data() + set.desc.HitGroupTable.StrideInBytes, 0xAB, 32);
+  dispatch(set.desc);
+  expect_one("KA0442", {"hit group table record 1 holds no shader identifier", "instance 1"});
+}
+
 TEST_P(Tables, NoTableAtAll) {
   TableSet set = make_tables(pipeline_);
   set.desc.MissShaderTable = {};
+  top_ = build(top_inputs({}), "nothing");
   dispatch(set.desc);
   expect_one("KA0430", {"miss table record 0", "with MissShaderIndex 0", "there is no such table",
                         "Set it in DispatchRaysDesc."});
@@ -69,16 +92,17 @@ TEST_P(Tables, CallableOutsideItsTable) {
 }
 
 TEST_P(Tables, WrongStrideIsRecognised) {
-  build_scene(2);
+  build_scene(1, 1);
   const TableSet set = make_tables(pipeline_, "RayGen", {"WithData", "WithData", "WithData"});
   DispatchRaysDesc desc = set.desc;
   ASSERT_EQ(desc.HitGroupTable.StrideInBytes, 64u);
   desc.HitGroupTable.StrideInBytes = 96;
   dispatch(desc);
   expect_one("KA0431",
-             {"hit group table record 1 holds no shader identifier", "geometry 1",
+             {"hit group table record 1 holds no shader identifier", "instance contribution 1",
               "with stride 96. Identifiers stand every 64 bytes in it: was it written with a "
               "stride of 64? StrideInBytes must be the same."});
+  build_scene();
   desc.HitGroupTable.StrideInBytes = 32;
   dispatch(desc);
   expect_one("KA0435", {"hit group table record 0 holds \"WithData\"",

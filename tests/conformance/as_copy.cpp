@@ -246,7 +246,7 @@ std::vector<RuleTest> as_copy_tests() {
           {"AS-71", clones},
           {"AS-72, ERR-14", compaction},
           {"AS-73", serialized_form},
-          {"AS-74", deserialized_structures, "KA0430"},
+          {"AS-74", deserialized_structures},
           {"AS-75", identifiers_of_drivers},
           {"AS-76", copies_touch_no_bottom_level, "KA0463"}};
 }

@@ -93,6 +93,7 @@ std::vector<std::string> Context::reports() const {
   std::vector<std::string> out;
   if (!shared_->messages) return out;
   for (const Message& message : *shared_->messages) {
+    if (message.Severity == MessageSeverity::kInfo) continue;
     if (message.Id >= "KA0400" && message.Id < "KA0500") out.push_back(message.Text);
   }
   return out;

@@ -18,18 +18,13 @@ constexpr char kEmbreesT[] =
 constexpr char kLavapipesEdges[] =
     "fault of Mesa 25.0's triangle test: edges belong to both of their triangles, so that rays "
     "that meet one exactly hit both";
-// Without anything of the backend: tests/vulkan/callable_probe.
-constexpr char kLavapipesCallables[] =
-    "fault of Mesa 25.0: it reserves memory for 31 nested callables, whatever the pipeline's stack "
-    "size is, and deeper ones write over other memory; the backend removes the device after 31";
 constexpr char kMesa[] = "Mesa 25.0.";
 
 constexpr Deviation kDeviations[] = {
-    {"TRV-03", "embree/fast", "", kEmbreesT},        {"TRV-70", "embree/fast", "", kEmbreesEdges},
-    {"TRV-71", "embree/fast", "", kEmbreesEdges},    {"TRV-72", "embree/fast", "", kEmbreesEdges},
-    {"TRV-70", "embree/robust", "", kEmbreesEdges},  {"TRV-71", "embree/robust", "", kEmbreesEdges},
-    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},    {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
-    {"SO-48", "vulkan", kMesa, kLavapipesCallables},
+    {"TRV-03", "embree/fast", "", kEmbreesT},       {"TRV-70", "embree/fast", "", kEmbreesEdges},
+    {"TRV-71", "embree/fast", "", kEmbreesEdges},   {"TRV-72", "embree/fast", "", kEmbreesEdges},
+    {"TRV-70", "embree/robust", "", kEmbreesEdges}, {"TRV-71", "embree/robust", "", kEmbreesEdges},
+    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},   {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
 };
 
 }  // namespace

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What the runtime must say, and when: errors of calls, and the messages of checked mode. Each test
-// spoils one thing of a small scene on a device in checked mode.
-#include <shaders/errors.h>
-
+// What the runtime must say of acceleration structures and their memory, and when: errors of
+// calls, and the messages of checked mode.
 #include <limits>
-#include <memory>
-#include <utility>
 
-#include "tests/conformance/program.h"
+#include "tests/conformance/checked.h"
 
 namespace kaamos::conformance {
 
@@ -17,86 +13,6 @@ using namespace rtapi;
 namespace {
 
 using BuildFlags = RaytracingAccelerationStructureBuildFlags;
-
-constexpr char kOneConstant[] =
-    "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b0, space = 1, num32BitConstants = 4)";
-
-using Messages = std::shared_ptr<std::vector<Message>>;
-
-DeviceDesc in_checked_mode(const Context& t, const Messages& messages) {
-  DeviceDesc desc = t.target().device_desc();
-  desc.Checked = true;
-  // Messages of a list come before ExecuteAndWait returns, one at a time.
-  desc.OnMessage = [messages](const Message& message) { messages->push_back(message); };
-  return desc;
-}
-
-// A context of its own whose failures go to the rule's.
-struct Checked : Context {
-  explicit Checked(Context& t) : Checked(t, std::make_shared<std::vector<Message>>()) {}
-  ~Checked() {
-    for (const std::string& failure : failures()) outer.fail(failure);
-  }
-  // The message must have been told since the last call.
-  void told(const std::string& what, const char* id) {
-    for (const Message& message : take_messages()) {
-      if (message.Id == id) return;
-    }
-    fail(what + ": no message " + id);
-  }
-  void silent(const std::string& what) {
-    for (const Message& message : take_messages()) {
-      if (message.Id >= "KA0400" && message.Id < "KA0500") fail(what + ": " + message.Text);
-    }
-  }
-  Status execute(CommandList& list) { return queue().ExecuteAndWait(list); }
-  CommandList list() { return device().CreateCommandList().value(); }
-
-  Context& outer;
-
- private:
-  Checked(Context& t, Messages told)
-      : Context(in_checked_mode(t, told), t.target()), outer(t), messages(std::move(told)) {}
-  std::vector<Message> take_messages() { return std::exchange(*messages, {}); }
-
-  Messages messages;
-};
-
-// One ray that hits a triangle.
-struct Scene : Program {
-  explicit Scene(Checked& t) : Program(t, kaamos_shaders_errors()), checked(t) {
-    group("Plain", "Floor");
-    group("Nested", "Deeper");
-    group("Boxes", "", "", "Front");
-    group("Odd", "", "", "Reports");
-    local(kOneConstant, {"Plain", "Odd"});
-    scene = t.scene({triangle(5)});
-    rays = t.upload(std::vector<Ray>{Ray()});
-  }
-  void add(const std::string& hit_group, const Constants& constants = {}) {
-    raygen("One");
-    miss("Sky");
-    if (hit_group == "Plain" || hit_group == "Odd") {
-      hit(hit_group, {LocalArgument::Constants(constants)});
-    } else {
-      hit(hit_group);
-    }
-  }
-  Checked& checked;
-};
-
-void recursion_and_stack(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.add("Nested");
-  bool removed = false;
-  try {
-    s.run();
-  } catch (const ResultError&) {
-    removed = true;
-  }
-  c.holds("recursion past the declared depth removes the device", removed);
-}
 
 void structure_buffers(Context& t) {
   Checked c(t);
@@ -150,7 +66,7 @@ void misaligned_addresses(Context& t) {
   desc.DestAccelerationStructureData = level.GetGPUVirtualAddress();
   geometry.Triangles.VertexBuffer.StartAddress += 2;
   c.refused("vertices at 2", record_and_close(c, desc));
-  Scene s(c);
+  CheckedScene s(c);
   s.add("Plain");
   for (const uint64_t stride : {16u, 4128u}) {
     DispatchRaysDesc tables = s.tables();
@@ -307,7 +223,7 @@ void postbuild_infos(Context& t) {
 
 void lives_of_structures(Context& t) {
   Checked c(t);
-  Scene s(c);
+  CheckedScene s(c);
   s.add("Plain");
   const Buffer level = c.bottom_level({triangle(5)});
   const Buffer top = c.top_level({instance(level)});
@@ -351,219 +267,6 @@ void instance_flags(Context& t) {
   c.told("force opaque and force non-opaque", "KA0474");
 }
 
-void illegal_rays(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.add("Plain");
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const auto run = [&](const std::string& what, void (*spoil)(Ray&, float), const char* id) {
-    Ray ray;
-    spoil(ray, nan);
-    s.rays = c.upload(std::vector<Ray>{ray});
-    s.run();
-    if (id != nullptr) {
-      c.told(what, id);
-    } else {
-      c.silent(what);
-    }
-  };
-  run(
-      "a sound ray", [](Ray&, float) {}, nullptr);
-  run(
-      "a ray of no length", [](Ray& ray, float) { ray.t_max = ray.t_min; }, nullptr);
-  run(
-      "NaN origin", [](Ray& ray, float n) { ray.origin[1] = n; }, "KA0401");
-  run(
-      "NaN direction", [](Ray& ray, float n) { ray.direction[2] = n; }, "KA0401");
-  run(
-      "NaN TMax", [](Ray& ray, float n) { ray.t_max = n; }, "KA0401");
-  run(
-      "negative TMin", [](Ray& ray, float) { ray.t_min = -1; }, "KA0402");
-  run(
-      "TMin above TMax", [](Ray& ray, float) { ray.t_min = 2000; }, "KA0402");
-}
-
-void parameters_of_other_types(Context& t) {
-  Checked c(t);
-  for (const bool right : {true, false}) {
-    Scene s(c);
-    s.raygen("One");
-    s.miss(right ? "Sky" : "OtherSky");
-    s.scene = c.scene({});
-    s.run();
-    if (right) {
-      c.silent("payloads of one type");
-    } else {
-      c.told("a miss shader with another payload", "KA0407");
-    }
-  }
-  for (const bool right : {true, false}) {
-    Scene calls(c);
-    calls.raygen("Calls");
-    calls.callable(right ? "Takes" : "TakesOne");
-    calls.run();
-    if (right) {
-      c.silent("callable data of one type");
-    } else {
-      c.told("callable data of another type", "KA0408");
-    }
-  }
-  Scene large(c);
-  for (StateSubobject& each : large.desc.Subobjects) {
-    if (auto* config = std::get_if<RaytracingShaderConfig>(&each)) {
-      config->MaxPayloadSizeInBytes = 12;
-    }
-  }
-  c.refused("a payload of 16 bytes where 12 are declared", large.try_create(), "KA0522");
-}
-
-void reported_hits(Context& t) {
-  Checked c(t);
-  for (const uint32_t kind : {0u, 127u, 128u, 255u}) {
-    Scene s(c);
-    s.scene = c.scene({box(5)});
-    Constants constants;
-    constants.reported_kind = kind;
-    s.add("Odd", constants);
-    s.run();
-    if (kind <= 127) {
-      c.silent("hit kind " + std::to_string(kind));
-    } else {
-      c.told("hit kind " + std::to_string(kind), "KA0406");
-    }
-  }
-  Scene s(c);
-  s.raygen("Commits");
-  s.scene = c.scene({box(5)});
-  for (const float at : {5.0f, -1.0f, 2000.0f}) {
-    Ray ray;
-    std::memcpy(&ray.extra[0], &at, sizeof at);
-    s.rays = c.upload(std::vector<Ray>{ray});
-    s.run();
-    if (at == 5) {
-      c.silent("a hit inside of the ray");
-    } else {
-      c.told("a hit at " + std::to_string(at), "KA0411");
-    }
-  }
-}
-
-// An index times a stride needs 64 bits: in 32 record 2^20 + 1 of stride 4096 is record 1, which
-// stands there.
-void far_records(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.raygen("One");
-  s.miss("Sky");
-  for (uint32_t i = 0; i < 2; ++i) {
-    s.hit("Plain", {LocalArgument::Constants(Constants{.ordinal = 70 + i})});
-  }
-  s.scene = c.scene({triangle(5)}, (1u << 20) + 1);
-  DispatchRaysDesc desc = s.tables();
-  std::vector<uint8_t> wide(2 * 4096);
-  const auto narrow = s.shader_tables[2].buffer().data<const uint8_t>();
-  for (size_t i = 0; i < 2; ++i) {
-    std::memcpy(&wide[i * 4096], &narrow[i * desc.HitGroupTable.StrideInBytes], 48);
-  }
-  desc.HitGroupTable = {c.upload(wide).GetGPUVirtualAddress(), wide.size(), 4096};
-  const Seen seen = seen_of(s.run(desc), 1)[0];
-  c.equal("what ran of a record 4 GiB away", seen.end, uint32_t{kNothingRan});
-  c.told("record 1048577 of 2, 4294971392 bytes into the table", "KA0430");
-}
-
-void tables_of_records(Context& t) {
-  Checked c(t);
-  {
-    Scene s(c);
-    s.add("Plain");
-    s.run();
-    c.silent("sound tables");
-    s.scene = c.scene({triangle(5), triangle(6)});
-    s.run();
-    c.told("record 1 of 1", "KA0430");
-    s.scene = c.scene({triangle(5)});
-    const Buffer table = c.upload(std::vector<uint32_t>(64, 0xABABABABu));
-    DispatchRaysDesc desc = s.tables();
-    desc.HitGroupTable = {table.GetGPUVirtualAddress(), 256, 64};
-    s.run(desc);
-    c.told("no identifier", "KA0431");
-    Scene other(c);
-    other.add("Plain");
-    desc.HitGroupTable = other.tables().HitGroupTable;
-    s.run(desc);
-    c.told("another pipeline's identifier", "KA0432");
-    desc.HitGroupTable = desc.MissShaderTable;
-    s.run(desc);
-    c.told("a miss shader in the hit group table", "KA0433");
-  }
-  Scene s(c);
-  s.add("Boxes");
-  s.run();
-  c.told("boxes' group for triangles", "KA0434");
-}
-
-void strides_of_records(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.add("Plain");
-  DispatchRaysDesc desc = s.tables();
-  desc.HitGroupTable.StrideInBytes = 32;
-  s.run(desc);
-  c.told("32 bytes for 48", "KA0435");
-  desc.HitGroupTable.StrideInBytes = 0;
-  desc.HitGroupTable.SizeInBytes = 40;
-  s.run(desc);
-  c.told("a table of 40 bytes", "KA0440");
-}
-
-void other_root_signature(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  const RootSignature other =
-      c.device().CreateRootSignature("SRV(t0), SRV(t1), UAV(u0), SRV(t7)").value();
-  s.desc.Associate(s.desc.Add(GlobalRootSignature{other}), {"Sky"});
-  s.add("Plain");
-  s.run();
-  c.told("a miss shader with another global root signature", "KA0439");
-}
-
-void stack_size(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.create();
-  const uint64_t before = s.pipeline.GetPipelineStackSize();
-  c.refused("a stack of 2^32 - 1 bytes", s.pipeline.SetPipelineStackSize(0xFFFFFFFFu));
-  c.equal("the stack size", s.pipeline.GetPipelineStackSize(), before);
-}
-
-void dispatch_calls(Context& t) {
-  Checked c(t);
-  Scene s(c);
-  s.add("Plain");
-  CommandList list = c.list();
-  list.SetComputeRootSignature(s.global);
-  list.DispatchRays(s.tables());
-  c.refused("no pipeline", list.Close());
-  CommandList large = c.list();
-  large.SetComputeRootSignature(s.global);
-  large.SetPipelineState1(s.pipeline);
-  DispatchRaysDesc desc = s.tables();
-  desc.Width = 1u << 16;
-  desc.Height = (1u << 14) + 1;
-  large.DispatchRays(desc);
-  c.refused("2^30 + 2^16 threads", large.Close());
-}
-
-void local_root_signatures(Context& t) {
-  Checked c(t);
-  c.refused("local with another flag",
-            c.device().CreateRootSignature(
-                "RootFlags(LOCAL_ROOT_SIGNATURE | ALLOW_STREAM_OUTPUT), SRV(t0)"));
-  c.refused("more than 4064 bytes",
-            c.device().CreateRootSignature(
-                "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b0, num32BitConstants = 1017)"));
-}
-
 void structure_views(Context& t) {
   Checked c(t);
   const Buffer top = c.top_level({});
@@ -583,8 +286,7 @@ void structure_views(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> err_tests() {
-  return {
-      {"ERR-01", recursion_and_stack},
+  std::vector<RuleTest> tests = {
       {"ERR-03, ERR-04", structure_buffers},
       {"ERR-07", misaligned_addresses},
       {"ERR-08", states_and_barriers},
@@ -597,18 +299,11 @@ std::vector<RuleTest> err_tests() {
       {"ERR-16", lives_of_structures},
       {"ERR-17", count_limits},
       {"ERR-18", instance_flags},
-      {"ERR-19", illegal_rays},
-      {"ERR-20, SBT-28", tables_of_records},
-      {"ERR-20, SBT-07", far_records},
-      {"ERR-21, SBT-16", strides_of_records},
-      {"ERR-22", other_root_signature},
-      {"ERR-23", parameters_of_other_types},
-      {"ERR-24", reported_hits},
-      {"ERR-27", stack_size},
-      {"ERR-28", dispatch_calls},
-      {"ERR-29", local_root_signatures},
       {"ERR-31", structure_views},
   };
+  const std::vector<RuleTest> more = err_dispatch_tests();
+  tests.insert(tests.end(), more.begin(), more.end());
+  return tests;
 }
 
 }  // namespace kaamos::conformance

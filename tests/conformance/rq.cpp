@@ -5,65 +5,14 @@
 
 #include <array>
 
-#include "tests/conformance/compile.h"
-#include "tests/conformance/program.h"
+#include "tests/conformance/rq.h"
 #include "tests/conformance/walker.h"
 
 namespace kaamos::conformance {
 
 using namespace rtapi;
 
-namespace {
-
-constexpr auto kOpaque = RaytracingGeometryFlags::kOpaque;
-constexpr auto kOnce = RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;  // not opaque
-
-// Of query.hlsl.
-enum Do : uint32_t {
-  kCommitTriangles = 1,
-  kCommitBoxes = 2,
-  kAbort = 4,
-  kTwice = 8,
-  kStop = 16,
-};
-struct Asked {
-  uint32_t status;  // Committed
-  uint32_t triangles;
-  uint32_t boxes;
-  uint32_t non_opaque_boxes;
-  float t;
-  uint32_t instance_index;
-  uint32_t instance_id;
-  uint32_t contribution;
-  uint32_t geometry;
-  uint32_t primitive;
-  uint32_t front_face;
-  uint32_t flags;
-  float barycentrics[2];
-  uint32_t status_on_the_way;
-  uint32_t proceeds;
-};
-static_assert(sizeof(Asked) == 64);
-enum Committed : uint32_t { kNothing, kTriangle, kBox };
-
-enum Flags : uint32_t {
-  kForceOpaque = 1,
-  kForceNonOpaque = 2,
-  kAcceptFirst = 4,
-  kCullOpaque = 0x40,
-  kCullNonOpaque = 0x80,
-  kSkipTriangles = 0x100,
-  kSkipBoxes = 0x200,
-};
-
-template <class T>
-T at(const std::vector<uint32_t>& words, size_t byte_offset) {
-  T out;
-  std::memcpy(&out, &words[byte_offset / 4], sizeof out);
-  return out;
-}
-
-Ray asking(uint32_t what, uint32_t flags = 0, float x = 0) {
+Ray asking(uint32_t what, uint32_t flags, float x) {
   Ray ray = ray_at(x);
   ray.flags = flags;
   ray.contribution = what;
@@ -72,20 +21,17 @@ Ray asking(uint32_t what, uint32_t flags = 0, float x = 0) {
   return ray;
 }
 
-// One shader of query.hlsl; no hit groups, no tables but its own.
-struct Query : Program {
-  Query(Context& t, const char* shader)
-      : Program(t, kaamos_shaders_query(), {shader}), context(&t) {
-    raygen(shader);
-  }
-  std::vector<uint32_t> run_rays(const Buffer& top_level, const std::vector<Ray>& list,
-                                 uint32_t width = 1) {
-    scene = top_level;
-    rays = context->upload(list);
-    return run(width);
-  }
-  Context* context;
-};
+Query::Query(Context& t, const char* shader)
+    : Program(t, kaamos_shaders_query(), {shader}), context_(&t) {
+  raygen(shader);
+}
+
+std::vector<uint32_t> Query::run_rays(const Buffer& top_level, const std::vector<Ray>& list,
+                                      uint32_t width) {
+  scene = top_level;
+  rays = context_->upload(list);
+  return run(width);
+}
 
 std::vector<Asked> ask(Context& t, const Buffer& top_level, const std::vector<Ray>& list) {
   Query query(t, "Ask");
@@ -97,6 +43,11 @@ std::vector<Asked> ask(Context& t, const Buffer& top_level, const std::vector<Ra
 Asked ask(Context& t, const Buffer& top_level, const Ray& ray) {
   return ask(t, top_level, std::vector<Ray>{ray})[0];
 }
+
+namespace {
+
+constexpr auto kOpaque = RaytracingGeometryFlags::kOpaque;
+constexpr auto kOnce = RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;  // not opaque
 
 Buffer three_triangles(Context& t, RaytracingGeometryFlags flags) {
   return t.scene({triangle(6, 0, flags), triangle(5, 0, flags), triangle(7, 0, flags)});
@@ -293,129 +244,6 @@ void boxes_say_whether_they_are_opaque(Context& t) {
   });
 }
 
-// What a hit and a candidate say of instance 1: object x = (x - 1) / 2.
-void check_hit(Context& t, const std::string& of, const std::vector<uint32_t>& words, size_t start,
-               uint32_t kind) {
-  const auto word = [&](size_t byte) { return words[(start + byte) / 4]; };
-  const auto number = [&](size_t byte) { return at<float>(words, start + byte); };
-  t.equal(of + "type", word(0), kind);
-  t.equal(of + "InstanceIndex", word(4), 1u);
-  t.equal(of + "InstanceID", word(8), 33u);
-  t.equal(of + "InstanceContributionToHitGroupIndex", word(12), 77u);
-  t.equal(of + "GeometryIndex", word(16), 1u);
-  t.equal(of + "PrimitiveIndex", word(20), 1u);
-  const float origin[] = {-0.45f, 0.2f, 0};
-  const float direction[] = {0, 0, 1};
-  for (size_t i = 0; i < 3; ++i) {
-    t.close(of + "ObjectRayOrigin", number(32 + 4 * i), origin[i], 1e-6f);
-    t.close(of + "ObjectRayDirection", number(44 + 4 * i), direction[i], 1e-6f);
-  }
-  t.close(of + "ObjectToWorld3x4", number(56), 1, 1e-6f);
-  t.close(of + "ObjectToWorld4x3", number(60), 1, 1e-6f);
-  t.close(of + "WorldToObject3x4", number(64), -0.5f, 1e-6f);
-  t.close(of + "WorldToObject4x3", number(68), -0.5f, 1e-6f);
-}
-
-Buffer nested_scene(Context& t, bool boxes) {
-  Geometry far = boxes ? box(5, 50, kOnce) : triangle(5, 50, kOnce);
-  Geometry both = far;
-  const Geometry near = boxes ? box(5, 0, kOnce) : triangle(5, 0, kOnce);
-  both.vertices.insert(both.vertices.end(), near.vertices.begin(), near.vertices.end());
-  both.boxes.insert(both.boxes.end(), near.boxes.begin(), near.boxes.end());
-  RaytracingInstanceDesc second = instance(t.bottom_level({far, both}), 1, 77);
-  second.Transform[0][0] = 2;
-  second.InstanceID = 33;
-  return t.top_level({instance(t.bottom_level({triangle(5)}), 500), second});
-}
-
-void accessors_by_state(Context& t) {
-  Query triangles(t, "Accessors");
-  auto words = triangles.run_rays(nested_scene(t, false), {Ray{}});
-  check_hit(t, "triangle candidate: ", words, 0, 0);
-  check_hit(t, "committed triangle: ", words, 192, kTriangle);
-  t.equal("front face of the candidate", words[72 / 4], 1u);
-  t.equal("front face of the hit", words[264 / 4], 1u);
-  t.close("t of the candidate", at<float>(words, 76), 5, 1e-5f);
-  t.equal("t of the hit", at<float>(words, 268), at<float>(words, 76));
-  const std::vector<float> corners = triangle(5).vertices;
-  const float u = at<float>(words, 80);
-  const float v = at<float>(words, 84);
-  t.close("x by the barycentrics", (1 - u - v) * corners[0] + u * corners[3] + v * corners[6],
-          -0.45f, 1e-5f);
-  t.close("y by the barycentrics", (1 - u - v) * corners[1] + u * corners[4] + v * corners[7], 0.2f,
-          1e-5f);
-  t.equal("barycentrics of the hit", at<float>(words, 272), u);
-  t.equal("barycentrics of the hit", at<float>(words, 276), v);
-
-  Query boxes(t, "Accessors");
-  Ray ray;
-  ray.t_min = 0.25f;
-  ray.t_max = 60;
-  ray.flags = kForceNonOpaque;
-  words = boxes.run_rays(nested_scene(t, true), {ray});
-  check_hit(t, "box candidate: ", words, 0, 1);
-  check_hit(t, "committed box: ", words, 192, kBox);
-  t.equal("t of the box", at<float>(words, 268), 5.5f);
-  t.equal("RayFlags", words[256], ray.flags);
-  t.equal("RayTMin", at<float>(words, 1028), 0.25f);
-  t.equal("CommittedRayT before the search", at<float>(words, 1032), 60.0f);
-  t.equal("WorldRayOrigin", at<float>(words, 1040), 0.1f);
-  t.equal("WorldRayDirection", at<float>(words, 1060), 1.0f);
-}
-
-void copies_share_one_state(Context& t) {
-  Query query(t, "Aliases");
-  const auto words = query.run_rays(t.scene({triangle(5, 0, kOnce)}), {Ray{}});
-  t.equal("candidates by the first name", words[0], 1u);
-  t.equal("status by the first name", words[1], kTriangle);
-  t.equal("t by the second name", at<float>(words, 8), 5.0f);
-  t.equal("Proceed() by the second name", words[3], 0u);
-  const std::string start =
-      "RWByteAddressBuffer words : register(u0);\n"
-      "void step(RayQuery<RAY_FLAG_FORCE_OPAQUE> query) { query.Proceed(); }\n"
-      "[shader(\"raygeneration\")]\nvoid Main() {\n  RayQuery<RAY_FLAG_";
-  t.accepted("an argument with the parameter's flags",
-             compile(start + "FORCE_OPAQUE> query;\n  step(query);\n}\n"));
-  t.refused("an argument with other flags", compile(start + "NONE> query;\n  step(query);\n}\n"));
-  t.refused("a copy with other flags",
-            compile(start + "NONE> query;\n  RayQuery<RAY_FLAG_FORCE_OPAQUE> other = query;\n}\n"));
-}
-
-void queries_in_every_stage(Context& t) {
-  Query query(t, "Interleaved");
-  const auto pair =
-      query.run_rays(t.scene({triangle(6, 0, kOnce), triangle(5, 0, kOnce), triangle(8, 20, kOnce),
-                              triangle(9, 20, kOnce), triangle(10, 20, kOnce)}),
-                     {asking(kCommitTriangles), asking(kCommitTriangles, 0, 20)});
-  t.equal("t of the first of two", at<Asked>(pair, 0).t, 5.0f);
-  t.equal("t of the second of two", at<Asked>(pair, 64).t, 8.0f);
-
-  Program program(
-      t, kaamos_shaders_query(),
-      {"StagesAsk", "AnyHitAsks", "BoxAsks", "ClosestAsks", "MissAsks", "CallableAsks"});
-  program.group("Asking", "ClosestAsks", "AnyHitAsks", "BoxAsks");
-  program.raygen("StagesAsk");
-  program.hit("Asking");
-  program.miss("MissAsks");
-  program.callable("CallableAsks");
-  program.scene =
-      t.top_level({instance(t.bottom_level({box(5, 0, kOnce)})),
-                   instance(t.bottom_level({triangle(6, 20, kOnce), triangle(5, 20, kOnce)}))});
-  program.rays = t.upload(std::vector<Ray>{Ray{}, asking(kCommitTriangles, 0, 20)});
-  const auto words = program.run();
-  const char* stages[] = {"any-hit", "intersection", "closest-hit", "miss", "callable"};
-  for (size_t i = 0; i < 5; ++i) {
-    const Asked found = at<Asked>(words, 1024 + 64 * i);
-    t.equal(std::string("status in the ") + stages[i] + " shader", found.status, kTriangle);
-    t.equal(std::string("t in the ") + stages[i] + " shader", found.t, 5.0f);
-  }
-  const Seen seen = at<Seen>(words, 0);
-  t.equal("end of the trace around them", seen.end, kClosestHitRan);
-  t.equal("its t", seen.t, 5.0f);
-  t.equal("its attributes", seen.box_record, 9u);
-  t.equal("its any-hit shader", seen.any_hits, 1u);
-}
-
 // Random rays by a query and by TraceRay with an any-hit shader that accepts.
 void queries_agree_with_traces(Context& t) {
   SceneOptions options;
@@ -491,23 +319,23 @@ void contribution_is_only_told(Context& t) {
 }  // namespace
 
 std::vector<RuleTest> rq_tests() {
-  return {{"RQ-01", flags_add_up},
-          {"RQ-02", trace_restarts},
-          {"RQ-03", proceed_tells_of_candidates},
-          {"RQ-04", opacity_comes_from_flags},
-          {"RQ-05", false_is_final},
-          {"RQ-06", abort_ends_the_search},
-          {"RQ-07", commits_of_triangles},
-          {"RQ-08", commits_of_boxes},
-          {"RQ-09", the_first_commit_ends},
-          {"RQ-10", status_is_readable},
-          {"RQ-11", t_starts_at_t_max},
-          {"RQ-12", boxes_say_whether_they_are_opaque},
-          {"RQ-13", accessors_by_state},
-          {"RQ-14", copies_share_one_state},
-          {"RQ-15", queries_in_every_stage},
-          {"RQ-16", null_structures_and_parity},
-          {"RQ-17", contribution_is_only_told}};
+  std::vector<RuleTest> tests = {{"RQ-01", flags_add_up},
+                                 {"RQ-02", trace_restarts},
+                                 {"RQ-03", proceed_tells_of_candidates},
+                                 {"RQ-04", opacity_comes_from_flags},
+                                 {"RQ-05", false_is_final},
+                                 {"RQ-06", abort_ends_the_search},
+                                 {"RQ-07", commits_of_triangles},
+                                 {"RQ-08", commits_of_boxes},
+                                 {"RQ-09", the_first_commit_ends},
+                                 {"RQ-10", status_is_readable},
+                                 {"RQ-11", t_starts_at_t_max},
+                                 {"RQ-12", boxes_say_whether_they_are_opaque},
+                                 {"RQ-16", null_structures_and_parity},
+                                 {"RQ-17", contribution_is_only_told}};
+  const std::vector<RuleTest> more = rq_accessors_tests();
+  tests.insert(tests.end(), more.begin(), more.end());
+  return tests;
 }
 
 }  // namespace kaamos::conformance

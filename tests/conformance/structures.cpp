@@ -258,4 +258,15 @@ float t_of_bottom(Context& t, const Buffer& bottom_level) {
   return t_of_top(t, t.top_level({instance(bottom_level)}));
 }
 
+Status record_changed(Context& t, Inputs inputs, const std::function<void(Inputs&)>& change) {
+  const Buffer memory = memory_for(t, inputs);
+  const Buffer scratch = t.zeros(1 << 16);
+  change(inputs);
+  BuildRaytracingAccelerationStructureDesc desc;
+  desc.Inputs = inputs.desc();
+  desc.DestAccelerationStructureData = memory.GetGPUVirtualAddress();
+  desc.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
+  return record(t, [&](CommandList& list) { list.BuildRaytracingAccelerationStructure(desc); });
+}
+
 }  // namespace kaamos::conformance

@@ -86,4 +86,10 @@ float t_of_top(Context& t, const rtapi::Buffer& top_level);
 uint32_t boxes_met(Context& t, const rtapi::Buffer& top_level, float x);
 void meets_boxes(Context& t, const std::string& what, const rtapi::Buffer& top_level);
 
+// Records a build of these geometries, or of what `change` makes of them.
+rtapi::Status record_changed(Context& t, Inputs inputs, const std::function<void(Inputs&)>& change);
+
+// Those of as_build_tests that are of vertices.
+std::vector<RuleTest> as_vertices_tests();
+
 }  // namespace kaamos::conformance

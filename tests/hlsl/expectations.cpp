@@ -73,6 +73,8 @@ void parse_line(const std::string& line, uint32_t number, HlslTest& test) {
     test.feature = "trap " + test.feature;
   } else if (key == "OPTIONS:") {
     for (std::string word; words >> word;) test.options.push_back(word);
+  } else if (key == "BREAKS:") {
+    for (std::string word; words >> word;) test.breaks.push_back(word.substr(0, word.find(',')));
   } else if (key == "DISPATCH:") {
     for (uint32_t& count : test.dispatch) {
       if (!(words >> count)) {

@@ -5,6 +5,7 @@
 //   // TRAP: 7                         or which trap
 //   // OPTIONS: -HV 2018               as kaamos-hlsl takes them
 //   // DISPATCH: 2 1 1                 groups, or threads of ray generation (default 1 1 1)
+//   // BREAKS: KA0417                 what checked mode must say: it breaks a rule on purpose
 //   // EXPECT u32 0 42                 type, byte offset in `results`, value
 //   // EXPECT f32 4 0.5 2              floats may be so many ulps off (default 0)
 #pragma once
@@ -31,6 +32,7 @@ struct HlslTest {
   std::string feature;               // text behind FEATURE or "trap N"
   std::vector<std::string> options;  // words behind "// OPTIONS:", as for kaamos-hlsl
   uint32_t dispatch[3] = {1, 1, 1};
+  std::vector<std::string> breaks;  // ids
   std::vector<Expectation> expectations;
   std::string error;  // what is wrong with the comments
 };

@@ -21,7 +21,7 @@ constexpr uint32_t kSamplerSlots = 2;  // of SamplerDescriptorHeap
 
 // The root signature that a library's bindings ask for, and what stands behind each parameter.
 struct Fixture {
-  Fixture(const std::string& backend, const shader::LibraryDesc& library);
+  Fixture(const Device& device, const shader::LibraryDesc& library);
 
   Device device;
   CommandQueue queue;
@@ -36,15 +36,24 @@ struct Fixture {
   DescriptorHeap sampler_heap;
 };
 
-Device single_threaded_device(const std::string& backend) {
+Device single_threaded_device(const std::string& backend, std::vector<std::string>* told) {
   DeviceDesc desc;
   desc.Backend = backend;
   desc.Threads = 1;
+  if (told != nullptr) {
+    desc.Checked = true;
+    desc.OnMessage = [told](const Message& message) {
+      const bool of_compiling = message.Id == "KA0423" || message.Id == "KA0424";
+      if (message.Severity != MessageSeverity::kInfo && !of_compiling) {
+        told->push_back(message.Text);
+      }
+    };
+  }
   return CreateDevice(desc).value();
 }
 
-Fixture::Fixture(const std::string& backend, const shader::LibraryDesc& library_desc)
-    : device(single_threaded_device(backend)),
+Fixture::Fixture(const Device& on, const shader::LibraryDesc& library_desc)
+    : device(on),
       queue(device.CreateCommandQueue().value()),
       library(LoadShaderLibrary(&library_desc).value()),
       resources(device, queue) {
@@ -147,9 +156,9 @@ void bind(Fixture& f, CommandList& list) {
   }
 }
 
-std::vector<std::byte> run(const std::string& backend, const shader::LibraryDesc& library_desc,
+std::vector<std::byte> run(const Device& device, const shader::LibraryDesc& library_desc,
                            const uint32_t (&size)[3]) {
-  Fixture f(backend, library_desc);
+  Fixture f(device, library_desc);
   for (uint32_t i = 0; i < library_desc.binding_count; ++i) {
     add_binding(f, library_desc.bindings[i]);
   }
@@ -183,9 +192,10 @@ std::vector<std::byte> run(const std::string& backend, const shader::LibraryDesc
 }  // namespace
 
 std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
-                                     const uint32_t (&size)[3], std::string& error) {
+                                     const uint32_t (&size)[3], std::string& error,
+                                     std::vector<std::string>* told) {
   try {
-    return run(backend, library, size);
+    return run(single_threaded_device(backend, told), library, size);
   } catch (const ResultError& failure) {
     error = failure.what();
     return {};

@@ -27,8 +27,10 @@ struct LibraryDesc;
 namespace kaamos::test {
 
 // Runs the compute export as `size` groups, or the ray generation export as `size` threads, and
-// returns what is in `results`.
+// returns what is in `results`. With `told` on a device in checked mode: its errors and warnings,
+// apart from those that the library was not compiled for the device (it may be checked already).
 std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
-                                     const uint32_t (&size)[3], std::string& error);
+                                     const uint32_t (&size)[3], std::string& error,
+                                     std::vector<std::string>* told = nullptr);
 
 }  // namespace kaamos::test

@@ -3,16 +3,20 @@
 // Every .hlsl file in core, compute, extended and traps is a test for each executor: it is compiled
 // as a user's would be, runs on a device, and what it wrote to `results` must be what its EXPECT
 // comments say. Native code: a batch of files becomes one shared object, because starting the C++
-// compiler costs more than compiling a small shader.
+// compiler costs more than compiling a small shader. Checked executors run a sample of the files,
+// or all with KAAMOS_FULL=1: the same results, and no message but those that BREAKS names.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
 #include <rtapi/rtapi.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "executors.h"
 #include "expectations.h"
@@ -32,13 +36,14 @@ const std::vector<HlslTest>& all_tests() {
   return tests;
 }
 
-std::string unit_name(size_t index) {
-  return "kaamos_test_unit_" + std::to_string(index);
+std::string unit_name(size_t index, bool checked) {
+  return std::string("kaamos_test_unit_") + (checked ? "checked_" : "") + std::to_string(index);
 }
 
-hlsl::FrontendOptions options_of(const HlslTest& test) {
+hlsl::FrontendOptions options_of(const HlslTest& test, bool checked) {
   hlsl::FrontendOptions options;
   options.path = test.path;
+  options.check_access = checked;
   options.include_folders = {std::string(KAAMOS_SOURCE_DIR) + "/tests/hlsl"};
   for (size_t i = 0; i < test.options.size(); ++i) {
     const std::string& word = test.options[i];
@@ -54,18 +59,24 @@ hlsl::FrontendOptions options_of(const HlslTest& test) {
 }
 
 // The emitted C++ of a file; empty with `error` where it does not compile.
-std::string emit(size_t index, hlsl::WideThreads wide, std::string& error) {
-  const auto module = compile_module(options_of(all_tests()[index]), error);
-  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index), .wide = wide})
+std::string emit(size_t index, bool checked, hlsl::WideThreads wide, std::string& error) {
+  const auto module = compile_module(options_of(all_tests()[index], checked), error);
+  return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index, checked), .wide = wide})
                 : std::string();
 }
 
-std::map<size_t, Compiled> compile_batch(size_t batch, hlsl::WideThreads wide) {
+// Of the files that checked executors run.
+bool in_checked_sample(size_t index) {
+  const char* full = std::getenv("KAAMOS_FULL");
+  return (full != nullptr && *full == '1') || index % 12 == 0;
+}
+
+std::map<size_t, Compiled> compile_batch(size_t batch, bool checked, hlsl::WideThreads wide) {
   std::map<size_t, Compiled> out;
   std::string source;
   const size_t end = std::min(all_tests().size(), (batch + 1) * kBatch);
   for (size_t i = batch * kBatch; i < end; ++i) {
-    source += emit(i, wide, out[i].error);
+    if (!checked || in_checked_sample(i)) source += emit(i, checked, wide, out[i].error);
   }
   std::string error;
   const auto compiler = hlsl::find_host_compiler(error);
@@ -78,7 +89,7 @@ std::map<size_t, Compiled> compile_batch(size_t batch, hlsl::WideThreads wide) {
   void* handle = error.empty() ? dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
   for (auto& [index, compiled] : out) {
     if (!compiled.error.empty()) continue;
-    void* entry = handle != nullptr ? dlsym(handle, unit_name(index).c_str()) : nullptr;
+    void* entry = handle != nullptr ? dlsym(handle, unit_name(index, checked).c_str()) : nullptr;
     if (entry == nullptr) {
       compiled.error = error.empty() ? "the shared object lacks its entry" : error;
     } else {
@@ -89,10 +100,10 @@ std::map<size_t, Compiled> compile_batch(size_t batch, hlsl::WideThreads wide) {
 }
 
 template <hlsl::WideThreads kWide>
-Compiled compile_native(size_t index) {
-  static std::map<size_t, std::map<size_t, Compiled>> batches;
-  const size_t batch = index / kBatch;
-  if (batches.count(batch) == 0) batches[batch] = compile_batch(batch, kWide);
+Compiled compile_native(size_t index, bool checked) {
+  static std::map<std::pair<size_t, bool>, std::map<size_t, Compiled>> batches;
+  const std::pair batch(index / kBatch, checked);
+  if (batches.count(batch) == 0) batches[batch] = compile_batch(batch.first, checked, kWide);
   return batches[batch][index];
 }
 
@@ -100,29 +111,58 @@ Compiled compile_native(size_t index) {
 struct Executor {
   const char* name;
   const char* backend;
-  Compiled (*compile)(size_t index);
+  Compiled (*compile)(size_t index, bool checked);
+  bool checked = false;
 };
+Compiled interpreted(size_t index, bool checked) {
+  return compile_interpreted(options_of(all_tests()[index], checked));
+}
+Compiled vulkan(size_t index, bool checked) {
+  return compile_vulkan(options_of(all_tests()[index], checked));
+}
 const Executor kExecutors[] = {
     {"native", "embree", compile_native<hlsl::WideThreads::kNever>},
     // Compute shaders several threads at once, of which one is there.
     {"wide", "embree", compile_native<hlsl::WideThreads::kAlways>},
-    {"interpreted", "embree",
-     [](size_t index) { return compile_interpreted(options_of(all_tests()[index])); }},
-    {"vulkan", "vulkan",
-     [](size_t index) { return compile_vulkan(options_of(all_tests()[index])); }},
+    {"interpreted", "embree", interpreted},
+    {"vulkan", "vulkan", vulkan},
+    {"checked_native", "embree", compile_native<hlsl::WideThreads::kNever>, true},
+    {"checked_interpreted", "embree", interpreted, true},
+    {"checked_vulkan", "vulkan", vulkan, true},
 };
+
+// Of the messages that a device in checked mode told: those that the file does not name, and those
+// that it names and that are missing.
+std::string unexpected(const HlslTest& test, const std::vector<std::string>& told) {
+  std::string out;
+  const auto is_of = [](const std::string& text, const std::string& id) {
+    return text.compare(0, id.size(), id) == 0;
+  };
+  for (const std::string& text : told) {
+    const bool named = std::any_of(test.breaks.begin(), test.breaks.end(),
+                                   [&](const std::string& id) { return is_of(text, id); });
+    if (!named) out += test.path + ": checked mode says " + text + "\n";
+  }
+  for (const std::string& id : test.breaks) {
+    const bool said = std::any_of(told.begin(), told.end(),
+                                  [&](const std::string& text) { return is_of(text, id); });
+    if (!said) out += test.path + ": checked mode does not say " + id + "\n";
+  }
+  return out;
+}
 
 // Empty, or everything that is wrong.
 std::string run(const Executor& executor, size_t index) {
   const HlslTest& test = all_tests()[index];
   if (!test.error.empty()) return test.path + ": " + test.error;
-  const Compiled code = executor.compile(index);
+  const Compiled code = executor.compile(index, executor.checked);
   if (code.library == nullptr) return code.error;
   std::string error;
-  const std::vector<std::byte> results =
-      run_on_device(executor.backend, *code.library, test.dispatch, error);
+  std::vector<std::string> told;
+  const std::vector<std::byte> results = run_on_device(
+      executor.backend, *code.library, test.dispatch, error, executor.checked ? &told : nullptr);
   if (!error.empty()) return test.path + ": " + error;
-  std::string wrong;
+  std::string wrong = executor.checked ? unexpected(test, told) : "";
   for (const Expectation& expectation : test.expectations) {
     const std::string difference = compare(expectation, results);
     if (!difference.empty()) wrong += test.path + ", " + difference + "\n";
@@ -173,7 +213,8 @@ class FeatureReport : public testing::Test {
     for (size_t i = 0; i < all_tests().size(); ++i) {
       bool passed = true;
       for (const Executor& executor : kExecutors) {
-        if (executor.backend == backend_) passed = passed && run(executor, i).empty();
+        if (executor.backend != backend_ || executor.checked) continue;
+        passed = passed && run(executor, i).empty();
       }
       const auto known = features.emplace(feature_key(all_tests()[i].feature), passed).first;
       known->second = known->second && passed;
@@ -219,6 +260,7 @@ int main(int argc, char** argv) {
   using namespace kaamos::test;
   for (const Executor& executor : kExecutors) {
     for (size_t i = 0; i < all_tests().size(); ++i) {
+      if (executor.checked && !in_checked_sample(i)) continue;
       const std::string name = std::string(executor.name) + "/" + test_name(all_tests()[i].name);
       testing::RegisterTest(
           "HlslFile", name.c_str(), nullptr, nullptr, __FILE__, __LINE__,

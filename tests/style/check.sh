@@ -91,7 +91,7 @@ check_told() {
   local file=runtime/checks/messages.inc line text id
   grep -nE '^KAAMOS_CHECK\(' "$file" | while IFS=: read -r line text; do
     id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_CHECK(\([0-9]*\),.*/\1/' <<<"$text")")
-    if ! list_files -name '*_test.cpp' -o -path './tests/conformance/err.cpp' |
+    if ! list_files -name '*_test.cpp' -o -path './tests/conformance/err*.cpp' |
       xargs -r -d '\n' grep -qF "\"$id"; then
       echo "$file:$line: no test holds $id"
     fi

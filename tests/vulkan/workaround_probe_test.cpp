@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Workarounds that change no pixel, with and without: B11 (which thread works) and PAYLOAD (whether
-// the process lives). The others' tests compare pixels: runtime/vulkan/README.md says where. And
-// the driver's fault behind the limit of nested callables.
+// Workarounds that change no pixel, with and without: B11 (which thread works), PAYLOAD and
+// CALLABLES (whether the process lives). The others' tests compare pixels: runtime/vulkan/README.md
+// says where.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -83,8 +83,8 @@ TEST(VulkanWorkarounds, StacksWithoutALimitAreSmaller) {
   EXPECT_NE(outcome.line.find("a depth of 23 "), std::string::npos) << outcome.line;
 }
 
-// Without anything of the backend in the process. [SO-48]
-TEST(VulkanDriver, DeepCallablesRunOverTheirMemory) {
+// The driver's fault behind CALLABLES, without anything of the backend in the process.
+TEST(VulkanWorkarounds, DeepCallablesNeedAFrameThatNobodyCalls) {
   KAAMOS_NEED_VULKAN();
   const Outcome few = probe("callable_probe 31", "");
   if (few.line.find("llvmpipe") == std::string::npos) GTEST_SKIP() << few.line;

@@ -25,6 +25,11 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_C
   uint max_recursion_depth;
   uint64_t reached;
 };
+//@ k_CheckResults
+// From shader::spirv::CheckState::ran_nothing on.
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer k_CheckResults {
+  uint ran_nothing;
+};
 //@ k_ReachedEntry
 // shader::spirv::ReachedEntry
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer k_ReachedEntry {
@@ -110,6 +115,12 @@ void k_reached(uint by, uint site, uint64_t scene, uint flags, uint indices) {
     entry.indices = indices;
     return;
   }
+}
+// A ray (1) or call (2) for which no closest-hit, miss or callable shader ran.
+//@ k_ran_nothing
+void k_ran_nothing(uint by) {
+  uint64_t checks = k_checks();
+  if (checks != 0UL) atomicOr(k_CheckResults(checks + 32UL).ran_nothing, by);
 }
 //@ k_structure_of
 uint64_t k_structure_of(k_Descriptor scene) {

@@ -155,8 +155,12 @@ struct CheckState {
   uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table that starts with zeros
   uint32_t range_count = 0;
   uint32_t max_recursion_depth = 0;
-  uint64_t reached = 0;  // ReachedEntry[kReachedEntries], the same
+  uint64_t reached = 0;      // ReachedEntry[kReachedEntries], the same
+  uint32_t ran_nothing = 0;  // bits below; of rays without RAY_FLAG_SKIP_CLOSEST_HIT_SHADER
 };
+inline constexpr uint32_t kRayRanNothing = 1;
+inline constexpr uint32_t kCallRanNothing = 2;
+static_assert(offsetof(CheckState, ran_nothing) == 32);
 inline constexpr uint32_t kCheckEntries = 256;
 struct CheckEntry {
   uint32_t key = 0;  // 0: free
