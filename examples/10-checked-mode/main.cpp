@@ -17,7 +17,7 @@ struct World {
   RootSignature root_signature;
   StateObject pipeline;
   StateObject other_pipeline;  // of the same shaders, made a second time
-  example::Mesh mesh;
+  example::Mesh mesh, front;
   Buffer bottom_level;
   Buffer top_level;
   Buffer results;
@@ -47,8 +47,9 @@ World CreateWorld(const example::Setup& setup) {
   w.pipeline = CreatePipeline(setup.device, w.root_signature);
   w.other_pipeline = CreatePipeline(setup.device, w.root_signature);
   w.mesh = example::CreateMesh(setup, {-1, -1, 0, 1, -1, 0, 0, 1, 0}, {});
-  // Two geometries: with a multiplier of 1 they take records 0 and 1.
-  w.bottom_level = example::BuildBottomLevel(setup, {w.mesh.geometry, w.mesh.geometry});
+  w.front = example::CreateMesh(setup, {-1, -1, -0.5f, 1, -1, -0.5f, 0, 1, -0.5f}, {});
+  // Two geometries: with a multiplier of 1 they take records 0 and 1. The ray hits the second.
+  w.bottom_level = example::BuildBottomLevel(setup, {w.mesh.geometry, w.front.geometry});
   w.top_level = example::BuildTopLevel(setup, {example::Instance(w.bottom_level, 0, 0, 0)});
   w.results =
       setup.device
@@ -156,7 +157,7 @@ void Barrier(World& w, bool mended) {
 // The bottom level is built again, its top level is not.
 void StaleTopLevel(World& w, bool mended) {
   const Tables tables = CreateTables(w, 2);
-  const RaytracingGeometryDesc geometries[] = {w.mesh.geometry, w.mesh.geometry};
+  const RaytracingGeometryDesc geometries[] = {w.mesh.geometry, w.front.geometry};
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
   inputs.Flags = RaytracingAccelerationStructureBuildFlags::kPreferFastTrace;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TRAP: 4 structured buffers are tight, raw loads ignore low bits
+// BREAKS: KA0418
 // EXPECT u32 0 254
 // EXPECT u32 4 255
 // EXPECT u32 8 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // TRAP: 17 attributes in own structs
+// BREAKS: KA0412
 // EXPECT f32 0 0.25 8
 // EXPECT f32 4 0.5 4
 // EXPECT f32 8 0
