@@ -31,6 +31,7 @@ RayPassDesc shadow_map_pass(const rtapi::ShaderLibrary& library) {
   desc.ray_generation = "ShadowAtlasRayGen";
   desc.miss[kRayTypeSurface] = "ShadowAtlasMiss";
   desc.hit[kRayTypeSurface] = {"ShadowAtlasAnyHit", "ShadowAtlasClosestHit"};
+  desc.payload_bytes = 16;
   return desc;
 }
 
@@ -54,7 +55,7 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
   const std::uint32_t columns = std::clamp<std::uint32_t>(light_count, 1, kShadowTilesPerRow);
   const std::uint32_t rows =
       std::max<std::uint32_t>((light_count + kShadowTilesPerRow - 1) / kShadowTilesPerRow, 1);
-  const auto atlas = create_picture(device, "shadow atlas", rtapi::Format::kR32Float,
+  const auto atlas = create_picture(device, "shadow atlas", rtapi::Format::kR32G32B32A32Float,
                                     columns * kShadowTile, rows * kShadowTile);
   if (!atlas) return atlas.error();
   out.atlas_ = *atlas;

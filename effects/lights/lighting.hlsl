@@ -33,25 +33,38 @@ void BuildClusters(uint3 id : SV_DispatchThreadID) {
   cluster_counts[cluster] = count > kClusterCapacity ? kClusterOverflow : count;
 }
 
-struct DistancePayload {
-  float distance;
+struct OccluderPayload {
+  float4 occluder;  // as shadow_atlas has it
 };
 
+// At this cosine a plane is taken for one that faces the light: seen more aslant, its texel does not
+// tell where it is.
+static const float kLeastCosine = 0.02;
+
 [shader("miss")]
-void ShadowAtlasMiss(inout DistancePayload payload) {
-  payload.distance = 1e30;
+void ShadowAtlasMiss(inout OccluderPayload payload) {
+  payload.occluder = float4(0, 0, 0, kNoOccluder);
 }
 
 [shader("anyhit")]
-void ShadowAtlasAnyHit(inout DistancePayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+void ShadowAtlasAnyHit(inout OccluderPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   if (IsOpenAt(hit.barycentrics)) {
     IgnoreHit();
   }
 }
 
 [shader("closesthit")]
-void ShadowAtlasClosestHit(inout DistancePayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  payload.distance = RayTCurrent();
+void ShadowAtlasClosestHit(inout OccluderPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
+  const float3 normal =
+      MakeSpawnPoint(LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.x),
+                     LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.y),
+                     LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z),
+                     hit.barycentrics, ObjectToWorld3x4(), WorldToObject3x4()).normal;
+  const float3 direction = WorldRayDirection();
+  const float cosine = dot(normal, direction);
+  const bool faces = abs(cosine) > kLeastCosine;
+  payload.occluder = float4((faces ? normal / cosine : direction) / RayTCurrent(), RayTCurrent());
 }
 
 [shader("raygeneration")]
@@ -67,9 +80,9 @@ void ShadowAtlasRayGen() {
   // What lies in the light's own sphere is the lamp itself.
   ray.TMin = min(light.radius, light.range);
   ray.TMax = light.range;
-  DistancePayload payload;
-  payload.distance = 1e30;
+  OccluderPayload payload;
+  payload.occluder = float4(0, 0, 0, kNoOccluder);
   TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
-  shadow_atlas[texel] = payload.distance;
+  shadow_atlas[texel] = payload.occluder;
 }

@@ -16,6 +16,7 @@
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
 #include "effects/scene/oracle_scenes.h"
+#include "effects/scene/shapes.h"
 
 namespace kaamos::effects {
 namespace {
@@ -243,6 +244,71 @@ TEST(ShadowMaps, DarkenTheDiskUnderTheSphere) {
   }
   EXPECT_GT(dark, 5);
   EXPECT_GT(lit, 50);
+}
+
+// An empty room shadows nothing: not its walls' edges, where texels of one wall stand beside texels
+// of another, nor far corners, which the lamp sees aslant. The lamp stands close to two walls.
+TEST(ShadowMaps, LeaveNoShadowsInTheCornersOfARoom) {
+  constexpr float kAlbedo = 0.8f;
+  for (const bool spot : {false, true}) {
+    Scene scene = make_sphere_oracle(1.0, 1.5);
+    scene.meshes.clear();
+    scene.instances.resize(1);
+    scene.sun.reset();
+    scene.materials.resize(1);
+    scene.materials[0].constants = {};
+    scene.materials[0].constants.base_color = glm::vec4(glm::vec3(kAlbedo), 1);
+    scene.materials[0].constants.roughness = 1;
+    scene.materials[0].constants.metallic = 0;
+    Shape walls = box({2, 1.5, 6});
+    for (std::size_t i = 0; i < walls.indices.size(); i += 3) {  // seen from inside
+      std::swap(walls.indices[i + 1], walls.indices[i + 2]);
+    }
+    for (Vertex& vertex : walls.vertices) vertex.normal = -vertex.normal;
+    Mesh mesh;
+    add_shape(mesh, walls, 0);
+    scene.meshes.push_back(mesh);
+    scene.instances[0] = {};
+    Light lamp = point_light({1.6, 1.1, 4}, 1e3f);
+    if (spot) {
+      lamp.type = LightType::kSpot;
+      lamp.direction = glm::normalize(glm::vec3(-1.6f, -1.1f, -8));
+      lamp.outer_cone_angle = 1.0f;
+      lamp.inner_cone_angle = 0.9f;
+    }
+    scene.lights.push_back(lamp);
+    scene.cameras.front().camera_to_world = look_at({0, 0.2, 5.5}, {0, 0, -6});
+    scene.cameras.front().vertical_fov = 1.2;
+    Stage stage(scene);
+    const FloatImage image = stage.light();
+    const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
+    const glm::dvec3 eye = scene.cameras.front().position();
+    int count = 0;
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+      for (std::uint32_t x = 0; x < kWidth; ++x) {
+        const glm::dvec3 p =
+            eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
+        const glm::dvec3 to_lamp = lamp.position - p;
+        // The wall is the one that is nearest.
+        const glm::dvec3 beyond = glm::abs(p) / glm::dvec3(2, 1.5, 6);
+        const int axis = beyond.x > beyond.y && beyond.x > beyond.z ? 0
+                         : beyond.y > beyond.z                      ? 1
+                                                                    : 2;
+        const double cosine = std::abs(to_lamp[axis]) / glm::length(to_lamp);
+        if (spot && glm::dot(-to_lamp, glm::dvec3(lamp.direction)) <
+                        std::cos(0.85) * glm::length(to_lamp)) {
+          continue;
+        }
+        // A rough surface sends a little more than a diffuse one, none less.
+        const double diffuse =
+            kAlbedo / 3.14159265 * lamp.intensity * cosine / glm::dot(to_lamp, to_lamp);
+        EXPECT_GT(image.at(x, y, 0), 0.9 * diffuse)
+            << (spot ? "spot" : "point") << " " << p.x << "," << p.y << "," << p.z;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 500);
+  }
 }
 
 TEST(ContactShadows, OfNoLengthAreNone) {

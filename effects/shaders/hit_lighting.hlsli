@@ -10,7 +10,9 @@
 #include "frame.hlsli"
 
 // effects/lights/lighting.h binds these for a pass, and holds the same numbers.
-RWTexture2D<float> shadow_atlas : register(u16, space3);  // metres from the light; infinite: nothing
+// What a light sees through a texel: the plane that it met, all p from the light with dot(xyz, p) = 1,
+// and how far away that was, metres. Nothing: 0, 0, 0, kNoOccluder.
+RWTexture2D<float4> shadow_atlas : register(u16, space3);
 RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
 RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
 
@@ -22,6 +24,9 @@ static const uint kClusterOverflow = 0xFFFFFFFF;
 
 static const uint kShadowTile = 128;         // texels, of a light's map
 static const uint kShadowTilesPerRow = 32;
+static const float kNoOccluder = 1e30;
+static const float kShadowOffset = 1.5;      // texels, of a point along its normal
+static const float kShadowTolerance = 0.5;   // texels, behind an occluder that count as before it
 
 // Cells grow with the distance from the camera; the outermost reach to infinity, so that every point
 // lies in one, also behind the camera: rays hit what the camera does not see.
@@ -107,13 +112,22 @@ float ShadowTexelAngle(LightConstants light) {
   return 2.0 * tangent / float(kShadowTile);
 }
 
-// Visibility of a light by its map, four texels weighted. The point moves along its normal by what a
-// texel covers there: a texel cannot tell heights apart that are closer. [effects-spec B2.1]
+// Whether a point, given from the light, lies behind what a texel saw. Planes are compared, not
+// distances: where a wall is seen aslant its distance changes by much over a texel, its plane does
+// not, so that no wall shadows itself, nor another one in the corner that they share. A plane is
+// good for the surroundings of its texel only: within a factor of two of the distance.
+bool IsBehind(float4 occluder, float3 from_light, float receiver, float tolerance) {
+  const float ratio = receiver / occluder.w;
+  const float along = clamp(dot(occluder.xyz, from_light), 0.5 * ratio, 2.0 * ratio);
+  return along * receiver > receiver + tolerance * along;
+}
+
+// Visibility of a light by its map, four texels weighted. The point moves along its normal by a part
+// of what a texel covers there: round things lie behind the planes beside them. [effects-spec B2.1]
 float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3 normal) {
   const float distance = length(position - light.position);
   const float texel = distance * ShadowTexelAngle(light);
-  const float3 moved = position + normal * (1.5 * texel);
-  const float3 from_light = moved - light.position;
+  const float3 from_light = position + normal * (kShadowOffset * texel) - light.position;
   const float receiver = length(from_light);
   if (!(receiver > 0.0)) return 1.0;
   const float2 at = ShadowMapUv(light, from_light / receiver) * float(kShadowTile) - 0.5;
@@ -124,10 +138,10 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
   for (int i = 0; i < 4; ++i) {
     const int2 offset = int2(i & 1, i >> 1);
     const int2 texel_at = clamp(corner + offset, int2(0, 0), int2(kShadowTile - 1, kShadowTile - 1));
-    const float occluder = shadow_atlas[origin + uint2(texel_at)];
+    const float4 occluder = shadow_atlas[origin + uint2(texel_at)];
     const float weight = (offset.x == 1 ? part.x : 1.0 - part.x) *
                          (offset.y == 1 ? part.y : 1.0 - part.y);
-    visible += receiver <= occluder + 0.5 * texel ? weight : 0.0;
+    visible += IsBehind(occluder, from_light, receiver, kShadowTolerance * texel) ? 0.0 : weight;
   }
   return visible;
 }
