@@ -23,9 +23,9 @@ rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device,
 enum class BlendWeight : std::uint32_t {
   kNone,    ///< all alike
   kSquare,  ///< alpha clamp(10 / (1e-5 + (z / 5)^2 + (z / 200)^6), 0.01, 3000)
-  kCube,    ///< with (z / 5)^3
+  kCube,    ///< with (z / 10)^3
   kFar,     ///< alpha clamp(0.03 / (1e-5 + (z / 200)^4), 0.01, 3000)
-  kDepth,   ///< alpha clamp(3000 (near / z)^3, 0.01, 3000)
+  kDepth,   ///< alpha max(3000 (near / z)^3, 0.01)
 };
 
 inline constexpr std::uint32_t kMaxSortedLayers = 8;

@@ -106,23 +106,25 @@ float3 LayerLight(Surface surface, Brdf brdf, float3 view, float sun_visibility)
   return light;
 }
 
-// [McGuire and Bavoil 2013, equations 7 to 10, as effects-spec B4.13 has them]
+// [McGuire and Bavoil 2013, equations 7 to 10; effects-spec B4.13]
 float BlendWeight(float alpha, float view_z) {
   const float z = view_z * constants.depth_scale;
-  const float far = pow(z / 200.0, 4.0);
+  const float far = z / 200.0;
+  const float far_squared = far * far;
   if (constants.weight_kind == 1) {
-    const float near = (z / 5.0) * (z / 5.0);
-    return alpha * clamp(10.0 / (1e-5 + near + far * (z / 200.0) * (z / 200.0)), 1e-2, 3e3);
+    const float near = z / 5.0;
+    return alpha * clamp(10.0 / (1e-5 + near * near + far_squared * far_squared * far_squared), 1e-2, 3e3);
   }
   if (constants.weight_kind == 2) {
-    const float near = (z / 5.0) * (z / 5.0) * (z / 5.0);
-    return alpha * clamp(10.0 / (1e-5 + near + far * (z / 200.0) * (z / 200.0)), 1e-2, 3e3);
+    const float near = z / 10.0;
+    return alpha * clamp(10.0 / (1e-5 + near * near * near + far_squared * far_squared * far_squared),
+                         1e-2, 3e3);
   }
-  if (constants.weight_kind == 3) return alpha * clamp(0.03 / (1e-5 + far), 1e-2, 3e3);
+  if (constants.weight_kind == 3) return alpha * clamp(0.03 / (1e-5 + far_squared * far_squared), 1e-2, 3e3);
   if (constants.weight_kind == 4) {
     // 1 - d of a depth buffer that is 1 far away: near / z.
     const float nearness = saturate(frame.near_plane / max(view_z, frame.near_plane));
-    return alpha * clamp(3e3 * nearness * nearness * nearness, 1e-2, 3e3);
+    return alpha * max(3e3 * nearness * nearness * nearness, 1e-2);
   }
   return 1.0;
 }

@@ -183,6 +183,48 @@ TEST(Transparent, TwoLayersErrByWhatIsKnown) {
   }
 }
 
+// [McGuire and Bavoil 2013: equations 7 to 10], without the factor alpha; `near`: of the camera.
+double paper_weight(BlendWeight kind, double z, double near) {
+  const auto bounded = [](double w) { return std::clamp(w, 1e-2, 3e3); };
+  switch (kind) {
+    case BlendWeight::kNone:
+      return 1;
+    case BlendWeight::kSquare:
+      return bounded(10 / (1e-5 + std::pow(z / 5, 2) + std::pow(z / 200, 6)));
+    case BlendWeight::kCube:
+      return bounded(10 / (1e-5 + std::pow(z / 10, 3) + std::pow(z / 200, 6)));
+    case BlendWeight::kFar:
+      return bounded(0.03 / (1e-5 + std::pow(z / 200, 4)));
+    case BlendWeight::kDepth:
+      return std::max(1e-2, 3e3 * std::pow(near / z, 3));
+  }
+  return 0;
+}
+
+TEST(Transparent, WeightsAreThoseOfThePaper) {
+  const double depths[][2] = {{0.3, 0.7}, {2, 3}, {4, 30}, {20, 45}};
+  const float alphas[] = {0.3f, 0.6f};
+  std::vector<TransparentConstants> settings;
+  for (const BlendWeight kind : kWeights) settings.push_back(plain(0, 0, kind));
+  for (const auto& z : depths) {
+    const std::vector<Pane> panes = {
+        {.distance = z[0], .alpha = alphas[0], .emissive = glm::vec3(1, 0, 0)},
+        {.distance = z[1], .alpha = alphas[1], .emissive = glm::vec3(0, 0, 1)}};
+    const Scene scene = make_pane_oracle(panes, glm::vec3(0));
+    const std::vector<Seen> seen = look(scene, settings, 4);
+    for (std::size_t i = 0; i < settings.size(); ++i) {
+      glm::dvec2 w;
+      for (int k = 0; k < 2; ++k) {
+        const double of_alpha = kWeights[i] == BlendWeight::kNone ? 1 : double{alphas[k]};
+        w[k] = alphas[k] * of_alpha *
+               paper_weight(kWeights[i], z[k], scene.cameras.front().near_plane);
+      }
+      const double covered = 1 - (1 - alphas[0]) * (1 - alphas[1]);
+      expect_everywhere(seen[i].whole, covered * glm::dvec3(w[0], 0, w[1]) / (w[0] + w[1]), 2e-3);
+    }
+  }
+}
+
 std::vector<Pane> eight_panes() {
   std::vector<Pane> panes;
   for (int i = 0; i < 8; ++i) {
