@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Indirect light against answers that are known, and the failures of a volume that the talk shows.
-#include "effects/indirect_diffuse/indirect_diffuse.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,112 +7,11 @@
 #include <filesystem>
 
 #include "effects/common/file.h"
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/scene/oracle_scenes.h"
+#include "effects/indirect_diffuse/indirect_fixture.h"
 #include "effects/scene/shapes.h"
 
 namespace kaamos::effects {
 namespace {
-
-constexpr std::uint32_t kWidth = 24, kHeight = 16;
-
-struct Stage {
-  explicit Stage(Scene given) : scene(std::move(given)) {
-    device = rtapi::CreateDevice().value();
-    queue = device.CreateCommandQueue().value();
-    const Camera& camera = scene.cameras.front();
-    gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-    FrameDesc desc;
-    desc.width = kWidth;
-    desc.height = kHeight;
-    frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
-    lighting = Lighting::create(device, frame, gpu, lighting_library().value(), 0).value();
-    const RayPass gbuffer =
-        RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    gbuffer.dispatch(list, frame, {}, kHeight);
-    lighting.update(list, frame);
-    queue.ExecuteAndWait(list).value();
-    ids = frame.read(device, queue, kIds).value();
-  }
-
-  IndirectVolume bake(float cell, std::uint32_t samples) {
-    IndirectVolume volume = layout_volume(scene, cell).value();
-    const std::atomic<bool> stop = false;
-    BakeDesc desc;
-    desc.samples = samples;
-    bake_volume(
-        device, queue, frame, gpu, lighting, scene.cameras.front().position(),
-        volume_bake_library().value(), desc, volume, [](double) {}, stop)
-        .value();
-    return volume;
-  }
-
-  // Irradiance over pi.
-  FloatImage gather(const IndirectVolume& volume, const IndirectConstants& constants,
-                    std::uint32_t samples) {
-    const GpuVolume gpu_volume =
-        GpuVolume::create(device, volume, scene.cameras.front().position()).value();
-    const rtapi::Texture picture =
-        frame.create_picture(device, "indirect", rtapi::Format::kR32G32B32A32Float).value();
-    PassViews views = frame.create_pass_views(device).value();
-    views.set_unordered_access(0, picture).value();
-    lighting.bind(views).value();
-    gpu_volume.bind(views).value();
-    const RayPass pass = RayPass::create(device, frame, gpu,
-                                         indirect_diffuse_pass(indirect_diffuse_library().value()))
-                             .value();
-    rtapi::CommandList list = device.CreateCommandList().value();
-    PassConstants pass_constants;
-    pass_constants.sample_count = samples;
-    pass.dispatch(list, frame, pass_constants, kHeight, PassArguments(views, constants));
-    queue.ExecuteAndWait(list).value();
-    FloatImage image = read_picture(device, queue, picture).value();
-    for (float& value : image.values) value /= static_cast<float>(samples);
-    return image;
-  }
-
-  Scene scene;
-  rtapi::Device device;
-  rtapi::CommandQueue queue;
-  GpuScene gpu;
-  Frame frame;
-  Lighting lighting;
-  FloatImage ids;
-};
-
-IndirectConstants mode(IndirectMode m, float length = 3.0f) {
-  IndirectConstants constants;
-  constants.mode = m;
-  constants.length = length;
-  return constants;
-}
-
-// A volume about a scene with the same light in every cell.
-IndirectVolume constant_volume(const Scene& scene, float light) {
-  IndirectVolume volume = layout_volume(scene, 0.5f).value();
-  for (VolumeCell& cell : volume.cells) {
-    cell.mean = glm::vec3(light);
-    cell.validity = 1;
-  }
-  return volume;
-}
-
-// A small plane with a sphere over it; the sky as bright as the volume, so that where nothing is
-// stored it is the same light.
-Scene small_scene(float sky) {
-  Scene scene = make_sphere_oracle(1.0, 1.5);
-  for (Mesh& mesh : scene.meshes) {
-    for (Vertex& vertex : mesh.vertices) {
-      vertex.position = glm::clamp(vertex.position, glm::vec3(-6), glm::vec3(6));
-    }
-  }
-  scene.sun.reset();
-  scene.lights.clear();
-  scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(sky);
-  return scene;
-}
 
 // In constant light the gathered one is the light times the ambient visibility, exactly; and the
 // one sampled at the surface is the light. [effects-spec B5.3: oracle]
@@ -126,8 +23,8 @@ TEST(IndirectDiffuse, OfAConstantFieldIsAmbientVisibility) {
   const FloatImage position = stage.frame.read(stage.device, stage.queue, kPosition).value();
   const glm::dvec3 eye = stage.scene.cameras.front().position();
   int count = 0;
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
+  for (std::uint32_t y = 0; y < stage.height; ++y) {
+    for (std::uint32_t x = 0; x < stage.width; ++x) {
       if (stage.ids.at(x, y, 0) == 0) continue;
       ASSERT_NEAR(direct.at(x, y), 0.5, 1e-5);
       if (stage.ids.at(x, y, 0) != 1.0f) continue;
@@ -198,18 +95,6 @@ Scene cells_scene(float thickness) {
   camera.camera_to_world = look_at({1.5, 1.2, 0.3}, {0.0, 0.5, -0.3});
   camera.vertical_fov = 1.2;
   return scene;
-}
-
-double mean_of(const FloatImage& image, const FloatImage& ids) {
-  double sum = 0, count = 0;
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = 0; x < kWidth; ++x) {
-      if (ids.at(x, y, 0) == 0) continue;
-      sum += image.at(x, y);
-      ++count;
-    }
-  }
-  return sum / count;
 }
 
 // What leaks through a wall of 5 mm into a room that is dark in truth: sampled at the surface, and

@@ -56,8 +56,47 @@ void PathClosestHit(inout PathPayload payload, in BuiltInTriangleIntersectionAtt
   payload.emissive = surface.emissive;
 }
 
-// Light of the sun and of the local lights on a surface, over pi, each by a shadow ray.
-float3 DirectAt(PathPayload hit) {
+// A local light and what it sends onto a surface, shadows apart.
+struct ChosenLight {
+  float3 irradiance;  // of all lights, as far as this one stands for them
+  float3 direction;
+  float reach;  // up to the lamp's surface, metres
+};
+
+// One light of all, as likely as it is bright here: a ray to each would cost more than it is worth.
+// [resampling, Talbot et al. 2005; `u`: 0..1, used up light by light]
+ChosenLight ChooseLight(float3 position, float3 normal, float u) {
+  ChosenLight chosen;
+  chosen.irradiance = chosen.direction = float3(0, 0, 0);
+  chosen.reach = 0.0;
+  float total = 0.0;
+  float of_chosen = 1.0;
+  const uint cluster = ClusterOf(position);
+  const uint count = ClusterLightCount(cluster);
+  for (uint i = 0; i < count; ++i) {
+    const LightConstants light = lights[ClusterLight(cluster, i)];
+    const LightSample s = SampleLight(light, position);
+    const float3 irradiance = s.irradiance * max(dot(normal, s.direction), 0.0);
+    const float luminance = RadianceLuminance(irradiance);
+    if (!(luminance > 0.0)) continue;
+    total += luminance;
+    const float share = luminance / total;
+    if (u < share) {
+      u = u / share;
+      of_chosen = luminance;
+      chosen.irradiance = irradiance;
+      chosen.direction = s.direction;
+      chosen.reach = s.distance - light.radius;
+    } else {
+      u = (u - share) / (1.0 - share);
+    }
+  }
+  chosen.irradiance *= total / of_chosen;
+  return chosen;
+}
+
+// Light of the sun and of the local lights on a surface, over pi, with shadow rays.
+float3 DirectAt(PathPayload hit, float u) {
   const float3 origin = hit.position + hit.normal * hit.offset;
   float3 sum = float3(0, 0, 0);
   const float toward_sun = dot(hit.normal, frame.direction_to_sun);
@@ -65,15 +104,10 @@ float3 DirectAt(PathPayload hit) {
     sum += frame.sun_irradiance *
            (toward_sun * TraceVisibility(origin, frame.direction_to_sun, kSunDistance));
   }
-  const uint cluster = ClusterOf(hit.position);
-  const uint count = ClusterLightCount(cluster);
-  for (uint i = 0; i < count; ++i) {
-    const LightConstants light = lights[ClusterLight(cluster, i)];
-    const LightSample s = SampleLight(light, hit.position);
-    const float cosine = dot(hit.normal, s.direction);
-    if (!(cosine > 0.0) || !any(s.irradiance > 0.0)) continue;
-    const float reach = s.distance - light.radius;
-    sum += s.irradiance * (cosine * (reach > 0.0 ? TraceVisibility(origin, s.direction, reach) : 1.0));
+  const ChosenLight light = ChooseLight(hit.position, hit.normal, u);
+  if (any(light.irradiance > 0.0)) {
+    sum += light.irradiance *
+           (light.reach > 0.0 ? TraceVisibility(origin, light.direction, light.reach) : 1.0);
   }
   return sum / kBrdfPi;
 }
@@ -108,7 +142,8 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
       break;
     }
     if (bounce == 0) back_face = hit.back_face != 0;
-    radiance += throughput * (hit.emissive + hit.albedo * DirectAt(hit));
+    const float u = UnitFloat(PcgHash(HashCombine(key, ~bounce)));
+    radiance += throughput * (hit.emissive + hit.albedo * DirectAt(hit, u));
     throughput *= hit.albedo;
     origin = hit.position + hit.normal * hit.offset;
     direction = ToWorld(SampleCosineHemisphere(Random2(HashCombine(key, bounce + 1))), hit.normal);
