@@ -32,6 +32,8 @@ class ComposePass {
                                            const rtapi::ShaderLibrary& library,
                                            const FrameParts& parts);
   void dispatch(rtapi::CommandList& list, const Frame& frame) const;
+  /// Of the parts.
+  std::uint64_t bytes() const { return views_.bytes(); }
 
  private:
   ComputePass pass_;

@@ -13,6 +13,8 @@
 #include <memory>
 #include <utility>
 
+#include "effects/frame/picture.h"
+
 namespace kaamos::effects {
 
 using rtapi::Texture;
@@ -261,9 +263,19 @@ rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& fr
   if (!views) return views.error();
   if (const auto s = views->set_unordered_access(1, signal_); !s) return s;
   if (const auto s = views->set_unordered_access(scalar ? 2 : 0, sum); !s) return s;
+  sum_ = sum;
   load_pass_ = *pass;
   load_views_ = *views;
   return {};
+}
+
+std::uint64_t Denoiser::bytes() const {
+  std::uint64_t sum = 0;
+  for (const Texture* texture : {&sum_, &signal_, &result_, &history_, &accumulated_, &guides_[0],
+                                 &guides_[1], &moments_[0], &moments_[1], &clamped_}) {
+    sum += picture_bytes(*texture);
+  }
+  return sum;
 }
 
 void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale) const {

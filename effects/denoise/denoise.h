@@ -110,6 +110,8 @@ class Denoiser {
   void reset() { frames_ = 0; }
 
   const rtapi::Texture& result() const { return result_; }
+  /// Of the sum, the signal and the denoiser's own pictures.
+  std::uint64_t bytes() const;
   /// Frames that stand behind each pixel, in z; kTemporal and kSvgf.
   const rtapi::Texture& moments() const { return moments_[(frames_ + 1) % 2]; }
 
@@ -161,7 +163,7 @@ class Denoiser {
 
   std::string name_;
   DenoiseDesc desc_;
-  rtapi::Texture signal_, result_, history_, accumulated_, guides_[2], moments_[2], clamped_;
+  rtapi::Texture sum_, signal_, result_, history_, accumulated_, guides_[2], moments_[2], clamped_;
   std::vector<Step> steps_[2];  // of even and odd frames
   std::shared_ptr<ComputePass> load_pass_;
   PassViews load_views_;

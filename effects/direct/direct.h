@@ -26,6 +26,10 @@ class DirectLighting {
   /// The contact shadow that add_strongest reads: visibility, r point light, g spot light.
   rtapi::Status set_contact(const rtapi::Texture& contact);
 
+  /// Of all that the two passes read and write besides the G-buffer, the lights' lists and maps
+  /// too.
+  std::uint64_t bytes() const { return views_.bytes(); }
+
   const rtapi::Texture& direct() const { return direct_; }        ///< R32G32B32A32_FLOAT
   const rtapi::Texture& strongest() const { return strongest_; }  ///< R32G32_UINT
   const rtapi::Texture& total() const { return total_; }          ///< R32G32B32A32_FLOAT

@@ -19,6 +19,7 @@ rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::s
 }
 
 std::uint64_t picture_bytes(const rtapi::Texture& picture) {
+  if (!picture) return 0;
   const rtapi::TextureDesc desc = picture.GetDesc();
   return std::uint64_t{desc.Width} * desc.Height * texel_bytes(desc.Format);
 }

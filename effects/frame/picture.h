@@ -17,6 +17,7 @@ rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::s
                                              rtapi::Format format, std::uint32_t width,
                                              std::uint32_t height);
 
+/// 0 of a null texture.
 std::uint64_t picture_bytes(const rtapi::Texture& picture);
 
 /// A picture as floats: 1, 2 or 4 channels as its format has; integers are exact up to 2^24.

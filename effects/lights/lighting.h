@@ -36,6 +36,8 @@ class Lighting {
   /// Binds them to a pass: registers u16 to u18 of space3.
   rtapi::Status bind(PassViews& views) const;
 
+  /// Of the atlas and the lists.
+  std::uint64_t bytes() const { return views_.bytes(); }
   const rtapi::Texture& atlas() const { return atlas_; }
   const rtapi::Buffer& cluster_counts() const { return counts_; }
   const rtapi::Buffer& cluster_lights() const { return indices_; }

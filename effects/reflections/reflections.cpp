@@ -24,4 +24,12 @@ RayPassDesc reflections_pass(rtapi::ShaderLibrary library) {
   return desc;
 }
 
+RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library) {
+  RayPassDesc desc = reflections_pass(std::move(library));
+  desc.name = "reflections' rays";
+  desc.miss[kRayTypeSurface] = "ReflectionTraceMiss";
+  desc.hit[kRayTypeSurface].closest_hit = "ReflectionTraceHit";
+  return desc;
+}
+
 }  // namespace kaamos::effects

@@ -7,8 +7,11 @@
 namespace kaamos::effects {
 
 /// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: radiance over the
-/// specular albedo of brdf.hlsli, and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
+/// specular albedo of brdf.hlsli, and the rays' length. Lighting::bind and GpuVolume::bind are
+/// needed too.
 RayPassDesc reflections_pass(rtapi::ShaderLibrary library);
+/// The same rays, of which only the length is kept: nothing is shaded.
+RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library);
 rtapi::Result<rtapi::ShaderLibrary> reflections_library();
 
 /// Constants b0, space3. The lengths are Control's.

@@ -51,6 +51,17 @@ void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleInt
   payload.distance = RayTCurrent();
 }
 
+// The rays alone, nothing of what they meet: what a shader costs is measured against this.
+[shader("miss")]
+void ReflectionTraceMiss(inout ReflectionPayload payload) {
+  payload.distance = -1.0;
+}
+
+[shader("closesthit")]
+void ReflectionTraceHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  payload.distance = RayTCurrent();
+}
+
 // Rough surfaces see far things as a blur that the fallback gives too. [Control: 200 m to 3 m]
 float ReflectionLength(float roughness, float u) {
   const float longest = Contain(constants.longest, kLongestRay);

@@ -42,6 +42,8 @@ class TemporalAntialiasing {
   void dispatch(rtapi::CommandList& list, const Frame& frame);
   /// The next frame starts without history, as after a cut: its result is its radiance.
   void reset() { frames_ = 0; }
+  /// Of what a frame's pass reads and writes besides the G-buffer.
+  std::uint64_t bytes() const { return views_[written_].bytes(); }
 
   /// R32G32B32A32_FLOAT: radiance of the frame dispatched last, and in w the frames behind it.
   const rtapi::Texture& result() const { return pictures_[written_]; }

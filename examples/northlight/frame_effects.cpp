@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
 #include "effects/ray_order/ray_order.h"
@@ -321,10 +322,12 @@ void FrameEffects::light(rtapi::CommandList& list, const Frame& frame) const {
 std::vector<FrameEffects::Filter> FrameEffects::filters(const Frame& frame) {
   std::vector<Filter> out;
   for (const auto& signal : signals_) {
-    out.push_back({"denoise " + signal->name, [&frame, s = signal.get()](rtapi::CommandList& list) {
+    out.push_back({"denoise " + signal->name,
+                   [&frame, s = signal.get()](rtapi::CommandList& list) {
                      s->denoiser.load(list, frame, 1.0f / static_cast<float>(s->samples));
                      s->denoiser.dispatch(list, frame);
-                   }});
+                   },
+                   signal->denoiser.bytes()});
   }
   return out;
 }
@@ -336,6 +339,14 @@ void FrameEffects::compose(rtapi::CommandList& list, const Frame& frame) const {
     glass_compose_.dispatch(list, frame, {}, PassArguments(glass_views_), frame.width(),
                             frame.height());
   }
+}
+
+std::uint64_t FrameEffects::light_bytes() const {
+  return direct_ ? direct_->bytes() : lighting_->bytes();
+}
+
+std::uint64_t FrameEffects::compose_bytes() const {
+  return compose_->bytes() + picture_bytes(glass_) + picture_bytes(transmittance_);
 }
 
 std::vector<FrameEffects::Layer> FrameEffects::layers() const {

@@ -51,7 +51,7 @@ struct RayStep {
   std::uint32_t samples = 1;
   kaamos::effects::PassArguments arguments;
   std::vector<kaamos::effects::FrameTexture> writes = {};  // of the frame's pictures
-  std::uint32_t pixel_step = 1;  // 2: at half resolution
+  std::uint32_t pixel_step = 1;                            // 2: at half resolution
 };
 
 class FrameEffects {
@@ -79,10 +79,14 @@ class FrameEffects {
   struct Filter {
     std::string name;
     std::function<void(rtapi::CommandList&)> record;
+    std::uint64_t bytes = 0;  // of its pictures
   };
   std::vector<Filter> filters(const kaamos::effects::Frame& frame);
   // Puts the frame together.
   void compose(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
+  // Bytes of what light() and compose() read and write besides the frame's pictures.
+  std::uint64_t light_bytes() const;
+  std::uint64_t compose_bytes() const;
 
   // What a denoiser takes and gives, for each of them.
   struct SignalPictures {

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "claims.h"
 #include "effects/scene/built_in.h"
 #include "effects/scene/gltf_load.h"
 #include "effects/scene/gltf_write.h"
@@ -173,6 +174,13 @@ int measure(const Options& options, const Scene& scene) {
   return done ? 0 : report(done.error(), options);
 }
 
+int claims(const Options& options, const Scene& scene) {
+  const auto libraries = built_in_libraries();
+  if (!libraries) return report(libraries.error(), options);
+  const auto done = run_claims(options, scene, *libraries, show_progress, stop_requested);
+  return done ? 0 : report(done.error(), options);
+}
+
 int split(const Options& options, const Scene& scene) {
   const auto libraries = built_in_libraries();
   if (!libraries) return report(libraries.error(), options);
@@ -229,6 +237,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   if (!options->measure.empty()) return measure(*options, scene);
+  if (options->claims) return claims(*options, scene);
   if (!options->split.empty()) return split(*options, scene);
   auto renderer = Renderer::create(*options, scene, say_error);
   if (!renderer) return report(renderer.error(), *options);

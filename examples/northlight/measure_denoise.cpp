@@ -99,7 +99,7 @@ rtapi::Status Signal::create(const std::string& name, const Setting& setting, fl
   if (!target) return target.error();
   target_ = std::move(*target);
   target_.exposure = exposure;
-  const auto sum = stage_.sum(setting.effect);
+  const auto sum = stage_.sum(setting);
   if (!sum) return sum.error();
   const auto mean = stage_.frame().create_picture(stage_.device(), name + " mean",
                                                   rtapi::Format::kR32G32B32A32Float);

@@ -141,6 +141,7 @@ std::string conflict(const Options& options) {
                                                 {"--tables", !options.tables.empty()},
                                                 {"--heatmap", !options.heatmap.empty()},
                                                 {"--measure", !options.measure.empty()},
+                                                {"--claims", options.claims},
                                                 {"--split", !options.split.empty()},
                                                 {"--reference", options.reference > 0},
                                                 {"--measure-left-out", options.measure_left_out}};
@@ -283,16 +284,20 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "time against error over an effect's quality settings, as a table, a CSV file and "
                  "a plot: ao, sun, contact, reflections, transparent, gi, svgf")
       ->check(CLI::IsMember(measured_effects()));
+  app.add_flag("--claims", options.claims,
+               "what the talk, the deck and the survey say of costs, beside what they are here on "
+               "each backend, as a table and a CSV file");
   app.add_option("--measure-reference", options.measure_reference,
                  "samples per pixel of what --measure compares with; kept in OUT/measure-cache")
       ->capture_default_str()
       ->check(CLI::Range(4u, 1u << 24));
-  app.add_option("--repeats", options.repeats, "runs of each setting that --measure times")
+  app.add_option("--repeats", options.repeats,
+                 "runs of each setting that --measure and --claims time")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u));
   app.add_option("--clock", clock,
-                 "of --measure: wall, or cpu (CPU time over threads, for a machine that has other "
-                 "work too)")
+                 "of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
+                 "that has other work too)")
       ->capture_default_str()
       ->check(CLI::IsMember({"wall", "cpu"}));
   app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
@@ -327,6 +332,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     if (options.measure == "transparent" && app.count("--scene") == 0) {
       options.scene = "glass-stack";
     }
+  }
+  if (options.claims) {
+    if (app.count("--size") == 0) std::tie(options.width, options.height) = std::pair(320u, 180u);
+    // What a cell holds does not change what reading it costs.
+    if (app.count("--gi-bake-samples") == 0) options.gi_bake_samples = 16;
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;
   return options;

@@ -71,6 +71,7 @@ struct Options {
   bool list_devices = false;
   std::string split;                        // settings side by side in one picture; empty: no
   std::uint32_t reference = 0;              // samples of the layers NAME_reference; 0: none
+  bool claims = false;                      // what the seeds say of costs, measured
   std::string measure;                      // effect whose error is measured; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference
   std::uint32_t repeats = 7;                // of each measured setting

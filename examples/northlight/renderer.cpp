@@ -235,7 +235,7 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
   return {};
 }
 
-rtapi::Status Renderer::run_compute(const std::string& name,
+rtapi::Status Renderer::run_compute(const std::string& name, std::uint64_t bytes,
                                     const std::function<void(rtapi::CommandList&)>& record,
                                     FrameResult& result) {
   auto list = device_.CreateCommandList();
@@ -245,7 +245,7 @@ rtapi::Status Renderer::run_compute(const std::string& name,
   record(*list);
   if (const auto done = queue_.ExecuteAndWait(*list); !done) return done;
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  result.passes.push_back({name, ms, device_.GetStatistics()});
+  result.passes.push_back({name, ms, device_.GetStatistics(), bytes});
   return {};
 }
 
@@ -275,7 +275,8 @@ std::vector<RayStep> Renderer::steps(const ShaderLibraries& libraries) const {
 rtapi::Status Renderer::run_effects(const Progress& progress, const std::atomic<bool>& stop,
                                     FrameResult& result) {
   if (const auto done = run_compute(
-          "local lights", [&](rtapi::CommandList& list) { effects_->light(list, frame_); }, result);
+          "local lights", effects_->light_bytes(),
+          [&](rtapi::CommandList& list) { effects_->light(list, frame_); }, result);
       !done) {
     return done;
   }
@@ -283,19 +284,25 @@ rtapi::Status Renderer::run_effects(const Progress& progress, const std::atomic<
     if (const auto done = run_pass(pass, progress, stop, result); !done) return done;
   }
   for (const auto& filter : effects_->filters(frame_)) {
-    if (const auto done = run_compute(filter.name, filter.record, result); !done) return done;
+    if (const auto done = run_compute(filter.name, filter.bytes, filter.record, result); !done) {
+      return done;
+    }
   }
   return run_compute(
-      "composite", [&](rtapi::CommandList& list) { effects_->compose(list, frame_); }, result);
+      "composite", effects_->compose_bytes() + picture_bytes(frame_.texture(kRadiance)),
+      [&](rtapi::CommandList& list) { effects_->compose(list, frame_); }, result);
 }
 
 rtapi::Status Renderer::run_composite(FrameResult& result) {
   CompositeConstants weights;
   weights.ao_samples = options_.ao ? options_.ao_samples : 0;
   weights.sun_samples = options_.sun && scene_.sun ? options_.sun_samples : 0;
+  std::uint64_t bytes = picture_bytes(frame_.texture(kRadiance));
+  if (weights.ao_samples > 0) bytes += picture_bytes(frame_.texture(kAmbientOcclusionSum));
+  if (weights.sun_samples > 0) bytes += picture_bytes(frame_.texture(kSunVisibilitySum));
   return run_compute(
-      "composite", [&](rtapi::CommandList& list) { composite_.dispatch(list, frame_, weights); },
-      result);
+      "composite", bytes,
+      [&](rtapi::CommandList& list) { composite_.dispatch(list, frame_, weights); }, result);
 }
 
 rtapi::Status Renderer::render_frame(const Progress& progress, const std::atomic<bool>& stop,
@@ -313,7 +320,7 @@ rtapi::Status Renderer::render_frame(const Progress& progress, const std::atomic
   const auto done = effects_ ? run_effects(progress, stop, result) : run_composite(result);
   if (!done || !taa_) return done;
   return run_compute(
-      "taa", [&](rtapi::CommandList& l) { taa_->dispatch(l, frame_); }, result);
+      "taa", taa_->bytes(), [&](rtapi::CommandList& l) { taa_->dispatch(l, frame_); }, result);
 }
 
 rtapi::Result<FrameResult> Renderer::render(const ShaderLibraries& libraries,

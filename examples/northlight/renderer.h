@@ -30,7 +30,7 @@ struct PassStatistics {
   std::string name;
   double ms = 0;
   rtapi::RaytracingStatistics rays;
-  std::uint64_t bytes = 0;  // of the pictures and buffers that are the pass's own
+  std::uint64_t bytes = 0;  // of the pictures and buffers that the pass writes or alone reads
 };
 
 // One dispatch in which the pixel of --explain lies.
@@ -117,8 +117,8 @@ class Renderer {
   // Puts the pixels in the order of the rays that the pass is about to trace; `ms` grows.
   rtapi::Status sort_rays(const Pass& pass, const kaamos::effects::PassConstants& constants,
                           double& ms);
-  // A pass without rays, timed.
-  rtapi::Status run_compute(const std::string& name,
+  // A pass without rays, timed. `bytes`: as in PassStatistics.
+  rtapi::Status run_compute(const std::string& name, std::uint64_t bytes,
                             const std::function<void(rtapi::CommandList&)>& record,
                             FrameResult& result);
   // Local lights, indirect light, reflections, denoising and the composition of all.

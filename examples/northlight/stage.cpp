@@ -168,6 +168,9 @@ rtapi::Status Stage::create_volume(const std::string& cache, const StageProgress
   const auto gpu_volume = GpuVolume::create(device_, volume, scene_.cameras.front().position());
   if (!gpu_volume) return gpu_volume.error();
   volume_ = *gpu_volume;
+  const auto none = GpuVolume::create(device_, {}, scene_.cameras.front().position());
+  if (!none) return none.error();
+  no_volume_ = *none;
   return {};
 }
 
@@ -184,14 +187,16 @@ rtapi::Status Stage::render_background() {
   return {};
 }
 
-rtapi::Result<Stage::Pass*> Stage::pass(Effect effect) {
-  if (const auto found = passes_.find(effect); found != passes_.end()) return &found->second;
-  auto created = create_pass(effect);
+rtapi::Result<Stage::Pass*> Stage::pass(const Setting& setting) {
+  const auto key = std::make_pair(setting.effect, setting.trace_only);
+  if (const auto found = passes_.find(key); found != passes_.end()) return &found->second;
+  auto created = create_pass(setting);
   if (!created) return created.error();
-  return &passes_.emplace(effect, std::move(*created)).first->second;
+  return &passes_.emplace(key, std::move(*created)).first->second;
 }
 
-rtapi::Result<Stage::Pass> Stage::create_pass(Effect effect) {
+rtapi::Result<Stage::Pass> Stage::create_pass(const Setting& setting) {
+  const Effect effect = setting.effect;
   RayPassDesc desc;
   switch (effect) {
     case Effect::kAo:
@@ -204,7 +209,8 @@ rtapi::Result<Stage::Pass> Stage::create_pass(Effect effect) {
       desc = contact_shadow_pass(libraries_.contact_shadow);
       break;
     case Effect::kReflections:
-      desc = reflections_pass(libraries_.reflections);
+      desc = setting.trace_only ? reflections_trace_pass(libraries_.reflections)
+                                : reflections_pass(libraries_.reflections);
       break;
     case Effect::kGi:
       desc = indirect_diffuse_pass(libraries_.indirect_diffuse);
@@ -231,7 +237,8 @@ rtapi::Result<Stage::Pass> Stage::create_pass(Effect effect) {
       return s.error();
   } else {
     if (const auto s = lighting_->bind(out.views); !s) return s.error();
-    if (const auto s = volume_.bind(out.views); !s) return s.error();
+    const GpuVolume& volume = setting.trace_only ? no_volume_ : volume_;
+    if (const auto s = volume.bind(out.views); !s) return s.error();
   }
   if (const auto s = out.views.set_unordered_access(out.sum_at, out.sum); !s) return s.error();
   if (effect == Effect::kContact) {
@@ -328,11 +335,11 @@ rtapi::Status Stage::set_seed(std::uint32_t seed) {
 }
 
 rtapi::Result<Stage::Run> Stage::run(const Setting& setting) {
-  const auto found = pass(setting.effect);
+  const auto found = pass(setting);
   if (!found) return found.error();
   const Pass& pass = **found;
   const bool glass = setting.effect == Effect::kTransparent;
-  const auto occlusion = setting.times_ao > 0 ? this->pass(Effect::kAo) : found;
+  const auto occlusion = setting.times_ao > 0 ? this->pass({.effect = Effect::kAo}) : found;
   if (!occlusion) return occlusion.error();
   const auto cleared = execute([&](rtapi::CommandList& list) {
     clear(list, pass, setting.effect);
@@ -362,7 +369,7 @@ rtapi::Result<Stage::Run> Stage::run(const Setting& setting) {
 
 rtapi::Status Stage::accumulate(const Setting& setting,
                                 const std::function<void(double)>& progress) {
-  const auto found = pass(setting.effect);
+  const auto found = pass(setting);
   if (!found) return found.error();
   const Pass& pass = **found;
   const auto cleared =
@@ -386,10 +393,10 @@ rtapi::Status Stage::accumulate(const Setting& setting,
   return {};
 }
 
-rtapi::Result<rtapi::Texture> Stage::sum(Effect effect) {
-  if (effect == Effect::kAo) return frame_.texture(kAmbientOcclusionSum);
-  if (effect == Effect::kSun) return frame_.texture(kSunVisibilitySum);
-  const auto found = pass(effect);
+rtapi::Result<rtapi::Texture> Stage::sum(const Setting& setting) {
+  if (setting.effect == Effect::kAo) return frame_.texture(kAmbientOcclusionSum);
+  if (setting.effect == Effect::kSun) return frame_.texture(kSunVisibilitySum);
+  const auto found = pass(setting);
   if (!found) return found.error();
   return (*found)->sum;
 }
@@ -397,7 +404,7 @@ rtapi::Result<rtapi::Texture> Stage::sum(Effect effect) {
 rtapi::Result<FloatImage> Stage::read(const Setting& setting) {
   if (setting.lit) return read_lit(setting);
   const bool glass = setting.effect == Effect::kTransparent;
-  const auto texture = sum(setting.effect);
+  const auto texture = sum(setting);
   if (!texture) return texture.error();
   const auto image = read_picture(device_, queue_, glass ? frame_.texture(kRadiance) : *texture);
   if (!image) return image.error();

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/composite/composite.h"
@@ -34,6 +35,8 @@ enum class Effect { kAo, kSun, kContact, kReflections, kGi, kTransparent };
 // One effect and all that can be chosen of it. Constants of other effects are not looked at.
 struct Setting {
   Effect effect = Effect::kAo;
+  // kReflections, kGi: the rays alone; nothing that they meet is shaded, what is read is no light.
+  bool trace_only = false;
   std::uint32_t samples = 1;
   std::uint32_t first_sample = 0;  // of each pixel's sequence
   float ao_radius = 4;
@@ -78,7 +81,7 @@ class Stage {
   // radiance behind and with it.
   rtapi::Result<kaamos::effects::FloatImage> read(const Setting& setting);
   // What a run adds to.
-  rtapi::Result<rtapi::Texture> sum(Effect effect);
+  rtapi::Result<rtapi::Texture> sum(const Setting& setting);
 
   // Pixels that show a surface, or glass where `glass` is set (after a run of it).
   rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
@@ -111,8 +114,8 @@ class Stage {
   rtapi::Status create_glass(Pass& pass);
   // What glass is seen before.
   rtapi::Status render_background();
-  rtapi::Result<Pass*> pass(Effect effect);
-  rtapi::Result<Pass> create_pass(Effect effect);
+  rtapi::Result<Pass*> pass(const Setting& setting);
+  rtapi::Result<Pass> create_pass(const Setting& setting);
   kaamos::effects::PassArguments arguments(const Pass& pass, const Setting& setting) const;
   void clear(rtapi::CommandList& list, const Pass& pass, Effect effect) const;
 
@@ -129,8 +132,8 @@ class Stage {
   std::optional<kaamos::effects::DirectLighting> direct_;
   rtapi::Texture contact_mean_;
   kaamos::effects::Denoiser contact_load_;
-  kaamos::effects::GpuVolume volume_;
-  std::map<Effect, Pass> passes_;
+  kaamos::effects::GpuVolume volume_, no_volume_;
+  std::map<std::pair<Effect, bool>, Pass> passes_;  // by effect, and whether it traces only
   rtapi::Texture glass_, transmittance_;
   kaamos::effects::ComputePass glass_compose_;
   std::optional<kaamos::effects::CompositePass> composite_;

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "effects/common/file.h"
+#include "effects/denoise/denoise.h"
+#include "measure.h"
+
+namespace northlight {
+
+using namespace kaamos::effects;
+
+namespace {
+
+// What is timed, each once a round.
+enum Cost : std::size_t {
+  kAo1,
+  kAo16,
+  kAoFilter,
+  kSunRay,  // per traced ray, as kAoRay
+  kAoRay,
+  kContactTrace,
+  kContactFilter,
+  kReflectionTrace,
+  kReflectionNoSun,
+  kReflection,
+  kReflectionFilter,
+  kIndirectTrace,
+  kIndirectBlack,
+  kIndirect,
+  kIndirectFilter,
+  kCosts
+};
+
+// Milliseconds (kSunRay, kAoRay: per ray) of one round; negative: not in this scene.
+using Round = std::array<double, kCosts>;
+
+constexpr std::uint32_t kManyRays = 4;  // a pixel, where single rays are compared
+
+rtapi::Error failure(const std::string& text) {
+  return {"claims", rtapi::ErrorCode::kFailed, text};
+}
+
+// SVGF of what a setting's run has summed up.
+class Filter {
+ public:
+  rtapi::Status create(Stage& stage, const ShaderLibraries& libraries, const Setting& setting,
+                       const std::string& name) {
+    const auto sum = stage.sum(setting);
+    if (!sum) return sum.error();
+    const auto mean = stage.frame().create_picture(stage.device(), name + " mean",
+                                                   rtapi::Format::kR32G32B32A32Float);
+    if (!mean) return mean.error();
+    mean_ = *mean;
+    auto denoiser = Denoiser::create(stage.device(), stage.frame(), libraries.denoise, name, mean_,
+                                     default_denoise(DenoiseMethod::kSvgf));
+    if (!denoiser) return denoiser.error();
+    denoiser_ = std::move(*denoiser);
+    return denoiser_.create_load(stage.device(), stage.frame(), libraries.denoise, *sum);
+  }
+  rtapi::Result<double> run(Stage& stage) {
+    return stage.execute([&](rtapi::CommandList& list) {
+      denoiser_.load(list, stage.frame(), 1);
+      denoiser_.dispatch(list, stage.frame());
+    });
+  }
+
+ private:
+  rtapi::Texture mean_;
+  Denoiser denoiser_;
+};
+
+struct Timed {
+  Cost cost;
+  Setting setting;
+  bool per_ray = false;
+};
+
+struct Filtered {
+  Cost cost;
+  Setting setting;
+  std::unique_ptr<Filter> filter;
+};
+
+struct Plan {
+  std::vector<Timed> runs;
+  std::vector<Filtered> filters;
+};
+
+Setting of(Effect effect, std::uint32_t samples) {
+  Setting out{.effect = effect};
+  out.samples = samples;
+  return out;
+}
+
+rtapi::Result<Plan> make_plan(Stage& stage, const Options& options,
+                              const ShaderLibraries& libraries) {
+  Plan plan;
+  Setting ao = of(Effect::kAo, 1);
+  ao.ao_radius = options.ao_radius;
+  constexpr std::pair<Cost, std::uint32_t> kAoRuns[] = {
+      {kAo16, 16}, {kAoRay, kManyRays}, {kAo1, 1}};
+  for (const auto& [cost, rays] : kAoRuns) {
+    ao.samples = rays;
+    plan.runs.push_back({cost, ao, cost == kAoRay});
+  }
+  plan.filters.push_back({kAoFilter, ao, nullptr});
+  if (stage.scene().sun) plan.runs.push_back({kSunRay, of(Effect::kSun, kManyRays), true});
+  if (!stage.scene().lights.empty()) {
+    const Setting contact = of(Effect::kContact, 1);
+    plan.runs.push_back({kContactTrace, contact});
+    plan.filters.push_back({kContactFilter, contact, nullptr});
+  }
+  const Setting reflection = of(Effect::kReflections, 1);
+  Setting without_sun = reflection;
+  without_sun.reflection.sun_at_hits = 0;
+  Setting trace = reflection;
+  trace.trace_only = true;
+  plan.runs.push_back({kReflectionTrace, trace});
+  if (stage.scene().sun) plan.runs.push_back({kReflectionNoSun, without_sun});
+  plan.runs.push_back({kReflection, reflection});
+  plan.filters.push_back({kReflectionFilter, reflection, nullptr});
+  const Setting indirect = of(Effect::kGi, 1);
+  Setting black = indirect;
+  black.indirect.mode = IndirectMode::kHitBlack;
+  trace = black;
+  trace.trace_only = true;
+  plan.runs.push_back({kIndirectTrace, trace});
+  plan.runs.push_back({kIndirectBlack, black});
+  plan.runs.push_back({kIndirect, indirect});
+  plan.filters.push_back({kIndirectFilter, indirect, nullptr});
+  for (Filtered& filtered : plan.filters) {
+    filtered.filter = std::make_unique<Filter>();
+    if (const auto s =
+            filtered.filter->create(stage, libraries, filtered.setting,
+                                    fmt::format("claim {}", static_cast<int>(filtered.cost)));
+        !s) {
+      return s.error();
+    }
+  }
+  return plan;
+}
+
+rtapi::Result<Round> run_round(Stage& stage, Plan& plan) {
+  Round round;
+  round.fill(-1);
+  for (const Timed& timed : plan.runs) {
+    const auto ran = stage.run(timed.setting);
+    if (!ran) return ran.error();
+    const double rays = static_cast<double>(std::max<std::uint64_t>(ran->rays, 1));
+    round[timed.cost] = timed.per_ray ? ran->ms / rays : ran->ms;
+  }
+  for (Filtered& filtered : plan.filters) {
+    const auto ms = filtered.filter->run(stage);
+    if (!ms) return ms.error();
+    round[filtered.cost] = *ms;
+  }
+  return round;
+}
+
+// The median over the rounds of what `value` makes of one; none where a cost is missing.
+template <class Value>
+std::optional<double> over(const std::vector<Round>& rounds, std::initializer_list<Cost> needs,
+                           Value value) {
+  std::vector<double> values;
+  for (const Round& round : rounds) {
+    for (const Cost cost : needs) {
+      if (round[cost] < 0) return std::nullopt;
+    }
+    values.push_back(value(round));
+  }
+  return median(values);
+}
+
+std::optional<double> ratio(const std::vector<Round>& rounds, Cost a, Cost b, double scale = 1) {
+  return over(rounds, {a, b}, [=](const Round& round) { return scale * round[a] / round[b]; });
+}
+
+// Every claim's number on one backend, in the order of kTexts.
+std::vector<std::optional<double>> numbers(const std::vector<Round>& rounds) {
+  std::vector<std::optional<double>> out = {
+      ratio(rounds, kAo16, kAo1, 1.0 / 16), ratio(rounds, kSunRay, kAoRay),
+      ratio(rounds, kReflection, kReflectionNoSun), ratio(rounds, kIndirect, kIndirectBlack),
+      ratio(rounds, kAoFilter, kAo1)};
+  struct {
+    Cost trace, shaded, filter;
+  } const shares[] = {{kReflectionTrace, kReflection, kReflectionFilter},
+                      {kIndirectTrace, kIndirect, kIndirectFilter}};
+  for (const auto& s : shares) {
+    const auto share = [&](auto part) {
+      return over(rounds, {s.trace, s.shaded, s.filter}, [&](const Round& round) {
+        return 100 * part(round) / (round[s.shaded] + round[s.filter]);
+      });
+    };
+    out.push_back(share([&](const Round& round) { return round[s.trace]; }));
+    out.push_back(share([&](const Round& round) { return round[s.shaded] - round[s.trace]; }));
+    out.push_back(share([&](const Round& round) { return round[s.filter]; }));
+  }
+  const auto contact = [&](Cost part) {
+    return over(rounds, {kContactTrace, kContactFilter}, [=](const Round& round) {
+      return 100 * round[part] / (round[kContactTrace] + round[kContactFilter]);
+    });
+  };
+  out.push_back(contact(kContactTrace));
+  out.push_back(contact(kContactFilter));
+  return out;
+}
+
+// What the seeds say: of Control, for the frames 1 and 2 of its Table 1. [GDC 2018 talk; Northlight
+// deck; survey: Table 1]
+constexpr std::pair<const char*, const char*> kTexts[] = {
+    {"AO: 16 rays a pixel / 16 x 1 ray (0.85 to 1.15)", "1.00: 80 ms / 16 x 5 ms"},
+    {"a sun ray / an AO ray of 4 m", "below 1: coherent"},
+    {"reflections: with a sun ray per hit / without", "about 2"},
+    {"indirect: hits lit / hit = black", "1.5 to 2"},
+    {"AO: denoising / 1 ray", "0.44: 0.4 / 0.9 ms"},
+    {"reflections: trace, %", "31, 42"},
+    {"reflections: shade, %", "44, 33"},
+    {"reflections: denoise, %", "25, 24"},
+    {"indirect: trace, %", "30, 30"},
+    {"indirect: shade, %", "30, 26"},
+    {"indirect: denoise, %", "41, 43"},
+    {"contact shadows: trace, %", "53, 36"},
+    {"contact shadows: denoise, %", "47, 64"}};
+
+rtapi::Result<std::vector<Round>> run_rounds(const Options& options, const Scene& scene,
+                                             const ShaderLibraries& libraries,
+                                             const std::string& cache,
+                                             const StageProgress& progress,
+                                             const std::atomic<bool>& stop) {
+  const auto print = [](const std::string& text) {
+    std::fprintf(stderr, "northlight: %s\n", text.c_str());
+  };
+  auto stage = Stage::create(options, scene, libraries, {.lights = true, .volume = true}, cache,
+                             progress, stop, print);
+  if (!stage) return stage.error();
+  auto plan = make_plan(**stage, options, libraries);
+  if (!plan) return plan.error();
+  std::vector<Round> rounds;
+  // One before the first that counts: pipelines, caches and histories are there then.
+  for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
+    const auto round = run_round(**stage, *plan);
+    if (!round) return round.error();
+    if (repeat > 0) rounds.push_back(*round);
+    progress(options.backend, (repeat + 1.0) / (options.repeats + 1.0));
+  }
+  return rounds;
+}
+
+bool has_vulkan() {
+  const auto devices = rtapi::EnumerateDevices();
+  return std::any_of(devices.begin(), devices.end(),
+                     [](const rtapi::DeviceInfo& info) { return info.Backend == "vulkan"; });
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3g}", *value) : "-";
+}
+
+}  // namespace
+
+rtapi::Result<ClaimTable> measure_claims(const Options& options, const Scene& scene,
+                                         const ShaderLibraries& libraries,
+                                         const StageProgress& progress,
+                                         const std::atomic<bool>& stop) {
+  const std::string cache = options.out + "/measure-cache";
+  std::error_code failed;
+  std::filesystem::create_directories(cache, failed);
+  if (failed) return failure("cannot make the folder " + cache + ": " + failed.message());
+  ClaimTable table;
+  for (const auto& [text, seed] : kTexts) table.claims.push_back({text, seed, {}});
+  // In this order: the volume that the first one bakes is there for the second.
+  for (const std::string& backend : {std::string("embree"), std::string("vulkan")}) {
+    if (backend == "vulkan" && !has_vulkan()) continue;
+    Options own = options;
+    own.backend = backend;
+    if (backend == "vulkan") {
+      own.width = std::max(options.width / 4, 1u);
+      own.height = std::max(options.height / 4, 1u);
+    }
+    const auto rounds = run_rounds(own, scene, libraries, cache, progress, stop);
+    if (!rounds) return rounds.error();
+    table.backends.push_back(fmt::format("{} {} x {}", backend, own.width, own.height));
+    const auto values = numbers(*rounds);
+    for (std::size_t i = 0; i < values.size(); ++i) table.claims[i].here.push_back(values[i]);
+  }
+  return table;
+}
+
+std::string as_text(const ClaimTable& table) {
+  std::string out = fmt::format("{:<50}{:<26}", "claim", "the seeds");
+  for (const std::string& backend : table.backends) out += fmt::format("{:>20}", backend);
+  out += "\n";
+  for (const Claim& claim : table.claims) {
+    out += fmt::format("{:<50}{:<26}", claim.text, claim.seed);
+    for (const auto& value : claim.here) out += fmt::format("{:>20}", number(value));
+    out += "\n";
+  }
+  return out;
+}
+
+Table as_csv(const ClaimTable& table) {
+  Table out;
+  out.columns = {"claim", "seeds"};
+  out.columns.insert(out.columns.end(), table.backends.begin(), table.backends.end());
+  for (const Claim& claim : table.claims) {
+    out.rows.push_back({claim.text, claim.seed});
+    for (const auto& value : claim.here) {
+      out.rows.back().push_back(value ? csv_number(*value) : "");
+    }
+  }
+  return out;
+}
+
+rtapi::Status run_claims(const Options& options, const Scene& scene,
+                         const ShaderLibraries& libraries, const StageProgress& progress,
+                         const std::atomic<bool>& stop) {
+  const auto table = measure_claims(options, scene, libraries, progress, stop);
+  if (!table) return table.error();
+  const std::string text = write_csv(as_csv(*table)), path = options.out + "/claims.csv";
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
+    return failure(s.error());
+  }
+  std::printf("%s, median of %u rounds%s\n%s\nwrote %s\n", options.scene.c_str(), options.repeats,
+              options.cpu_clock ? ", CPU time over threads" : "", as_text(*table).c_str(),
+              path.c_str());
+  std::fflush(stdout);
+  return {};
+}
+
+}  // namespace northlight
