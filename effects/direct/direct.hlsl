@@ -36,26 +36,36 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   const float3 geometric_normal = OctahedralDecode(g_normal[pixel]);
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
   const float3 view = PixelView(pixel);
-  const uint cluster = ClusterOf(position);
-  const uint count = ClusterLightCount(cluster);
+  const ClusterRange range = ClusterLights(position);
 
+  // Every light's shadow map is read once: a light stays out of the sum while it is the strongest of
+  // its kind, and comes in when another is stronger.
   uint2 best = uint2(kNoLight, kNoLight);
-  float2 best_luminance = float2(0, 0);
-  for (uint i = 0; i < count; ++i) {
-    const uint light = ClusterLight(cluster, i);
-    const float luminance =
-        RadianceLuminance(LightRadiance(lights[light], brdf, position, normal, view));
-    const uint kind = lights[light].is_spot;
-    if (luminance > best_luminance[kind]) {
-      best_luminance[kind] = luminance;
-      best[kind] = light;
-    }
-  }
+  float3 best_radiance[2] = {float3(0, 0, 0), float3(0, 0, 0)};
   float3 sum = float3(0, 0, 0);
-  for (uint j = 0; j < count; ++j) {
-    const uint light = ClusterLight(cluster, j);
-    if (constants.leave_out_strongest != 0 && any(light == best)) continue;
-    sum += ShadowedLightRadiance(light, brdf, position, geometric_normal, normal, view);
+  for (uint i = 0; i < range.count; ++i) {
+    uint light = ClusterLight(range, i);
+    const uint kind = lights[light].is_spot;
+    float3 radiance = LightRadiance(lights[light], brdf, position, normal, view);
+    if (!(RadianceLuminance(radiance) > 0.0)) continue;
+    if (RadianceLuminance(radiance) > RadianceLuminance(best_radiance[kind])) {
+      const uint weaker = best[kind];
+      const float3 weaker_radiance = best_radiance[kind];
+      best[kind] = light;
+      best_radiance[kind] = radiance;
+      light = weaker;
+      radiance = weaker_radiance;
+      if (light == kNoLight) continue;
+    }
+    sum += radiance * ShadowMapVisibility(light, lights[light], position, geometric_normal);
+  }
+  if (constants.leave_out_strongest == 0) {
+    for (uint kind = 0; kind < 2; ++kind) {
+      const uint light = best[kind];
+      if (light == kNoLight) continue;
+      sum += best_radiance[kind] *
+             ShadowMapVisibility(light, lights[light], position, geometric_normal);
+    }
   }
   direct[pixel] = float4(sum, 1.0);
   strongest[pixel] = best;

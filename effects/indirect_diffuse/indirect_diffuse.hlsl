@@ -72,6 +72,7 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
   if (constants.mode == kModeHitBlack) return float4(0, 0, 0, payload.distance);
   // Close to the ray's end the volume takes over, so that no shell shows where rays end.
   const float far = smoothstep(0.8 * length, length, payload.distance);
+  if (far == 0.0) return float4(payload.radiance, payload.distance);
   const float3 from_volume = VolumeRadiance(end, direction, Fallback(direction));
   return float4(lerp(payload.radiance, from_volume, far), payload.distance);
 }

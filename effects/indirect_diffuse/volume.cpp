@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "effects/frame/ray_pass.h"
+#include "effects/indirect_diffuse/packed_cell.h"
 
 namespace kaamos::effects {
 
@@ -145,8 +146,10 @@ rtapi::Result<GpuVolume> GpuVolume::create(const rtapi::Device& device,
   // Views of nothing need one element too.
   std::vector<std::uint32_t> starts = volume.brick_starts;
   if (starts.empty()) starts.push_back(kNoBrick);
-  std::vector<VolumeCell> cells = volume.cells;
-  if (cells.empty()) cells.resize(1);
+  std::vector<PackedCell> cells;
+  cells.reserve(volume.cells.size() + 1);
+  for (const VolumeCell& cell : volume.cells) cells.push_back(pack_cell(cell));
+  if (cells.empty()) cells.emplace_back();
   const auto start_buffer = rtapi::CreateUploadBuffer(device, starts, "volume bricks");
   if (!start_buffer) return start_buffer.error();
   const auto cell_buffer = rtapi::CreateUploadBuffer(device, cells, "volume cells");
@@ -167,7 +170,7 @@ void GpuVolume::set_origin(const glm::dvec3& origin) {
 
 rtapi::Status GpuVolume::bind(PassViews& views) const {
   if (const auto s = views.set_shader_resource(0, brick_starts_, 4); !s) return s;
-  if (const auto s = views.set_shader_resource(1, cells_, sizeof(VolumeCell)); !s) return s;
+  if (const auto s = views.set_shader_resource(1, cells_, sizeof(PackedCell)); !s) return s;
   return views.set_shader_resource(2, constants_, sizeof(VolumeConstants));
 }
 

@@ -22,10 +22,11 @@ inline constexpr std::uint32_t kBrickCells = 8;  ///< along each axis
 inline constexpr std::uint32_t kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 inline constexpr std::uint32_t kNoBrick = 0xFFFFFFFFu;
 
-/// Mirrors VolumeCell of indirect_volume.hlsli.
+/// Radiance towards a unit direction d: mean + slope_x d.x + slope_y d.y + slope_z d.z. Mirrors
+/// CellSums of volume_bake.hlsl.
 struct VolumeCell {
-  glm::vec3 mean{0.0f};
-  float validity = 0;
+  glm::vec3 mean{0.0f};  ///< not negative
+  float validity = 0;    ///< 0: the cell lies in a solid
   glm::vec3 slope_x{0.0f};
   float padding0 = 0;
   glm::vec3 slope_y{0.0f};

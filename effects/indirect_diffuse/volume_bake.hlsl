@@ -8,7 +8,20 @@
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
-RWStructuredBuffer<VolumeCell> sums : register(u0, space3);      // over the samples; validity: back faces
+// Over the samples: radiance towards a unit direction d is mean + slope_x d.x + slope_y d.y +
+// slope_z d.z. effects/indirect_diffuse/volume.h holds the same layout.
+struct CellSums {
+  float3 mean;
+  float validity;  // back faces
+  float3 slope_x;
+  float padding0;
+  float3 slope_y;
+  float padding1;
+  float3 slope_z;
+  float padding2;
+};
+
+RWStructuredBuffer<CellSums> sums : register(u0, space3);
 StructuredBuffer<float4> cell_centers : register(t3, space3);  // relative to the camera
 
 struct BakeConstants {
@@ -71,10 +84,9 @@ ChosenLight ChooseLight(float3 position, float3 normal, float u) {
   chosen.reach = 0.0;
   float total = 0.0;
   float of_chosen = 1.0;
-  const uint cluster = ClusterOf(position);
-  const uint count = ClusterLightCount(cluster);
-  for (uint i = 0; i < count; ++i) {
-    const LightConstants light = lights[ClusterLight(cluster, i)];
+  const ClusterRange range = ClusterLights(position);
+  for (uint i = 0; i < range.count; ++i) {
+    const LightConstants light = lights[ClusterLight(range, i)];
     const LightSample s = SampleLight(light, position);
     const float3 irradiance = s.irradiance * max(dot(normal, s.direction), 0.0);
     const float luminance = RadianceLuminance(irradiance);
@@ -155,7 +167,7 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
 void BakeRayGen() {
   const uint cell = DispatchRaysIndex().y * constants.width + DispatchRaysIndex().x;
   if (cell >= constants.cell_count) return;
-  VolumeCell sum = sums[cell];
+  CellSums sum = sums[cell];
   const float3 center = cell_centers[cell].xyz;
   const uint cell_seed = HashCombine(constants.seed, cell);
   for (uint i = 0; i < constants.sample_count; ++i) {

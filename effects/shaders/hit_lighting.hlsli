@@ -149,6 +149,7 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
 // What one light sends by a surface towards `view`, without shadow.
 float3 LightRadiance(LightConstants light, Brdf brdf, float3 position, float3 normal, float3 view) {
   const LightSample s = SampleLight(light, position);
+  if (!any(s.irradiance > 0.0)) return float3(0, 0, 0);
   return s.irradiance * EvaluateBrdf(brdf, normal, view, s.direction);
 }
 
@@ -160,25 +161,35 @@ float3 ShadowedLightRadiance(uint id, Brdf brdf, float3 position, float3 geometr
   return radiance * ShadowMapVisibility(id, light, position, geometric_normal);
 }
 
-// How many lights a loop over a cluster's lights visits; ClusterLight names them.
-uint ClusterLightCount(uint cluster) {
-  const uint count = cluster_counts[cluster];
-  return count == kClusterOverflow ? frame.light_count : count;
+// What a loop over a cluster's lights visits; ClusterLight names each.
+struct ClusterRange {
+  uint count;
+  uint first;  // of cluster_lights; kClusterOverflow: all lights of the scene
+};
+
+ClusterRange ClusterLights(float3 position) {
+  const uint cluster = ClusterOf(position);
+  ClusterRange range;
+  range.count = cluster_counts[cluster];
+  range.first = cluster * kClusterCapacity;
+  if (range.count == kClusterOverflow) {
+    range.count = frame.light_count;
+    range.first = kClusterOverflow;
+  }
+  return range;
 }
 
-uint ClusterLight(uint cluster, uint index) {
-  return cluster_counts[cluster] == kClusterOverflow
-             ? index
-             : cluster_lights[cluster * kClusterCapacity + index];
+uint ClusterLight(ClusterRange range, uint index) {
+  if (range.first == kClusterOverflow) return index;
+  return cluster_lights[range.first + index];
 }
 
 // All local lights at a point, with their shadow maps.
 float3 LocalLights(Brdf brdf, float3 position, float3 geometric_normal, float3 normal, float3 view) {
-  const uint cluster = ClusterOf(position);
-  const uint count = ClusterLightCount(cluster);
+  const ClusterRange range = ClusterLights(position);
   float3 sum = float3(0, 0, 0);
-  for (uint i = 0; i < count; ++i) {
-    sum += ShadowedLightRadiance(ClusterLight(cluster, i), brdf, position, geometric_normal, normal,
+  for (uint i = 0; i < range.count; ++i) {
+    sum += ShadowedLightRadiance(ClusterLight(range, i), brdf, position, geometric_normal, normal,
                                  view);
   }
   return sum;

@@ -12,10 +12,10 @@
 
 // The sun's light by a surface, shadowed by one ray to its middle.
 float3 SunAtHit(Surface surface, Brdf brdf, float3 view) {
+  if (!(dot(surface.normal, frame.direction_to_sun) > 0.0)) return float3(0, 0, 0);
   const float3 unshadowed = frame.sun_irradiance *
                             EvaluateBrdf(brdf, surface.shading_normal, view, frame.direction_to_sun);
   if (!(RadianceLuminance(unshadowed) > 0.0)) return float3(0, 0, 0);
-  if (!(dot(surface.normal, frame.direction_to_sun) > 0.0)) return float3(0, 0, 0);
   return unshadowed * TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
                                       frame.direction_to_sun, kSunDistance);
 }

@@ -35,11 +35,14 @@ LightSample SampleLight(LightConstants light, float3 position) {
   LightSample result;
   result.distance = sqrt(distance_squared);
   result.direction = distance_squared > 0.0f ? to_light / result.distance : -light.direction;
+  result.irradiance = float3(0.0f, 0.0f, 0.0f);
   const float ratio = result.distance / light.range;
   const float ratio_squared = ratio * ratio;
   const float window = saturate(1.0f - ratio_squared * ratio_squared);
   const float cone =
       saturate(dot(-result.direction, light.direction) * light.spot_scale + light.spot_offset);
+  // Most lights that are near a point do not reach it.
+  if (!(window * cone > 0.0f)) return result;
   const float least = max(light.radius, kLeastRadius * light.range);
   result.irradiance =
       light.intensity * (window * window * cone * cone / max(distance_squared, least * least));

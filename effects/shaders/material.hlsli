@@ -34,6 +34,11 @@ struct MaterialConstants {
 
 bool HasTexture(MaterialConstants material, uint slot) { return material.image[slot] >= 0; }
 
+bool HasAnyTexture(MaterialConstants material) {
+  return max(max(material.image[0], material.image[1]),
+             max(material.image[2], material.image[3])) >= 0;
+}
+
 // Texture coordinates of a slot. [KHR_texture_transform]
 float2 MaterialUv(MaterialConstants material, uint slot, float2 uv) {
   const float4 m = material.uv_matrix[slot];

@@ -19,7 +19,8 @@ float UnitFloat(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.0f); }
 // First and second dimension of the Sobol sequence as 32-bit fractions.
 uint Sobol0(uint index) { return reversebits(index); }
 
-uint Sobol1(uint index) {
+// Lowest bit first.
+uint ReversedSobol1(uint index) {
   // Pascal's triangle modulo 2 in five steps.
   uint x = index;
   x ^= (x & 0xAAAAAAAAu) >> 1u;
@@ -27,25 +28,34 @@ uint Sobol1(uint index) {
   x ^= (x & 0xF0F0F0F0u) >> 4u;
   x ^= (x & 0xFF00FF00u) >> 8u;
   x ^= (x & 0xFFFF0000u) >> 16u;
-  return reversebits(x);
+  return x;
 }
 
-// Nested uniform scrambling by a hash. [Laine & Karras 2011, constants of Vegdahl 2021]
-uint OwenScramble(uint fraction, uint seed) {
-  uint x = reversebits(fraction);
+uint Sobol1(uint index) { return reversebits(ReversedSobol1(index)); }
+
+// Nested uniform scrambling by a hash, of a fraction whose lowest bit stands first.
+// [Laine & Karras 2011, constants of Vegdahl 2021]
+uint ScrambleReversed(uint fraction, uint seed) {
+  uint x = fraction;
   x ^= x * 0x3D20ADEAu;
   x += seed;
   x *= (seed >> 16u) | 1u;
   x ^= x * 0x05526C56u;
   x ^= x * 0x53A22864u;
-  return reversebits(x);
+  return x;
 }
 
-// Point `index` of a scrambled and shuffled sequence. [Burley 2020]
+uint OwenScramble(uint fraction, uint seed) {
+  return reversebits(ScrambleReversed(reversebits(fraction), seed));
+}
+
+// Point `index` of a scrambled and shuffled sequence: OwenScramble of Sobol0 and of Sobol1, without
+// turning bits round twice. [Burley 2020]
 float2 SobolOwen(uint index, uint seed) {
   const uint shuffled = OwenScramble(index, seed);
-  return float2(UnitFloat(OwenScramble(Sobol0(shuffled), PcgHash(seed ^ 0x9E3779B9u))),
-                UnitFloat(OwenScramble(Sobol1(shuffled), PcgHash(seed ^ 0x85EBCA6Bu))));
+  const uint x = ScrambleReversed(shuffled, PcgHash(seed ^ 0x9E3779B9u));
+  const uint y = ScrambleReversed(ReversedSobol1(shuffled), PcgHash(seed ^ 0x85EBCA6Bu));
+  return float2(UnitFloat(reversebits(x)), UnitFloat(reversebits(y)));
 }
 
 static const uint kBlueNoiseSize = 128u;

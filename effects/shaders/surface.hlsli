@@ -57,10 +57,6 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   const float3 p0 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.x);
   const float3 p1 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.y);
   const float3 p2 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.z);
-  const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.x);
-  const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.y);
-  const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.z);
-  const float2 uv = Interpolate(uv0, uv1, uv2, barycentrics);
   const SpawnPoint spawn =
       MakeSpawnPoint(p0, p1, p2, barycentrics, ObjectToWorld3x4(), WorldToObject3x4());
 
@@ -72,8 +68,15 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   surface.offset = spawn.offset;
   surface.normal = side * spawn.normal;
   surface.back_face = side < 0.0;
-  const float lod = RayConeLod(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)),
-                               cone_width);
+  float2 uv = float2(0, 0);
+  float lod = 0.0;
+  if (HasAnyTexture(material)) {
+    const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.x);
+    const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.y);
+    const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.z);
+    uv = Interpolate(uv0, uv1, uv2, barycentrics);
+    lod = RayConeLod(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)), cone_width);
+  }
 
   float3 shading_normal =
       NormalToWorld(LoadNormal(vertices, layout, corners, barycentrics), WorldToObject3x4());
