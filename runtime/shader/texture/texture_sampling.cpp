@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "kaamos/shader/texture_view.h"
+#include "runtime/shader/texture/byte_sampling.h"
 #include "runtime/shader/texture/cube_face.h"
 #include "runtime/shader/texture/format_codec.h"
+#include "runtime/shader/texture/level_of_detail.h"
 #include "runtime/shader/texture/texel_access.h"
 #include "runtime/shader/texture/texture_address.h"
 
@@ -322,11 +324,7 @@ Color Sampling::linear_cube(const TextureMip& mip) const {
 // Levels of detail. [D3D11.3 7.18.10]
 
 Color Sampling::at_lod(float lod) const {
-  // Comparisons with NaN are false: it ends at the lower bound.
-  const float low = std::max(std::max(sampler_.min_lod, view_.min_lod), arguments_.min_lod);
-  lod += sampler_.mip_lod_bias;
-  lod = lod > low ? lod : low;
-  lod = lod < sampler_.max_lod ? lod : sampler_.max_lod;
+  lod = clamped_lod(view_, sampler_, arguments_.min_lod, lod);
   const bool linear = blends_ && (sampler_.filter & (lod > 0 ? kMinLinear : kMagLinear)) != 0;
   const float last = static_cast<float>(view_.mip_count - 1);
   lod = lod > 0 ? std::min(lod, last) : 0.0f;
@@ -412,6 +410,8 @@ Texel gathered(const SampleArguments& arguments, bool compare) {
 }  // namespace
 
 Texel sample_level(const SampleArguments& arguments) {
+  Texel texel;
+  if (sample_bytes(arguments, texel)) return texel;
   return with_sampling<Texel>(arguments, false, [&](const Sampling& sampling) {
     return sampling.result(sampling.at_lod(arguments.lod));
   });
