@@ -73,7 +73,9 @@ BuildRaytracingAccelerationStructureInputs World::top_inputs(
     const std::vector<RaytracingInstanceDesc>& instances) {
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  inputs.InstanceDescs = upload(instances, "instances").GetGPUVirtualAddress();
+  if (!instances.empty()) {
+    inputs.InstanceDescs = upload(instances, "instances").GetGPUVirtualAddress();
+  }
   return inputs;
 }
 
