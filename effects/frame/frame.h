@@ -54,7 +54,7 @@ struct PassConstants {
   std::uint32_t sample_count = 0;
   float radius = 0;
   std::uint32_t first_row = 0;
-  std::uint32_t sorted = 0;  ///< 1: in the order that a RaySorter made
+  std::uint32_t sorted = 0;      ///< 1: in the order that a RaySorter made
   std::uint32_t pixel_step = 1;  ///< 2: rays at even pixels of even rows only
 };
 

@@ -46,7 +46,8 @@ TEST(EmbeddedSource, ATextGivenInsteadOfAFile) {
   FrontendOptions options;
   options.path = "shaders/given.hlsl";
   options.text =
-      "#include \"lib/common.hlsli\"\nstruct P { uint x; }; [shader(\"miss\")] void M(inout P p) { p.x = value(); }";
+      "#include \"lib/common.hlsli\"\nstruct P { uint x; }; [shader(\"miss\")] void M(inout P p) { "
+      "p.x = value(); }";
   options.target = "lib_6_3";
   options.row_major = true;
   const auto module = compile(options, files);

@@ -31,9 +31,9 @@ struct FrontendOptions {
   bool row_major = false;            // [-Zpr]; false is [-Zpc]
   // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: from lib_6_7 on.
   std::optional<bool> payload_qualifiers = {};
-  bool check_access = false;         // Module::check_access
-  bool embed_source = true;          // Module::source
-  bool strict = false;               // refuse what DXC refuses; give it to the engine as well
+  bool check_access = false;  // Module::check_access
+  bool embed_source = true;   // Module::source
+  bool strict = false;        // refuse what DXC refuses; give it to the engine as well
 };
 
 // Null where there is an error; it then stands in `diagnostics`. `sources` must outlive the

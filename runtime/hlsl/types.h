@@ -137,7 +137,7 @@ struct StructInfo {
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;
   bool complete = false;
-  bool is_payload = false;  // its access qualifiers count
+  bool is_payload = false;         // its access qualifiers count
   std::string_view template_name;  // "Pair" of Pair<float>; empty where it is no instance
 };
 

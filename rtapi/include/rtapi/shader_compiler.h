@@ -34,9 +34,9 @@ struct ShaderCompileOptions {
   bool RowMajorMatrices = false;                     // -Zpr
   // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   std::optional<bool> PayloadQualifiers = {};
-  bool Strict = false;                               // --strict: refuse what DXC refuses
-  bool WarningsAsErrors = false;                     // -WX
-  bool Debug = false;                                // -Od -Zi: for gdb
+  bool Strict = false;              // --strict: refuse what DXC refuses
+  bool WarningsAsErrors = false;    // -WX
+  bool Debug = false;               // -Od -Zi: for gdb
   std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
   bool Spirv = true;                // false: without what Vulkan devices need

@@ -110,8 +110,7 @@ KAAMOS_CONSTEXPR vec<T, 4> dst(const vec<T, 4>& a, const vec<T, 4>& b) {
 // matrix and a column on its right.
 
 template <class T>
-  requires(shape<T>::is_scalar)
-KAAMOS_CONSTEXPR T mul(T a, T b) {
+requires(shape<T>::is_scalar) KAAMOS_CONSTEXPR T mul(T a, T b) {
   return op::Multiply::apply(a, b);
 }
 template <class T, int N>
