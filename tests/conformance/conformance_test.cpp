@@ -9,7 +9,9 @@
 #include <limits>
 #include <set>
 
+#include "tests/conformance/report.h"
 #include "tests/conformance/run.h"
+#include "tests/conformance/walker.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::conformance {
@@ -133,6 +135,37 @@ TEST(ConformanceList, ACrashFailsTheTestAlone) {
     found.push_back(failures);
   });
   EXPECT_EQ(found, (std::vector<std::string>{"", "ended by Killed\n", "seen\n"}));
+}
+
+// Drivers take seconds for a pipeline of checked code: one for each test would be minutes in all.
+TEST(ConformanceList, ProgramsThatAreAlikeShareTheirPipeline) {
+  Context t({});
+  for (int i = 0; i < 2; ++i) {
+    Standard standard(t);
+    standard.create();
+    Walker walker(t);
+    walker.create();
+    EXPECT_EQ(t.pipelines().size(), 2u);
+  }
+  Walker other(t);
+  other.set_pipeline_flags(rtapi::RaytracingPipelineFlags::kSkipTriangles);
+  other.create();
+  EXPECT_EQ(t.pipelines().size(), 3u);
+}
+
+TEST(ConformanceList, ProgressNamesTheTestThatRuns) {
+  Target vulkan;
+  vulkan.backend = "vulkan";
+  EXPECT_EQ(line_of(vulkan, {41, 262, "FLG-02"}), "vulkan: 41 of 262 tests, now FLG-02");
+  std::vector<std::string> seen;
+  const auto note = [&](const Progress& now) {
+    seen.push_back(std::to_string(now.done) + "/" + std::to_string(now.total) + " " + now.now);
+  };
+  const auto results = run_rules({}, "", "ERR-3", nullptr, note);
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.front().substr(0, 2), "0/");
+  EXPECT_EQ(seen.front().substr(seen.front().size() - 6), "ERR-30");
+  for (const RuleResult& result : results) EXPECT_GE(result.seconds, 0);
 }
 
 TEST(ConformanceList, NumbersAreUnique) {

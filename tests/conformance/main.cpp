@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-conformance: holds a machine and its drivers against DXR's rules.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -15,9 +17,17 @@ using namespace kaamos::conformance;
 
 bool g_summary_only = false;
 
+// A line that stays while tests run, for one who waits at a terminal; elsewhere nothing.
+void show(const std::string& line) {
+  static const bool terminal = isatty(STDERR_FILENO) != 0;
+  if (terminal && g_summary_only) std::cerr << "\r\033[K" << line << std::flush;
+}
+
 void print(const RuleResult& result) {
   const bool bad = result.outcome == Outcome::kFailed || result.outcome == Outcome::kKnownDeviation;
-  if (!g_summary_only || bad) std::cout << line_of(result) << std::endl;
+  if (g_summary_only && !bad) return;
+  show("");
+  std::cout << line_of(result) << std::endl;
 }
 
 void list_rules(const std::string& filter) {
@@ -85,7 +95,9 @@ int main(int argc, char** argv) {
       continue;
     }
     std::cout << target.name() << ": " << device.name << std::endl;
-    results.emplace_back(target, run_rules(target, device.name, filter, print));
+    const auto progress = [&](const Progress& now) { show(line_of(target, now)); };
+    results.emplace_back(target, run_rules(target, device.name, filter, print, progress));
+    show("");
   }
   for (const TargetResults& each : results) {
     for (const RuleResult& result : each.second) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/conformance/report.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -45,6 +46,11 @@ std::string line_of(const RuleResult& result) {
   return out;
 }
 
+std::string line_of(const Target& target, const Progress& progress) {
+  return target.name() + ": " + std::to_string(progress.done) + " of " +
+         std::to_string(progress.total) + " tests, now " + progress.now;
+}
+
 std::string summary_of(const TargetResults& results) {
   size_t required = 0, passed = 0, not_tested = 0;
   std::string failing;
@@ -74,6 +80,7 @@ std::string json_of(const std::vector<TargetResults>& results) {
                        {"tag", std::string(1, result.rule->tag)},
                        {"title", result.rule->title},
                        {"result", name_of(result.outcome)},
+                       {"seconds", std::round(result.seconds * 1000) / 1000},
                        {"detail", result.detail}});
     }
     out.push_back({{"target", each.first.name()}, {"summary", summary_of(each)}, {"rules", rules}});

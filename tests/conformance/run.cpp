@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <functional>
+#include <utility>
 
 namespace kaamos::conformance {
 
@@ -211,14 +213,15 @@ std::vector<RuleTest> tests_of(const std::string& filter) {
 }
 
 RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
-                     const std::vector<std::string>& failures, const Target& target,
-                     const std::string& device_name) {
+                     const std::vector<std::string>& failures, const std::vector<double>& seconds,
+                     const Target& target, const std::string& device_name) {
   RuleResult result = result_without_run(rule);
   for (size_t i = 0; i < tests.size(); ++i) {
     if (!test_covers(tests[i], rule.id)) continue;
     if (result.outcome != Outcome::kFailed) result.outcome = Outcome::kPassed;
     if (!failures[i].empty()) result.outcome = Outcome::kFailed;
     result.detail += failures[i];
+    result.seconds += seconds[i];
   }
   if (result.outcome != Outcome::kFailed) return result;
   if (const Deviation* known = find_deviation(rule.id, target.name(), device_name)) {
@@ -230,11 +233,14 @@ RuleResult result_of(const Rule& rule, const std::vector<RuleTest>& tests,
 
 }  // namespace
 
-std::vector<RuleResult> run_rules(const Target& target, const std::string& device_name,
-                                  const std::string& filter,
-                                  void (*on_result)(const RuleResult& result)) {
+std::vector<RuleResult> run_rules(
+    const Target& target, const std::string& device_name, const std::string& filter,
+    const std::function<void(const RuleResult& result)>& on_result,
+    const std::function<void(const Progress& progress)>& on_progress) {
+  using Clock = std::chrono::steady_clock;
   const std::vector<RuleTest> tests = tests_of(filter);
   std::vector<std::string> failures(tests.size());
+  std::vector<double> seconds(tests.size());
   std::vector<RuleResult> out;
   auto rule = all_rules().begin();
   // Rules all of whose tests are done, of which there are `done`.
@@ -244,13 +250,21 @@ std::vector<RuleResult> run_rules(const Target& target, const std::string& devic
       for (size_t i = done; i < tests.size(); ++i) {
         if (test_covers(tests[i], rule->id)) return;
       }
-      out.push_back(result_of(*rule, tests, failures, target, device_name));
-      if (on_result != nullptr) on_result(out.back());
+      out.push_back(result_of(*rule, tests, failures, seconds, target, device_name));
+      if (on_result) on_result(out.back());
     }
   };
+  const auto begin = [&](size_t next) {
+    if (on_progress && next < tests.size()) on_progress({next, tests.size(), tests[next].rules});
+  };
+  Clock::time_point start = Clock::now();
+  begin(0);
   run_apart(tests, target, [&](size_t index, const std::string& text) {
+    const Clock::time_point end = Clock::now();
     failures[index] = text;
+    seconds[index] = std::chrono::duration<double>(end - std::exchange(start, end)).count();
     tell(index + 1);
+    begin(index + 1);
   });
   tell(tests.size());
   return out;

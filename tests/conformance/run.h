@@ -40,10 +40,18 @@ struct RuleResult {
   const Rule* rule = nullptr;
   Outcome outcome = Outcome::kNotTested;
   std::string detail = {};
+  double seconds = 0;  // of its tests, of which others may cover more rules
 };
-// Every rule whose number begins with `filter`, in order. `on_result` may be null.
+// Where a run stands: tests that ended, of how many, and the rules of the one that runs now.
+struct Progress {
+  size_t done = 0;
+  size_t total = 0;
+  const char* now = "";
+};
+// Every rule whose number begins with `filter`, in order. The callbacks may be null.
 std::vector<RuleResult> run_rules(const Target& target, const std::string& device_name,
                                   const std::string& filter,
-                                  void (*on_result)(const RuleResult& result));
+                                  const std::function<void(const RuleResult& result)>& on_result,
+                                  const std::function<void(const Progress& progress)>& on_progress);
 
 }  // namespace kaamos::conformance

@@ -176,6 +176,8 @@ Walker::Walker(Context& t)
   group("WavesOfHit", "WavesInHit");
   local(kRecordSignature, {"ShadowedTriangle", "Board", "WavesOfHit", "WalkTriangle", "WalkSphere",
                            "PlainSphere", "WalkScript", "PlainScript"});
+  // The largest of all pipelines: Vulkan drivers take seconds for each.
+  share_as("walker");
 }
 
 void Walker::build(const Scene& description) {
