@@ -30,6 +30,10 @@ struct Allocation {
   uint8_t* host = nullptr;              // where the host sees it; null: at `address`
 };
 
+// In the key of a view in AddressMap::ranges() while its texture is in a state that forbids its
+// use. [kaamos/shader/checked.h]
+constexpr uint64_t kWrongView = uint64_t{1} << 61;
+
 class AddressMap {
  public:
   void insert(Allocation allocation) {
@@ -79,6 +83,17 @@ class AddressMap {
     std::unique_lock lock(mutex_);
     views_[key] = std::move(texture);
   }
+  // Views whose textures are in a state that forbids their use, each with the words for it. Those
+  // given before are forgotten.
+  void set_wrong_views(std::map<uint64_t, std::string> wrong) {
+    std::unique_lock lock(mutex_);
+    wrong_views_ = std::move(wrong);
+  }
+  std::string wrong_view(uint64_t key) const {
+    std::shared_lock lock(mutex_);
+    const auto it = wrong_views_.find(key);
+    return it == wrong_views_.end() ? std::string() : it->second;
+  }
   // The places of allocations and live views only, by rising address.
   std::vector<shader::AddressRange> ranges() const {
     std::shared_lock lock(mutex_);
@@ -86,10 +101,12 @@ class AddressMap {
     for (const auto& [address, a] : allocations_) out.push_back({address, a.size_bytes});
     const auto middle = static_cast<std::ptrdiff_t>(out.size());
     for (const auto& [key, texture] : views_) {
-      if (!texture.expired()) out.push_back({key, 1});
+      if (texture.expired()) continue;
+      out.push_back({wrong_views_.count(key) == 0 ? key : key | kWrongView, 1});
     }
-    std::inplace_merge(out.begin(), out.begin() + middle, out.end(),
-                       [](const auto& a, const auto& b) { return a.address < b.address; });
+    const auto by_address = [](const auto& a, const auto& b) { return a.address < b.address; };
+    if (!wrong_views_.empty()) std::sort(out.begin() + middle, out.end(), by_address);
+    std::inplace_merge(out.begin(), out.begin() + middle, out.end(), by_address);
     return out;
   }
   // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.
@@ -110,6 +127,7 @@ class AddressMap {
   mutable std::shared_mutex mutex_;
   std::map<uint64_t, Allocation> allocations_;
   std::map<uint64_t, std::weak_ptr<const void>> views_;
+  std::map<uint64_t, std::string> wrong_views_;
   std::atomic<uint64_t> version_{0};
 };
 

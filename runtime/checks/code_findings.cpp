@@ -165,7 +165,7 @@ Id id_of(const CheckReport& r) {
     case Finding::kCommitOutOfRange:
       return Id::kCommitOutOfRange;
     case Finding::kStaleView:
-      return Id::kStaleView;
+      return r.values[3] == 0 ? Id::kStaleView : Id::kResourceState;
     case Finding::kPayloadMismatch:
       return r.values[2] == 0 ? Id::kPayloadMismatch : Id::kCallableMismatch;
     default:
@@ -235,6 +235,8 @@ std::string describe(const runtime::AddressMap& addresses, const CheckReport& r)
       return "t " + float_text(v[0]) + " is outside of TMin " + float_text(v[1]) +
              " to the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
     case Finding::kStaleView:
+      if (v[3] != 0)
+        return "element " + text_of(v[2]) + " is a view of " + addresses.wrong_view(v[0]);
       return "element " + text_of(v[2]) + " is " + kind_name(v[1]) +
              (v[1] == 5 ? std::string() : ", at address " + hex(v[0])) +
              ", which was freed since; it reads as a null descriptor. Write the slot again, or "

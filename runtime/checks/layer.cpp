@@ -99,6 +99,9 @@ void Layer::before(const runtime::Command& command, const std::string& label) {
   reporter_.begin(label);
   hazards_.begin_command(label);
   std::visit([this](const auto& c) { check(c); }, command);
+  const bool dispatches = std::holds_alternative<runtime::DispatchRaysCommand>(command) ||
+                          std::holds_alternative<runtime::DispatchCommand>(command);
+  if (dispatches) addresses_.set_wrong_views(textures_.before_dispatch());
 }
 
 void Layer::after(const runtime::Command& command, bool succeeded) {

@@ -22,7 +22,7 @@ namespace kaamos::checks {
 
 class Layer : public runtime::CommandObserver {
  public:
-  Layer(const runtime::AddressMap& addresses, Reporter& reporter)
+  Layer(runtime::AddressMap& addresses, Reporter& reporter)
       : addresses_(addresses),
         reporter_(reporter),
         structures_(addresses),
@@ -89,7 +89,7 @@ class Layer : public runtime::CommandObserver {
   uint64_t proof_key(const runtime::DispatchRaysCommand& command) const;
   ProofInputs inputs() const { return {addresses_, structures_, identifiers_, reporter_}; }
 
-  const runtime::AddressMap& addresses_;
+  runtime::AddressMap& addresses_;
   Reporter& reporter_;
   Structures structures_;
   Hazards hazards_;

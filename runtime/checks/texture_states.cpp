@@ -14,6 +14,14 @@ namespace kaamos::checks {
 using rtapi::HasAny;
 using rtapi::ResourceStates;
 
+namespace {
+
+bool is_read(ResourceStates state) {
+  return !HasAny(state, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest);
+}
+
+}  // namespace
+
 void TextureStates::add(const std::shared_ptr<runtime::BackendTexture>& texture,
                         const rtapi::TextureDesc& desc) {
   const bool volume = desc.Dimension == rtapi::ResourceDimension::kTexture3D;
@@ -35,6 +43,7 @@ void TextureStates::begin_list() {
   const std::lock_guard lock(mutex_);
   for (auto it = textures_.begin(); it != textures_.end();) {
     for (State& state : it->second.states) {
+      state.may_be_read = false;
       if (!state.promoted || HasAny(state.state, ResourceStates::kCopyDest)) continue;
       state.state = ResourceStates::kCommon;
       state.promoted = false;
@@ -99,6 +108,7 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
   for (uint32_t i = first; i < end; ++i) {
     const State& state = texture.states[i];
     if (state.promoted || state.state == command.before) continue;
+    if (state.may_be_read && is_read(command.before)) continue;
     reporter_.report(Id::kTransitionBefore, "StateBefore " + state_name(command.before) +
                                                 " is given for " + in_state(texture, i) +
                                                 ". Give the state that it is in.");
@@ -112,10 +122,16 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
   }
 }
 
+std::string TextureStates::demand(const State& state, ResourceStates wanted) {
+  return "; it must be in state " + state_name(wanted) +
+         ". Record ResourceBarrier::Transition from " + state_name(state.state) + " to " +
+         state_name(wanted) + " before.";
+}
+
 // Whether a use of `state` is right; a state that the use promotes to is noted.
 bool TextureStates::allows(State& state, ResourceStates wanted, const std::string& label) {
   if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return true;
-  const bool read = !HasAny(wanted, ResourceStates::kUnorderedAccess | ResourceStates::kCopyDest);
+  const bool read = is_read(wanted);
   if (state.state == ResourceStates::kCommon && wanted != ResourceStates::kUnorderedAccess) {
     state = {wanted, true, label};
     return true;
@@ -139,9 +155,7 @@ void TextureStates::use(const runtime::BackendTexture* used_texture, const Subre
     if (allows(state, wanted, label)) continue;
     if (!std::exchange(told, true)) {
       reporter_.report(Id::kResourceState,
-                       what + " is in " + in_state(texture, index) + "; it must be in state " +
-                           state_name(wanted) + ". Record ResourceBarrier::Transition from " +
-                           state_name(state.state) + " to " + state_name(wanted) + " before.");
+                       what + " is in " + in_state(texture, index) + demand(state, wanted));
     }
     // Said once, not for each use that follows.
     state = {wanted, false, label};
@@ -160,6 +174,30 @@ void TextureStates::use_view(uint64_t key, ResourceStates wanted, const std::str
     }
   }
   if (texture != nullptr) use(texture.get(), seen, wanted, what, label);
+}
+
+std::map<uint64_t, std::string> TextureStates::before_dispatch() {
+  std::map<uint64_t, std::string> wrong;
+  const std::lock_guard lock(mutex_);
+  for (auto& [key, view] : views_) {
+    const auto texture = view.texture.lock();
+    const auto it = textures_.find(texture.get());
+    if (texture == nullptr || it == textures_.end()) continue;
+    const bool writes = (key & shader::view_key(0, true)) != 0;
+    const ResourceStates wanted =
+        writes ? ResourceStates::kUnorderedAccess : ResourceStates::kNonPixelShaderResource;
+    const bool alike = it->second.states.size() == 1;
+    for (const uint32_t index : alike ? std::vector{0u} : split(it->second, view.seen)) {
+      State& state = it->second.states[index];
+      State promoted = state;
+      if (!allows(promoted, wanted, {})) {
+        wrong.emplace(key, in_state(it->second, index) + demand(state, wanted));
+        break;
+      }
+      state.may_be_read = true;
+    }
+  }
+  return wrong;
 }
 
 }  // namespace kaamos::checks

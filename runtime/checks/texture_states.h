@@ -44,12 +44,16 @@ class TextureStates {
            rtapi::ResourceStates wanted, const std::string& what, const std::string& label);
   void use_view(uint64_t key, rtapi::ResourceStates wanted, const std::string& what,
                 const std::string& label);
+  // What a dispatch takes out of arrays of descriptors and heaps only its code knows: which views
+  // it must not touch, by key, and in which words that is told.
+  std::map<uint64_t, std::string> before_dispatch();
 
  private:
   struct State {
     rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;
-    bool promoted = false;  // by a use, not by a transition
-    std::string by;         // empty: created so
+    bool promoted = false;     // by a use, not by a transition
+    std::string by;            // empty: created so
+    bool may_be_read = false;  // a dispatch could have promoted it from the common state
   };
   struct Tracked {
     std::weak_ptr<runtime::BackendTexture> texture;
@@ -67,6 +71,7 @@ class TextureStates {
   static std::vector<uint32_t> split(Tracked& texture, const Subresources& some);
   static bool allows(State& state, rtapi::ResourceStates wanted, const std::string& label);
   static std::string in_state(const Tracked& texture, uint32_t subresource);
+  static std::string demand(const State& state, rtapi::ResourceStates wanted);
 
   Reporter& reporter_;
   std::mutex mutex_;

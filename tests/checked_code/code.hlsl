@@ -169,6 +169,10 @@ RayDesc ray_at(float x) {
 
 [shader("raygeneration")] void ReadAnyNumber() { result[0] = any_number[index].Load(0); }
 
+[shader("raygeneration")] void ReadPictureOfHeap() {
+  Texture2D<float> picture = ResourceDescriptorHeap[index];
+  result[0] = picture.Load(int3(0, 0, 0)) == 0.0 ? 0x7FC0 : 1;
+}
 [shader("raygeneration")] void ReadPicture() {
   result[0] = asuint(pictures[index].Load(int3(0, 0, 0)));
 }

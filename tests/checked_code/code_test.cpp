@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -197,6 +198,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     rays.Width = width_;
     rays.Height = rays.Depth = 1;
     CommandList list = device_.CreateCommandList().value();
+    if (before_) before_(list);
     list.SetDescriptorHeaps({&heap_, 1});
     list.SetComputeRootSignature(global);
     list.SetPipelineState1(pipeline);
@@ -208,6 +210,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     list.SetComputeRoot32BitConstants(4, 4, &settings, 0);
     list.SetComputeRootDescriptorTable(5, heap_.GetGPUDescriptorHandle(0));
     list.DispatchRays(rays);
+    if (after_) after_(list);
     told_before_ = std::move(messages_);
     messages_.clear();
     status_ = queue_.ExecuteAndWait(list);
@@ -262,6 +265,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   uint64_t vertices_address_ = 0;
   uint32_t table_slot_ = 0;
   uint32_t width_ = 1;
+  std::function<void(CommandList&)> before_, after_;  // more commands of the list
   const char* callable_ = "Call";
   const char* box_hit_ = "BoxHit";
 };
@@ -381,6 +385,66 @@ TEST_P(CheckedCode, FreedResourceInAnArray) {
   picture = {};
   run("ReadPicture", {3});
   expect("KA0425", {"parameter t0, space 4 \"pictures\": element 3 is a texture, which was freed"});
+}
+
+// Which of an array are used only the code knows; the layer knows what state each is in.
+TEST_P(CheckedCode, StatesOfTexturesInArrays) {
+  const auto texture = [&](const char* name, ResourceStates state, uint32_t slot) {
+    TextureDesc desc;
+    desc.Width = desc.Height = 4;
+    desc.MipLevels = 2;
+    desc.Format = Format::kR32Float;
+    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+    desc.InitialState = state;
+    desc.Name = name;
+    const Texture out = device_.CreateTexture(desc).value();
+    ShaderResourceViewDesc view;
+    view.ViewDimension = SrvDimension::kTexture2D;
+    view.Format = Format::kR32Float;
+    view.Texture2D.MipLevels = 1;
+    device_.CreateShaderResourceView(out, view, heap_.GetCPUDescriptorHandle(slot)).value();
+    return out;
+  };
+  const Texture wall = texture("wall", ResourceStates::kUnorderedAccess, 3);
+  const Texture floor = texture("floor", ResourceStates::kCommon, 4);
+  run("ReadPicture", {4});
+  run("ReadPictureOfHeap", {4});
+  EXPECT_EQ(all(), "");
+  for (const char* shader : {"ReadPicture", "ReadPictureOfHeap"}) {
+    run(shader, {3});
+    expect("KA0451", {std::string("ray generation \"") + shader + "\" at pixel",
+                      "element 3 is a view of texture \"wall\", which is in state "
+                      "kUnorderedAccess since it was created; it must be in state "
+                      "kNonPixelShaderResource. Record ResourceBarrier::Transition from "
+                      "kUnorderedAccess to kNonPixelShaderResource before."});
+  }
+  // It is used all the same.
+  EXPECT_EQ(result_of()[0], 0x7FC0u);
+  // Only the subresources of the view count.
+  before_ = [&](CommandList& list) {
+    list.ResourceBarrier(ResourceBarrier::Transition(wall, ResourceStates::kUnorderedAccess,
+                                                     ResourceStates::kNonPixelShaderResource, 1));
+  };
+  run("ReadPicture", {3});
+  expect("KA0451", {"element 3 is a view of subresource 0 (mip 0, array element 0) of texture "
+                    "\"wall\", which is in state kUnorderedAccess since it was created"});
+  before_ = [&](CommandList& list) {
+    list.ResourceBarrier(ResourceBarrier::Transition(wall, ResourceStates::kUnorderedAccess,
+                                                     ResourceStates::kNonPixelShaderResource, 0));
+  };
+  run("ReadPicture", {3});
+  // What an array's read promoted to may be named in a barrier, in the same list.
+  after_ = [&](CommandList& list) {
+    list.ResourceBarrier(ResourceBarrier::Transition(floor, ResourceStates::kNonPixelShaderResource,
+                                                     ResourceStates::kCopyDest));
+  };
+  before_ = {};
+  run("ReadPicture", {4});
+  EXPECT_EQ(all(), "");
+  after_ = {};
+  run("ReadPicture", {4});
+  expect("KA0451", {"element 4 is a view of texture \"floor\", which is in state kCopyDest since "
+                    "ResourceBarrier, command "});
 }
 
 TEST_P(CheckedCode, StructureOfAnArray) {

@@ -186,11 +186,23 @@ k_Descriptor k_resolve_checked(uint source, uint offset, uint index, uint count,
   }
   return d;
 }
-//@ k_stale
-bool k_stale(k_Descriptor d) {
+// A view whose resource is gone reads as a null descriptor; one whose texture is in a state that
+// forbids its use is told of, and used. [kaamos/shader/checked.h]
+//@ k_usable
+k_Descriptor k_usable(k_Descriptor d, uint binding, uint index, uint site) {
   uint kind = d.kind_access & 0xFFFFu;
+  if (kind == 0u || kind == 6u || d.address == 0UL) return d;
   uint64_t key = d.address | (d.kind_access == 0x10005u ? 1UL << 62 : 0UL);
-  return kind != 0u && kind != 6u && d.address != 0UL && k_bytes_from(key) == 0UL;
+  if (k_bytes_from(key) != 0UL) return d;
+  bool wrong_state = kind == 5u && k_bytes_from(key | 1UL << 61) != 0UL;
+  k_tell(17u, site, binding, 0u, wrong_state ? key : d.address, uint64_t(kind), uint64_t(index),
+         wrong_state ? 1UL : 0UL);
+  if (!wrong_state) {
+    d.kind_access = 0u;
+    d.address = 0UL;
+    d.size = 0UL;
+  }
+  return d;
 }
 // A descriptor that is used, now.
 //@ k_used
@@ -200,13 +212,7 @@ k_Descriptor k_used(k_Descriptor d, uint source, uint offset, uint index, uint c
   if (from == 3u && (d.kind_access & 0xFFFFu) == 0u) {
     k_explain_missing(site, binding, source, offset, index, count, array_index);
   }
-  if (from == 3u && count != 1u && k_stale(d)) {
-    k_tell(17u, site, binding, 0u, d.address, uint64_t(d.kind_access & 0xFFFFu),
-           uint64_t(array_index), 0UL);
-    d.kind_access = 0u;
-    d.address = 0UL;
-    d.size = 0UL;
-  }
+  if (from == 3u && count != 1u) d = k_usable(d, binding, array_index, site);
   if (from == 2u && (source >> 16 & 0xFFu) == 1u && (d.address & 255UL) != 0UL) {
     k_tell(3u, site, binding, 0u, d.address, 0UL, 0UL, 256UL);
   }
@@ -231,11 +237,8 @@ k_Descriptor k_heap_resource_checked(uint index, uint kind, uint access, uint si
   } else if ((d.kind_access & 0xFFFFu) != 0u && !k_matches(d, kind, access)) {
     k_tell(6u, site, 0u, 0u, uint64_t(d.kind_access & 0xFFFFu), uint64_t(d.kind_access >> 16),
            uint64_t(kind), uint64_t(access));
-  } else if (k_stale(d)) {
-    k_tell(17u, site, 0u, 0u, d.address, uint64_t(d.kind_access & 0xFFFFu), uint64_t(index), 0UL);
-    d.kind_access = 0u;
-    d.address = 0UL;
-    d.size = 0UL;
+  } else {
+    d = k_usable(d, 0u, index, site);
   }
   return d;
 }

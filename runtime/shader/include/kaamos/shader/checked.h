@@ -76,12 +76,24 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
          static_cast<uint64_t>(binding.kind), static_cast<uint64_t>(binding.access));
 }
 
-// The resource of a view is gone; null descriptors and samplers never are.
-inline bool stale(const Dispatch& dispatch, const Descriptor& found) {
-  if (found.kind == DescriptorKind::kNull || found.kind == DescriptorKind::kSampler) return false;
-  const bool writable_texture =
-      found.kind == DescriptorKind::kTexture && found.access == DescriptorAccess::kUnorderedAccess;
-  return found.address != 0 && bytes_from(dispatch, view_key(found.address, writable_texture)) == 0;
+// A view whose resource is gone reads as a null descriptor; one whose texture is in a state that
+// forbids its use is told of, and used: its key has bit 61 then. Null descriptors and samplers are
+// neither.
+[[gnu::noinline]] inline Descriptor usable(Invocation& invocation, uint32_t site, uint32_t binding,
+                                           const Descriptor& found, uint32_t index) {
+  if (found.kind == DescriptorKind::kNull || found.kind == DescriptorKind::kSampler ||
+      found.address == 0) {
+    return found;
+  }
+  const bool texture = found.kind == DescriptorKind::kTexture;
+  const bool writable_texture = texture && found.access == DescriptorAccess::kUnorderedAccess;
+  const uint64_t key = view_key(found.address, writable_texture);
+  if (bytes_from(*invocation.dispatch, key) != 0) return found;
+  const bool wrong_state =
+      texture && bytes_from(*invocation.dispatch, key | uint64_t{1} << 61) != 0;
+  report(invocation, Finding::kStaleView, site, binding, 0, wrong_state ? key : found.address,
+         static_cast<uint64_t>(found.kind), index, wrong_state ? 1 : 0);
+  return wrong_state ? found : Descriptor();
 }
 
 [[gnu::noinline]] inline Descriptor resource(Invocation& invocation, uint32_t site, uint32_t slot,
@@ -99,11 +111,8 @@ inline bool stale(const Dispatch& dispatch, const Descriptor& found) {
   } else if (binding.source == SlotSource::kDescriptorTable &&
              found.kind == DescriptorKind::kNull) {
     explain_missing(invocation, site, slot, index);
-  } else if (binding.source == SlotSource::kDescriptorTable && binding.descriptor_count != 1 &&
-             stale(*invocation.dispatch, found)) {
-    report(invocation, Finding::kStaleView, site, slot + 1, 0, found.address,
-           static_cast<uint64_t>(found.kind), index);
-    return {};
+  } else if (binding.source == SlotSource::kDescriptorTable && binding.descriptor_count != 1) {
+    return usable(invocation, site, slot + 1, found, index);
   }
   return found;
 }
@@ -124,10 +133,8 @@ inline bool stale(const Dispatch& dispatch, const Descriptor& found) {
     report(invocation, Finding::kWrongDescriptor, site, 0, 0, static_cast<uint64_t>(found.kind),
            static_cast<uint64_t>(found.access), static_cast<uint64_t>(kind),
            static_cast<uint64_t>(access));
-  } else if (stale(dispatch, found)) {
-    report(invocation, Finding::kStaleView, site, 0, 0, found.address,
-           static_cast<uint64_t>(found.kind), index);
-    return {};
+  } else {
+    return usable(invocation, site, 0, found, index);
   }
   return found;
 }
