@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "runtime/embree/acceleration_structure.h"
@@ -67,6 +68,8 @@ class Executor {
   size_t index_ = 0;
   std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
+  // Of the dispatch that is running; told after what checked mode says, which knows the cause.
+  std::vector<DispatchResult::Warning> warnings_;
 };
 
 rtapi::Status Executor::finish(DispatchResult result) {
@@ -75,7 +78,7 @@ rtapi::Status Executor::finish(DispatchResult result) {
     observer->missed(*running_, result.missing);
   }
   device_.add_counters(result.counters);
-  for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
+  warnings_ = std::move(result.warnings);
   return std::move(result.status);
 }
 
@@ -85,6 +88,7 @@ rtapi::Status Executor::run(const runtime::Command& command) {
   if (observer != nullptr) observer->before(command, label(runtime::command_name(command)));
   auto status = std::visit(*this, command);
   if (observer != nullptr) observer->after(command, status.ok());
+  for (const auto& warning : std::exchange(warnings_, {})) device_.warn(warning.id, warning.text);
   return status;
 }
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "runtime/indirect.h"
@@ -77,7 +78,7 @@ class Executor {
       if (!result.reached.empty()) observer->reached(*running_, result.reached);
       observer->missed(*running_, result.missing);
     }
-    for (const auto& warning : result.warnings) device_.warn(warning.id, warning.text);
+    warnings_ = std::move(result.warnings);
     device_.add(result.statistics);
     return std::move(result.status);
   }
@@ -87,6 +88,8 @@ class Executor {
   size_t index_ = 0;
   std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
   std::vector<std::string> events_;
+  // Of the dispatch that is running; told after what checked mode says, which knows the cause.
+  std::vector<DispatchResult::Warning> warnings_;
 };
 
 rtapi::Status Executor::run(const runtime::Command& command) {
@@ -97,6 +100,7 @@ rtapi::Status Executor::run(const runtime::Command& command) {
     if (status && observer->needs_memory_after(command)) status = device_.stream().flush();
     observer->after(command, status.ok());
   }
+  for (const auto& warning : std::exchange(warnings_, {})) device_.warn(warning.id, warning.text);
   return status;
 }
 
