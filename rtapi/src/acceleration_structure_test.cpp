@@ -282,7 +282,7 @@ TEST_F(BuildTest, AS_50_FlagCombinations) {
     const bool update = bits & 0x20;
     desc_.SourceAccelerationStructureData = update ? structure_.GetGPUVirtualAddress() : 0;
     if ((bits & 0xC) == 0xC) {
-      EXPECT_ERROR(Build(), "KA0701");
+      EXPECT_ERROR(Build(), "KA0701", "kPreferFastTrace and kPreferFastBuild are both set");
     } else {
       EXPECT_OK(Build());
     }

@@ -304,7 +304,7 @@ TEST_F(DispatchRaysTest, DSP_01_ThreadsUpTo2To30) {
   EXPECT_OK(with(1u << 30, 1, 1));
   EXPECT_OK(with(1, 1u << 15, 1u << 15));
   EXPECT_OK(with(0, 5, 5));  // DSP_02
-  EXPECT_ERROR(with((1u << 30) + 1, 1, 1), "KA0814");
+  EXPECT_ERROR(with((1u << 30) + 1, 1, 1), "KA0814", "2^30 threads");
   EXPECT_ERROR(with(0xFFFFFFFF, 0xFFFFFFFF, 0xFFFFFFFF), "KA0814");
   EXPECT_ERROR(with(1u << 10, 1u << 10, (1u << 10) + 1), "KA0814");
 }

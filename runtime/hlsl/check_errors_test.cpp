@@ -453,6 +453,7 @@ TEST(CheckMessages, StageErrorNamesStageAndEntryPoint) {
   const Compilation compilation(
       "void helper() { IgnoreHit(); }\nstruct P { int a; };\n"
       "[shader(\"miss\")] void Sky(inout P p) { helper(); }");
+  EXPECT_NE(compilation.messages().find("KA2576"), std::string::npos) << compilation.messages();
   EXPECT_NE(compilation.messages().find("miss shader 'Sky'"), std::string::npos)
       << compilation.messages();
 }

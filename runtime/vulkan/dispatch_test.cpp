@@ -190,6 +190,9 @@ TEST(DispatchRays, WhatShadersReportRemovesTheDevice) {
     if (reason == 0) {
       EXPECT_THAT(result.status.error().message, HasSubstr("MaxTraceRecursionDepth 3"));
     }
+    if (reason == 1) {
+      EXPECT_THAT(result.status.error().message, HasSubstr("the shader stack is used up"));
+    }
   }
 }
 

@@ -85,9 +85,38 @@ check_listed() {
     done
 }
 
+# The lines of the test or function NAME of FILE, from its head to the brace in the first column.
+body_of() {
+  awk -v name="$2" '
+    !inside && ($0 ~ "^TEST.*, *" name "\\)" || $0 ~ "^(void|bool|static .*) " name "\\(") { inside = 1 }
+    inside { print }
+    inside && /^}/ { exit }' "$1"
+}
+
+# Each class of errors stands in tests/checks/ERRORS.md with messages whose tests name them.
+check_errors() {
+  local file=tests/checks/ERRORS.md line class id test path name wanted
+  [[ -f $file ]] || return 0
+  for wanted in $(seq -f 'ERR-%02g' 1 32); do
+    grep -q "^| $wanted |" "$file" || echo "$file:1: has no row of $wanted"
+  done
+  grep -nE '^\| (ERR-[0-9]+)? ?\|' "$file" | while IFS=: read -r line row; do
+    IFS='|' read -r _ class _ id test _ <<<"$row"
+    id=${id// /} test=${test# } test=${test% }
+    [[ -n $id ]] || continue
+    path=${test%%:*} name=${test#*: }
+    if [[ ! -f $path ]]; then
+      echo "$file:$line: there is no $path"
+    elif ! body_of "$path" "$name" | grep -qF "$id"; then
+      echo "$file:$line: \"$name\" of $path does not hold $id"
+    fi
+  done
+}
+
 # Each message of checked mode has a test that holds its id; one of the tests of the list's section 12 or of
 # tests/checks and tests/checked_code provokes it.
 check_told() {
+  check_errors
   local file=runtime/checks/messages.inc line text id
   grep -nE '^KAAMOS_CHECK\(' "$file" | while IFS=: read -r line text; do
     id=$(printf 'KA%04d' "$(sed 's/^KAAMOS_CHECK(\([0-9]*\),.*/\1/' <<<"$text")")
