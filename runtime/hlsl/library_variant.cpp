@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "rtapi/src/shader_library_impl.h"
@@ -100,27 +104,40 @@ CheckedLibrary make(const rtapi::ShaderLibrary& library, bool spirv) {
   return out;
 }
 
+// Programs load the same library again and again, and each time it would be compiled as far as the
+// key of the cache on the disk. So many variants live on when nobody uses them.
+constexpr size_t kMostKept = 32;
+
+struct Known {
+  std::weak_ptr<const rtapi::detail::ShaderLibraryImpl> variant;
+  std::string note;
+};
+struct KnownVariants {
+  std::mutex mutex;
+  std::map<std::tuple<size_t, size_t, uint32_t, bool>, Known> by_source;
+  std::deque<rtapi::ShaderLibrary> kept;
+};
+
 }  // namespace
 
 CheckedLibrary checked_variant(const rtapi::ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
   if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
-  // The variants that are in use; the cache on the disk has the others.
-  struct Known {
-    std::weak_ptr<const rtapi::detail::ShaderLibraryImpl> original;
-    std::weak_ptr<const rtapi::detail::ShaderLibraryImpl> variant;
-    std::string note;
-  };
-  static std::mutex mutex;
-  static std::map<std::pair<const shader::LibraryDesc*, bool>, Known> known;
-  const std::lock_guard lock(mutex);
-  Known& entry = known[{&desc, spirv}];
-  // The address of a table may be that of a library that is gone.
-  if (auto variant = entry.variant.lock(); variant && !entry.original.expired()) {
+  // Never taken down: at exit others may still run what it holds.
+  static KnownVariants& known = *new KnownVariants;
+  const std::lock_guard lock(known.mutex);
+  const std::string_view source(reinterpret_cast<const char*>(desc.source),
+                                desc.source == nullptr ? 0 : desc.source_bytes);
+  Known& entry =
+      known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags, spirv}];
+  if (auto variant = entry.variant.lock()) {
     return {rtapi::ShaderLibrary(std::move(variant)), entry.note, true};
   }
   CheckedLibrary out = make(library, spirv);
-  if (out.checked) entry = {library.impl(), out.library.impl(), out.note};
+  if (!out.checked) return out;
+  entry = {out.library.impl(), out.note};
+  known.kept.push_back(out.library);
+  if (known.kept.size() > kMostKept) known.kept.pop_front();
   return out;
 }
 
