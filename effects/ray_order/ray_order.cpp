@@ -95,10 +95,24 @@ void RaySorter::sort(CommandList& list, const Frame& frame, RayOrder order) cons
                           (frame.width() + kTileWidth - 1) / kTileWidth,
                           (frame.height() + kTileHeight - 1) / kTileHeight);
   };
-  if (order == RayOrder::kDirection) return record(once_, 0, 1);
-  // Stable: what a later pass finds equal stays in the order of the pass before.
-  record(first_, 0, 1);
-  record(second_, kDirectionBits, 0);
+  constexpr auto kWrite = rtapi::ResourceStates::kUnorderedAccess;
+  constexpr auto kRead = rtapi::ResourceStates::kNonPixelShaderResource;
+  const auto change = [&](const Buffer& buffer, rtapi::ResourceStates from,
+                          rtapi::ResourceStates to) {
+    list.ResourceBarrier(rtapi::ResourceBarrier::Transition(buffer, from, to));
+  };
+  // The pass that wrote the keys has the order among its views, as every ray pass of the frame.
+  change(order_, kRead, kWrite);
+  if (order == RayOrder::kDirection) {
+    record(once_, 0, 1);
+  } else {
+    // Stable: what a later pass finds equal stays in the order of the pass before.
+    record(first_, 0, 1);
+    change(between_, kWrite, kRead);
+    record(second_, kDirectionBits, 0);
+    change(between_, kRead, kWrite);
+  }
+  change(order_, kWrite, kRead);
 }
 
 }  // namespace kaamos::effects

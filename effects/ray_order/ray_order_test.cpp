@@ -136,6 +136,21 @@ TEST(RayOrder, PicturesAreTheSameBitForBitOnVulkan) {
   expect_same_visibility(bench);
 }
 
+TEST(RayOrder, CheckedModeFindsNothing) {
+  std::vector<std::string> told;
+  rtapi::DeviceDesc desc;
+  desc.Checked = true;
+  desc.OnMessage = [&](const rtapi::Message& message) { told.push_back(message.Text); };
+  Bench bench(desc);
+  const RaySorter sorter =
+      RaySorter::create(bench.device, bench.frame, ray_order_library().value()).value();
+  for (const RayOrder order : {RayOrder::kDirection, RayOrder::kOrigin}) {
+    bench.run(ambient_occlusion_pass(ambient_occlusion_library().value()), kNone,
+              kAmbientOcclusionSum, order, sorter);
+  }
+  for (const std::string& text : told) ADD_FAILURE() << text;
+}
+
 // The order that a sort made of keys: `words` are what it sorts by, one per pixel.
 std::vector<std::uint32_t> sorted_pixels(Bench& bench, const std::vector<std::uint32_t>& words,
                                          RayOrder order) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/checked_library.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::checks {
@@ -500,6 +501,16 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
 }
 
 // Libraries as they may come from elsewhere: without their source, to a machine without a compiler.
+// Also when nobody had it meanwhile.
+TEST(CheckedLibrary, ALibraryThatIsLoadedAgainIsNotCompiledAgain) {
+  const auto variant = [] {
+    const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_code()).value();
+    return runtime::checked_variant(library, false).library.impl().get();
+  };
+  const auto* first = variant();
+  EXPECT_EQ(variant(), first);
+}
+
 TEST_P(CheckedCode, CodeThatIsNotCheckedOrIsSlow) {
   if (std::string(GetParam()) == "interpreted") GTEST_SKIP() << "of libraries with native code";
   static shader::LibraryDesc bare = *kaamos_shaders_code();

@@ -78,6 +78,7 @@ Texture CountingResources::texture(const std::string& name, bool writable) {
   desc.DepthOrArraySize = static_cast<uint16_t>(kind.elements);
   desc.Format = kind.format;
   desc.Flags = writable ? ResourceFlags::kAllowUnorderedAccess : ResourceFlags::kNone;
+  if (writable) desc.InitialState = ResourceStates::kUnorderedAccess;
   const Texture texture = device_.CreateTexture(desc).value();
   textures_.push_back(texture);
   for (uint32_t i = 0; i < texture.subresource_count(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: extended .CommittedStatus
+// BREAKS: KA0409, KA0410, KA0411, KA0421
 // EXPECT u32 0 0
 // EXPECT u32 4 2
 // EXPECT f32 8 29.5

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: extended .Proceed
+// BREAKS: KA0409, KA0410
 // EXPECT u32 0 3
 // EXPECT u32 4 0
 // EXPECT u32 8 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: extended .TraceRayInline
+// BREAKS: KA0401, KA0402, KA0410
 // EXPECT u32 0 0
 // EXPECT f32 4 100
 // EXPECT u32 8 1
