@@ -134,6 +134,16 @@ std::string conflict(const Options& options) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
   }
+  // Each is printed or written instead of all else.
+  std::string instead;
+  for (const auto& [name, chosen] : {std::pair("--pixel", options.pixel.has_value()),
+                                     std::pair("--tables", !options.tables.empty()),
+                                     std::pair("--explain", options.explain.has_value()),
+                                     std::pair("--heatmap", !options.heatmap.empty())}) {
+    if (!chosen) continue;
+    if (!instead.empty()) return instead + " and " + name + " exclude each other: leave one out";
+    instead = name;
+  }
   if (options.frames == 0) return {};
   const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
                                                 {"--pixel", options.pixel.has_value()},
@@ -264,10 +274,12 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->expected(0, 1)
       ->default_str("text")
       ->check(CLI::IsMember({"text", "json"}));
-  app.add_option("--explain", explain,
-                 "x,y: print what every ray of that pixel met, and why it was taken or not")
-      ->check(CLI::Validator([&](std::string& t) { return parse_pixel(t, options.explain); }, ""));
-  app.add_flag("--json", options.json, "--explain prints JSON");
+  auto* explained =
+      app.add_option("--explain", explain,
+                     "x,y: print what every ray of that pixel met, and why it was taken or not")
+          ->check(
+              CLI::Validator([&](std::string& t) { return parse_pixel(t, options.explain); }, ""));
+  app.add_flag("--json", options.json, "--explain prints JSON")->needs(explained);
   app.add_option("--heatmap", options.heatmap,
                  "anyhit, candidates, depth or rays: write a picture of these counts per pixel")
       ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
