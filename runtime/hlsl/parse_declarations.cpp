@@ -85,7 +85,7 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
     return;
   }
   const bool is_subobject =
-      at_name() && is_name(pos_ + 1) && scopes_.find(token()).kind == SymbolKind::kSubobject;
+      at_name() && is_name(pos_ + 1) && scopes_.find(token()).kind == ParsedKind::kSubobject;
   if (!is_subobject) return simple_declaration(prefix, out);
   if (only(is_global, "a subobject")) subobject_declaration(out);
 }
@@ -201,9 +201,9 @@ void Parser::namespace_declaration(DeclList& out) {
   ScopeId scope = kNoScope;
   if (name != nullptr) {
     decl->name = name->text;
-    const Symbol known = scopes_.find_in(scopes_.current(), *name);
-    scope = known.kind == SymbolKind::kNamespace ? known.scope : scopes_.create(scopes_.current());
-    scopes_.declare(scopes_.current(), name->value, {SymbolKind::kNamespace, scope});
+    const ParsedSymbol known = scopes_.find_in(scopes_.current(), *name);
+    scope = known.kind == ParsedKind::kNamespace ? known.scope : scopes_.create(scopes_.current());
+    scopes_.declare(scopes_.current(), name->value, {ParsedKind::kNamespace, scope});
   } else {
     // What an unnamed namespace declares is seen around it.
     scope = scopes_.create(scopes_.current());
@@ -231,7 +231,7 @@ void Parser::using_declaration(const Prefix& prefix, DeclList& out) {
     const NameLookup target = look_up(pos_);
     decl->target = qualified_name(false);
     decl->location = decl->target->location;
-    if (target.symbol.kind == SymbolKind::kNamespace) {
+    if (target.symbol.kind == ParsedKind::kNamespace) {
       scopes_.add_using(scopes_.current(), target.symbol.scope);
     }
     if (expect_semicolon("the name of the namespace")) out.push_back(decl);
@@ -251,7 +251,7 @@ void Parser::using_declaration(const Prefix& prefix, DeclList& out) {
     const ScopeId members = type_scope_;
     reject_declarator_prefix();
     decl->type = array_bounds(type);
-    scopes_.declare(scope_of(prefix), name->value, {SymbolKind::kType, members});
+    scopes_.declare(scope_of(prefix), name->value, {ParsedKind::kType, members});
     type_names_.push_back(name->text);
     if (expect_semicolon("the type")) out.push_back(decl);
     return;
@@ -259,7 +259,7 @@ void Parser::using_declaration(const Prefix& prefix, DeclList& out) {
   UsingDecl* decl = make<UsingDecl>(keyword);
   const NameLookup target = look_up(pos_);
   const size_t last = target.end > pos_ ? target.end - 1 : pos_;
-  if (target.symbol.kind != SymbolKind::kUnknown) {
+  if (target.symbol.kind != ParsedKind::kUnknown) {
     scopes_.declare(scopes_.current(), token_at(last).value, target.symbol);
   }
   decl->target = qualified_name(false);
@@ -282,7 +282,7 @@ void Parser::typedef_declaration(const Prefix& prefix, DeclList& out) {
     decl->modifiers = modifiers;
     decl->attributes = prefix.attributes;
     decl->type = array_bounds(type);
-    scopes_.declare(scopes_.current(), name->value, {SymbolKind::kType, members});
+    scopes_.declare(scopes_.current(), name->value, {ParsedKind::kType, members});
     type_names_.push_back(name->text);
     out.push_back(decl);
   } while (!panic_ && accept(Kind::kComma));

@@ -37,7 +37,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   if (!function_name(*decl, &qualifier)) return;
   if (decl->qualifier == nullptr && can_be_name(name_token->kind)) {
     if (decl->is_template) {
-      scopes_.declare(scope_of(prefix), name_token->value, {SymbolKind::kFunctionTemplate});
+      scopes_.declare(scope_of(prefix), name_token->value, {ParsedKind::kFunctionTemplate});
     } else {
       scopes_.declare_value(scope_of(prefix), *name_token);
     }

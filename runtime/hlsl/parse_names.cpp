@@ -22,7 +22,7 @@ Parser::NameLookup Parser::look_up(size_t index) {
   result.symbol =
       is_global ? scopes_.find_in(kGlobalScope, token_at(i)) : scopes_.find(token_at(i));
   // `::float3`, `::RayDesc`: the built-in names stand in the global scope.
-  if (is_global && result.symbol.kind == SymbolKind::kUnknown) {
+  if (is_global && result.symbol.kind == ParsedKind::kUnknown) {
     const ScopeId previous = scopes_.enter(kGlobalScope);
     result.symbol = scopes_.find(token_at(i));
     scopes_.enter(previous);
@@ -46,18 +46,18 @@ Parser::NameLookup Parser::look_up(size_t index) {
   return result;
 }
 
-bool Parser::begins_template_arguments(size_t index, size_t name_index, const Symbol& symbol,
+bool Parser::begins_template_arguments(size_t index, size_t name_index, const ParsedSymbol& symbol,
                                        bool is_member) {
   if (!token_at(index).is(Kind::kLess)) return false;
-  if (symbol.is_type()) return symbol.kind == SymbolKind::kType;
+  if (symbol.is_type()) return symbol.kind == ParsedKind::kType;
   auto is_called = [&](size_t end) {
     const Kind next = token_at(end).kind;
     return end != index && (next == Kind::kLeftParen || next == Kind::kColonColon);
   };
-  if (symbol.kind == SymbolKind::kFunctionTemplate) {
+  if (symbol.kind == ParsedKind::kFunctionTemplate) {
     return is_called(behind_template_arguments(index));
   }
-  if (symbol.kind == SymbolKind::kValue) return false;
+  if (symbol.kind == ParsedKind::kValue) return false;
   const bool is_template = is_member && scopes_.is_template_function(token_at(name_index).value);
   if (look_ahead_depth_ >= kMaxLookAheadDepth) return false;
   ++look_ahead_depth_;
@@ -160,10 +160,11 @@ size_t Parser::behind_type(size_t index) {
   return i;
 }
 
-const QualifiedName* Parser::qualified_name(bool is_member, Symbol* symbol, ScopeId* container) {
+const QualifiedName* Parser::qualified_name(bool is_member, ParsedSymbol* symbol,
+                                            ScopeId* container) {
   QualifiedName* result = make<QualifiedName>(here());
   std::vector<NamePart> parts;
-  Symbol current;
+  ParsedSymbol current;
   ScopeId scope = kNoScope;
   if (at(Kind::kColonColon)) {
     result->is_global = true;
@@ -178,7 +179,7 @@ const QualifiedName* Parser::qualified_name(bool is_member, Symbol* symbol, Scop
     const Token& name = token();
     if (!parts.empty() || result->is_global) {
       current = scopes_.find_in(scope, name);
-      if (current.kind == SymbolKind::kUnknown && parts.empty()) current = scopes_.find(name);
+      if (current.kind == ParsedKind::kUnknown && parts.empty()) current = scopes_.find(name);
     } else if (!is_member) {
       current = scopes_.find(name);
     }

@@ -46,9 +46,9 @@ void ParseScopes::add_using(ScopeId scope, ScopeId target) {
   add_base(scope, target);
 }
 
-void ParseScopes::declare(ScopeId scope, uint32_t name, Symbol symbol) {
+void ParseScopes::declare(ScopeId scope, uint32_t name, ParsedSymbol symbol) {
   infos_[name].is_recorded = true;
-  if (symbol.kind == SymbolKind::kFunctionTemplate) infos_[name].is_template_function = true;
+  if (symbol.kind == ParsedKind::kFunctionTemplate) infos_[name].is_template_function = true;
   symbols_[key(scope, name)] = symbol;
 }
 
@@ -59,8 +59,8 @@ void ParseScopes::declare_value(ScopeId scope, const Token& name) {
   if (!info.is_recorded && builtin(name).kind == BuiltinName::kNone) return;
   info.is_recorded = true;
   // Overloads of a function template do not make it less of a template.
-  Symbol& symbol = symbols_[key(scope, name.value)];
-  if (symbol.kind != SymbolKind::kFunctionTemplate) symbol = {SymbolKind::kValue, kNoScope};
+  ParsedSymbol& symbol = symbols_[key(scope, name.value)];
+  if (symbol.kind != ParsedKind::kFunctionTemplate) symbol = {ParsedKind::kValue, kNoScope};
 }
 
 const BuiltinName& ParseScopes::builtin(const Token& name) {
@@ -72,38 +72,38 @@ const BuiltinName& ParseScopes::builtin(const Token& name) {
   return info.builtin;
 }
 
-Symbol ParseScopes::find(const Token& name) {
+ParsedSymbol ParseScopes::find(const Token& name) {
   const BuiltinName& found = builtin(name);
-  if (found.kind == BuiltinName::kNumeric) return {SymbolKind::kNumericType, kNoScope};
+  if (found.kind == BuiltinName::kNumeric) return {ParsedKind::kNumericType, kNoScope};
   if (infos_[name.value].is_recorded) {
     for (ScopeId scope = current_; scope != kNoScope; scope = scopes_[scope].parent) {
       int visits = kMaxVisits;
-      const Symbol symbol = find_linked(scope, name.value, visits);
-      if (symbol.kind != SymbolKind::kUnknown) return symbol;
+      const ParsedSymbol symbol = find_linked(scope, name.value, visits);
+      if (symbol.kind != ParsedKind::kUnknown) return symbol;
     }
   }
-  if (found.kind == BuiltinName::kType) return {SymbolKind::kType, kNoScope};
-  if (found.kind == BuiltinName::kNamespace) return {SymbolKind::kNamespace, kBuiltinScope};
-  if (found.kind == BuiltinName::kSubobject) return {SymbolKind::kSubobject, kNoScope};
+  if (found.kind == BuiltinName::kType) return {ParsedKind::kType, kNoScope};
+  if (found.kind == BuiltinName::kNamespace) return {ParsedKind::kNamespace, kBuiltinScope};
+  if (found.kind == BuiltinName::kSubobject) return {ParsedKind::kSubobject, kNoScope};
   return {};
 }
 
-Symbol ParseScopes::find_in(ScopeId scope, const Token& name) {
+ParsedSymbol ParseScopes::find_in(ScopeId scope, const Token& name) {
   if (scope == kBuiltinScope) {
     const bool is_type = builtin(name).kind == BuiltinName::kScopedType;
-    return is_type ? Symbol{SymbolKind::kType, kNoScope} : Symbol{};
+    return is_type ? ParsedSymbol{ParsedKind::kType, kNoScope} : ParsedSymbol{};
   }
   if (scope >= scopes_.size() || !infos_[name.value].is_recorded) return {};
   int visits = kMaxVisits;
   return find_linked(scope, name.value, visits);
 }
 
-Symbol ParseScopes::find_linked(ScopeId scope, uint32_t name, int& visits) const {
+ParsedSymbol ParseScopes::find_linked(ScopeId scope, uint32_t name, int& visits) const {
   if (auto found = symbols_.find(key(scope, name)); found != symbols_.end()) return found->second;
   for (ScopeId linked : scopes_[scope].linked) {
     if (--visits <= 0) return {};
-    const Symbol symbol = find_linked(linked, name, visits);
-    if (symbol.kind != SymbolKind::kUnknown) return symbol;
+    const ParsedSymbol symbol = find_linked(linked, name, visits);
+    if (symbol.kind != ParsedKind::kUnknown) return symbol;
   }
   return {};
 }

@@ -12,7 +12,7 @@
 
 namespace kaamos::hlsl {
 
-enum class SymbolKind : uint8_t {
+enum class ParsedKind : uint8_t {
   kUnknown,  // Not declared as anything that the parser records; most often a value.
   kValue,
   kFunctionTemplate,
@@ -31,11 +31,11 @@ inline constexpr ScopeId kDependentScope = 0xFFFFFFFEu;
 // `dx::`, whose types are built in.
 inline constexpr ScopeId kBuiltinScope = 0xFFFFFFFDu;
 
-struct Symbol {
-  SymbolKind kind = SymbolKind::kUnknown;
+struct ParsedSymbol {
+  ParsedKind kind = ParsedKind::kUnknown;
   ScopeId scope = kNoScope;  // What `name::` looks into.
 
-  bool is_type() const { return kind >= SymbolKind::kType; }
+  bool is_type() const { return kind >= ParsedKind::kType; }
 };
 
 class ParseScopes {
@@ -49,11 +49,11 @@ class ParseScopes {
   void add_base(ScopeId scope, ScopeId base);
   void add_using(ScopeId scope, ScopeId target);
 
-  void declare(ScopeId scope, uint32_t name, Symbol symbol);
+  void declare(ScopeId scope, uint32_t name, ParsedSymbol symbol);
   // A variable, parameter, function or enumerator.
   void declare_value(ScopeId scope, const Token& name);
-  Symbol find(const Token& name);
-  Symbol find_in(ScopeId scope, const Token& name);
+  ParsedSymbol find(const Token& name);
+  ParsedSymbol find_in(ScopeId scope, const Token& name);
   // Is `name` a function template somewhere? Decides `x.name<`, where the type of x is not known.
   bool is_template_function(uint32_t name) const { return infos_[name].is_template_function; }
   // Was it ever declared as a variable, parameter, function or enumerator?
@@ -73,11 +73,11 @@ class ParseScopes {
     BuiltinName builtin;
   };
   static uint64_t key(ScopeId scope, uint32_t name) { return uint64_t{scope} << 32 | name; }
-  Symbol find_linked(ScopeId scope, uint32_t name, int& visits) const;
+  ParsedSymbol find_linked(ScopeId scope, uint32_t name, int& visits) const;
 
   std::vector<Scope> scopes_;
   std::vector<NameInfo> infos_;  // By Token::value.
-  std::unordered_map<uint64_t, Symbol> symbols_;
+  std::unordered_map<uint64_t, ParsedSymbol> symbols_;
   ScopeId current_ = kGlobalScope;
 };
 

@@ -406,11 +406,11 @@ bool Parser::starts_declaration(size_t index) {
         return can_be_name(next.kind);
     }
   }
-  if (name.symbol.kind == SymbolKind::kSubobject) return can_be_name(next.kind);
+  if (name.symbol.kind == ParsedKind::kSubobject) return can_be_name(next.kind);
   if (name.is_dependent) return can_be_name(next.kind);
   const bool same_line = (next.flags & Token::kAtLineStart) == 0;
   // Two names in a row: a type that is not known, or a forgotten operator or ';'.
-  if (name.symbol.kind == SymbolKind::kUnknown && same_line &&
+  if (name.symbol.kind == ParsedKind::kUnknown && same_line &&
       !scopes_.is_known_value(token_at(name.end - 1))) {
     if (can_be_name(next.kind)) return true;
     // `Unknown<float> x;`

@@ -37,11 +37,11 @@ const StructDecl* Parser::struct_definition() {
     decl->name = name->text;
     decl->location = name->location;
     // A definition behind a forward declaration fills the same scope.
-    const Symbol known = scopes_.find_in(outer, *name);
+    const ParsedSymbol known = scopes_.find_in(outer, *name);
     const bool is_forward =
-        known.kind == SymbolKind::kType && known.scope < scope && !decl->is_template;
+        known.kind == ParsedKind::kType && known.scope < scope && !decl->is_template;
     if (is_forward && at(Kind::kSemicolon)) scope = known.scope;
-    scopes_.declare(outer, name->value, {SymbolKind::kType, scope});
+    scopes_.declare(outer, name->value, {ParsedKind::kType, scope});
     type_names_.push_back(name->text);
   }
   type_scope_ = scope;
@@ -78,7 +78,7 @@ void Parser::bases(StructDecl& decl, ScopeId scope) {
 void Parser::predeclare_members(ScopeId scope) {
   const auto declare = [&](size_t index) {
     if (!is_name(index)) return;
-    scopes_.declare(scope, token_at(index).value, {SymbolKind::kType, kNoScope});
+    scopes_.declare(scope, token_at(index).value, {ParsedKind::kType, kNoScope});
   };
   for (size_t i = pos_; i < tokens_.size(); ++i) {
     switch (tokens_[i].kind) {
@@ -158,7 +158,7 @@ const EnumDecl* Parser::enum_definition() {
   if (name != nullptr) {
     decl->name = name->text;
     decl->location = name->location;
-    scopes_.declare(scopes_.current(), name->value, {SymbolKind::kType, scope});
+    scopes_.declare(scopes_.current(), name->value, {ParsedKind::kType, scope});
     type_names_.push_back(name->text);
   }
   if (accept(Kind::kColon)) decl->underlying = type_without_bounds();
@@ -189,7 +189,7 @@ void Parser::skip_interface() {
   report(DiagnosticId::kNoInterface, here(), {});
   advance();
   // Its name is a type for what follows, so that each use is no further mistake.
-  if (at_name()) scopes_.declare(scopes_.current(), token().value, {SymbolKind::kType, kNoScope});
+  if (at_name()) scopes_.declare(scopes_.current(), token().value, {ParsedKind::kType, kNoScope});
   while (!at(Kind::kLeftBrace) && !at(Kind::kSemicolon) && !at(Kind::kRightBrace) && !at_end()) {
     advance();
   }

@@ -75,7 +75,7 @@ TemplateParameter Parser::template_parameter() {
     result.location = name->location;
     if (is_type) {
       scopes_.declare(scopes_.current(), name->value,
-                      {SymbolKind::kTypeParameter, kDependentScope});
+                      {ParsedKind::kTypeParameter, kDependentScope});
     } else {
       scopes_.declare_value(scopes_.current(), *name);
     }

@@ -222,7 +222,7 @@ TypeSyntax* Parser::numeric_type(const BuiltinName& name) {
 TypeSyntax* Parser::named_type() {
   const bool after_typename = pos_ > 0 && tokens_[pos_ - 1].is(Kind::kTypename);
   const NameLookup name = look_up(pos_);
-  if (name.symbol.kind == SymbolKind::kNumericType) {
+  if (name.symbol.kind == ParsedKind::kNumericType) {
     accept(Kind::kColonColon);
     TypeSyntax* type = numeric_type(scopes_.builtin(token()));
     advance();
@@ -231,7 +231,7 @@ TypeSyntax* Parser::named_type() {
   if (!name.is_type() && !name.is_dependent && !after_typename) return unknown_type();
   TypeSyntax* type = make<TypeSyntax>(here());
   type->kind = TypeSyntaxKind::kNamed;
-  Symbol symbol;
+  ParsedSymbol symbol;
   type->name = qualified_name(false, &symbol);
   type->location = type->name->location;
   type_scope_ = after_typename || name.is_dependent ? kDependentScope : symbol.scope;

@@ -136,14 +136,14 @@ class Parser {
   // ---- parse_names.cpp
   // What the qualified name at a token means, found without consuming it.
   struct NameLookup {
-    Symbol symbol;
+    ParsedSymbol symbol;
     size_t end = 0;             // Behind the name; the same index: there is none.
     bool is_dependent = false;  // `T::name`: known when the template is instantiated.
     bool is_type() const { return symbol.is_type(); }
   };
   NameLookup look_up(size_t index);
   // Whether the `<` at `index`, behind the name at `name_index`, begins template arguments.
-  bool begins_template_arguments(size_t index, size_t name_index, const Symbol& symbol,
+  bool begins_template_arguments(size_t index, size_t name_index, const ParsedSymbol& symbol,
                                  bool is_member);
   // Index behind the type (modifiers included) that begins at `index`, or `index`: there is none.
   size_t behind_type(size_t index);
@@ -153,7 +153,7 @@ class Parser {
   size_t behind_plain_template_arguments(size_t index, bool first_is_type);
   // Parses `::a::b<float>::c`. `is_member`: behind a `.`. `container` gets the scope in which the
   // last part stands. `S::operator` ends behind the `::`, with `S` as the name.
-  const QualifiedName* qualified_name(bool is_member, Symbol* symbol = nullptr,
+  const QualifiedName* qualified_name(bool is_member, ParsedSymbol* symbol = nullptr,
                                       ScopeId* container = nullptr);
   std::span<const TemplateArgument> template_arguments();
   TemplateArgument template_argument();

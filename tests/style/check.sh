@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice.
 set -euo pipefail
 rule=$1
 cd "$2"
@@ -31,6 +31,31 @@ check_spdx() {
 check_paths() {
   list_files "${code[@]}" -o -name '*.md' -o -name '*.json' -o -name '*.txt' | xargs -r -d '\n' grep -nIHE \
     '(^|[^A-Za-z0-9_.$}])([/]work/|[/]root/|[/]home/[a-z]|[/]tmp/[a-z]|[/]Users/[A-Za-z])' | sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a path of one machine/' || true
+}
+
+# A type has one definition: of two with one name in one namespace the linker takes either's inline functions. Looks
+# at the first column, so that members and local types do not count; forward declarations and stubs ({}) neither.
+check_twice() {
+  list_files -name '*.cpp' -o -name '*.h' | xargs -r -d '\n' awk '
+    FNR == 1 { depth = 0; unnamed = 0 }
+    /^namespace( [A-Za-z0-9_:]+)? *\{/ {
+      depth++
+      spaces[depth] = $2 == "{" ? "" : $2
+      if ($2 == "{") unnamed++
+      next
+    }
+    /^}  \/\/ namespace/ && depth > 0 { if (spaces[depth--] == "") unnamed--; next }
+    unnamed || depth == 0 || /[{][}];$/ || (/;$/ && !/[{]/) { next }
+    /^(struct|class|enum class|enum|union) [^<({:;]*[A-Za-z0-9_]+( final)? *(:[^:]|[{]|$)/ {
+      name = $0
+      sub(/^(enum class|struct|class|enum|union) +(alignas\([^)]*\) *|\[\[[^]]*\]\] *)*/, "", name)
+      sub(/[^A-Za-z0-9_].*/, "", name)
+      path = ""
+      for (i = 1; i <= depth; ++i) path = path spaces[i] "::"
+      key = path name
+      if (!(key in where)) where[key] = FILENAME
+      else if (where[key] != FILENAME) print FILENAME ":" FNR ": " key " is defined in " where[key] " too"
+    }'
 }
 
 # What is left to do stands in an issue, not in a source.
@@ -142,7 +167,7 @@ check_used() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told) ;;
+  spdx | paths | marks | readme | length | listed | used | told | twice) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
