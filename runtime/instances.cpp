@@ -7,13 +7,15 @@
 #include <cstring>
 #include <utility>
 
+#include "runtime/dispatch_checks.h"
+
 namespace kaamos::runtime {
 namespace {
 
 constexpr uint64_t kInstanceBytes = sizeof(rtapi::RaytracingInstanceDesc);
 
-std::string at(uint64_t address) {
-  return "at address " + std::to_string(address);
+std::string at(const AddressMap& addresses, uint64_t address) {
+  return "at " + describe_address(addresses, address);
 }
 
 rtapi::Error instance_error(const std::string& what) {
@@ -29,7 +31,7 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   if (!addresses.contains(command.instance_descs, wanted)) {
     return instance_error(
         "instance descs outside their buffer: " + std::to_string(command.instance_count) +
-        " of them " + at(command.instance_descs) + " need " + std::to_string(wanted) +
+        " of them " + at(addresses, command.instance_descs) + " need " + std::to_string(wanted) +
         " bytes, there are " + std::to_string(addresses.bytes_from(command.instance_descs)) + ".");
   }
   if (!pointers) {
@@ -39,8 +41,8 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   const auto* each = reinterpret_cast<const uint64_t*>(addresses.host(command.instance_descs));
   for (uint32_t i = 0; i < command.instance_count; ++i) {
     if (!addresses.contains(each[i], kInstanceBytes)) {
-      return instance_error("instance desc " + std::to_string(i) + " " + at(each[i]) +
-                            " is in no living buffer.");
+      return instance_error("instance desc " + std::to_string(i) + " of 64 bytes is " +
+                            at(addresses, each[i]) + ": not inside of a live buffer.");
     }
     std::memcpy(&descs[i], addresses.host(each[i]), kInstanceBytes);
   }
@@ -91,8 +93,8 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
     const char* note = activate(environment.structures, instances[i]);
     if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
     if (written++ >= kMostNotes) continue;
-    environment.warn("KA0797", "top level " + at(top_level) + ", instance " + std::to_string(i) +
-                                   ": " + note + ".");
+    environment.warn("KA0797", "top level " + at(*environment.context.addresses, top_level) +
+                                   ", instance " + std::to_string(i) + ": " + note + ".");
   }
   return instances;
 }

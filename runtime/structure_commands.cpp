@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/build_inputs.h"
+#include "runtime/dispatch_checks.h"
 #include "runtime/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -29,8 +30,8 @@ uint64_t triangle_bytes(BuildFlags flags) {
   return HasAny(flags, BuildFlags::kMinimizeMemory) ? 72 : 96;
 }
 
-std::string at(uint64_t address) {
-  return "at address " + std::to_string(address);
+std::string at(const AddressMap& addresses, uint64_t address) {
+  return "at " + describe_address(addresses, address);
 }
 
 rtapi::Error build_error(const char* id, const std::string& what) {
@@ -39,20 +40,21 @@ rtapi::Error build_error(const char* id, const std::string& what) {
 
 // The structure to update, or why it cannot be.
 rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
-    const StructureMap& structures, const BuildCommand& command) {
-  auto source = structures.find(command.source);
+    const StructureEnvironment& environment, const BuildCommand& command) {
+  const AddressMap& addresses = *environment.context.addresses;
+  auto source = environment.structures.find(command.source);
   if (source == nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
     return build_error("KA0793",
                        "update from a source that is no acceleration structure of this "
                        "type, " +
-                           at(command.source) + ".");
+                           at(addresses, command.source) + ".");
   }
   if (!HasAny(source->flags, BuildFlags::kAllowUpdate)) {
     return build_error("KA0793",
                        "update of an acceleration structure that was built without "
                        "ALLOW_UPDATE, " +
-                           at(command.source) + ".");
+                           at(addresses, command.source) + ".");
   }
   // Of bottom levels check_update says it.
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
@@ -100,11 +102,12 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
       values[0] = decoded_size(structure);
       break;
   }
-  if (!environment.context.addresses->contains(address, bytes)) {
-    return build_error("KA0795", "postbuild info does not fit: " + std::to_string(bytes) +
-                                     " bytes " + at(address) + " are in no living buffer.");
+  const AddressMap& addresses = *environment.context.addresses;
+  if (!addresses.contains(address, bytes)) {
+    return build_error("KA0795", "postbuild info does not fit: it takes " + std::to_string(bytes) +
+                                     " bytes " + at(addresses, address) + ".");
   }
-  std::memcpy(environment.context.addresses->host(address), values, bytes);
+  std::memcpy(addresses.host(address), values, bytes);
   return {};
 }
 
@@ -116,8 +119,8 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
   } catch (const std::bad_alloc&) {
     return rtapi::Error{
         "KA0990", rtapi::ErrorCode::kOutOfMemory,
-        "KA0990 out of memory: copies of the inputs of the acceleration structure " +
-            at(structure.address) + " could not be allocated."};
+        "KA0990 out of memory: copies of the inputs of the acceleration structure at address " +
+            std::to_string(structure.address) + " could not be allocated."};
   }
 }
 
@@ -127,9 +130,9 @@ rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, u
   const uint64_t available = addresses.bytes_from(address);
   if (bytes <= available) return {};
   return build_error("KA0795", "acceleration structure does not fit: " + std::to_string(bytes) +
-                                   " bytes " + at(address) + ", its buffer has " +
+                                   " bytes " + at(addresses, address) + ", and there are " +
                                    std::to_string(available) +
-                                   " from there. Size it by "
+                                   " from there on. Size it by "
                                    "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
 
@@ -177,7 +180,7 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   }
   std::shared_ptr<const AccelerationStructure> source;
   if (HasAny(command.flags, BuildFlags::kPerformUpdate)) {
-    auto found = update_source(environment.structures, command);
+    auto found = update_source(environment, command);
     if (!found) return found.error();
     source = *found;
   }
@@ -195,8 +198,9 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (source != nullptr && command.dest != source->address &&
       overlap(command.dest, source->address, source->size_bytes)) {
-    return build_error("KA0793", "update of the acceleration structure " + at(source->address) +
-                                     " into " + std::to_string(command.dest) + ": each takes " +
+    return build_error("KA0793", "update of the acceleration structure " +
+                                     at(addresses, source->address) + " into the one " +
+                                     at(addresses, command.dest) + ": each takes " +
                                      std::to_string(source->size_bytes) +
                                      " bytes, and they overlap. Update in place, or into other "
                                      "memory.");
@@ -226,8 +230,8 @@ rtapi::Status emit_postbuild_info(
   for (const uint64_t source : sources) {
     const auto structure = environment.structures.find(source);
     if (structure == nullptr) {
-      return build_error(
-          "KA0796", "postbuild info of what is no acceleration structure, " + at(source) + ".");
+      return build_error("KA0796", "postbuild info of what is no acceleration structure, " +
+                                       at(*environment.context.addresses, source) + ".");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(environment, address, desc.InfoType, *structure, bytes); !s) return s;
@@ -289,7 +293,8 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
 void warn_out_of_range(const StructureEnvironment& environment, uint64_t address,
                        uint64_t triangles) {
   if (triangles == 0) return;
-  environment.warn("KA0798", "bottom level " + at(address) + ": " + std::to_string(triangles) +
+  environment.warn("KA0798", "bottom level " + at(*environment.context.addresses, address) + ": " +
+                                 std::to_string(triangles) +
                                  " triangles have an index past VertexCount and are never hit.");
 }
 

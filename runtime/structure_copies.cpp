@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/dispatch_checks.h"
 #include "runtime/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -20,8 +21,8 @@ rtapi::Error copy_error(const char* id, const std::string& what) {
   return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
 }
 
-std::string at(uint64_t address) {
-  return "at address " + std::to_string(address);
+std::string at(const AddressMap& addresses, uint64_t address) {
+  return "at " + describe_address(addresses, address);
 }
 
 rtapi::Error out_of_memory(const std::string& what) {
@@ -37,9 +38,9 @@ rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment
   const uint64_t available = addresses.bytes_from(command.dest);
   if (bytes > available) {
     return copy_error("KA0795", std::string(what) + " does not fit: " + std::to_string(bytes) +
-                                    " bytes " + at(command.dest) + ", its buffer has " +
+                                    " bytes " + at(addresses, command.dest) + ", and there are " +
                                     std::to_string(available) +
-                                    " from there. Size it by postbuild info " + info_type + ".");
+                                    " from there on. Size it by postbuild info " + info_type + ".");
   }
   environment.structures.evict(command.dest, bytes);
   return std::span<uint8_t>(addresses.host(command.dest), bytes);
@@ -104,8 +105,8 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
       return copy_error("KA0789",
                         "serialized acceleration structure cannot be read: the bottom "
                         "level of instance " +
-                            std::to_string(i) + " " + at(address) +
-                            " is in no living buffer. Write the addresses of the bottom "
+                            std::to_string(i) + " is " + at(addresses, address) +
+                            ". Write the addresses of the bottom "
                             "levels behind the header first.");
     }
     result.instance_count = static_cast<uint32_t>(parsed->instances.size());
@@ -121,10 +122,11 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
 rtapi::Status copy(const StructureEnvironment& environment,
                    const CopyAccelerationStructureCommand& command, const RebuildLevel& rebuild) {
   if (command.mode == CopyMode::kDeserialize) return deserialize(environment, command, rebuild);
+  const AddressMap& addresses = *environment.context.addresses;
   const auto source = environment.structures.find(command.source);
   if (source == nullptr) {
-    return copy_error("KA0796",
-                      "copy of what is no acceleration structure, " + at(command.source) + ".");
+    return copy_error("KA0796", "copy of what is no acceleration structure, " +
+                                    at(addresses, command.source) + ".");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
@@ -148,15 +150,16 @@ rtapi::Status copy(const StructureEnvironment& environment,
       return copy_error("KA0796",
                         "compaction of an acceleration structure that was built without "
                         "ALLOW_COMPACTION, " +
-                            at(command.source) + ".");
+                            at(addresses, command.source) + ".");
     }
     result.size_bytes = source->compacted_bytes;
   }
   // The source is as long as the copy, or longer.
   const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
   if (overlap(command.dest, command.source, clear)) {
-    return copy_error("KA0796", "copy of the acceleration structure " + at(command.source) +
-                                    " into " + std::to_string(command.dest) +
+    return copy_error("KA0796", "copy of the acceleration structure " +
+                                    at(addresses, command.source) + " to " +
+                                    describe_address(addresses, command.dest) +
                                     ": they overlap. Copy into other memory.");
   }
   // Both refer to the same immutable tree; an update in place of one of them makes a tree of its
@@ -172,7 +175,8 @@ rtapi::Status copy_structure(const StructureEnvironment& environment,
   try {
     return copy(environment, command, rebuild);
   } catch (const std::bad_alloc&) {
-    return out_of_memory("a copy of the acceleration structure " + at(command.source));
+    return out_of_memory("a copy of the acceleration structure " +
+                         at(*environment.context.addresses, command.source));
   }
 }
 
@@ -188,7 +192,8 @@ rtapi::Status complete_top_levels(const StructureEnvironment& environment,
     try {
       if (auto s = build_top_level(environment, rebuild, notes, result); !s) return s;
     } catch (const std::bad_alloc&) {
-      return out_of_memory("the deserialized top level " + at(placed->address));
+      return out_of_memory("the deserialized top level " +
+                           at(*environment.context.addresses, placed->address));
     }
     result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
     environment.structures.place(std::move(result));

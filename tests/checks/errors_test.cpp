@@ -46,8 +46,10 @@ TEST_P(Errors, UpdateOfAStructureThatDoesNotAllowIt) {
   record_build(commands, level,
                bottom_inputs(triangles(), BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate),
                level.GetGPUVirtualAddress());
-  expect_error(commands, "KA0793",
-               {"update of an acceleration structure that was built without ALLOW_UPDATE"});
+  expect_error(
+      commands, "KA0793",
+      {"update of an acceleration structure that was built without ALLOW_UPDATE, at byte 0 "
+       "of buffer \"floor\" ("});
 }
 
 TEST_P(Errors, CompactionOfAStructureThatDoesNotAllowIt) {
@@ -56,7 +58,8 @@ TEST_P(Errors, CompactionOfAStructureThatDoesNotAllowIt) {
   commands.CopyRaytracingAccelerationStructure(copy_of(level, "compact").GetGPUVirtualAddress(),
                                                level.GetGPUVirtualAddress(), CopyMode::kCompact);
   expect_error(commands, "KA0796",
-               {"compaction of an acceleration structure that was built without ALLOW_COMPACTION"});
+               {"compaction of an acceleration structure that was built without "
+                "ALLOW_COMPACTION, at byte 0 of buffer \"floor\" ("});
 }
 
 TEST_P(Errors, CopyIntoTooLittleMemory) {
@@ -64,7 +67,9 @@ TEST_P(Errors, CopyIntoTooLittleMemory) {
   CommandList commands = list();
   commands.CopyRaytracingAccelerationStructure(buffer(256, "small", true).GetGPUVirtualAddress(),
                                                level.GetGPUVirtualAddress(), CopyMode::kClone);
-  expect_error(commands, "KA0795", {"acceleration structure does not fit", "has 256"});
+  expect_error(commands, "KA0795",
+               {"acceleration structure does not fit", "at byte 0 of buffer \"small\" (256 bytes)",
+                "there are 256 from there on"});
 }
 
 TEST_P(Errors, CopyOverItsSource) {
@@ -76,7 +81,9 @@ TEST_P(Errors, CopyOverItsSource) {
   commands.ResourceBarrier(ResourceBarrier::Uav(both));
   commands.CopyRaytracingAccelerationStructure(both.GetGPUVirtualAddress() + 256,
                                                both.GetGPUVirtualAddress(), CopyMode::kClone);
-  expect_error(commands, "KA0796", {"they overlap. Copy into other memory"});
+  expect_error(commands, "KA0796",
+               {"at byte 0 of buffer \"both\"", "to byte 256 of buffer \"both\"",
+                "they overlap. Copy into other memory"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Errors, ::testing::Values("embree"));
