@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -63,6 +64,21 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   return out;
 }
 
+// What was asked for and cannot be; empty: nothing.
+std::string misuse(const std::string& backend, const std::string& precision,
+                   const std::string& filter) {
+  if (backend == "vulkan" && !precision.empty()) {
+    return "--precision is of embree, the triangle test of a Vulkan driver is its own: leave out "
+           "one of --backend vulkan and --precision";
+  }
+  const auto& rules = all_rules();
+  const bool any = std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
+    return std::string_view(rule.id).substr(0, filter.size()) == filter;
+  });
+  if (any) return {};
+  return "no rule's number begins with \"" + filter + "\"; --list prints all, SBT-01 is one";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,6 +97,11 @@ int main(int argc, char** argv) {
   app.add_flag("--list", list, "prints the rules and runs nothing");
   app.add_flag("--summary", g_summary_only, "prints failures and the summary only");
   CLI11_PARSE(app, argc, argv);
+  for (char& c : filter) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  if (const std::string error = misuse(backend, precision, filter); !error.empty()) {
+    std::cerr << "kaamos-conformance: " << error << "\n";
+    return 2;
+  }
   if (list) {
     list_rules(filter);
     return 0;
