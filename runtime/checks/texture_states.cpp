@@ -41,6 +41,7 @@ void TextureStates::add_view(uint64_t key, const std::shared_ptr<runtime::Backen
 
 void TextureStates::begin_list() {
   const std::lock_guard lock(mutex_);
+  std::erase_if(views_, [](const auto& view) { return view.second.texture.expired(); });
   for (auto it = textures_.begin(); it != textures_.end();) {
     for (State& state : it->second.states) {
       state.may_be_read = false;
