@@ -203,8 +203,9 @@ bool Proof::inside(RecordKind kind, Table& table, uint64_t index, uint64_t bytes
       kind, Id::kRecordOutOfTable,
       where + reason + ": bytes " + std::to_string(offset) + ".." + std::to_string(offset + bytes) +
           " of a table of " + std::to_string(range.SizeInBytes) + " bytes (" +
-          std::to_string(count) + " records of stride " + std::to_string(range.StrideInBytes) +
-          ", " + address_name(inputs_.addresses, range.StartAddress) +
+          std::to_string(count) + (count == 1 ? " record" : " records") + " of stride " +
+          std::to_string(range.StrideInBytes) + ", " +
+          address_name(inputs_.addresses, range.StartAddress) +
           "). Add the missing records, or mend SizeInBytes, StrideInBytes or the terms of the "
           "index.");
   return false;
