@@ -8,15 +8,29 @@ set(KAAMOS_SHADER_COMPILE_OPTIONS
   -w -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
   -fno-strict-aliasing -fstack-clash-protection)
 
+# Shader libraries are compiled for any x86-64 and once more for AVX2, whose registers hold the eight
+# threads that a compute shader runs at once; the program takes what its processor can run
+# (kaamos/shader/cpu_level.h). Both give the same bits. -fno-weak: inline functions stay in their
+# object, so that the linker cannot take the AVX2 version of one for code that runs everywhere; only
+# g++ has it.
+set(KAAMOS_SHADER_AVX2_OPTIONS -mavx2 -fno-weak)
+set(_kaamos_shader_avx2 OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
+   AND NOT KAAMOS_SANITIZE)
+  set(_kaamos_shader_avx2 ON)
+endif()
+option(KAAMOS_SHADER_AVX2 "Compile shader libraries for AVX2 too" ${_kaamos_shader_avx2})
+
 # kaamos_add_shader_library(TARGET SOURCES a.hlsl b.hlsl ... [INCLUDES folder ...]
-#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...])
+#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [BASELINE_ONLY])
 # makes a static library TARGET to link to. Each source NAME.hlsl gives a header <shaders/NAME.h>
 # with
 #   const kaamos::shader::LibraryDesc* kaamos_shaders_NAME();
-# for rtapi::ShaderLibrary. It runs on every backend; OPTIONS -no-spirv leaves out what Vulkan needs.
+# for rtapi::ShaderLibrary. It runs on every backend; OPTIONS -no-spirv leaves out what Vulkan needs,
+# BASELINE_ONLY what is compiled for AVX2.
 # A change of a source or of anything it includes compiles it again.
 function(kaamos_add_shader_library target)
-  cmake_parse_arguments(arg "" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "BASELINE_ONLY" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "kaamos_add_shader_library(${target}): unknown arguments: "
       "${arg_UNPARSED_ARGUMENTS}; name the files after SOURCES")
@@ -34,7 +48,13 @@ function(kaamos_add_shader_library target)
   foreach(define IN LISTS arg_DEFINES)
     list(APPEND flags -D "${define}")
   endforeach()
+  set(levels sse2)
+  if(KAAMOS_SHADER_AVX2 AND NOT arg_BASELINE_ONLY)
+    list(APPEND levels avx2)
+  endif()
   set(generated)
+  set(choices)
+  set(entries)
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE)
     get_filename_component(name "${source}" NAME_WE)
@@ -57,8 +77,41 @@ function(kaamos_add_shader_library target)
 extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@();
 ")
     list(APPEND generated "${output}")
+    list(APPEND entries kaamos_shaders_${name})
+    file(CONFIGURE OUTPUT "${folder}/${name}_level.cpp" @ONLY CONTENT
+"// SPDX-License-Identifier: MIT
+#include <kaamos/shader/cpu_level.h>
+
+#include \"shaders/@name@.h\"
+
+extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@_sse2();
+extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@_avx2();
+extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@() {
+  return kaamos::shader::cpu_level() == kaamos::shader::CpuLevel::kAvx2
+             ? kaamos_shaders_@name@_avx2()
+             : kaamos_shaders_@name@_sse2();
+}
+")
+    list(APPEND choices "${folder}/${name}_level.cpp")
   endforeach()
-  add_library(${target} STATIC ${generated})
+  if(NOT "avx2" IN_LIST levels)
+    add_library(${target} STATIC ${generated})
+  else()
+    # Both versions are made from the same sources, by one rule.
+    add_custom_target(${target}-sources DEPENDS ${generated})
+    add_library(${target} STATIC ${choices})
+    foreach(level IN LISTS levels)
+      add_library(${target}-${level} OBJECT ${generated})
+      add_dependencies(${target}-${level} ${target}-sources)
+      list(TRANSFORM entries REPLACE "(.+)" "\\1=\\1_${level}" OUTPUT_VARIABLE names)
+      target_compile_definitions(${target}-${level} PRIVATE ${names})
+      target_link_libraries(${target}-${level} PRIVATE kaamos::shader)
+      target_compile_features(${target}-${level} PRIVATE cxx_std_20)
+      target_compile_options(${target}-${level} PRIVATE ${KAAMOS_SHADER_COMPILE_OPTIONS})
+      target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}-${level}>)
+    endforeach()
+    target_compile_options(${target}-avx2 PRIVATE ${KAAMOS_SHADER_AVX2_OPTIONS})
+  endif()
   target_link_libraries(${target} PUBLIC kaamos::shader)
   target_include_directories(${target} PUBLIC "${folder}")
   target_compile_features(${target} PRIVATE cxx_std_20)

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <vector>
 
+#include "kaamos/shader/cpu_level.h"
+
 #ifndef KAAMOS_HOST_CXX
 #define KAAMOS_HOST_CXX "c++"
 #endif
@@ -98,7 +100,9 @@ const std::vector<std::string>& flags_of(Optimisation optimisation) {
   static const std::vector<std::string> debug =
       with({"-Og", "-g", "-fno-inline-functions-called-once", "-fno-inline-small-functions",
             "-fno-optimize-sibling-calls", "-fno-omit-frame-pointer"});
-  static const std::vector<std::string> full = with({"-O2"});
+  // For this machine's registers, as libraries that are compiled with a program are.
+  static const std::vector<std::string> full =
+      shader::cpu_level() == shader::CpuLevel::kAvx2 ? with({"-O2", "-mavx2"}) : with({"-O2"});
   switch (optimisation) {
     case Optimisation::kNone:
       return none;

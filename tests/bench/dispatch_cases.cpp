@@ -70,7 +70,7 @@ Line compare(const std::string& name, Fixtures& fixtures, const Measure& measure
   std::vector<T> expected(grid.rays.size());
   // Short dispatches are repeated, so that a run takes some tens of milliseconds.
   const uint64_t rays = grid.rays.size();
-  const int repeats = fixtures.options().quick ? 1 : static_cast<int>(1 + 200000 / rays);
+  const int repeats = fixtures.options().quick ? 1 : static_cast<int>(1 + 800000 / rays);
   const Pairs times = time_pairs(
       measure,
       [&] {

@@ -7,6 +7,14 @@
 
 #include "tiles.h"
 
+// Compiled for AVX2 too, as the shaders are, with all that it calls.
+#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)
+#define KAAMOS_AS_SHADERS [[gnu::target_clones("avx2", "default"), gnu::flatten]]
+#else
+#define KAAMOS_AS_SHADERS
+#endif
+
 namespace kaamos::bench {
 namespace {
 
@@ -80,7 +88,7 @@ ScalarSvgf::ScalarSvgf(uint32_t width, uint32_t height, const effects::DenoiseDe
   }
 }
 
-void ScalarSvgf::prepare_guides(const SvgfInput& input, int x, int y) {
+KAAMOS_AS_SHADERS void ScalarSvgf::prepare_guides(const SvgfInput& input, int x, int y) {
   const size_t i = at(x, y);
   const float z = input.view_z[i];
   const float u = input.shading_normal[2 * i];
@@ -194,7 +202,7 @@ Float4 ScalarSvgf::clip_to_neighbours(const SvgfInput& input, Float4 color, int 
   return color;
 }
 
-void ScalarSvgf::accumulate(const SvgfInput& input, int x, int y) {
+KAAMOS_AS_SHADERS void ScalarSvgf::accumulate(const SvgfInput& input, int x, int y) {
   const size_t i = at(x, y);
   std::vector<Float4>& moments = moments_[frames_ % 2];
   const Float4 color = finite_or_zero(input.signal[i]);
@@ -220,7 +228,7 @@ void ScalarSvgf::accumulate(const SvgfInput& input, int x, int y) {
   moments[i] = {first, second, frames, instance};
 }
 
-void ScalarSvgf::estimate_variance(int x, int y) {
+KAAMOS_AS_SHADERS void ScalarSvgf::estimate_variance(int x, int y) {
   const size_t i = at(x, y);
   const std::vector<Float4>& moments = moments_[frames_ % 2];
   const std::vector<Float4>& guides = guides_[frames_ % 2];
@@ -271,8 +279,8 @@ float ScalarSvgf::smooth_variance(const std::vector<Float4>& picture, int x, int
   return sum / weights;
 }
 
-void ScalarSvgf::filter(const std::vector<Float4>& from, std::vector<Float4>& to, int step, int x,
-                        int y) {
+KAAMOS_AS_SHADERS void ScalarSvgf::filter(const std::vector<Float4>& from, std::vector<Float4>& to,
+                                          int step, int x, int y) {
   const size_t i = at(x, y);
   const std::vector<Float4>& guides = guides_[frames_ % 2];
   const Float4 own = from[i];
