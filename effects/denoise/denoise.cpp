@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <iterator>
 #include <memory>
 #include <utility>
@@ -30,6 +29,16 @@ std::int32_t squarings_of(float power) {
   int exponent = 0;
   const bool is_power_of_two = std::frexp(power, &exponent) == 0.5f;
   return is_power_of_two && exponent >= 1 ? exponent - 1 : -1;
+}
+
+// Registers of svgf.hlsl.
+constexpr std::uint32_t kSignals = 4, kHistories = 9, kPreviousMoments = 14, kAccumulated = 19,
+                        kMoments = 24, kPreviousGuides = 29;
+
+// The elements of an array of pictures, at register u on.
+template <class Bindings, class Pictures>
+void add_bindings(Bindings& bindings, std::uint32_t u, const Pictures& pictures) {
+  for (const Texture* picture : pictures) bindings.push_back({u++, picture});
 }
 
 // Entries are kept for frames that may be gone by now.
@@ -87,50 +96,89 @@ rtapi::Result<DenoiseLibraries> denoise_libraries() {
 }
 
 rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Frame& frame,
-                                         const DenoiseLibraries& libraries, std::string name,
-                                         const Texture& signal, const DenoiseDesc& desc) {
+                                         const DenoiseLibraries& libraries,
+                                         const std::vector<Signal>& signals,
+                                         const DenoiseDesc& desc) {
+  if (signals.empty() || signals.size() > kMostSignals) {
+    return rtapi::Error{"effects", rtapi::ErrorCode::kInvalidArgument,
+                        "a Denoiser of " + std::to_string(signals.size()) +
+                            " signals: it takes 1 to " + std::to_string(kMostSignals) +
+                            "; make a second one for the others"};
+  }
   Denoiser out;
-  out.name_ = std::move(name);
   out.desc_ = desc;
   out.desc_.iterations = std::min<std::uint32_t>(desc.iterations, 8);
   out.desc_.constants.normal_squarings = squarings_of(desc.constants.sigma_n);
-  out.signal_ = signal;
+  out.desc_.constants.signals = static_cast<std::int32_t>(signals.size());
+  for (const Signal& signal : signals) {
+    out.channels_.push_back({.name = signal.name, .signal = signal.picture});
+  }
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();
   const Recorder recorder = {device, frame, libraries};
-  const std::uint32_t parities = is_temporal(desc.method) ? 2 : 1;
-  for (std::uint32_t parity = 0; parity < parities; ++parity) {
-    const auto s =
-        is_temporal(desc.method) ? out.add_temporal(recorder, parity) : out.add_spatial(recorder);
-    if (!s) return s.error();
+  if (!is_temporal(desc.method)) {
+    if (desc.method != DenoiseMethod::kNone) {
+      if (const auto s = out.add_guides(recorder, 0); !s) return s.error();
+    }
+    for (const Channel& channel : out.channels_) {
+      if (const auto s = out.add_spatial(recorder, channel); !s) return s.error();
+    }
+    return out;
+  }
+  for (std::uint32_t parity = 0; parity < 2; ++parity) {
+    if (const auto s = out.add_temporal(recorder, parity); !s) return s.error();
   }
   return out;
 }
 
 rtapi::Status Denoiser::create_pictures(const rtapi::Device& device, const Frame& frame) {
-  struct Picture {
-    Texture* texture;
-    const char* suffix;
-  };
-  const Picture pictures[] = {{&result_, " denoised"},      {&accumulated_, " accumulated"},
-                              {&guides_[0], " guides 0"},   {&guides_[1], " guides 1"},
-                              {&history_, " history"},      {&moments_[0], " moments 0"},
-                              {&moments_[1], " moments 1"}, {&clamped_, " clamped"}};
-  const std::size_t count = desc_.method == DenoiseMethod::kNone      ? 1
-                            : desc_.method == DenoiseMethod::kControl ? std::size(pictures)
-                            : is_temporal(desc_.method)               ? std::size(pictures) - 1
-                                                                      : 3;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto& [texture, suffix] = pictures[i];
-    const auto created =
-        frame.create_picture(device, name_ + suffix, rtapi::Format::kR32G32B32A32Float);
+  const auto create = [&](Texture& into, const std::string& name) -> rtapi::Status {
+    const auto created = frame.create_picture(device, name, rtapi::Format::kR32G32B32A32Float);
     if (!created) return created.error();
-    *texture = *created;
+    into = *created;
+    return {};
+  };
+  const bool temporal = is_temporal(desc_.method);
+  const bool filters = desc_.method != DenoiseMethod::kNone;
+  for (int i = 0; i < (temporal ? 2 : filters ? 1 : 0); ++i) {
+    const auto s = create(guides_[i], channels_[0].name + " guides " + std::to_string(i));
+    if (!s) return s;
+  }
+  for (Channel& channel : channels_) {
+    struct Picture {
+      Texture* texture;
+      const char* suffix;
+      bool wanted;
+    };
+    const Picture pictures[] = {
+        {&channel.result, " denoised", true},
+        {&channel.accumulated, " accumulated", filters},
+        {&channel.history, " history", temporal},
+        {&channel.moments[0], " moments 0", temporal},
+        {&channel.moments[1], " moments 1", temporal},
+        {&channel.clamped, " clamped", desc_.method == DenoiseMethod::kControl}};
+    for (const auto& [texture, suffix, wanted] : pictures) {
+      if (!wanted) continue;
+      if (const auto s = create(*texture, channel.name + suffix); !s) return s;
+    }
   }
   return {};
 }
 
+template <class Member>
+Denoiser::Pictures Denoiser::pictures(Member member) const {
+  Pictures out;
+  for (const Channel& channel : channels_) out.push_back(&(channel.*member));
+  return out;
+}
+
+Denoiser::Pictures Denoiser::moments_of(std::uint32_t parity) const {
+  Pictures out;
+  for (const Channel& channel : channels_) out.push_back(&channel.moments[parity]);
+  return out;
+}
+
 rtapi::Status Denoiser::add(const Recorder& to, std::uint32_t parity, const Kernel& kernel,
-                            std::initializer_list<Binding> bindings,
+                            const std::vector<Binding>& bindings,
                             const DenoiseConstants& constants) {
   const rtapi::ShaderLibrary& library = to.libraries.*kernel.library;
   const auto pass = to.libraries.pipelines->get(to.device, to.frame, library, kernel.name);
@@ -144,16 +192,17 @@ rtapi::Status Denoiser::add(const Recorder& to, std::uint32_t parity, const Kern
   return {};
 }
 
-rtapi::Status Denoiser::add_spatial(const Recorder& to) {
-  if (desc_.method == DenoiseMethod::kNone) return add_copy(to, 0, signal_, result_);
-  if (const auto s = add_guides(to, 0); !s) return s;
+rtapi::Status Denoiser::add_spatial(const Recorder& to, const Channel& channel) {
+  if (desc_.method == DenoiseMethod::kNone) {
+    return add_copy(to, 0, {&channel.signal}, {&channel.result});
+  }
   const bool exact = desc_.method == DenoiseMethod::kBilateralExact;
   const Kernel kernel = desc_.method == DenoiseMethod::kGaussian ? kGaussian
                         : exact                                  ? kBilateralExact
                                                                  : kBilateral;
-  const Texture* from = &signal_;
+  const Texture* from = &channel.signal;
   for (std::uint32_t vertical = 0; vertical < (exact ? 1u : 2u); ++vertical) {
-    const Texture* into = exact || vertical == 1 ? &result_ : &accumulated_;
+    const Texture* into = exact || vertical == 1 ? &channel.result : &channel.accumulated;
     DenoiseConstants constants = desc_.constants;
     constants.vertical = vertical;
     if (const auto s = add(to, 0, kernel, {{0, from}, {1, into}, {3, &guides_[0]}}, constants);
@@ -169,90 +218,97 @@ rtapi::Status Denoiser::add_guides(const Recorder& to, std::uint32_t parity) {
   return add(to, parity, kPrepareGuides, {{3, &guides_[parity]}}, desc_.constants);
 }
 
-rtapi::Status Denoiser::add_copy(const Recorder& to, std::uint32_t parity, const Texture& from,
-                                 const Texture& into) {
-  return add(to, parity, kCopy, {{0, &from}, {1, &into}}, desc_.constants);
-}
-
-rtapi::Status Denoiser::add_filter(const Recorder& to, std::uint32_t parity, const Texture& from,
-                                   const Texture& into, std::int32_t step) {
-  DenoiseConstants constants = desc_.constants;
-  constants.step = step;
-  return add(to, parity, kAtrous, {{0, &from}, {3, &guides_[parity]}, {4, &into}}, constants);
-}
-
-rtapi::Status Denoiser::add_temporal(const Recorder& to, std::uint32_t parity) {
-  const Texture& before = moments_[1 - parity];
-  const bool is_control = desc_.method == DenoiseMethod::kControl;
-  const Texture& noisy = is_control ? clamped_ : signal_;
-  const std::initializer_list<Binding> all = {{0, &noisy},
-                                              {1, &history_},
-                                              {2, &before},
-                                              {3, &guides_[parity]},
-                                              {4, &accumulated_},
-                                              {5, &moments_[parity]},
-                                              {6, &guides_[1 - parity]}};
-  if (const auto s = add_guides(to, parity); !s) return s;
-  if (is_control) {
-    if (const auto s = add(to, parity, kClampFireflies,
-                           {{0, &signal_}, {1, &clamped_}, {3, &guides_[parity]}}, desc_.constants);
-        !s) {
-      return s;
-    }
-  }
-  if (const auto s = add(to, parity, kTemporal, all, desc_.constants); !s) return s;
-  if (is_control) return add_lobe_filter(to, parity, before);
-  if (desc_.method == DenoiseMethod::kTemporal) {
-    if (const auto s = add_copy(to, parity, accumulated_, history_); !s) return s;
-    return add_copy(to, parity, accumulated_, result_);
-  }
-  // Into the moments of the frame before, which are done with.
-  if (const auto s = add(to, parity, kVariance, all, desc_.constants); !s) return s;
-  return add_wavelet(to, parity, before);
-}
-
-rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, std::uint32_t parity,
-                                        const Texture& scratch) {
-  if (const auto s = add_copy(to, parity, accumulated_, history_); !s) return s;
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const Texture& from = i % 2 == 0 ? accumulated_ : scratch;
-    const Texture& into = i % 2 == 0 ? scratch : i == 3 ? result_ : accumulated_;
-    DenoiseConstants constants = desc_.constants;
-    constants.vertical = i % 2;
-    constants.step = i < 2 ? 1 : 2;
-    if (const auto s =
-            add(to, parity, kFilterLobe,
-                {{0, &from}, {1, &into}, {2, &clamped_}, {3, &guides_[parity]}}, constants);
-        !s) {
-      return s;
-    }
+rtapi::Status Denoiser::add_copy(const Recorder& to, std::uint32_t parity, const Pictures& from,
+                                 const Pictures& into) {
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const auto s = add(to, parity, kCopy, {{0, from[i]}, {1, into[i]}}, desc_.constants);
+    if (!s) return s;
   }
   return {};
 }
 
-rtapi::Status Denoiser::add_wavelet(const Recorder& to, std::uint32_t parity,
-                                    const Texture& first) {
+rtapi::Status Denoiser::add_temporal(const Recorder& to, std::uint32_t parity) {
+  const bool is_control = desc_.method == DenoiseMethod::kControl;
+  if (const auto s = add_guides(to, parity); !s) return s;
+  if (is_control) {
+    for (const Channel& channel : channels_) {
+      const auto s = add(to, parity, kClampFireflies,
+                         {{0, &channel.signal}, {1, &channel.clamped}, {3, &guides_[parity]}},
+                         desc_.constants);
+      if (!s) return s;
+    }
+  }
+  const Pictures accumulated = pictures(&Channel::accumulated);
+  std::vector<Binding> bindings = {{3, &guides_[parity]}, {kPreviousGuides, &guides_[1 - parity]}};
+  add_bindings(bindings, kSignals, pictures(is_control ? &Channel::clamped : &Channel::signal));
+  add_bindings(bindings, kHistories, pictures(&Channel::history));
+  add_bindings(bindings, kPreviousMoments, moments_of(1 - parity));
+  add_bindings(bindings, kAccumulated, accumulated);
+  add_bindings(bindings, kMoments, moments_of(parity));
+  if (const auto s = add(to, parity, kTemporal, bindings, desc_.constants); !s) return s;
+  if (desc_.method == DenoiseMethod::kSvgf) {
+    // Into the moments of the frame before, which are done with.
+    if (const auto s = add(to, parity, kVariance, bindings, desc_.constants); !s) return s;
+    return add_wavelet(to, parity);
+  }
+  const auto kept = add_copy(to, parity, accumulated, pictures(&Channel::history));
+  if (!kept) return kept;
+  if (!is_control) return add_copy(to, parity, accumulated, pictures(&Channel::result));
+  for (const Channel& channel : channels_) {
+    if (const auto s = add_lobe_filter(to, parity, channel); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, std::uint32_t parity,
+                                        const Channel& channel) {
+  const Texture& scratch = channel.moments[1 - parity];
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const Texture& from = i % 2 == 0 ? channel.accumulated : scratch;
+    const Texture& into = i % 2 == 0 ? scratch : i == 3 ? channel.result : channel.accumulated;
+    DenoiseConstants constants = desc_.constants;
+    constants.vertical = i % 2;
+    constants.step = i < 2 ? 1 : 2;
+    const auto s =
+        add(to, parity, kFilterLobe,
+            {{0, &from}, {1, &into}, {2, &channel.clamped}, {3, &guides_[parity]}}, constants);
+    if (!s) return s;
+  }
+  return {};
+}
+
+rtapi::Status Denoiser::add_wavelet(const Recorder& to, std::uint32_t parity) {
+  const Pictures first = moments_of(1 - parity);
+  const Pictures accumulated = pictures(&Channel::accumulated);
+  const Pictures history = pictures(&Channel::history);
+  const Pictures results = pictures(&Channel::result);
   // The first pass's result is what the next frame starts from. [Schied et al. 2017]
-  const Texture* from = &first;
+  const Pictures* from = &first;
   for (std::uint32_t i = 0; i < desc_.iterations; ++i) {
     const bool last = i + 1 == desc_.iterations;
-    const Texture* into = i == 0                  ? &history_
-                          : last                  ? &result_
-                          : from == &accumulated_ ? &first
-                                                  : &accumulated_;
-    if (const auto s = add_filter(to, parity, *from, *into, 1 << i); !s) return s;
+    const Pictures* into = i == 0                 ? &history
+                           : last                 ? &results
+                           : from == &accumulated ? &first
+                                                  : &accumulated;
+    DenoiseConstants constants = desc_.constants;
+    constants.step = 1 << i;
+    std::vector<Binding> bindings = {{3, &guides_[parity]}};
+    add_bindings(bindings, kSignals, *from);
+    add_bindings(bindings, kAccumulated, *into);
+    if (const auto s = add(to, parity, kAtrous, bindings, constants); !s) return s;
     from = into;
   }
   if (desc_.iterations == 0) {
-    if (const auto s = add_copy(to, parity, *from, history_); !s) return s;
+    if (const auto s = add_copy(to, parity, *from, history); !s) return s;
   }
-  if (desc_.iterations < 2) return add_copy(to, parity, history_, result_);
+  if (desc_.iterations < 2) return add_copy(to, parity, history, results);
   return {};
 }
 
 rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& frame,
                                     const DenoiseLibraries& libraries, const Texture& sum,
-                                    std::uint32_t step) {
+                                    std::uint32_t step, std::size_t index) {
+  Channel& channel = channels_[index];
   const bool scalar = sum.GetDesc().Format == rtapi::Format::kR32Float;
   const auto& library = step == 2 ? libraries.upscale : libraries.spatial;
   const char* const name = step == 2 ? (scalar ? "UpscaleScalar" : "UpscaleColor")
@@ -261,28 +317,33 @@ rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& fr
   if (!pass) return pass.error();
   auto views = frame.create_pass_views(device);
   if (!views) return views.error();
-  if (const auto s = views->set_unordered_access(1, signal_); !s) return s;
+  if (const auto s = views->set_unordered_access(1, channel.signal); !s) return s;
   if (const auto s = views->set_unordered_access(scalar ? 2 : 0, sum); !s) return s;
-  sum_ = sum;
-  load_pass_ = *pass;
-  load_views_ = *views;
+  channel.sum = sum;
+  channel.load_pass = *pass;
+  channel.load_views = *views;
   return {};
 }
 
 std::uint64_t Denoiser::bytes() const {
-  std::uint64_t sum = 0;
-  for (const Texture* texture : {&sum_, &signal_, &result_, &history_, &accumulated_, &guides_[0],
-                                 &guides_[1], &moments_[0], &moments_[1], &clamped_}) {
-    sum += picture_bytes(*texture);
+  std::uint64_t sum = picture_bytes(guides_[0]) + picture_bytes(guides_[1]);
+  for (const Channel& channel : channels_) {
+    for (const Texture* texture :
+         {&channel.sum, &channel.signal, &channel.result, &channel.history, &channel.accumulated,
+          &channel.moments[0], &channel.moments[1], &channel.clamped}) {
+      sum += picture_bytes(*texture);
+    }
   }
   return sum;
 }
 
-void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale) const {
+void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale,
+                    std::size_t index) const {
+  const Channel& channel = channels_[index];
   DenoiseConstants constants = desc_.constants;
   constants.scale = scale;
-  load_pass_->dispatch(list, frame, {}, PassArguments(load_views_, constants), frame.width(),
-                       frame.height());
+  channel.load_pass->dispatch(list, frame, {}, PassArguments(channel.load_views, constants),
+                              frame.width(), frame.height());
 }
 
 void Denoiser::dispatch(rtapi::CommandList& list, const Frame& frame) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Denoising of one signal of a frame: filters in space, accumulation over time, and SVGF, which is
+// Denoising of the signals of a frame: filters in space, accumulation over time, and SVGF, which is
 // both. A signal is a picture of the frame's size, R32G32B32A32_FLOAT, of light without the
 // surface's own colour; a scalar signal is three equal channels. [effects-spec B6]
 #pragma once
 
 #include <rtapi/rtapi.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/frame/compute_pass.h"
@@ -37,8 +38,12 @@ struct DenoiseConstants {
   float lobe_scale = 0.0f;
   float sigma_hit = 0.5f;
   float sigma_roughness = 0.05f;
+  std::int32_t signals = 1;  ///< set by Denoiser
 };
-static_assert(sizeof(DenoiseConstants) == 68);
+static_assert(sizeof(DenoiseConstants) == 72);
+
+/// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
+inline constexpr std::size_t kMostSignals = 5;
 
 enum class DenoiseMethod {
   kNone,
@@ -88,38 +93,60 @@ struct DenoiseLibraries {
 };
 rtapi::Result<DenoiseLibraries> denoise_libraries();
 
-/// Denoises one signal, frame after frame.
+/// Denoises up to kMostSignals signals of one frame in the same way, frame after frame; they share
+/// what is to be known of the surfaces. Each comes out as it would alone.
 class Denoiser {
  public:
-  /// `signal` and, if it is a sum of one channel, the picture that it is loaded from: give the sum
-  /// to `load`. Errors: those of the device.
+  struct Signal {
+    std::string name;
+    rtapi::Texture picture;
+  };
+
+  /// Errors: those of the device; more signals than there may be, or none.
+  static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
+                                        const DenoiseLibraries& libraries,
+                                        const std::vector<Signal>& signals,
+                                        const DenoiseDesc& desc);
+  /// Of one.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries, std::string name,
-                                        const rtapi::Texture& signal, const DenoiseDesc& desc);
-  /// Makes signal = scale * sum at each load; `sum` is a picture of one float or of four. `step` 2:
-  /// only even pixels of it were written (PassConstants::pixel_step), the others are worked out
-  /// from them by joint bilateral upscaling. [effects-spec B7.2]
+                                        const rtapi::Texture& signal, const DenoiseDesc& desc) {
+    return create(device, frame, libraries, {{std::move(name), signal}}, desc);
+  }
+  /// Makes signal `index` = scale * sum at each load; `sum` is a picture of one float or of four.
+  /// `step` 2: only even pixels of it were written (PassConstants::pixel_step), the others are
+  /// worked out from them by joint bilateral upscaling. [effects-spec B7.2]
   rtapi::Status create_load(const rtapi::Device& device, const Frame& frame,
                             const DenoiseLibraries& libraries, const rtapi::Texture& sum,
-                            std::uint32_t step = 1);
-  void load(rtapi::CommandList& list, const Frame& frame, float scale) const;
+                            std::uint32_t step = 1, std::size_t index = 0);
+  void load(rtapi::CommandList& list, const Frame& frame, float scale, std::size_t index = 0) const;
 
-  /// Records the passes of one frame, behind the one that wrote the signal.
+  /// Records the passes of one frame, behind those that wrote the signals.
   void dispatch(rtapi::CommandList& list, const Frame& frame);
   /// The next frame starts without history, as after a cut.
   void reset() { frames_ = 0; }
 
-  const rtapi::Texture& result() const { return result_; }
-  /// Of the sum, the signal and the denoiser's own pictures.
+  const rtapi::Texture& result(std::size_t index = 0) const { return channels_[index].result; }
+  /// Of the sums, the signals and the denoiser's own pictures.
   std::uint64_t bytes() const;
   /// Frames that stand behind each pixel, in z; kTemporal and kSvgf.
-  const rtapi::Texture& moments() const { return moments_[(frames_ + 1) % 2]; }
+  const rtapi::Texture& moments(std::size_t index = 0) const {
+    return channels_[index].moments[(frames_ + 1) % 2];
+  }
 
  private:
   struct Step {
     std::shared_ptr<ComputePass> pass;
     PassViews views;
     DenoiseConstants constants;
+  };
+
+  // What belongs to one signal.
+  struct Channel {
+    std::string name;
+    rtapi::Texture sum, signal, result, history, accumulated, moments[2], clamped;
+    std::shared_ptr<ComputePass> load_pass;
+    PassViews load_views;
   };
 
   struct Binding {
@@ -136,6 +163,9 @@ class Denoiser {
     const Frame& frame;
     const DenoiseLibraries& libraries;
   };
+  // A picture of each channel.
+  using Pictures = std::vector<const rtapi::Texture*>;
+
   static constexpr auto kSpatialLibrary = &DenoiseLibraries::spatial;
   static constexpr auto kSvgfLibrary = &DenoiseLibraries::svgf;
   static constexpr auto kControlLibrary = &DenoiseLibraries::control;
@@ -149,25 +179,23 @@ class Denoiser {
 
   rtapi::Status create_pictures(const rtapi::Device& device, const Frame& frame);
   rtapi::Status add(const Recorder& to, std::uint32_t parity, const Kernel& kernel,
-                    std::initializer_list<Binding> bindings, const DenoiseConstants& constants);
+                    const std::vector<Binding>& bindings, const DenoiseConstants& constants);
   rtapi::Status add_guides(const Recorder& to, std::uint32_t parity);
-  rtapi::Status add_spatial(const Recorder& to);
+  rtapi::Status add_spatial(const Recorder& to, const Channel& channel);
   rtapi::Status add_temporal(const Recorder& to, std::uint32_t parity);
-  rtapi::Status add_lobe_filter(const Recorder& to, std::uint32_t parity,
-                                const rtapi::Texture& scratch);
-  rtapi::Status add_wavelet(const Recorder& to, std::uint32_t parity, const rtapi::Texture& first);
-  rtapi::Status add_copy(const Recorder& to, std::uint32_t parity, const rtapi::Texture& from,
-                         const rtapi::Texture& into);
-  rtapi::Status add_filter(const Recorder& to, std::uint32_t parity, const rtapi::Texture& from,
-                           const rtapi::Texture& into, std::int32_t step);
+  rtapi::Status add_lobe_filter(const Recorder& to, std::uint32_t parity, const Channel& channel);
+  rtapi::Status add_wavelet(const Recorder& to, std::uint32_t parity);
+  rtapi::Status add_copy(const Recorder& to, std::uint32_t parity, const Pictures& from,
+                         const Pictures& into);
+  template <class Member>
+  Pictures pictures(Member member) const;
+  Pictures moments_of(std::uint32_t parity) const;
 
-  std::string name_;
   DenoiseDesc desc_;
-  rtapi::Texture sum_, signal_, result_, history_, accumulated_, guides_[2], moments_[2], clamped_;
+  std::vector<Channel> channels_;
+  rtapi::Texture guides_[2];
   std::vector<Step> steps_[2];  // of even and odd frames
-  std::shared_ptr<ComputePass> load_pass_;
-  PassViews load_views_;
-  std::uint32_t frames_ = 0;  // since the last cut
+  std::uint32_t frames_ = 0;    // since the last cut
 };
 
 }  // namespace kaamos::effects

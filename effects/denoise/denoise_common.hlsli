@@ -25,6 +25,7 @@ struct DenoiseConstants {
   float lobe_scale;      // of the radius that a lobe covers; 0: the radius is fixed
   float sigma_hit;       // difference of hit distances, relative to the farther one
   float sigma_roughness;
+  int signals;  // of svgf.hlsl: pictures in each of its arrays
 };
 
 ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);
@@ -81,7 +82,6 @@ struct Guide {
   float3 normal;
   float2 gradient;    // times sigma_z
   float least_slope;  // what the depth may change at least
-  int squarings;      // denoise.normal_squarings
 };
 
 Guide LoadGuide(int2 pixel, int2 size) {
@@ -92,7 +92,6 @@ Guide LoadGuide(int2 pixel, int2 size) {
   guide.gradient = denoise.sigma_z * DepthGradient(pixel, size);
   // All relative to the depth: a scene of other units gives the same picture.
   guide.least_slope = 1e-4 * own.w;
-  guide.squarings = denoise.normal_squarings;
   return guide;
 }
 
@@ -100,13 +99,14 @@ Guide LoadGuide(int2 pixel, int2 size) {
 static const float kNoWeight = 1e-12;
 static const float kNoWeightLogarithm = 27.6;
 
-// How much the normal of a pixel says that it belongs to the same surface. Where there is none, 0.
-float NormalWeight(Guide guide, float4 other) {
+// How much the normal of a pixel says that it belongs to the same surface: their cosine to the power
+// 2^squarings, or sigma_n where that is -1. Where there is none, 0.
+float NormalWeight(Guide guide, float4 other, int squarings) {
   if (other.w == 0.0) return 0.0;
   float weight = saturate(dot(other.xyz, guide.normal));
   // The power 0 of 0 is no number.
-  if (guide.squarings < 0) return pow(max(weight, 1e-30), denoise.sigma_n);
-  for (int i = 0; i < guide.squarings; ++i) weight *= weight;
+  if (squarings < 0) return pow(max(weight, 1e-30), denoise.sigma_n);
+  for (int i = 0; i < squarings; ++i) weight *= weight;
   return weight;
 }
 
@@ -118,7 +118,7 @@ float DepthDistance(Guide guide, float4 other, int2 offset) {
 
 float GuideWeight(Guide guide, int2 pixel, int2 offset) {
   const float4 other = guides[pixel];
-  const float weight = NormalWeight(guide, other);
+  const float weight = NormalWeight(guide, other, denoise.normal_squarings);
   if (weight < kNoWeight) return 0.0;
   const float distance = DepthDistance(guide, other, offset);
   return distance <= kNoWeightLogarithm ? weight * exp(-distance) : 0.0;

@@ -23,12 +23,15 @@ bool IsFinite(float4 value) { return all(isfinite(value)); }
 
 float Tent(int distance) { return max(1.0 - abs(float(distance)) / float(kStep), 0.0); }
 
+static const int kNormalSquarings = 4;  // the sixteenth power of the cosine
+
 // How much a pixel that was traced says of one that was not: by what stands there, not by how far.
 float SurfaceWeight(Guide guide, int2 traced, int2 offset) {
   const float z = g_view_z[traced];
   if (!(z > 0.0)) return 0.0;
   const float4 other = float4(OctahedralDecode(g_shading_normal[traced]), z);
-  const float weight = NormalWeight(guide, other) * exp(-DepthDistance(guide, other, offset));
+  const float weight = NormalWeight(guide, other, kNormalSquarings) *
+                       exp(-DepthDistance(guide, other, offset));
   return isfinite(weight) ? weight : 0.0;
 }
 
@@ -51,7 +54,6 @@ Guide GuideOf(int2 pixel, int2 size) {
   guide.gradient = float2(Slope(pixel, int2(1, 0), size), Slope(pixel, int2(0, 1), size));
   guide.gradient *= denoise.sigma_z;
   guide.least_slope = 5e-3 * guide.view_z;
-  guide.squarings = 4;  // the sixteenth power
   return guide;
 }
 

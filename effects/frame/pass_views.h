@@ -13,7 +13,7 @@
 namespace kaamos::effects {
 
 inline constexpr std::uint32_t kPassShaderResources = 16;  ///< t0..t15 of space3
-inline constexpr std::uint32_t kPassUnorderedAccess = 24;  ///< u0..u23 of space3
+inline constexpr std::uint32_t kPassUnorderedAccess = 32;  ///< u0..u31 of space3
 inline constexpr std::uint32_t kPassViews = kPassShaderResources + kPassUnorderedAccess;
 inline constexpr std::uint32_t kPassWords = 24;  ///< of constants b0, space3
 

@@ -126,6 +126,7 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
       return s;
     }
   }
+  if (const auto s = create_filters(); !s) return s;
   if (contact_) {
     if (const auto s = direct_->set_contact(*denoised("contact")); !s) return s;
   }
@@ -151,19 +152,49 @@ rtapi::Status FrameEffects::add_signal(const std::string& name, const rtapi::Tex
   const auto mean = given_.frame->create_picture(given_.device, name + " mean", kSignalFormat);
   if (!mean) return mean.error();
   signal->mean = *mean;
-  DenoiseDesc desc = default_denoise(denoise_method(given_.options.denoise));
-  // Only its signal tells how far away its hits are.
-  if (desc.method == DenoiseMethod::kControl && name == "reflection") desc.constants.lobe_scale = 1;
-  auto denoiser =
-      Denoiser::create(given_.device, *given_.frame, given_.libraries->denoise, name, *mean, desc);
-  if (!denoiser) return denoiser.error();
-  signal->denoiser = std::move(*denoiser);
-  if (const auto s = signal->denoiser.create_load(given_.device, *given_.frame,
-                                                  given_.libraries->denoise, sum, pixel_step);
-      !s) {
-    return s;
-  }
   signals_.push_back(std::move(signal));
+  return {};
+}
+
+rtapi::Status FrameEffects::create_filters() {
+  DenoiseDesc desc = default_denoise(denoise_method(given_.options.denoise));
+  std::vector<Signal*> alike;
+  for (const auto& signal : signals_) {
+    // Only reflections tell how far away their hits are.
+    if (desc.method == DenoiseMethod::kControl && signal->name == "reflection") {
+      DenoiseDesc of_lobes = desc;
+      of_lobes.constants.lobe_scale = 1;
+      if (const auto s = create_filter(of_lobes, {signal.get()}); !s) return s;
+    } else {
+      alike.push_back(signal.get());
+    }
+  }
+  return alike.empty() ? rtapi::Status{} : create_filter(desc, alike);
+}
+
+rtapi::Status FrameEffects::create_filter(const DenoiseDesc& desc,
+                                          const std::vector<Signal*>& signals) {
+  const Frame& frame = *given_.frame;
+  const DenoiseLibraries& libraries = given_.libraries->denoise;
+  SignalFilter filter;
+  filter.name = "denoise";
+  std::vector<Denoiser::Signal> inputs;
+  for (Signal* signal : signals) {
+    filter.name += (inputs.empty() ? " " : ",") + signal->name;
+    signal->filter = filters_.size();
+    signal->index = inputs.size();
+    inputs.push_back({signal->name, signal->mean});
+    filter.signals.push_back(signal);
+  }
+  auto denoiser = Denoiser::create(given_.device, frame, libraries, inputs, desc);
+  if (!denoiser) return denoiser.error();
+  filter.denoiser = std::move(*denoiser);
+  for (const Signal* signal : signals) {
+    const auto s = filter.denoiser.create_load(given_.device, frame, libraries, signal->sum,
+                                               signal->pixel_step, signal->index);
+    if (!s) return s;
+  }
+  filters_.push_back(std::move(filter));
   return {};
 }
 
@@ -286,7 +317,7 @@ rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
 
 const rtapi::Texture* FrameEffects::denoised(const std::string& name) const {
   for (const auto& signal : signals_) {
-    if (signal->name == name) return &signal->denoiser.result();
+    if (signal->name == name) return &result(*signal);
   }
   return nullptr;
 }
@@ -294,7 +325,7 @@ const rtapi::Texture* FrameEffects::denoised(const std::string& name) const {
 std::vector<FrameEffects::SignalPictures> FrameEffects::signals() const {
   std::vector<SignalPictures> out;
   for (const auto& signal : signals_) {
-    out.push_back({signal->name, signal->mean, signal->denoiser.result()});
+    out.push_back({signal->name, signal->mean, result(*signal)});
   }
   return out;
 }
@@ -305,8 +336,10 @@ void FrameEffects::begin_frame(rtapi::CommandList& list, const glm::dvec3& origi
       {"contact", &contact_views_, 1},
       {"indirect", &indirect_views_, 0},
       {"reflection", &reflection_views_, 0}};
+  for (SignalFilter& filter : filters_) {
+    if (cut) filter.denoiser.reset();
+  }
   for (const auto& signal : signals_) {
-    if (cut) signal->denoiser.reset();
     for (const auto& [name, views, u] : sums) {
       if (signal->name == name) views->clear(list, u, signal->sum);
     }
@@ -321,13 +354,16 @@ void FrameEffects::light(rtapi::CommandList& list, const Frame& frame) const {
 
 std::vector<FrameEffects::Filter> FrameEffects::filters(const Frame& frame) {
   std::vector<Filter> out;
-  for (const auto& signal : signals_) {
-    out.push_back({"denoise " + signal->name,
-                   [&frame, s = signal.get()](rtapi::CommandList& list) {
-                     s->denoiser.load(list, frame, 1.0f / static_cast<float>(s->samples));
-                     s->denoiser.dispatch(list, frame);
+  for (SignalFilter& filter : filters_) {
+    out.push_back({filter.name,
+                   [&frame, &filter](rtapi::CommandList& list) {
+                     for (const Signal* signal : filter.signals) {
+                       filter.denoiser.load(list, frame, 1.0f / static_cast<float>(signal->samples),
+                                            signal->index);
+                     }
+                     filter.denoiser.dispatch(list, frame);
                    },
-                   signal->denoiser.bytes()});
+                   filter.denoiser.bytes()});
   }
   return out;
 }
@@ -358,7 +394,7 @@ std::vector<FrameEffects::Layer> FrameEffects::layers() const {
       out.push_back({signal->name, half ? signal->mean : signal->sum,
                      half ? 1.0f : 1.0f / static_cast<float>(signal->samples)});
     }
-    out.push_back({signal->name + "_denoised", signal->denoiser.result(), 1});
+    out.push_back({signal->name + "_denoised", result(*signal), 1});
   }
   if (has_glass_) {
     out.push_back({"glass", glass_, 1});

@@ -75,7 +75,7 @@ class FrameEffects {
   // Lights' lists and maps and the main lighting: behind the G-buffer.
   void light(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
   const std::vector<RayStep>& steps() const { return steps_; }
-  // Denoises what the steps wrote. One list for each signal, for its time.
+  // Denoises what the steps wrote: signals that are filtered alike, together.
   struct Filter {
     std::string name;
     std::function<void(rtapi::CommandList&)> record;
@@ -111,10 +111,22 @@ class FrameEffects {
     rtapi::Texture mean;  // the denoiser's input
     std::uint32_t samples = 1;
     std::uint32_t pixel_step = 1;
+    std::size_t filter = 0, index = 0;  // signal `index` of filters_[filter]
+  };
+  // Signals that are filtered alike.
+  struct SignalFilter {
+    std::string name;
     kaamos::effects::Denoiser denoiser;
+    std::vector<const Signal*> signals;
   };
   rtapi::Status add_signal(const std::string& name, const rtapi::Texture& sum,
                            std::uint32_t samples, std::uint32_t pixel_step);
+  rtapi::Status create_filters();
+  rtapi::Status create_filter(const kaamos::effects::DenoiseDesc& desc,
+                              const std::vector<Signal*>& signals);
+  const rtapi::Texture& result(const Signal& signal) const {
+    return filters_[signal.filter].denoiser.result(signal.index);
+  }
   rtapi::Status add_contact();
   rtapi::Status add_indirect();
   rtapi::Status add_reflections();
@@ -143,6 +155,7 @@ class FrameEffects {
   bool has_glass_ = false;
   std::vector<RayStep> steps_;
   std::vector<std::unique_ptr<Signal>> signals_;
+  std::vector<SignalFilter> filters_;
   std::optional<kaamos::effects::ComposePass> compose_;
   std::vector<std::string> left_out_;
   bool contact_ = false;

@@ -186,6 +186,7 @@ class Checker {
   const ir::Expr* freeze_place(const ir::Expr* expr, size_t* position);
   const ir::Expr* index_value(const Value& value, SourceLocation location);
   static bool is_fixed(const ir::Expr* expr);
+  const ir::Expr* frozen(const ir::Expr* expr, size_t* position);
   static bool mentions(const ir::Expr* expr, const ir::Variable* variable);
 
   // -- Emission
@@ -370,6 +371,7 @@ class Checker {
   std::deque<EnumInfo> enums_;
   std::deque<StructTemplate> struct_templates_;
   std::deque<BindingInfo> bindings_;
+  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // of kBinding
   std::deque<std::string> names_;
   std::unordered_map<const Decl*, const Type*> declared_types_;
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>

@@ -62,6 +62,7 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
+  std::string bound(const ir::Expr& expr);
   std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);
   // The resource operand of an access to memory, in a checked library with the check around it, or
@@ -150,6 +151,9 @@ class CppEmitter {
   const EmitCppOptions& options_;
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
+  // Where the elements of each array stand in `bound`, behind what is no array; 0: they do not.
+  std::vector<uint32_t> bound_elements_;
+  uint32_t bound_count_ = 0;
   std::string out_;
   int indent_ = 0;
 

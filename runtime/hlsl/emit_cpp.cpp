@@ -91,6 +91,11 @@ const char* register_class_name(uint8_t register_class) {
 
 }  // namespace
 
+namespace {
+// A group looks up all elements of an array of resources, read or not: worth it for short ones.
+constexpr uint32_t kMostBoundElements = 16;
+}  // namespace
+
 CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
     : module_(module),
       options_(options),
@@ -100,6 +105,12 @@ CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
     binds_per_group_ = binds_per_group_ && entry.stage == kStageCompute;
   }
   reads_bound_ = !module.check_access && !binds_per_group_;
+  bound_count_ = static_cast<uint32_t>(module.bindings.size());
+  for (const Binding& binding : module.bindings) {
+    const bool small_array = binding.count > 1 && binding.count <= kMostBoundElements;
+    bound_elements_.push_back(binds_per_group_ && small_array ? bound_count_ : 0);
+    if (bound_elements_.back() != 0) bound_count_ += binding.count;
+  }
 }
 
 // Which static globals a function can touch, and how much stack it may need; callees stand before
@@ -284,15 +295,23 @@ std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
 void CppEmitter::emit_bound(const EntryPoint& entry) {
   if (!binds_per_group_ && !reads_bound_) return;
   std::string used;
+  std::string arrays;
   uint32_t count = 0;
   for (const uint32_t binding : entry.bindings) {
-    if (module_.bindings[binding].count != 1) continue;
-    used += std::to_string(binding) + "u, ";
-    ++count;
+    const std::string n = std::to_string(binding);
+    if (module_.bindings[binding].count == 1) {
+      used += n + "u, ";
+      ++count;
+    } else if (const uint32_t place = bound_elements_[binding]; place != 0) {
+      arrays += "ks::bind_array(invocation, " + n + "u, " +
+                std::to_string(module_.bindings[binding].count) + "u, bound + " +
+                std::to_string(place) + "u); ";
+    }
   }
-  line("ks::BoundResource bound[" + std::to_string(module_.bindings.size() + 1) + "];");
+  line("ks::BoundResource bound[" + std::to_string(bound_count_ + 1) + "];");
   line("static constexpr uint32_t used[] = {" + used + "0u};");
   line("ks::bind(invocation, used, " + std::to_string(count) + "u, bound);");
+  if (!arrays.empty()) line(arrays);
   if (reads_bound_) line("invocation.bound = bound;");
 }
 

@@ -305,7 +305,7 @@ std::string CppEmitter::binding(const Expr& expr) {
     return "ks::checked::resource(ctx.invocation, " + site(expr.location) + ", " +
            std::to_string(expr.index) + "u, " + index + ")";
   }
-  if (is_bound(expr)) return "ctx.bound[" + std::to_string(expr.index) + "].descriptor";
+  if (is_bound(expr)) return bound(expr) + ".descriptor";
   if (reads_bound_ && expr.operands.empty()) {
     return "ks::bound_resource(ctx.invocation, " + std::to_string(expr.index) + "u)";
   }
@@ -314,11 +314,19 @@ std::string CppEmitter::binding(const Expr& expr) {
 
 // Looked up by the group: compute shaders only, whose functions no ray shader calls.
 bool CppEmitter::is_bound(const Expr& expr) const {
-  return binds_per_group_ && expr.kind == ExprKind::kBinding && expr.operands.empty();
+  return binds_per_group_ && expr.kind == ExprKind::kBinding &&
+         (expr.operands.empty() || bound_elements_[expr.index] != 0);
+}
+
+std::string CppEmitter::bound(const Expr& expr) {
+  if (expr.operands.empty()) return "ctx.bound[" + std::to_string(expr.index) + "]";
+  return "ks::bound_element<" + std::to_string(module_.bindings[expr.index].count) +
+         "u>(ctx.bound + " + std::to_string(bound_elements_[expr.index]) + "u, " +
+         value(expr.operands[0]) + ")";
 }
 
 std::string CppEmitter::texture(const Expr* expr) {
-  if (is_bound(*expr)) return "ctx.bound[" + std::to_string(expr->index) + "]";
+  if (is_bound(*expr)) return bound(*expr);
   if (reads_bound_ && expr->kind == ExprKind::kBinding && expr->operands.empty()) {
     return "ks::bound_texture(ctx.invocation, " + std::to_string(expr->index) + "u)";
   }

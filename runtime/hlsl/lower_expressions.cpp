@@ -139,7 +139,7 @@ std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, 
         if (!expr) {
           earlier = error_value();
         } else if (!is_fixed(expr)) {
-          earlier = rvalue(build_.read(temporary(expr, &position)), earlier.type);
+          earlier = rvalue(frozen(expr, &position), earlier.type);
         }
       }
     }

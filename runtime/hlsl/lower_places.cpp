@@ -147,10 +147,22 @@ const ir::Expr* Checker::freeze_place(const ir::Expr* expr, size_t* position) {
   return copy;
 }
 
+// What the expression gives now, whatever comes later. A resource of an array stays one, by an index
+// that is fixed: backends look it up as such.
+const ir::Expr* Checker::frozen(const ir::Expr* expr, size_t* position) {
+  if (!expr || is_fixed(expr)) return expr;
+  if (expr->kind != ir::ExprKind::kBinding) return build_.read(temporary(expr, position));
+  ir::Expr* copy = build_.expr(expr->kind, expr->type);
+  *copy = *expr;
+  for (const ir::Expr*& operand : copy->operands) operand = frozen(operand, position);
+  BindingInfo* binding = binding_of_.at(expr);
+  binding->uses.push_back(copy);
+  binding_of_[copy] = binding;
+  return copy;
+}
+
 void Checker::freeze(Value& value, size_t* position) {
-  const auto fix = [&](const ir::Expr*& expr) {
-    if (expr && !is_fixed(expr)) expr = build_.read(temporary(expr, position));
-  };
+  const auto fix = [&](const ir::Expr*& expr) { expr = frozen(expr, position); };
   if (value.kind == ValueKind::kExpr && value.is_place) {
     value.expr = freeze_place(value.expr, position);
     return;

@@ -21,28 +21,42 @@ struct BoundResource {
   bool ready = false;  // false: of the shader record, another one for each invocation
 };
 
+inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index,
+                     BoundResource& out) {
+  out.ready = !invocation.slots[slot].local;
+  if (!out.ready) return;
+  out.descriptor = resource(invocation, slot, index);
+  if (!invocation.dispatch->direct_texels) return;
+  const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
+  if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
+      view->direct_format == 0) {
+    return;
+  }
+  const TextureMip& mip = view->mips[0];
+  out.direct_format = view->direct_format;
+  out.width = mip.width;
+  out.height = mip.height;
+  out.row_pitch = mip.row_pitch;
+  out.texels = mip.texels;
+  out.writable = view->unordered_access;
+}
+
 // `used`: the bindings that are no arrays, `count` of them. Others are left as they are.
 [[gnu::noinline]] inline void bind(const Invocation& invocation, const uint32_t* used,
                                    uint32_t count, BoundResource* bound) {
-  for (uint32_t i = 0; i < count; ++i) {
-    BoundResource& out = bound[used[i]];
-    out.ready = !invocation.slots[used[i]].local;
-    if (!out.ready) continue;
-    out.descriptor = resource(invocation, used[i], 0);
-    if (!invocation.dispatch->direct_texels) continue;
-    const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
-    if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
-        view->direct_format == 0) {
-      continue;
-    }
-    const TextureMip& mip = view->mips[0];
-    out.direct_format = view->direct_format;
-    out.width = mip.width;
-    out.height = mip.height;
-    out.row_pitch = mip.row_pitch;
-    out.texels = mip.texels;
-    out.writable = view->unordered_access;
-  }
+  for (uint32_t i = 0; i < count; ++i) bind_one(invocation, used[i], 0, bound[used[i]]);
+}
+// The `count` elements of a binding that is an array.
+[[gnu::noinline]] inline void bind_array(const Invocation& invocation, uint32_t slot,
+                                         uint32_t count, BoundResource* elements) {
+  for (uint32_t i = 0; i < count; ++i) bind_one(invocation, slot, i, elements[i]);
+}
+// One of them; past the end, what reads as zeros.
+template <uint32_t Count, class I>
+KAAMOS_INLINE const BoundResource& bound_element(const BoundResource* elements, I index) {
+  static constexpr BoundResource nothing;
+  const auto i = static_cast<uint32_t>(index);
+  return i < Count ? elements[i] : nothing;
 }
 
 // A binding that is no array, of a ray shader. [kExportReadsBound]
