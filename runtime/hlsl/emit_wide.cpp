@@ -138,10 +138,12 @@ void WideEmitter::emit_signature(const WideFunction& function) {
   for (const Variable* parameter : f.parameters) {
     const std::string name = out_.local_names_.declare(parameter->name);
     out_.variable_names_[parameter] = name;
+    const bool varying = function.is_varying(parameter);
+    text += ", ";
+    if (function.only_reads(parameter)) text += "const ";
+    text += varying ? type(parameter->type) : out_.type(parameter->type);
     const bool is_in = parameter->mode == ParameterMode::kIn;
-    text += ", " +
-            (function.is_varying(parameter) ? type(parameter->type) : out_.type(parameter->type)) +
-            (is_in ? " " : "& ") + name;
+    text += (is_in && !function.only_reads(parameter) ? " " : "& ") + name;
   }
   out_.at(f.location);
   open(text + ") {");

@@ -190,6 +190,16 @@ void WideEmitter::atomic(const Stmt& stmt) {
   close("});");
 }
 
+namespace {
+
+// A static global, or a part of one.
+bool is_of_static(const Expr* e) {
+  while (e->kind == ExprKind::kField || e->kind == ExprKind::kElement) e = e->operands[0];
+  return e->kind == ExprKind::kVariable && e->variable->storage == Storage::kStaticGlobal;
+}
+
+}  // namespace
+
 void WideEmitter::call_function(const Stmt& stmt) {
   const WideFunction* callee = current_->callees.at(&stmt);
   std::string text = "u::" + names_[callee] + "(ctx, " + mask_;
@@ -199,6 +209,8 @@ void WideEmitter::call_function(const Stmt& stmt) {
     text += ", ";
     if (parameter->mode != ParameterMode::kIn) {
       text += out_.variable(argument->variable);
+    } else if (callee->only_reads(parameter) && is_of_static(argument)) {
+      text += type(parameter->type) + "(" + value(argument) + ")";  // the callee may change it
     } else {
       text += callee->is_varying(parameter) ? value(argument) : out_.value(argument);
     }

@@ -63,6 +63,7 @@ class Analysis {
 
   // Whether a write needs a mask; marks what becomes varying by it.
   bool write(const Variable* variable, bool varying, uint32_t region) {
+    out_.written.insert(variable);
     if (variable->storage == Storage::kStaticGlobal) return true;
     if (variable->storage == Storage::kGroupShared) {
       refuse("it writes groupshared memory");
@@ -265,6 +266,12 @@ bool holds_resource(const Type* type) {
     default:
       return false;
   }
+}
+
+bool WideFunction::only_reads(const Variable* parameter) const {
+  const auto& all = function->parameters;
+  return is_varying(parameter) && parameter->type->kind != TypeKind::kScalar &&
+         written.count(parameter) == 0 && std::none_of(all.begin(), all.end(), is_by_reference);
 }
 
 bool WideFunction::is_varying(const Variable* variable) const {

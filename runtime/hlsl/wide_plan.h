@@ -38,10 +38,15 @@ struct WideFunction {
   const ir::Function* function = nullptr;
   std::vector<bool> varying_parameters;
   std::unordered_set<const ir::Variable*> varying;  // locals and parameters
+  std::unordered_set<const ir::Variable*> written;  // after their declaration
   std::unordered_map<const ir::Stmt*, WideFacts> facts;
   std::unordered_map<const ir::Stmt*, const WideFunction*> callees;  // of kCall
   bool varying_result = false;
   bool masked_return = false;  // threads return one by one
+
+  // A parameter that can be read where the caller has it: many registers wide, and nothing changes
+  // it while the function runs.
+  bool only_reads(const ir::Variable* parameter) const;
 
   bool is_varying(const ir::Variable* variable) const;
   bool is_varying(const ir::Expr* expr) const;

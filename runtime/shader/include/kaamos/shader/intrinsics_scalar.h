@@ -15,21 +15,20 @@ namespace op {
 // F is float, or a vector of floats that `Bits` reads as integers and `Floats` as floats.
 template <class F, class Bits, class Floats, class Choose>
 KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose) {
-  const F low = choose(x < 89.0f, x, F{} + 89.0f);
-  const F bounded = choose(low > -104.0f, low, F{} - 104.0f);
-  const F shifted = bounded * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
+  const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
   const F k = shifted - 12582912.0f;
-  const F r = (bounded - k * 0.693359375f) - k * -2.12194440e-4f;
+  const F r = (x - k * 0.693359375f) - k * -2.12194440e-4f;
   F p = r * 1.9875691500e-4f + 1.3981999507e-3f;
   p = p * r + 8.3334519073e-3f;
   p = p * r + 4.1665795894e-2f;
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   const F y = p * r * r + r + 1.0f;
-  // In two steps: 2^k alone may be more than a float holds.
-  const auto exponent = bits(shifted) - 0x4B400000;
-  const auto half = exponent >> 1;
-  const F result = y * floats((half + 127) << 23) * floats((exponent - half + 127) << 23);
+  // What has no such exponent is replaced: more than the largest float, less than the least normal
+  // one (a denormal, which D3D flushes), and what is not a number.
+  F result = floats(bits(y) + (bits(shifted) << 23));
+  result = choose(x > 88.7228317f, F{} + __builtin_inff(), result);
+  result = choose(x < -87.3365402f, F{}, result);
   return choose(x == x, result, x);
 }
 KAAMOS_INLINE float exponential(float x) {
