@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What each method keeps and what it loses, on signals that are known.
+#include <cstring>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "effects/denoise/denoise_fixture.h"
 #include "effects/image/metrics.h"
@@ -121,6 +124,58 @@ TEST_F(DenoiseTest, SvgfRemovesNoiseAndKeepsTheMean) {
   });
   EXPECT_NEAR(sum / count, 0.4, 0.01);
   EXPECT_LT(squares / count, 0.24 / 100);
+}
+
+// Signals that are filtered together come out as each does alone, to the bit, for several frames.
+TEST_F(DenoiseTest, SignalsDoNotSeeEachOther) {
+  for (const auto method : {DenoiseMethod::kBilateral, DenoiseMethod::kTemporal,
+                            DenoiseMethod::kSvgf, DenoiseMethod::kControl}) {
+    std::vector<Denoiser::Signal> signals;
+    std::vector<Denoiser> alone;
+    for (std::size_t i = 0; i < kMostSignals; ++i) {
+      const std::string name = "signal " + std::to_string(i);
+      signals.push_back(
+          {name, frame_.create_picture(device_, name, rtapi::Format::kR32G32B32A32Float).value()});
+      alone.push_back(Denoiser::create(device_, frame_, denoise_libraries().value(), name,
+                                       signals[i].picture, default_denoise(method))
+                          .value());
+    }
+    Denoiser together = Denoiser::create(device_, frame_, denoise_libraries().value(), signals,
+                                         default_denoise(method))
+                            .value();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> light(0.0f, 2.0f);
+    for (int frame = 0; frame < 3; ++frame) {
+      for (std::size_t i = 0; i < signals.size(); ++i) {
+        FloatImage image(kWidth, kHeight, 4, 1.0f);
+        for (float& value : image.values) value = static_cast<float>(i) * light(random);
+        image.values[4 * (i + 200)] = std::nanf("");
+        upload(signals[i].picture, image);
+      }
+      rtapi::CommandList list = device_.CreateCommandList().value();
+      together.dispatch(list, frame_);
+      for (Denoiser& denoiser : alone) denoiser.dispatch(list, frame_);
+      queue_.ExecuteAndWait(list).value();
+      for (std::size_t i = 0; i < signals.size(); ++i) {
+        const FloatImage a = read_picture(device_, queue_, together.result(i)).value();
+        const FloatImage b = read_picture(device_, queue_, alone[i].result()).value();
+        EXPECT_EQ(std::memcmp(a.values.data(), b.values.data(), a.values.size() * sizeof(float)), 0)
+            << static_cast<int>(method) << " frame " << frame << " signal " << i;
+      }
+    }
+  }
+}
+
+TEST_F(DenoiseTest, TooManySignalsAreAnError) {
+  for (const std::size_t count : {std::size_t{0}, kMostSignals + 1}) {
+    const std::vector<Denoiser::Signal> signals(count, {"signal", signal_});
+    const auto denoiser =
+        Denoiser::create(device_, frame_, denoise_libraries().value(), signals, DenoiseDesc{});
+    ASSERT_FALSE(denoiser);
+    EXPECT_EQ(denoiser.error().message,
+              "a Denoiser of " + std::to_string(count) +
+                  " signals: it takes 1 to 5; make a second one for the others");
+  }
 }
 
 // A pattern that hangs in the world, seen by a camera that turns: history follows it, and is given
