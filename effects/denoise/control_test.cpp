@@ -68,6 +68,36 @@ TEST_F(ControlDenoiseTest, AMirrorStaysAsItIs) {
   for_surface([&](auto x, auto y) { ASSERT_EQ(out.at(x, y), shown.at(x, y)); });
 }
 
+// Of SVGF as well: the left half is a mirror, the right one is not, and no half of a signal is one
+// that comes from other rays.
+TEST_F(ControlDenoiseTest, SvgfLeavesMirrorsAsTheyAre) {
+  set_roughness([this](auto x) { return x < kWidth / 2 ? 0.02f : 0.5f; });
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> uniform;
+  for (const bool of_lobe : {true, false}) {
+    Denoiser denoiser =
+        Denoiser::create(device_, frame_, denoise_libraries().value(), {{"test", signal_, of_lobe}},
+                         default_denoise(DenoiseMethod::kSvgf))
+            .value();
+    for (int frame = 0; frame < 6; ++frame) {
+      FloatImage shown(kWidth, kHeight, 1);
+      for (float& v : shown.values) v = uniform(random) < 0.02f ? 50.0f : uniform(random);
+      const FloatImage out = run(denoiser, [&](auto x, auto y) { return shown.at(x, y); });
+      int kept[2] = {0, 0};
+      int all[2] = {0, 0};
+      for_surface([&](auto x, auto y) {
+        const int half = x < kWidth / 2 ? 0 : 1;
+        ++all[half];
+        kept[half] += out.at(x, y) == shown.at(x, y) ? 1 : 0;
+      });
+      ASSERT_GT(all[0], 200);
+      ASSERT_GT(all[1], 200);
+      EXPECT_EQ(kept[0] == all[0], of_lobe) << frame;
+      EXPECT_LT(kept[1], all[1] / 100) << frame;
+    }
+  }
+}
+
 TEST_F(ControlDenoiseTest, TheFilterIsAsWideAsTheLobe) {
   set_roughness([](auto) { return 1.0f; });
   const double far = noise_after(of_reflections(), 50);

@@ -111,6 +111,7 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   out.desc_.constants.normal_squarings = squarings_of(desc.constants.sigma_n);
   out.desc_.constants.signals = static_cast<std::int32_t>(signals.size());
   for (const Signal& signal : signals) {
+    if (signal.of_lobe) out.desc_.constants.lobes |= 1u << out.channels_.size();
     out.channels_.push_back({.name = signal.name, .signal = signal.picture});
   }
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();

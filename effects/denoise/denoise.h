@@ -39,8 +39,9 @@ struct DenoiseConstants {
   float sigma_hit = 0.5f;
   float sigma_roughness = 0.05f;
   std::int32_t signals = 1;  ///< set by Denoiser
+  std::uint32_t lobes = 0;   ///< set by Denoiser
 };
-static_assert(sizeof(DenoiseConstants) == 72);
+static_assert(sizeof(DenoiseConstants) == 76);
 
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
@@ -100,6 +101,9 @@ class Denoiser {
   struct Signal {
     std::string name;
     rtapi::Texture picture;
+    /// Of rays in the reflection lobe of the surface: SVGF leaves mirrors as they are, whose lobe
+    /// is one direction and has no noise.
+    bool of_lobe = false;
   };
 
   /// Errors: those of the device; more signals than there may be, or none.

@@ -26,6 +26,7 @@ struct DenoiseConstants {
   float sigma_hit;       // difference of hit distances, relative to the farther one
   float sigma_roughness;
   int signals;  // of svgf.hlsl: pictures in each of its arrays
+  uint lobes;   // bit s: signal s is of rays in a surface's reflection lobe
 };
 
 ConstantBuffer<DenoiseConstants> denoise : register(b0, space3);

@@ -4,6 +4,7 @@
 //
 // Of several signals at once: what the surfaces say of the neighbours of a pixel holds for all of
 // them. Each comes out as it would alone.
+#include "brdf.hlsli"
 #include "denoise_common.hlsli"
 
 static const int kMostSignals = 5;  // effects/denoise/denoise.h
@@ -16,6 +17,11 @@ RWTexture2D<float4> previous_moments[kMostSignals] : register(u14, space3);
 RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
+
+// Light without noise, whatever its variance over the picture: that of a mirror. It takes no part.
+bool IsExact(int2 pixel, int s) {
+  return (denoise.lobes >> s & 1) != 0 && g_material[pixel].x <= kMirrorRoughness;
+}
 
 // What is here now, for the search of where it was one frame ago.
 struct Surface {
@@ -123,7 +129,7 @@ void Accumulate(int2 pixel, int2 size, Past past, float instance, int s) {
   const float luminance = Luminance(color);
   const float2 now = float2(luminance, luminance * luminance);
   Reprojected before = Reproject(past, s);
-  if (!before.found) {
+  if (!before.found || IsExact(pixel, s)) {
     accumulated[s][pixel] = float4(color, 0.0);
     moments[s][pixel] = float4(now, 1.0, instance);
     return;
@@ -185,7 +191,7 @@ void EstimateVariance(uint3 id : SV_DispatchThreadID) {
   shares[24] = 1.0;  // the pixel itself always counts in full
   for (int s = 0; s < denoise.signals; ++s) {
     const float frames = moments[s][pixel].z;
-    if (frames >= kEnoughFrames) {
+    if (frames >= kEnoughFrames || IsExact(pixel, s)) {
       previous_moments[s][pixel] = accumulated[s][pixel];
       continue;
     }
@@ -293,6 +299,6 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
     const float deviation = sqrt(max(SmoothVariance(pixel, size, s), 0.0));
     // Without variance there is no noise: only equal light would be mixed.
     accumulated[s][pixel] =
-        deviation == 0.0 ? center : Mix(taps, pixel, center, deviation, s);
+        deviation == 0.0 || IsExact(pixel, s) ? center : Mix(taps, pixel, center, deviation, s);
   }
 }

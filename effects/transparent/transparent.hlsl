@@ -69,7 +69,7 @@ float GlassCoverage(float2 barycentrics) {
   float alpha = material.base_color.a;
   if (HasTexture(material, kBaseColorTexture)) {
     const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
-    alpha *= SampleMaterial(material, kBaseColorTexture, uv, -100.0).a;
+    alpha *= SampleMaterial(material, kBaseColorTexture, uv, 0.0).a;
   }
   return Coverage(alpha);
 }

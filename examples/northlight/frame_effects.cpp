@@ -177,13 +177,13 @@ rtapi::Status FrameEffects::create_filter(const DenoiseDesc& desc,
   const Frame& frame = *given_.frame;
   const DenoiseLibraries& libraries = given_.libraries->denoise;
   SignalFilter filter;
-  filter.name = "denoise";
+  filter.name = signals.size() == 1 ? "denoise " + signals[0]->name
+                                    : "denoise " + std::to_string(signals.size()) + " signals";
   std::vector<Denoiser::Signal> inputs;
   for (Signal* signal : signals) {
-    filter.name += (inputs.empty() ? " " : ",") + signal->name;
     signal->filter = filters_.size();
     signal->index = inputs.size();
-    inputs.push_back({signal->name, signal->mean});
+    inputs.push_back({signal->name, signal->mean, signal->name == "reflection"});
     filter.signals.push_back(signal);
   }
   auto denoiser = Denoiser::create(given_.device, frame, libraries, inputs, desc);
