@@ -147,8 +147,8 @@ const ir::Expr* Checker::freeze_place(const ir::Expr* expr, size_t* position) {
   return copy;
 }
 
-// What the expression gives now, whatever comes later. A resource of an array stays one, by an index
-// that is fixed: backends look it up as such.
+// What the expression gives now, whatever comes later. A resource of an array stays one, by an
+// index that is fixed: backends look it up as such.
 const ir::Expr* Checker::frozen(const ir::Expr* expr, size_t* position) {
   if (!expr || is_fixed(expr)) return expr;
   if (expr->kind != ir::ExprKind::kBinding) return build_.read(temporary(expr, position));
