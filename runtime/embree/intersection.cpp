@@ -20,6 +20,19 @@ struct IntersectionInvocation : RayInvocation {
   ShaderRecord record;
   RTCRay* ray;
   RTCHit* hit;  // null in an occlusion query
+
+  // Not an aggregate: clang would copy the base that it is given.
+  IntersectionInvocation(RayState& ray_state, const Shader& shader, const ShaderRecord& hit_record,
+                         const shader::RaySystemValues& system_values,
+                         const GeometryInfo& geometry_info, uint32_t primitive_index,
+                         RTCRay& embree_ray, RTCHit* embree_hit)
+      : RayInvocation(ray_state, shader, hit_record, system_values),
+        state(&ray_state),
+        geometry(&geometry_info),
+        primitive(primitive_index),
+        record(hit_record),
+        ray(&embree_ray),
+        hit(embree_hit) {}
 };
 
 void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t primitive,
@@ -33,16 +46,10 @@ void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t pr
   ++worker.counters.intersection_calls;
 
   const bool committed = hit != nullptr && hit->geomID != RTC_INVALID_GEOMETRY_ID;
-  IntersectionInvocation invocation = {
-      RayInvocation(state, shader, record,
-                    hit_values(state, instance_index(state), geometry.index, primitive, 0,
-                               committed ? ray.tfar : state.t_max)),
-      &state,
-      &geometry,
-      primitive,
-      record,
-      &ray,
-      hit};
+  IntersectionInvocation invocation(state, shader, record,
+                                    hit_values(state, instance_index(state), geometry.index,
+                                               primitive, 0, committed ? ray.tfar : state.t_max),
+                                    geometry, primitive, ray, hit);
   const RunningShader running(worker, shader);
   shader.as<shader::IntersectionFn>()(invocation);
 }

@@ -89,6 +89,9 @@ struct RayInvocation : shader::Invocation {
                            state.caller->backend,
                            state.worker->bound[shader.number]},
         values(system_values) {}
+  // It points at its own values.
+  RayInvocation(const RayInvocation&) = delete;
+  RayInvocation& operator=(const RayInvocation&) = delete;
 };
 
 // The argument of TraceRay, without the pipeline's flags and undefined bits. [DXR: RayFlags]

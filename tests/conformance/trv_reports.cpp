@@ -13,7 +13,6 @@ using namespace rtapi;
 
 namespace {
 
-constexpr auto kNonOpaque = RaytracingGeometryFlags::kNone;
 constexpr uint32_t kAcceptFirst = 0x4;
 // Of traversal.hlsl.
 constexpr size_t kReportWord = 65536 / 4, kEndWord = 49152 / 4;
