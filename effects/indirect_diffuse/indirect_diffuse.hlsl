@@ -63,8 +63,8 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
   IndirectPayload payload;
   payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
-  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
-           payload);
+  TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount,
+           kRayTypeSurface, ray, payload);
   const float3 end = origin + direction * length + jitter * volume_constants[0].cell;
   if (payload.distance < 0.0) {
     return float4(VolumeRadiance(end, direction, Fallback(direction)), length);

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <vector>
 
 #include "effects/common/file.h"
 #include "effects/indirect_diffuse/indirect_fixture.h"
+#include "effects/scene/mirror_hall.h"
 #include "effects/scene/shapes.h"
 
 namespace kaamos::effects {
@@ -123,6 +125,32 @@ TEST(IndirectDiffuse, NearFieldLightingMendsBlackHits) {
   const double direct = mean_of(stage.gather(volume, mode(IndirectMode::kDirect), 1), stage.ids);
   EXPECT_LT(black, 0.85 * near_field);
   EXPECT_NEAR(near_field / direct, 1, 0.25);  // both stand for all the light there is
+}
+
+// The shape of a lamp adds nothing to the lamp: what is stored is, to the bit, what it is without
+// it.
+TEST(IndirectVolumes, ALampThatShowsItsShapeCountsOnce) {
+  Scene bare = make_mirror_hall();
+  const auto is_bulb = [](const Instance& i) { return i.mask == kMaskEmissiveProxy; };
+  ASSERT_EQ(std::erase_if(bare.instances, is_bulb), 1u);
+  Stage with(make_mirror_hall()), without(bare);
+  const IndirectVolume a = with.bake(0.5f, 16), b = without.bake(0.5f, 16);
+  ASSERT_GT(a.cells.size(), 1000u);
+  ASSERT_EQ(a.cells.size(), b.cells.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < a.cells.size(); ++i) {
+    ASSERT_EQ(a.cells[i].mean, b.cells[i].mean) << i;
+    sum += a.cells[i].mean.x;
+  }
+  EXPECT_GT(sum, 1.0);
+  // Rays that gather see past it as well; only the camera does not.
+  const FloatImage seen = with.gather(a, mode(IndirectMode::kNearField), 4);
+  const FloatImage expected = without.gather(b, mode(IndirectMode::kNearField), 4);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < seen.values.size(); ++i) {
+    different += seen.values[i] == expected.values[i] ? 0 : 1;
+  }
+  EXPECT_LE(different, 4u);  // a pixel of the lamp
 }
 
 TEST(IndirectVolumes, FilesComeBack) {

@@ -135,8 +135,8 @@ PathPayload TracePath(float3 origin, float3 direction) {
   payload.offset = -1.0;
   payload.back_face = 0;
   payload.padding = 0.0;
-  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
-           payload);
+  TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount,
+           kRayTypeSurface, ray, payload);
   return payload;
 }
 

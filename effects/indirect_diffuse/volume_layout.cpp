@@ -90,7 +90,9 @@ Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
   volume.bricks = glm::uvec3(count);
   volume.brick_starts.assign(std::size_t{volume.bricks.x} * volume.bricks.y * volume.bricks.z,
                              kNoBrick);
-  for (const Instance& instance : scene.instances) mark_instance(scene, instance, volume);
+  for (const Instance& instance : scene.instances) {
+    if (instance.mask != kMaskEmissiveProxy) mark_instance(scene, instance, volume);
+  }
   std::uint64_t cells = 0;
   for (std::uint32_t& start : volume.brick_starts) {
     if (start == kNoBrick) continue;

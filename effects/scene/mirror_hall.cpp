@@ -96,6 +96,7 @@ void add_bulb(Scene& scene) {
                          radius * std::sin(angle));
   }
   add(scene, "bulb", revolve(profile, 24), {glm::vec3(0.0f), 0.0f, 1.0f, glm::vec3(1e4f)}, at);
+  scene.instances.back().mask = kMaskEmissiveProxy;
   // The light that such a bulb gives: radiance times the disk that is seen of it. Its sphere holds
   // the bulb, which then casts no shadow of its own.
   Light light;

@@ -25,7 +25,7 @@ enum InstanceMask : std::uint8_t {
   kMaskTransparent = 0x02,  ///< see-through all over (glass)
   kMaskNoContactShadow = 0x04,
   kMaskFirstPerson = 0x08,
-  kMaskEmissiveProxy = 0x10,
+  kMaskEmissiveProxy = 0x10,  ///< shows a lamp of the scene, whose light is counted as the lamp's
 };
 
 /// What an acceleration structure is built for. [Northlight deck: Build Flags]

@@ -110,6 +110,9 @@ static const uint kRayTypeCount = 2;
 // Instances that block rays: all but glass (bit 1), which the transparency effect is for; these
 // effects look through it. [effects/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
+// The same without the shapes of lamps (bit 4): where lamps are sampled, their light is counted, and
+// a ray that met the shape by chance would count it again. [Northlight deck: Instance Inclusion Mask]
+static const uint kMaskWithoutLamps = 0xED;
 
 // As long as a ray can be without places on it that are no numbers.
 static const float kLongestRay = 1e30;
