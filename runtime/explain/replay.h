@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <rtapi/explain.h>
 
 #include "kaamos/shader/abi.h"
+#include "kaamos/shader/bound.h"
 #include "kaamos/shader/texture_view.h"
 #include "runtime/address_map.h"
 #include "runtime/backend.h"
@@ -96,6 +98,8 @@ class Replay {
   const runtime::DispatchRaysCommand& command_;
   shader::Dispatch dispatch_;
   Scenes scenes_;
+  // What each shader finds bound, looked up when it runs first.
+  std::map<const runtime::LinkedShader*, std::vector<shader::BoundResource>> bound_;
 
   // Of the index that runs. What lives across shader calls lies here: a fault jumps over frames.
   rtapi::PixelExplanation* explanation_ = nullptr;

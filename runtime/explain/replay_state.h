@@ -37,7 +37,7 @@ struct Replay::Trace {
   alignas(16) uint8_t attributes[kMaxAttributeBytes] = {};
 };
 
-// A shader at work; Invocation::backend points to it.
+// A shader at work; Invocation::backend points to it. A fault jumps over it: it owns nothing.
 struct Replay::Frame : shader::Invocation {
   Replay* replay = nullptr;
   rtapi::ExplainedShader* node = nullptr;  // null: nothing is recorded
@@ -45,7 +45,6 @@ struct Replay::Frame : shader::Invocation {
   Trace* trace = nullptr;                // intersection shaders
   const Candidate* candidate = nullptr;  // the same
   Record record;
-  std::vector<shader::BoundResource> bound_resources;
 
   void begin(Replay& self, const runtime::LinkedShader& linked, const Record& its_record,
              uint32_t its_depth) {
@@ -57,12 +56,13 @@ struct Replay::Frame : shader::Invocation {
     for (int i = 0; i < 3; ++i) index[i] = self.index_[i];
     depth = its_depth;
     backend = this;
-    if ((linked.code->flags & shader::kExportReadsBound) != 0) {
-      bound_resources.resize(linked.slots.size());
-      shader::bind(*this, linked.code->bindings, linked.code->binding_count,
-                   bound_resources.data());
-      bound = bound_resources.data();
+    if ((linked.code->flags & shader::kExportReadsBound) == 0) return;
+    std::vector<shader::BoundResource>& resources = self.bound_[&linked];
+    if (resources.empty()) {
+      resources.resize(linked.slots.size());
+      shader::bind(*this, linked.code->bindings, linked.code->binding_count, resources.data());
     }
+    bound = resources.data();
   }
 };
 

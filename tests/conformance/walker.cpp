@@ -234,6 +234,7 @@ std::vector<Walked> Walker::walk(const std::vector<Ray>& list) {
   for (size_t i = 0; i < list.size(); ++i) {
     out.push_back({seen[i], {}});
     out[i].events.resize(std::min(seen[i].any_hits, kEventsPerRay));
+    if (out[i].events.empty()) continue;
     std::memcpy(out[i].events.data(), &words[kEventsAt / 4 + i * kEventsPerRay * 2],
                 out[i].events.size() * sizeof(Event));
   }

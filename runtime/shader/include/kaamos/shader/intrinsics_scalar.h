@@ -12,7 +12,8 @@ namespace op {
 
 // e^x within 1 ulp in the same steps for one number and for those of several threads, so that both
 // give the same bits: 2^k e^r with k an integer and r within ln(2) / 2, e^r by a polynomial.
-// F is float, or a vector of floats that `Bits` reads as integers and `Floats` as floats.
+// F is float, or a vector of floats; `Bits` gives its bits as unsigned integers, `Floats` the
+// floats of such bits.
 template <class F, class Bits, class Floats, class Choose>
 KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose) {
   const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
@@ -33,8 +34,8 @@ KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const C
 }
 KAAMOS_INLINE float exponential(float x) {
   return exponential(
-      x, [](float f) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(int32_t, f); },
-      [](int32_t i) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(float, i); },
+      x, [](float f) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(uint32_t, f); },
+      [](uint32_t i) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(float, i); },
       [](bool c, float a, float b) KAAMOS_INLINE_LAMBDA { return c ? a : b; });
 }
 

@@ -102,8 +102,8 @@ KAAMOS_INLINE Floats square_root(Floats x) {
 }
 KAAMOS_INLINE Floats exponential(Floats x) {
   return op::exponential(
-      x, [](Floats f) KAAMOS_INLINE_LAMBDA { return (Ints)f; },
-      [](Ints i) KAAMOS_INLINE_LAMBDA { return (Floats)i; },
+      x, [](Floats f) KAAMOS_INLINE_LAMBDA { return (Uints)f; },
+      [](Uints i) KAAMOS_INLINE_LAMBDA { return (Floats)i; },
       [](Ints c, Floats a, Floats b) KAAMOS_INLINE_LAMBDA { return c ? a : b; });
 }
 template <class R>
