@@ -218,6 +218,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "control")
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
+  app.add_option("--denoise-passes", options.denoise_passes,
+                 "passes of svgf's wavelet filter: each is twice as wide as the one before")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 8u));
   app.add_option("--half-resolution", options.half_resolution,
                  "of the whole frame: effects that trace a quarter of the pixels, comma-separated: "
                  "ao, sun, contact, gi, reflections; or all")
