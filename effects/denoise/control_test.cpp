@@ -68,8 +68,8 @@ TEST_F(ControlDenoiseTest, AMirrorStaysAsItIs) {
   for_surface([&](auto x, auto y) { ASSERT_EQ(out.at(x, y), shown.at(x, y)); });
 }
 
-// Of SVGF as well: the left half is a mirror, the right one is not, and no half of a signal is one
-// that comes from other rays.
+// SVGF as well. The left half of the picture is a mirror, the right half is rough; a signal that is
+// not of reflections is filtered in both.
 TEST_F(ControlDenoiseTest, SvgfLeavesMirrorsAsTheyAre) {
   set_roughness([this](auto x) { return x < kWidth / 2 ? 0.02f : 0.5f; });
   std::mt19937 random(4);
