@@ -45,7 +45,7 @@ struct TriangleFilter {
     if (opaque) return commit(false), true;
     const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
     // Without an any-hit shader the geometry is opaque. [DXR: TraceRay control flow, note 3]
-    if (record.target->any_hit == nullptr) return commit(false), true;
+    if (!record.target->any_hit.runs()) return commit(false), true;
 
     float barycentrics[2] = {hit.u, hit.v};
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
@@ -62,11 +62,11 @@ struct TriangleFilter {
 shader::AnyHitResult run_any_hit(RayState& state, const ShaderRecord& record,
                                  const Candidate& candidate) {
   Worker& worker = *state.worker;
-  const Shader& shader = *record.target->any_hit;
+  const Shader& shader = record.target->any_hit;
   ++worker.counters.any_hit_calls;
-  RayInvocation invocation(state, shader, record,
-                           hit_values(state, instance_index(state), candidate.geometry,
-                                      candidate.primitive, candidate.hit_kind, candidate.t));
+  set_hit_values(state, instance_index(state), candidate.geometry, candidate.primitive,
+                 candidate.hit_kind, candidate.t, state.values);
+  shader::Invocation invocation = invocation_of(*state.caller, shader, record, state.values);
   const RunningShader running(worker, shader);
   return shader.as<shader::AnyHitFn>()(invocation, state.payload, candidate.attributes);
 }

@@ -11,8 +11,8 @@ void call_shader(shader::Invocation& caller, uint32_t shader_index, void* data, 
   Worker& worker = worker_of(caller);
   check_stack(worker);
   const ShaderRecord record = worker.dispatch->callable_table.at(shader_index);
-  if (record.target->shader == nullptr) return;  // NULL: the parameters stay as they are
-  const Shader& shader = *record.target->shader;
+  if (!record.target->shader.runs()) return;  // NULL: the parameters stay as they are
+  const Shader& shader = record.target->shader;
   ++worker.counters.callable_calls;
   shader::Invocation invocation;
   invocation.dispatch = caller.dispatch;

@@ -44,7 +44,7 @@ struct Tile {
 
 void run_tile(void* argument) {
   const Tile& tile = *static_cast<const Tile*>(argument);
-  const Shader& shader = *tile.record->target->shader;
+  const Shader& shader = tile.record->target->shader;
   Worker& worker = *tile.worker;
   const RunningShader running(worker, shader);
   const auto entry = shader.as<shader::RayGenerationFn>();
@@ -125,19 +125,19 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
 // Looks up what every shader of the pipeline finds bound.
 void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
   size_t count = 0;
-  for (const Shader* shader : pipeline.shaders()) count += shader->linked->slots.size();
+  for (const auto* shader : pipeline.shaders()) count += shader->slots.size();
   dispatch.bound_resources.resize(count);
   shader::BoundResource* place = dispatch.bound_resources.data();
   shader::Invocation invocation;
   invocation.dispatch = &dispatch.abi;
-  for (const Shader* shader : pipeline.shaders()) {
-    const shader::ExportDesc& code = *shader->linked->code;
+  for (const auto* shader : pipeline.shaders()) {
+    const shader::ExportDesc& code = *shader->code;
     dispatch.bound.push_back(place);
-    invocation.slots = shader->slots;
+    invocation.slots = shader->slots.data();
     if ((code.flags & shader::kExportReadsBound) != 0) {
       shader::bind(invocation, code.bindings, code.binding_count, place);
     }
-    place += shader->linked->slots.size();
+    place += shader->slots.size();
   }
 }
 
@@ -264,7 +264,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   if (!run_guarded(worker, read_record, &read)) record_removal(worker);
   const Grid grid(desc.Width, desc.Height, desc.Depth);
   // A NULL ray generation shader runs nothing.
-  if (read.record.target->shader == nullptr || grid.tile_count() == 0) {
+  if (!read.record.target->shader.runs() || grid.tile_count() == 0) {
     return end_dispatch(dispatch);
   }
   bind_shaders(pipeline, dispatch);

@@ -115,7 +115,7 @@ struct PackOffer {
     if (!opaque) {
       record = hit_record(state, *state.instance, geometry.index);
       // Without an any-hit shader the geometry is opaque. [DXR: TraceRay control flow, note 3]
-      opaque = record.target->any_hit == nullptr;
+      opaque = !record.target->any_hit.runs();
     }
     if (t == state.committed_t && !wins_tie(opaque)) return false;
     if (opaque) return commit(t, hit_kind, true, false), true;
@@ -149,8 +149,8 @@ bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray
 
 // Boxes have no exact form: intersection shaders get the ray that they get in every precision.
 bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
-  const ObjectRay object = to_object_space(node, without_fourth_lane(_mm_load_ps(state.ray.origin)),
-                                           without_fourth_lane(_mm_load_ps(state.ray.direction)));
+  const ObjectRay object = to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
+                                           without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
   if (!is_traceable(object)) return false;
   _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_min));
   _mm_store_ps(&ray.dir_x, object.direction);

@@ -23,12 +23,11 @@ auto key_of(const RayQueryFound& found) {
 
 RayQueryHit hit_of(const TopLevel& scene, const RayQueryFound& found, uint32_t type) {
   const InstanceNode& node = scene.nodes()[found.instance];
-  const InstanceDetail& detail = scene.detail(found.instance);
   RayQueryHit hit;
   hit.type = type;
   hit.t = found.t;
   hit.instance_index = found.instance;
-  hit.instance_id = detail.id;
+  hit.instance_id = node.id;
   hit.instance_contribution = node.contribution;
   hit.geometry_index = found.geometry;
   hit.primitive_index = found.primitive;
@@ -37,7 +36,7 @@ RayQueryHit hit_of(const TopLevel& scene, const RayQueryFound& found, uint32_t t
   hit.front_face = found.front_face;
   hit.non_opaque = found.procedural && found.non_opaque;
   hit.object_to_world = node.object_to_world;
-  hit.world_to_object = detail.world_to_object;
+  hit.world_to_object = scene.world_to_object(found.instance);
   return hit;
 }
 
@@ -95,7 +94,7 @@ void search(Worker& worker, RayQuery& query) {
   const auto& scene = *static_cast<const TopLevel*>(query.scene);
   RayState state;
   state.worker = &worker;
-  state.ray = query.ray;
+  state.values.ray = query.ray;
   const bool first = !query.searched;
   begin_search(state, query.ray_flags, query.inclusion_mask, &scene, query.ray.t_min,
                query.ray.t_max);
@@ -113,8 +112,8 @@ void search(Worker& worker, RayQuery& query) {
   query.next = query.count = 0;
   query.next_left_out = kNone;
 
-  const ObjectRay world = {without_fourth_lane(_mm_load_ps(state.ray.origin)),
-                           without_fourth_lane(_mm_load_ps(state.ray.direction))};
+  const ObjectRay world = {without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
+                           without_fourth_lane(_mm_load_ps(state.values.ray.direction))};
   RTCRayHit ray_hit;
   ExactState exact;
   if (scene.exact_frame() == nullptr) {

@@ -27,14 +27,17 @@ enum GeometryClass : uint32_t {
   kAllClasses = 15,
 };
 
+inline constexpr uint32_t kTracedInstanceFlags = 15;  // all but those of opacity micromaps
+
 struct alignas(64) InstanceNode {
   float world_to_object_columns[4][4];  // fourth lanes are 0: they carry t and time of a ray
   RTCScene scene;                       // null: inactive
-  uint8_t mask;                         // InstanceMask; 0 also for inactive instances
-  uint8_t flags;                        // InstanceFlags
-  OpacityOverride opacity;
-  bool procedural;
-  uint32_t contribution;  // InstanceContributionToHitGroupIndex, 24 bits
+  uint32_t contribution : 24;           // InstanceContributionToHitGroupIndex
+  uint32_t mask : 8;                    // InstanceMask; 0 also for inactive instances
+  uint32_t id : 24;                     // InstanceID
+  uint32_t flags : 4;                   // kTracedInstanceFlags of InstanceFlags
+  OpacityOverride opacity : 2;          // of the flags
+  bool procedural : 1;
   float object_to_world[12];
 };
 static_assert(sizeof(InstanceNode) == 128);

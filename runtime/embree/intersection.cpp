@@ -12,8 +12,10 @@
 namespace kaamos::embree {
 namespace {
 
-// An intersection shader at work on one primitive.
-struct IntersectionInvocation : RayInvocation {
+// An intersection shader at work on one primitive. Its values are its own: any-hit shaders run in
+// the midst of it.
+struct IntersectionInvocation : shader::Invocation {
+  shader::RaySystemValues values;
   RayState* state;
   const GeometryInfo* geometry;
   uint32_t primitive;
@@ -21,18 +23,20 @@ struct IntersectionInvocation : RayInvocation {
   RTCRay* ray;
   RTCHit* hit;  // null in an occlusion query
 
-  // Not an aggregate: clang would copy the base that it is given.
   IntersectionInvocation(RayState& ray_state, const Shader& shader, const ShaderRecord& hit_record,
-                         const shader::RaySystemValues& system_values,
                          const GeometryInfo& geometry_info, uint32_t primitive_index,
                          RTCRay& embree_ray, RTCHit* embree_hit)
-      : RayInvocation(ray_state, shader, hit_record, system_values),
+      : shader::Invocation(invocation_of(*ray_state.caller, shader, hit_record, values)),
+        values(ray_state.values),
         state(&ray_state),
         geometry(&geometry_info),
         primitive(primitive_index),
         record(hit_record),
         ray(&embree_ray),
         hit(embree_hit) {}
+  // It points at its own values.
+  IntersectionInvocation(const IntersectionInvocation&) = delete;
+  IntersectionInvocation& operator=(const IntersectionInvocation&) = delete;
 };
 
 void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t primitive,
@@ -40,16 +44,15 @@ void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t pr
   if (state.ended) return;
   if (state.search != nullptr) return state.search->take_box(state, geometry, primitive, ray);
   const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
-  if (record.target->intersection == nullptr) return;  // NULL record: nothing can be reported
+  if (!record.target->intersection.runs()) return;  // NULL record: nothing can be reported
   Worker& worker = *state.worker;
-  const Shader& shader = *record.target->intersection;
+  const Shader& shader = record.target->intersection;
   ++worker.counters.intersection_calls;
 
   const bool committed = hit != nullptr && hit->geomID != RTC_INVALID_GEOMETRY_ID;
-  IntersectionInvocation invocation(state, shader, record,
-                                    hit_values(state, instance_index(state), geometry.index,
-                                               primitive, 0, committed ? ray.tfar : state.t_max),
-                                    geometry, primitive, ray, hit);
+  IntersectionInvocation invocation(state, shader, record, geometry, primitive, ray, hit);
+  set_hit_values(state, instance_index(state), geometry.index, primitive, 0,
+                 committed ? ray.tfar : state.t_max, invocation.values);
   const RunningShader running(worker, shader);
   shader.as<shader::IntersectionFn>()(invocation);
 }
@@ -108,7 +111,7 @@ shader::ReportHitResult report_hit(shader::Invocation& base, float t, uint32_t h
   }
   bool end_search = (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0;
   if (!is_opaque(state, invocation.geometry->opaque) &&
-      invocation.record.target->any_hit != nullptr) {
+      invocation.record.target->any_hit.runs()) {
     const Candidate candidate = {t, hit_kind, invocation.geometry->index, invocation.primitive,
                                  bytes};
     const auto result = run_any_hit(state, invocation.record, candidate);

@@ -94,8 +94,8 @@ inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCR
 inline bool begin_exact_ray(RayState& state, ExactState& exact, RTCRay& ray) {
   state.exact = &exact;
   for (int i = 0; i < 3; ++i) {
-    exact.world.origin[i] = state.ray.origin[i];
-    exact.world.direction[i] = state.ray.direction[i];
+    exact.world.origin[i] = state.values.ray.origin[i];
+    exact.world.direction[i] = state.values.ray.direction[i];
   }
   EmbreeRay& local = exact.in_top_level;
   if (!local.set(exact.world, *state.top_level->exact_frame())) return false;

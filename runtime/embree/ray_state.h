@@ -46,7 +46,9 @@ struct RayState {
   const shader::TraceRayArguments* arguments;
   const shader::Invocation* caller;
   void* payload;
-  alignas(16) shader::RayDesc ray;  // the argument of TraceRay
+  // What the shaders of this ray see. `ray` is the argument of TraceRay, and ray_flags are, without
+  // the pipeline's flags and undefined bits [DXR: RayFlags]; the rest is set before each of them runs.
+  alignas(16) shader::RaySystemValues values;
 
   uint32_t ray_flags;       // with the pipeline's flags
   uint32_t inclusion_mask;  // 8 bits
@@ -73,53 +75,34 @@ inline RayState& ray_state_of(void* context) {
   return *reinterpret_cast<RayState*>(context);
 }
 
-// An invocation of a hit, miss or intersection shader. Every member is given at once: gcc would
-// clear it all first, by a string instruction that costs more than the rest of a miss.
-struct RayInvocation : shader::Invocation {
-  shader::RaySystemValues values;
-
-  RayInvocation(const RayState& state, const Shader& shader, const ShaderRecord& record,
-                const shader::RaySystemValues& system_values)
-      : shader::Invocation{state.caller->dispatch,
-                           shader.slots,
-                           record.local_arguments(),
-                           &values,
-                           {state.caller->index[0], state.caller->index[1], state.caller->index[2]},
-                           state.caller->depth + 1,
-                           state.caller->backend,
-                           state.worker->bound[shader.number]},
-        values(system_values) {}
-  // It points at its own values.
-  RayInvocation(const RayInvocation&) = delete;
-  RayInvocation& operator=(const RayInvocation&) = delete;
-};
-
-// The argument of TraceRay, without the pipeline's flags and undefined bits. [DXR: RayFlags]
-inline uint32_t reported_ray_flags(const RayState& state) {
-  return state.arguments->ray_flags & kAllRayFlags;
+// Of a hit, miss or intersection shader. Every member is given at once: gcc would clear it all
+// first, by a string instruction that costs more than the rest of a miss.
+inline shader::Invocation invocation_of(const shader::Invocation& caller, const Shader& shader,
+                                        const ShaderRecord& record,
+                                        const shader::RaySystemValues& values) {
+  return {caller.dispatch,
+          shader.slots,
+          record.local_arguments(),
+          &values,
+          {caller.index[0], caller.index[1], caller.index[2]},
+          caller.depth + 1,
+          caller.backend,
+          worker_of(caller).bound[shader.number]};
 }
 
-// What miss shaders see.
-inline shader::RaySystemValues ray_values(const RayState& state, float t_current) {
-  return {state.ray, t_current, reported_ray_flags(state), 0, 0, 0, 0, 0, nullptr, nullptr};
-}
-
-// What shaders of a hit, or of a candidate for one, see.
-inline shader::RaySystemValues hit_values(const RayState& state, uint32_t instance_index,
-                                          uint32_t geometry, uint32_t primitive, uint32_t hit_kind,
-                                          float t_current) {
+// For shaders of a hit, or of a candidate for one: all but the ray and its flags.
+inline void set_hit_values(const RayState& state, uint32_t instance_index, uint32_t geometry,
+                           uint32_t primitive, uint32_t hit_kind, float t_current,
+                           shader::RaySystemValues& values) {
   const InstanceNode& instance = state.top_level->nodes()[instance_index];
-  const InstanceDetail& detail = state.top_level->detail(instance_index);
-  return {state.ray,
-          t_current,
-          reported_ray_flags(state),
-          hit_kind,
-          instance_index,
-          detail.id,
-          geometry,
-          primitive,
-          instance.object_to_world,
-          detail.world_to_object};
+  values.t_current = t_current;
+  values.hit_kind = hit_kind;
+  values.instance_index = instance_index;
+  values.instance_id = instance.id;
+  values.geometry_index = geometry;
+  values.primitive_index = primitive;
+  values.object_to_world = instance.object_to_world;
+  values.world_to_object = state.top_level->world_to_object(instance_index);
 }
 
 // Of the instance that is being traversed.
@@ -157,9 +140,14 @@ inline uint32_t triangle_hit_kind(const InstanceNode& instance, const float norm
 }
 
 // ROBUST scenes accept barycentrics that are off by rounding; shaders get them inside the triangle.
+// Without branches; NaN becomes 0, as the first operand of _mm_max_ss gives way to the second.
 inline void clamp_barycentrics(float& u, float& v) {
-  u = u > 0 ? (u < 1 ? u : 1.0f) : 0.0f;
-  v = v > 0 ? (v < 1 - u ? v : 1 - u) : 0.0f;
+  const auto clamp = [](float x, float limit) {
+    return _mm_cvtss_f32(
+        _mm_min_ss(_mm_max_ss(_mm_set_ss(x), _mm_setzero_ps()), _mm_set_ss(limit)));
+  };
+  u = clamp(u, 1);
+  v = clamp(v, 1 - u);
 }
 
 // The open interval of triangles as Embree's closed one. Denormals are flushed to zero, so that the
@@ -177,15 +165,16 @@ inline float next_below(float t) {
 // Takes a shader's share of the pipeline's stack while it runs, and names it for fault messages.
 class RunningShader {
  public:
-  RunningShader(Worker& worker, const Shader& shader) : worker_(worker), caller_(worker.running) {
+  RunningShader(Worker& worker, const Shader& shader)
+      : worker_(worker), caller_(worker.running), left_to_caller_(worker.stack_left) {
     worker.running = &shader;
-    if (worker.stack_left < shader.stack_bytes) [[unlikely]] {
+    if (left_to_caller_ < shader.stack_bytes) [[unlikely]] {
       remove_device(worker, shader::RemovalReason::kStackOverflow);
     }
-    worker.stack_left -= shader.stack_bytes;
+    worker.stack_left = left_to_caller_ - shader.stack_bytes;
   }
   ~RunningShader() {
-    worker_.stack_left += worker_.running->stack_bytes;
+    worker_.stack_left = left_to_caller_;
     worker_.running = caller_;
   }
   RunningShader(const RunningShader&) = delete;
@@ -194,6 +183,7 @@ class RunningShader {
  private:
   Worker& worker_;
   const Shader* caller_;
+  uint64_t left_to_caller_;
 };
 
 }  // namespace kaamos::embree

@@ -25,6 +25,7 @@ RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_by
                          RecordKind kind, TargetLookup lookup, RecordProblems* problems)
     : start_(reinterpret_cast<const uint8_t*>(start)),
       stride_bytes_(stride_bytes),
+      index_mask_(stride_bytes == 0 ? 0 : UINT64_MAX),
       kind_(kind),
       lookup_(lookup),
       problems_(problems) {
@@ -36,13 +37,13 @@ RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_by
   cached_ = cache_ ? wanted : 0;
 }
 
-ShaderRecord RecordTable::out_of_bounds(uint64_t index) const {
-  if (problems_ != nullptr) problems_->out_of_bounds.store(index, std::memory_order_relaxed);
-  return {&kNothing, nullptr};
-}
-
-ShaderRecord RecordTable::resolve(uint64_t slot, const uint8_t* address) const {
+ShaderRecord RecordTable::resolve(uint64_t slot, uint64_t index) const {
+  if (slot >= count_) {
+    if (problems_ != nullptr) problems_->out_of_bounds.store(index, std::memory_order_relaxed);
+    return {&kNothing, nullptr};
+  }
   const RecordTarget* target = &kNothing;
+  const uint8_t* address = start_ + slot * stride_bytes_;
   if (!is_null_identifier(address)) {
     const RecordTarget* found = lookup_.find(lookup_.self, address);
     if (found != nullptr && found->kind == kind_) {

@@ -21,8 +21,8 @@ namespace kaamos::embree {
 // Bytes of a shader identifier, at the start of every record. [DXR: Shader identifier]
 inline constexpr uint64_t kIdentifierBytes = 32;
 
-// One linked export: code and where its bindings come from.
-struct Shader {
+// One linked export: code and where its bindings come from. A cache line.
+struct alignas(64) Shader {
   const char* name = "";
   shader::AnyFn entry = nullptr;
   const shader::BindingSlot* slots = nullptr;
@@ -30,6 +30,8 @@ struct Shader {
   bool reads_hit_kind = false;
   uint32_t number = 0;                            // of the pipeline's shaders
   const runtime::LinkedShader* linked = nullptr;  // for messages; may be null
+
+  bool runs() const { return entry != nullptr; }
 
   template <typename Function>
   Function as() const {
@@ -39,15 +41,16 @@ struct Shader {
 
 enum class RecordKind : uint32_t { kNone, kRayGeneration, kMiss, kHitGroup, kCallable };
 
-// What a shader identifier stands for. Null members run nothing, so that kNothing below serves for
-// null identifiers, records out of bounds and identifiers of another kind of shader alike.
+// What a shader identifier stands for. Shaders that are not there run nothing, so that kNothing
+// below serves for null identifiers, records out of bounds and identifiers of another kind of
+// shader alike. They are held by value: what a hit runs is two loads away, not three.
 struct RecordTarget {
+  Shader shader;   // ray generation, miss, callable
+  Shader any_hit;  // hit groups
+  Shader closest_hit;
+  Shader intersection;
   RecordKind kind = RecordKind::kNone;
-  bool procedural = false;          // hit groups: D3D12_HIT_GROUP_TYPE_PROCEDURAL_PRIMITIVE
-  const Shader* shader = nullptr;   // ray generation, miss, callable
-  const Shader* any_hit = nullptr;  // hit groups
-  const Shader* closest_hit = nullptr;
-  const Shader* intersection = nullptr;
+  bool procedural = false;  // hit groups: D3D12_HIT_GROUP_TYPE_PROCEDURAL_PRIMITIVE
 };
 
 extern const RecordTarget kNothing;
@@ -83,16 +86,13 @@ class RecordTable {
   // A stride of 0 makes every index the first record [DXR: Shader record stride]; an index past
   // size_bytes runs nothing [DXR: Out of bounds shader table indexing].
   ShaderRecord at(uint64_t index) const {
-    const uint64_t slot = stride_bytes_ == 0 ? 0 : index;
-    if (slot >= count_) [[unlikely]]
-      return out_of_bounds(index);
-    const uint8_t* address = start_ + slot * stride_bytes_;
+    const uint64_t slot = index & index_mask_;
     if (slot < cached_) [[likely]] {
       const RecordTarget* target = cache_.get()[slot].load(std::memory_order_relaxed);
       if (target != nullptr) [[likely]]
-        return {target, address};
+        return {target, start_ + slot * stride_bytes_};
     }
-    return resolve(slot, address);
+    return resolve(slot, index);
   }
 
   // Records inside size_bytes; 1 for a stride of 0.
@@ -104,13 +104,13 @@ class RecordTable {
     void operator()(Cell* cells) const { std::free(cells); }
   };
 
-  ShaderRecord resolve(uint64_t slot, const uint8_t* address) const;
-  ShaderRecord out_of_bounds(uint64_t index) const;
+  ShaderRecord resolve(uint64_t slot, uint64_t index) const;
 
   const uint8_t* start_ = nullptr;
   uint64_t stride_bytes_ = 0;
+  uint64_t index_mask_ = 0;  // 0: the stride is
   uint64_t count_ = 0;
-  uint64_t cached_ = 0;
+  uint64_t cached_ = 0;  // first records that have a cell: count_ at most
   RecordKind kind_ = RecordKind::kNone;
   TargetLookup lookup_;
   RecordProblems* problems_ = nullptr;

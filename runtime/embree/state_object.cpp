@@ -46,12 +46,12 @@ RaytracingPipeline::RaytracingPipeline(std::shared_ptr<const runtime::LinkedPipe
   }
 }
 
-const Shader* RaytracingPipeline::add(const runtime::LinkedShader* shader) {
-  if (shader == nullptr) return nullptr;
-  const auto number = static_cast<uint32_t>(numbered_.size());
-  const auto [place, is_new] = shaders_.emplace(shader, flatten(*shader, number));
-  if (is_new) numbered_.push_back(&place->second);
-  return &place->second;
+Shader RaytracingPipeline::add(const runtime::LinkedShader* shader) {
+  if (shader == nullptr) return {};
+  const auto next = static_cast<uint32_t>(shaders_.size());
+  const auto [place, is_new] = numbers_.emplace(shader, next);
+  if (is_new) shaders_.push_back(shader);
+  return flatten(*shader, place->second);
 }
 
 const RecordTarget* RaytracingPipeline::find(const void* self, const uint8_t* identifier) {

@@ -21,16 +21,16 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   const runtime::LinkedPipeline& linked() const { return *linked_; }
   TargetLookup lookup() const { return {find, this}; }
   // By Shader::number.
-  const std::vector<const Shader*>& shaders() const { return numbered_; }
+  const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:
   static const RecordTarget* find(const void* self, const uint8_t* identifier);
-  const Shader* add(const runtime::LinkedShader* shader);
+  Shader add(const runtime::LinkedShader* shader);
 
   std::shared_ptr<const runtime::LinkedPipeline> linked_;
-  std::unordered_map<const runtime::LinkedShader*, Shader> shaders_;  // nodes do not move
-  std::vector<const Shader*> numbered_;
-  std::unordered_map<const runtime::LinkedRecord*, RecordTarget> targets_;
+  std::vector<const runtime::LinkedShader*> shaders_;
+  std::unordered_map<const runtime::LinkedShader*, uint32_t> numbers_;
+  std::unordered_map<const runtime::LinkedRecord*, RecordTarget> targets_;  // nodes do not move
 };
 
 class ComputePipeline final : public runtime::BackendPipeline {

@@ -32,22 +32,21 @@ TopLevel::~TopLevel() {
 void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds) {
   const rtapi::RaytracingInstanceDesc& desc = instance.desc;
   InstanceNode& node = nodes_.emplace_back();
-  InstanceDetail& detail = details_.emplace_back();
+  float* world_to_object = world_to_object_.emplace_back().rows;
   RTCBounds& box = bounds.emplace_back(kNoBounds);
   node = {};
   std::memcpy(node.object_to_world, desc.Transform, sizeof(node.object_to_world));
-  node.flags = static_cast<uint8_t>(desc.Flags);
+  node.flags = desc.Flags & kTracedInstanceFlags;
   node.opacity = opacity_of(desc.Flags);
   node.contribution = desc.InstanceContributionToHitGroupIndex;
-  detail = {};
-  detail.id = desc.InstanceID;
+  node.id = desc.InstanceID;
   if (instance.bottom_level == nullptr) return;
   const runtime::Bounds& b = instance.bounds;
   box = {b.lower[0], b.lower[1], b.lower[2], 0, b.upper[0], b.upper[1], b.upper[2], 0};
-  std::memcpy(detail.world_to_object, instance.world_to_object, sizeof(detail.world_to_object));
+  std::memcpy(world_to_object, instance.world_to_object, sizeof(WorldToObject));
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 3; ++row) {
-      node.world_to_object_columns[column][row] = detail.world_to_object[4 * row + column];
+      node.world_to_object_columns[column][row] = world_to_object[4 * row + column];
     }
   }
   const auto& level = static_cast<const BottomLevel&>(*instance.bottom_level);
@@ -107,7 +106,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     const BuildContext& context, std::span<const runtime::Instance> instances) {
   std::shared_ptr<TopLevel> level(new TopLevel);
   level->nodes_.reserve(instances.size());
-  level->details_.reserve(instances.size());
+  level->world_to_object_.reserve(instances.size());
   std::vector<RTCBounds> bounds;
   bounds.reserve(instances.size());
   for (const auto& instance : instances) {

@@ -19,10 +19,9 @@
 
 namespace kaamos::embree {
 
-// What only shaders need of an instance; a cache line.
-struct alignas(64) InstanceDetail {
-  float world_to_object[12];  // 3x4, row-major
-  uint32_t id;                // InstanceID, 24 bits
+// What only shaders need of an instance: 3x4, row-major.
+struct WorldToObject {
+  float rows[12];
 };
 
 class TopLevel final : public runtime::TopLevelBase {
@@ -38,7 +37,7 @@ class TopLevel final : public runtime::TopLevelBase {
   bool has_procedurals() const { return has_procedurals_; }
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
-  const InstanceDetail& detail(uint32_t index) const { return details_[index]; }
+  const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
   // In exact precision: where Embree's coordinates are, and the instances; else null.
   const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
   PackFilter pack_filter() const { return pack_filter_; }
@@ -57,7 +56,7 @@ class TopLevel final : public runtime::TopLevelBase {
   PackFilter pack_filter_ = nullptr;
   std::vector<ExactInstance> exact_instances_;
   std::vector<InstanceNode> nodes_;
-  std::vector<InstanceDetail> details_;
+  std::vector<WorldToObject> world_to_object_;
   std::vector<std::shared_ptr<const runtime::BottomLevelBase>>
       bottom_levels_;  // kept alive, each once
 };

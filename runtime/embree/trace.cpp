@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay: guard, traverse, then run the closest-hit or the miss shader.
+// TraceRay: guard, traverse, then run the closest-hit or the miss shader. The functions below are
+// given what trace_ray has in registers: read back from the state, it would cost as much again.
 #include "runtime/embree/trace.h"
 
 #include "runtime/embree/fault.h"
@@ -25,18 +26,22 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
-void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
+// `exact`: the search was an exact one.
+template <bool exact>
+void run_closest_hit(Worker& worker, const shader::Invocation& caller,
+                     const TraceRayArguments& arguments, RayState& state, const RTCRayHit& ray_hit) {
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
-  const ShaderRecord record = hit_record(state, instance, ray_hit.hit.geomID);
-  if (record.target->closest_hit == nullptr) [[unlikely]]
+  const ShaderRecord record = worker.dispatch->hit_table.at(hit_record_index(
+      arguments.ray_contribution_to_hit_group_index, arguments.multiplier_for_geometry_contribution,
+      ray_hit.hit.geomID, instance.contribution));
+  const Shader& shader = record.target->closest_hit;
+  if (!shader.runs()) [[unlikely]]
     return;
-  const Shader& shader = *record.target->closest_hit;
-  ++state.worker->counters.closest_hit_calls;
+  ++worker.counters.closest_hit_calls;
 
   // A search that was ended early has lost its t in Embree's ray.
-  const bool exact = state.top_level->exact_frame() != nullptr;
-  const float t = state.ended || exact ? state.committed_t : ray_hit.ray.tfar;
+  const float t = exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
@@ -49,24 +54,55 @@ void run_closest_hit(RayState& state, const RTCRayHit& ray_hit) {
     clamp_barycentrics(barycentrics[0], barycentrics[1]);
     attributes = barycentrics;
   }
-  RayInvocation invocation(
-      state, shader, record,
-      hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t));
-  const RunningShader running(*state.worker, shader);
+  set_hit_values(state, index, ray_hit.hit.geomID, ray_hit.hit.primID, hit_kind, t, state.values);
+  shader::Invocation invocation = invocation_of(caller, shader, record, state.values);
+  const RunningShader running(worker, shader);
   shader.as<shader::ClosestHitFn>()(invocation, state.payload, attributes);
 }
 
-void run_miss(RayState& state) {
-  ++state.worker->counters.misses;
-  const uint32_t index = state.arguments->miss_shader_index & 0xFFFFu;
-  const ShaderRecord record = state.worker->dispatch->miss_table.at(index);
-  if (record.target->shader == nullptr) [[unlikely]]
+void run_miss(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
+              RayState& state) {
+  ++worker.counters.misses;
+  const uint32_t index = arguments.miss_shader_index & 0xFFFFu;
+  const ShaderRecord record = worker.dispatch->miss_table.at(index);
+  const Shader& shader = record.target->shader;
+  if (!shader.runs()) [[unlikely]]
     return;
-  const Shader& shader = *record.target->shader;
-  ++state.worker->counters.miss_calls;
-  RayInvocation invocation(state, shader, record, ray_values(state, state.ray.t_max));
-  const RunningShader running(*state.worker, shader);
+  ++worker.counters.miss_calls;
+  state.values.t_current = state.values.ray.t_max;
+  shader::Invocation invocation = invocation_of(caller, shader, record, state.values);
+  const RunningShader running(worker, shader);
   shader.as<shader::MissFn>()(invocation, state.payload);
+}
+
+// Traverses, and runs the shader of what was found.
+template <bool exact>
+void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
+            RayState& state, RTCRayHit& ray_hit) {
+  const TopLevel& top_level = *state.top_level;
+  if (asks_visibility(state)) {
+    ++worker.counters.visibility_rays;
+    shim::occluded(top_level.scene(), state.query, &ray_hit.ray);
+    if (ray_hit.ray.tfar >= 0) run_miss(worker, caller, arguments, state);
+    return;
+  }
+  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  shim::intersect(top_level.scene(), state.query, &ray_hit);
+  if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+    return run_miss(worker, caller, arguments, state);
+  }
+  if ((state.ray_flags & kRaySkipClosestHitShader) != 0) return;
+  run_closest_hit<exact>(worker, caller, arguments, state, ray_hit);
+}
+
+// Out of line: what it has on the stack is large, and few scenes come here.
+[[gnu::noinline]] void search_exactly(Worker& worker, const shader::Invocation& caller,
+                                      const TraceRayArguments& arguments, RayState& state) {
+  RTCRayHit ray_hit;
+  ExactState exact;
+  if (!begin_exact_ray(state, exact, ray_hit.ray)) return run_miss(worker, caller, arguments, state);
+  search<true>(worker, caller, arguments, state, ray_hit);
 }
 
 }  // namespace
@@ -87,36 +123,24 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   state.caller = &caller;
   state.payload = payload;
   const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
-  _mm_store_ps(state.ray.origin, origin_t_min);
-  _mm_store_ps(state.ray.direction, direction_t_max);
+  _mm_store_ps(state.values.ray.origin, origin_t_min);
+  _mm_store_ps(state.values.ray.direction, direction_t_max);
+  state.values.ray_flags = arguments.ray_flags & kAllRayFlags;
   const ObjectRay world = {without_fourth_lane(origin_t_min), without_fourth_lane(direction_t_max)};
   const float t_min = origin_t_min[3];
   const float t_max = direction_t_max[3];
   if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max))
       [[unlikely]] {
-    return run_miss(state);
+    return run_miss(worker, caller, arguments, state);
   }
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
-
+  if (top_level->exact_frame() != nullptr) [[unlikely]] {
+    return search_exactly(worker, caller, arguments, state);
+  }
   RTCRayHit ray_hit;
-  ExactState exact;
-  if (top_level->exact_frame() == nullptr) [[likely]] {
-    begin_embree_ray(state, world, ray_hit.ray);
-  } else if (!begin_exact_ray(state, exact, ray_hit.ray)) {
-    return run_miss(state);
-  }
-  if (asks_visibility(state)) {
-    ++worker.counters.visibility_rays;
-    shim::occluded(top_level->scene(), state.query, &ray_hit.ray);
-    if (ray_hit.ray.tfar >= 0) return run_miss(state);
-    return;
-  }
-  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  shim::intersect(top_level->scene(), state.query, &ray_hit);
-  if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return run_miss(state);
-  if ((state.ray_flags & kRaySkipClosestHitShader) == 0) run_closest_hit(state, ray_hit);
+  begin_embree_ray(state, world, ray_hit.ray);
+  search<false>(worker, caller, arguments, state, ray_hit);
 }
 
 }  // namespace kaamos::embree

@@ -41,7 +41,7 @@ struct Replay::Trace {
 struct Replay::Frame : shader::Invocation {
   Replay* replay = nullptr;
   rtapi::ExplainedShader* node = nullptr;  // null: nothing is recorded
-  shader::RaySystemValues values;
+  shader::RaySystemValues values = {};
   Trace* trace = nullptr;                // intersection shaders
   const Candidate* candidate = nullptr;  // the same
   Record record;

@@ -62,6 +62,7 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
+  std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element);
   std::string bound(const ir::Expr& expr);
   std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);

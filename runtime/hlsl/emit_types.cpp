@@ -235,6 +235,18 @@ void CppEmitter::emit_memory_functions() {
   }
 }
 
+// `element`: the index into a structured buffer; null for raw and constant buffers.
+std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element) {
+  const std::string view = element != nullptr ? "element_view(" : "memory_view(";
+  const std::string index = element != nullptr ? ", " + value(element) : "";
+  if (is_bound(buffer)) return "ks::" + view + bound(buffer) + index + ")";
+  if (reads_bound_ && buffer.kind == ExprKind::kBinding && buffer.operands.empty()) {
+    return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
+           ")";
+  }
+  return "ks::" + view + value(&buffer) + index + ")";
+}
+
 std::string CppEmitter::load(const Expr& expr) {
   const bool element = expr.kind == ExprKind::kLoadElement;
   if (module_.check_access) {
@@ -243,9 +255,7 @@ std::string CppEmitter::load(const Expr& expr) {
                  expr.operands.back(), expr.type, expr.layout, expr.row_major, 0, expr.location);
     return memory_read(expr.type, expr.layout, expr.row_major, view, "0u");
   }
-  const std::string view =
-      element ? "ks::element_view(" + value(expr.operands[0]) + ", " + value(expr.operands[1]) + ")"
-              : "ks::memory_view(" + value(expr.operands[0]) + ")";
+  const std::string view = buffer_view(*expr.operands[0], element ? expr.operands[1] : nullptr);
   return memory_read(expr.type, expr.layout, expr.row_major, view, value(expr.operands.back()));
 }
 
@@ -260,9 +270,7 @@ void CppEmitter::store(const Stmt& stmt) {
         ";");
     return;
   }
-  const std::string view =
-      element ? "ks::element_view(" + value(stmt.operands[0]) + ", " + value(stmt.operands[1]) + ")"
-              : "ks::memory_view(" + value(stmt.operands[0]) + ")";
+  const std::string view = buffer_view(*stmt.operands[0], element ? stmt.operands[1] : nullptr);
   line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, view,
                     value(stmt.operands.back()), value(stmt.value)) +
        ";");

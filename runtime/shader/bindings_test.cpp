@@ -136,7 +136,7 @@ TEST(ShaderSystemValues, ObjectSpaceFollowsTheTransform) {
   // Object to world: scale by 2, then move by (10, 20, 30).
   const float to_world[12] = {2, 0, 0, 10, 0, 2, 0, 20, 0, 0, 2, 30};
   const float to_object[12] = {0.5f, 0, 0, -5, 0, 0.5f, 0, -10, 0, 0, 0.5f, -15};
-  RaySystemValues ray;
+  RaySystemValues ray = {};
   ray.ray = {{12, 20, 30}, 0, {0, 4, 0}, 100};
   ray.object_to_world = to_world;
   ray.world_to_object = to_object;

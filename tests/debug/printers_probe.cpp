@@ -40,11 +40,10 @@ int main() {
   view.size_bytes = 416;
   const ks::Descriptor none;
 
-  kaamos::embree::Shader any_hit;
-  any_hit.name = "AlphaTest";
   kaamos::embree::RecordTarget target;
   target.kind = kaamos::embree::RecordKind::kHitGroup;
-  target.any_hit = &any_hit;
+  target.any_hit.name = "AlphaTest";
+  target.any_hit.entry = [] {};
   alignas(32) const uint8_t bytes[64] = {};
   const kaamos::embree::ShaderRecord record = {&target, bytes};
 

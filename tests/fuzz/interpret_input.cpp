@@ -108,7 +108,7 @@ class World {
 
   void run(const ExportDesc& code) {
     const float transform[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    RaySystemValues ray;
+    RaySystemValues ray = {};
     ray.object_to_world = ray.world_to_object = transform;
     Invocation invocation;
     invocation.dispatch = &dispatch_;

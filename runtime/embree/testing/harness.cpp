@@ -24,7 +24,14 @@ void end_ray(shader::Invocation& invocation, Payload& payload, End end) {
   payload.end = end;
   ++payload.calls;
   payload.record = record_constant(invocation);
-  payload.values = *invocation.ray;
+  if (end == End::kMiss) {
+    payload.values = {};
+    payload.values.ray = invocation.ray->ray;
+    payload.values.t_current = invocation.ray->t_current;
+    payload.values.ray_flags = invocation.ray->ray_flags;
+  } else {
+    payload.values = *invocation.ray;
+  }
   payload.depth = invocation.depth;
 }
 

@@ -25,7 +25,7 @@ struct Payload {
   End end = End::kNothing;
   uint32_t calls = 0;           // of closest-hit and miss shaders
   uint32_t record = kSentinel;  // the record's root constant, of the last of them
-  shader::RaySystemValues values;
+  shader::RaySystemValues values = {};
   float object_to_world[12] = {};
   float world_to_object[12] = {};
   uint32_t attributes[8] = {};

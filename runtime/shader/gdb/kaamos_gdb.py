@@ -170,11 +170,13 @@ class RayQuery:
 
 
 def shaders_text(target, name_of):
+    """`name_of`: of a member, or None where no shader is there."""
     parts = []
     for what in ("shader", "intersection", "any_hit", "closest_hit"):
-        if int(target[what]) != 0:
+        name = name_of(target[what])
+        if name is not None:
             label = "" if what == "shader" else what.replace("_", "-") + " "
-            parts.append('%s"%s"' % (label, name_of(target[what].dereference())))
+            parts.append('%s"%s"' % (label, name))
     return ", ".join(parts) if parts else "nothing runs"
 
 
@@ -190,7 +192,13 @@ class ShaderRecord:
         kind = int(target["kind"])
         return "%s record at 0x%x: %s" % (
             RECORD_KINDS[kind] if kind < len(RECORD_KINDS) else "unknown", int(record["address"]),
-            shaders_text(target, lambda s: text_of(s["name"], "")))
+            shaders_text(target, lambda s: text_of(s["name"], "") if int(s["entry"]) else None))
+
+
+def linked_name(shader):
+    if int(shader) == 0:
+        return None
+    return shader.dereference()["name"].format_string().strip('"')
 
 
 class LinkedRecord:
@@ -205,7 +213,7 @@ class LinkedRecord:
         return "%s %s: %s, %d bytes of local arguments" % (
             LINKED_KINDS[kind] if kind < len(LINKED_KINDS) else "unknown",
             record["name"].format_string(),
-            shaders_text(record, lambda s: s["name"].format_string().strip('"')),
+            shaders_text(record, linked_name),
             int(record["local_argument_bytes"]))
 
 

@@ -119,18 +119,19 @@ struct RayDesc {
 };
 static_assert(sizeof(RayDesc) == 32);
 
-// What the system-value intrinsics of one ray shader invocation return.
+// What the system-value intrinsics of one ray shader invocation return. Of a miss shader only the
+// first three count. Without initialisers: TraceRay makes one for each ray.
 struct RaySystemValues {
-  RayDesc ray = {};     // WorldRayOrigin, WorldRayDirection, RayTMin; t_max is RayDesc.TMax
-  float t_current = 0;  // RayTCurrent, by stage [DXR: RayTCurrent]
-  uint32_t ray_flags = 0;
-  uint32_t hit_kind = 0;
-  uint32_t instance_index = 0;
-  uint32_t instance_id = 0;
-  uint32_t geometry_index = 0;
-  uint32_t primitive_index = 0;
-  const float* object_to_world = nullptr;  // 3x4, row-major
-  const float* world_to_object = nullptr;  // 3x4, row-major
+  RayDesc ray;      // WorldRayOrigin, WorldRayDirection, RayTMin; t_max is RayDesc.TMax
+  float t_current;  // RayTCurrent, by stage [DXR: RayTCurrent]
+  uint32_t ray_flags;
+  uint32_t hit_kind;
+  uint32_t instance_index;
+  uint32_t instance_id;
+  uint32_t geometry_index;
+  uint32_t primitive_index;
+  const float* object_to_world;  // 3x4, row-major
+  const float* world_to_object;  // 3x4, row-major
 };
 
 struct BoundResource;

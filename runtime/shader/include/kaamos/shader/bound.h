@@ -6,6 +6,7 @@
 
 #include "kaamos/shader/bindings.h"
 #include "kaamos/shader/texture_access.h"
+#include "kaamos/shader/views.h"
 
 namespace kaamos::shader {
 
@@ -18,14 +19,26 @@ struct BoundResource {
   uint32_t row_pitch = 0;
   uint8_t* texels = nullptr;
   bool writable = false;
-  bool ready = false;  // false: of the shader record, another one for each invocation
+  bool ready = false;   // false: of the shader record, another one for each invocation
+  bool buffer = false;  // has bytes: see memory::buffer_bytes
+  // Of structured buffers: the first elements, which are whole. Below it nothing else needs a test.
+  uint32_t elements = 0;
 };
+static_assert(sizeof(BoundResource) == 64);
+
+KAAMOS_INLINE uint32_t whole_elements(const Descriptor& buffer) {
+  if (buffer.kind != DescriptorKind::kStructuredBuffer || buffer.stride_bytes == 0) return 0;
+  const uint64_t count = buffer.size_bytes / buffer.stride_bytes;
+  return count < 0xFFFFFFFFu ? static_cast<uint32_t>(count) : 0xFFFFFFFFu;
+}
 
 inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index,
                      BoundResource& out) {
   out.ready = !invocation.slots[slot].local;
   if (!out.ready) return;
   out.descriptor = resource(invocation, slot, index);
+  out.buffer = memory::buffer_bytes(out.descriptor) != 0;
+  out.elements = whole_elements(out.descriptor);
   if (!invocation.dispatch->direct_texels) return;
   const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
   if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
@@ -72,6 +85,31 @@ KAAMOS_INLINE BoundResource bound_texture(const Invocation& invocation, uint32_t
   BoundResource texture;
   texture.descriptor = local_resource(invocation, slot);
   return texture;
+}
+
+KAAMOS_INLINE MemoryView memory_view(const BoundResource& bound) {
+  return {bound.descriptor.address, bound.buffer ? bound.descriptor.size_bytes : 0};
+}
+KAAMOS_INLINE MemoryView element_view(const BoundResource& bound, uint32_t index) {
+  const Descriptor& buffer = bound.descriptor;
+  if (index < bound.elements) [[likely]] {
+    return {buffer.address + uint64_t{index} * buffer.stride_bytes, buffer.stride_bytes};
+  }
+  return element_view(buffer, index);
+}
+// As bound_resource().
+KAAMOS_INLINE MemoryView bound_memory_view(const Invocation& invocation, uint32_t slot) {
+  const BoundResource& bound = invocation.bound[slot];
+  if (bound.ready) [[likely]]
+    return memory_view(bound);
+  return memory_view(local_resource(invocation, slot));
+}
+KAAMOS_INLINE MemoryView bound_element_view(const Invocation& invocation, uint32_t slot,
+                                            uint32_t index) {
+  const BoundResource& bound = invocation.bound[slot];
+  if (index < bound.elements) [[likely]]
+    return element_view(bound, index);
+  return element_view(bound_resource(invocation, slot), index);
 }
 
 namespace texture_access {
