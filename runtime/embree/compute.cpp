@@ -151,8 +151,9 @@ void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
     run.invocation.slots = job.pipeline->shader().slots;
     run.invocation.backend = &worker;
     for (int axis = 0; axis < 3; ++axis) {
-      worker.index[axis] = run.invocation.index[axis] = run.group.group_id[axis];
+      run.invocation.index[axis] = run.group.group_id[axis];
     }
+    worker.index = run.invocation.index;
     if (!run_guarded(worker, compute.group != nullptr ? run_group : run_fibers, &run)) {
       record_removal(worker);
     }

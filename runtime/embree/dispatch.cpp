@@ -48,22 +48,30 @@ void run_tile(void* argument) {
   Worker& worker = *tile.worker;
   const RunningShader running(worker, shader);
   const auto entry = shader.as<shader::RayGenerationFn>();
+  const shader::RayGenerationRowFn row = shader.linked->code->row;
   shader::Invocation invocation;
   invocation.dispatch = &worker.dispatch->abi;
   invocation.slots = shader.slots;
   invocation.local_arguments = tile.record->local_arguments();
   invocation.backend = &worker;
   invocation.bound = worker.bound[shader.number];
+  worker.index = invocation.index;
   for (uint32_t z = tile.first[2]; z < tile.last[2]; ++z) {
+    invocation.index[2] = z;
     for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
+      invocation.index[1] = y;
+      if (row != nullptr) {
+        invocation.index[0] = tile.first[0];
+        row(invocation, tile.last[0] - tile.first[0]);
+        continue;
+      }
       for (uint32_t x = tile.first[0]; x < tile.last[0]; ++x) {
-        invocation.index[0] = worker.index[0] = x;
-        invocation.index[1] = worker.index[1] = y;
-        invocation.index[2] = worker.index[2] = z;
+        invocation.index[0] = x;
         entry(invocation);
       }
     }
   }
+  worker.index = nullptr;
 }
 
 void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& record,

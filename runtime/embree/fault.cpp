@@ -51,6 +51,13 @@ void forward(int signal_number, siginfo_t* info, void* context) {
   }
 }
 
+// What `index` points to ends with the guarded run.
+void note_index(Worker& worker) {
+  for (int axis = 0; axis < 3; ++axis) {
+    worker.fault_index[axis] = worker.index != nullptr ? worker.index[axis] : 0;
+  }
+}
+
 void on_signal(int signal_number, siginfo_t* info, void* context) {
   Worker* worker = guarded_worker;
   if (worker == nullptr || info->si_code <= 0) return forward(signal_number, info, context);
@@ -64,6 +71,7 @@ void on_signal(int signal_number, siginfo_t* info, void* context) {
       worker->fault_address < stack + kNearStackPointer) {
     worker->fault_reason = shader::RemovalReason::kStackOverflow;
   }
+  note_index(*worker);
   siglongjmp(*worker->jump, 1);
 }
 
@@ -200,6 +208,7 @@ bool run_guarded_on_fiber(Worker& worker, void (*body)(void*), void* argument) {
 
 void remove_device(Worker& worker, shader::RemovalReason reason) {
   worker.fault_reason = reason;
+  note_index(worker);
   siglongjmp(*worker.jump, 1);
 }
 
@@ -208,8 +217,9 @@ void record_removal(Worker& worker) {
   std::string message = message_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
     message += std::string(", shader \"") + worker.running->name + "\" at (" +
-               std::to_string(worker.index[0]) + "," + std::to_string(worker.index[1]) + "," +
-               std::to_string(worker.index[2]) + ")";
+               std::to_string(worker.fault_index[0]) + "," +
+               std::to_string(worker.fault_index[1]) + "," + std::to_string(worker.fault_index[2]) +
+               ")";
   }
   message += ").";
   const std::lock_guard lock(dispatch.mutex);

@@ -28,7 +28,7 @@ void report(shader::Invocation& invocation, const shader::CheckReport& found) {
   checks::CodePlace place;
   if (worker.running != nullptr) place.shader = worker.running->linked;
   for (int i = 0; i < 3; ++i) {
-    place.index[i] = worker.index[i];
+    if (worker.index != nullptr) place.index[i] = worker.index[i];
     place.dimensions[i] = dispatch.abi.dimensions[i];
   }
   place.tables = dispatch.tables;

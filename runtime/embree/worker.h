@@ -102,12 +102,13 @@ struct Worker {
   uint64_t stack_left = UINT64_MAX;  // bytes of the pipeline's stack [DXR: Pipeline stack]
   uintptr_t stack_limit = 0;         // a shader call below it would run out of stack
   const Shader* running = nullptr;   // the shader that is executing: for messages
-  uint32_t index[3] = {0, 0, 0};     // its DispatchRaysIndex or thread group
+  const uint32_t* index = nullptr;   // its DispatchRaysIndex or thread group
   sigjmp_buf* jump = nullptr;        // where a fault ends the tile
   // Set by the signal handler or by remove_device before the jump.
   shader::RemovalReason fault_reason = shader::RemovalReason::kOther;
   int fault_signal = 0;
   uintptr_t fault_address = 0;
+  uint32_t fault_index[3] = {0, 0, 0};
   Counters counters;
   uint64_t reached_hashes[64] = {};  // of late, by the low bits of the hash
 };

@@ -63,6 +63,9 @@ class CppEmitter {
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
   std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element);
+  // A binding that was looked up before; `element`: text of an index, or empty.
+  bool is_looked_up(const ir::Expr& resource) const;
+  std::string looked_up_view(const ir::Expr& buffer, const std::string& element);
   std::string bound(const ir::Expr& expr);
   std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);
@@ -152,6 +155,7 @@ class CppEmitter {
   const EmitCppOptions& options_;
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
+  std::vector<bool> has_row_;     // by entry point: ExportDesc::row
   // Where the elements of each array stand in `bound`, behind what is no array; 0: they do not.
   std::vector<uint32_t> bound_elements_;
   uint32_t bound_count_ = 0;

@@ -348,9 +348,11 @@ std::string CppEmitter::run() {
   line("#include <kaamos/shader/prelude.h>");
   line("#include <kaamos/shader/views.h>");
   if (module_.check_access) line("#include <kaamos/shader/checked.h>");
-  const auto is_compute = [](const EntryPoint& e) { return e.stage == kStageCompute; };
+  const auto may_be_wide = [](const EntryPoint& e) {
+    return e.stage == kStageCompute || e.stage == kStageRayGeneration;
+  };
   if (options_.wide != WideThreads::kNever &&
-      std::any_of(module_.entry_points.begin(), module_.entry_points.end(), is_compute)) {
+      std::any_of(module_.entry_points.begin(), module_.entry_points.end(), may_be_wide)) {
     line("#include <kaamos/shader/wide_memory.h>");
   }
   line("namespace {");
@@ -374,6 +376,7 @@ std::string CppEmitter::run() {
   line("}  // namespace u");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
     if (!wide.emit_group(i)) emit_entry(i);
+    has_row_.push_back(wide.emit_row(i));
   }
   emit_tables();
   line("}}");

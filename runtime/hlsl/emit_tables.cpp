@@ -138,7 +138,8 @@ void CppEmitter::emit_tables() {
                                     : ", nullptr, 0u") +
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
-         quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) + "},");
+         quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) +
+         (has_row_[i] ? ", row_" + n : "") + "},");
   }
   for (size_t i = 0; i < module_.library_functions.size(); ++i) {
     const LibraryFunction& f = module_.library_functions[i];

@@ -237,14 +237,23 @@ void CppEmitter::emit_memory_functions() {
 
 // `element`: the index into a structured buffer; null for raw and constant buffers.
 std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element) {
-  const std::string view = element != nullptr ? "element_view(" : "memory_view(";
-  const std::string index = element != nullptr ? ", " + value(element) : "";
+  const std::string index = element != nullptr ? value(element) : "";
+  if (is_looked_up(buffer)) return looked_up_view(buffer, index);
+  return element != nullptr ? "ks::element_view(" + value(&buffer) + ", " + index + ")"
+                            : "ks::memory_view(" + value(&buffer) + ")";
+}
+
+bool CppEmitter::is_looked_up(const Expr& resource) const {
+  return is_bound(resource) ||
+         (reads_bound_ && resource.kind == ExprKind::kBinding && resource.operands.empty());
+}
+
+std::string CppEmitter::looked_up_view(const Expr& buffer, const std::string& element) {
+  const std::string view = element.empty() ? "memory_view(" : "element_view(";
+  const std::string index = element.empty() ? "" : ", " + element;
   if (is_bound(buffer)) return "ks::" + view + bound(buffer) + index + ")";
-  if (reads_bound_ && buffer.kind == ExprKind::kBinding && buffer.operands.empty()) {
-    return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
-           ")";
-  }
-  return "ks::" + view + value(&buffer) + index + ")";
+  return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
+         ")";
 }
 
 std::string CppEmitter::load(const Expr& expr) {

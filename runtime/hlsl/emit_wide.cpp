@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Structs, functions and entry points that run several threads at once.
+#include <unordered_set>
+
+#include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/wide_emitter.h"
 
 namespace kaamos::hlsl {
@@ -26,22 +29,52 @@ std::string WideEmitter::type(const Type* t) {
   }
 }
 
+namespace {
+
+// Operations on numbers that are written in a function and in what it calls.
+uint32_t count_arithmetic(const Function& function, std::unordered_set<const Function*>& seen) {
+  if (!seen.insert(&function).second) return 0;
+  uint32_t count = 0;
+  visit(
+      function.body,
+      [&](const Expr& expr) {
+        count += expr.kind == ExprKind::kUnary || expr.kind == ExprKind::kBinary ||
+                 expr.kind == ExprKind::kIntrinsic;
+      },
+      [&](const Stmt& stmt) {
+        if (stmt.kind == StmtKind::kCall) count += count_arithmetic(*stmt.function, seen);
+      });
+  return count;
+}
+
+// A ray generation shader that does little but trace is slower wide: rays and payloads are taken
+// apart and put together for each lane.
+constexpr uint32_t kFewOperations = 40;
+
+}  // namespace
+
 void WideEmitter::plan(const EntryPoint& entry) {
   const WideFunction* function = nullptr;
   const uint64_t threads =
       uint64_t{entry.thread_group[0]} * entry.thread_group[1] * entry.thread_group[2];
   std::string reason;
-  if (entry.stage == kStageCompute && !out_.module_.check_access &&
+  const bool compute = entry.stage == kStageCompute;
+  if ((compute || entry.stage == kStageRayGeneration) && !out_.module_.check_access &&
       out_.options_.wide != WideThreads::kNever) {
+    const bool where_faster = out_.options_.wide == WideThreads::kWhereFaster;
+    std::unordered_set<const Function*> seen;
     // One thread of eight is slower so than by itself.
-    if (out_.options_.wide == WideThreads::kWhereFaster && threads < 8) {
+    if (where_faster && compute && threads < 8) {
       reason = "its groups have fewer than 8 threads";
+    } else if (where_faster && !compute && count_arithmetic(*entry.function, seen) < kFewOperations) {
+      reason = "it has few operations";
     } else {
       function = plan_.add(entry, reason);
     }
   }
   if (!reason.empty()) line("// " + entry.name + " runs thread by thread: " + reason);
   entries_.push_back(function);
+  has_rows_ = has_rows_ || (function != nullptr && !compute);
 }
 
 // Members as the templates of wide.h look for them.
@@ -96,6 +129,13 @@ void WideEmitter::emit_context() {
   line("ks::Invocation& invocation;");
   line("WideStatics statics;");
   if (out_.binds_per_group_) line("const ks::BoundResource* bound = nullptr;");
+  if (has_rows_) {
+    line("uint32_t first_x = 0;");
+    line("ks::vec<ks::wide<uint32_t>, 3> rays_index;");
+    open("KAAMOS_INLINE void set_invocation(int lane_number) {");
+    line("invocation.index[0] = first_x + static_cast<uint32_t>(lane_number);");
+    close("}");
+  }
   line("explicit WideContext(ks::Invocation& i) : invocation(i) {}");
   close("};");
 }
@@ -220,7 +260,7 @@ std::string WideEmitter::entry_argument(const EntryPoint& entry, size_t i) {
 bool WideEmitter::emit_group(size_t index) {
   const EntryPoint& entry = out_.module_.entry_points[index];
   const WideFunction* function = entries_[index];
-  if (function == nullptr) return false;
+  if (function == nullptr || entry.stage != kStageCompute) return false;
   const std::string number = std::to_string(index);
   const std::string size = std::to_string(entry.thread_group[0]) + ", " +
                            std::to_string(entry.thread_group[1]) + ", " +
@@ -249,6 +289,27 @@ bool WideEmitter::emit_group(size_t index) {
   close("}");
   line("static const ks::ComputeDesc compute_" + number + " = {{" + size +
        "}, sizeof(u::Shared), group_" + number + ", nullptr};");
+  current_ = nullptr;
+  return true;
+}
+
+bool WideEmitter::emit_row(size_t index) {
+  const EntryPoint& entry = out_.module_.entry_points[index];
+  const WideFunction* function = entries_[index];
+  if (function == nullptr || entry.stage != kStageRayGeneration) return false;
+  current_ = function;
+  open("static void row_" + std::to_string(index) + "(ks::Invocation& invocation, uint32_t count) {");
+  line("const uint32_t first_x = invocation.index[0];");
+  open("for (uint32_t first = 0; first < count; first += ks::kLanes) {");
+  line("u::WideContext ctx(invocation);");
+  line("ctx.first_x = invocation.index[0] = first_x + first;");
+  line("ctx.rays_index = ks::wide_rays_index(invocation);");
+  mask_ = "active";
+  line("const ks::lanes active = ks::first_lanes(count - first);");
+  emit_static_initialisers(*entry.function);
+  line("u::" + names_[function] + "(ctx, active);");
+  close("}");
+  close("}");
   current_ = nullptr;
   return true;
 }

@@ -215,11 +215,15 @@ std::string WideEmitter::gather(const Expr& expr, const LaneOperands& operands,
 
 std::string WideEmitter::load(const Expr& expr) {
   LaneOperands operands;
-  for (const Expr* operand : expr.operands) add_operand(operands, operand);
+  const Expr* buffer = expr.operands[0];
+  for (const Expr* operand : expr.operands) {
+    if (operand != buffer || !out_.is_looked_up(*buffer)) add_operand(operands, operand);
+  }
   const auto text = [&](size_t i) { return operands.text.at(expr.operands[i]); };
-  const std::string view = expr.kind == ExprKind::kLoadElement
-                               ? "ks::element_view(" + text(0) + ", " + text(1) + ")"
-                               : "ks::memory_view(" + text(0) + ")";
+  const std::string index = expr.kind == ExprKind::kLoadElement ? text(1) : "";
+  const std::string view = out_.is_looked_up(*buffer) ? out_.looked_up_view(*buffer, index)
+                           : !index.empty() ? "ks::element_view(" + text(0) + ", " + index + ")"
+                                            : "ks::memory_view(" + text(0) + ")";
   return gather(expr, operands,
                 out_.memory_read(expr.type, expr.layout, expr.row_major, view,
                                  text(expr.operands.size() - 1)));
@@ -236,7 +240,7 @@ std::string WideEmitter::typed_load(const Expr& expr) {
       mip == nullptr || (mip->kind == ExprKind::kLiteral && mip->literal[0] == 0);
   const bool plain = resource->resource == ResourceKind::kTexture2D ||
                      resource->resource == ResourceKind::kRWTexture2D;
-  if (plain && first_mip && offset == nullptr && out_.is_bound(*expr.operands[0]) &&
+  if (plain && first_mip && offset == nullptr && out_.is_looked_up(*expr.operands[0]) &&
       expr.operands[1]->type->columns == 2) {
     return "ks::load_texels" + result + out_.texture(expr.operands[0]) + ", " +
            varying(*expr.operands[1]) + ", " + mask_ + ")";
@@ -325,6 +329,8 @@ std::string WideEmitter::varying(const Expr& expr) {
       return sample(expr);
     case ExprKind::kDimensions:
       return dimensions(expr);
+    case ExprKind::kSystemValue:
+      return "ctx.rays_index";
     default:
       return "";  // never varying, or the plan has refused it
   }

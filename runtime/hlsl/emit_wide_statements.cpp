@@ -134,12 +134,16 @@ void WideEmitter::assign(const Stmt& stmt) {
 void WideEmitter::store(const Stmt& stmt) {
   const bool element = stmt.kind == StmtKind::kStoreElement;
   LaneOperands operands;
-  for (const Expr* operand : stmt.operands) add_operand(operands, operand);
+  const Expr* buffer = stmt.operands[0];
+  for (const Expr* operand : stmt.operands) {
+    if (operand != buffer || !out_.is_looked_up(*buffer)) add_operand(operands, operand);
+  }
   add_operand(operands, stmt.value);
   const auto text = [&](const Expr* expr) { return operands.text.at(expr); };
-  const std::string view =
-      element ? "ks::element_view(" + text(stmt.operands[0]) + ", " + text(stmt.operands[1]) + ")"
-              : "ks::memory_view(" + text(stmt.operands[0]) + ")";
+  const std::string index = element ? text(stmt.operands[1]) : "";
+  const std::string view = out_.is_looked_up(*buffer) ? out_.looked_up_view(*buffer, index)
+                           : element ? "ks::element_view(" + text(buffer) + ", " + index + ")"
+                                     : "ks::memory_view(" + text(buffer) + ")";
   open("ks::each_lane(" + mask_ + ", [&" + operands.captures +
        "]([[maybe_unused]] int lane_number) KAAMOS_INLINE_LAMBDA {");
   line(out_.memory_write(stmt.value->type, stmt.layout, stmt.row_major, view,
@@ -151,7 +155,7 @@ void WideEmitter::store(const Stmt& stmt) {
 void WideEmitter::typed_store(const Stmt& stmt) {
   const Type* resource = stmt.operands[0]->type;
   const bool buffer = resource->resource == ResourceKind::kRWBuffer;
-  if (resource->resource == ResourceKind::kRWTexture2D && out_.is_bound(*stmt.operands[0]) &&
+  if (resource->resource == ResourceKind::kRWTexture2D && out_.is_looked_up(*stmt.operands[0]) &&
       stmt.operands[1]->type->columns == 2) {
     line("ks::store_texels<" + out_.type(stmt.value->type) + ">(ctx.invocation, " +
          out_.texture(stmt.operands[0]) + ", " + value(stmt.operands[1]) + ", " +
@@ -187,6 +191,22 @@ void WideEmitter::atomic(const Stmt& stmt) {
     line("static_cast<void>(lane_number);");
     line(call + ";");
   }
+  close("});");
+}
+
+// One after the other: what a ray meets is another shader for each.
+void WideEmitter::trace_ray(const Stmt& stmt) {
+  LaneOperands operands;
+  for (const Expr* operand : stmt.operands) add_operand(operands, operand);
+  const std::string payload = out_.variable(stmt.place->variable);
+  open("ks::each_lane(" + mask_ + ", [&" + operands.captures +
+       "](int lane_number) KAAMOS_INLINE_LAMBDA {");
+  line("ctx.set_invocation(lane_number);");
+  line("auto lane_value = ks::get(" + payload + ", lane_number);");
+  std::string text = "ks::trace_ray(ctx.invocation";
+  for (const Expr* operand : stmt.operands) text += ", " + operands.text.at(operand);
+  line(text + ", lane_value);");
+  line("ks::set(" + payload + ", lane_number, lane_value);");
   close("});");
 }
 
@@ -438,6 +458,8 @@ void WideEmitter::statement(const Stmt& stmt) {
       return atomic(stmt);
     case StmtKind::kCall:
       return call_function(stmt);
+    case StmtKind::kTraceRay:
+      return trace_ray(stmt);
     case StmtKind::kIf:
       return if_(stmt);
     case StmtKind::kLoop:

@@ -28,8 +28,10 @@ class WideEmitter {
   // In namespace u: what the functions of the entry points stand on, then these.
   void plan(const ir::EntryPoint& entry);
   void emit_declarations();
-  // The group's function of an entry point that runs wide; false where it does not.
+  // The group's function of a compute shader that runs wide; false where it does not.
   bool emit_group(size_t index);
+  // The same of a row of a ray generation shader.
+  bool emit_row(size_t index);
 
  private:
   // emit_wide.cpp
@@ -53,6 +55,7 @@ class WideEmitter {
   void store(const ir::Stmt& stmt);
   void typed_store(const ir::Stmt& stmt);
   void atomic(const ir::Stmt& stmt);
+  void trace_ray(const ir::Stmt& stmt);
   void call_function(const ir::Stmt& stmt);
   void if_(const ir::Stmt& stmt);
   void masked_if(const ir::Stmt& stmt);
@@ -101,6 +104,7 @@ class WideEmitter {
   CppEmitter& out_;
   WidePlan plan_;
   std::vector<const WideFunction*> entries_;  // by entry point; null: scalar
+  bool has_rows_ = false;                     // ray generation shaders among them
   std::unordered_map<const WideFunction*, std::string> names_;
   std::unordered_map<const ir::Struct*, std::string> struct_names_;
   std::unordered_set<const WideFunction*> emitted_;

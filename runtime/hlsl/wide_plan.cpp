@@ -15,6 +15,11 @@ bool is_by_reference(const Variable* variable) {
   return variable->storage == Storage::kParameter && variable->mode != ParameterMode::kIn;
 }
 
+bool is_of_dispatch(const Expr& system_value) {
+  return system_value.system_value == SystemValue::kDispatchRaysIndex ||
+         system_value.system_value == SystemValue::kDispatchRaysDimensions;
+}
+
 // Walks a function again and again, until nothing new is found to be varying.
 class Analysis {
  public:
@@ -79,7 +84,8 @@ class Analysis {
     visit_expr(root, [&](const Expr& expr) {
       switch (expr.kind) {
         case ExprKind::kSystemValue:
-          return refuse("it reads system values of rays");
+          if (!is_of_dispatch(expr)) refuse("it reads system values of hits");
+          return;
         case ExprKind::kQueryValue:
           return refuse("it traces rays inline");
         case ExprKind::kVariable:
@@ -151,6 +157,9 @@ class Analysis {
           flag(out_.varying_result);
         }
         return facts.masked ? kReturns : kNone;
+      case StmtKind::kTraceRay:
+        write(stmt.place->variable, true, region);
+        return kNone;
       case StmtKind::kBarrier:
         refuse("it has a barrier");
         return kNone;
@@ -281,6 +290,9 @@ bool WideFunction::is_varying(const Variable* variable) const {
 bool WideFunction::is_varying(const Expr* expr) const {
   if (expr == nullptr) return false;
   if (expr->kind == ExprKind::kVariable) return is_varying(expr->variable);
+  if (expr->kind == ExprKind::kSystemValue) {
+    return expr->system_value == SystemValue::kDispatchRaysIndex;
+  }
   return std::any_of(expr->operands.begin(), expr->operands.end(),
                      [this](const Expr* operand) { return is_varying(operand); });
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute shaders on a CPU: several threads of a group at once, one in each lane of vector
-// registers (kaamos/shader/wide.h). This finds out whether an entry point can run so, which of its
-// values differ among the threads that run together (varying) and which do not (uniform), and where
-// the threads part.
+// Compute and ray generation shaders on a CPU: several threads of a group, or invocations of a row,
+// at once, one in each lane of vector registers (kaamos/shader/wide.h). This finds out whether an
+// entry point can run so, which of its values differ among the threads that run together (varying)
+// and which do not (uniform), and where the threads part. TraceRay runs for one after the other.
 //
 // Threads part at a condition that is varying. What stands under it runs for some of them, under a
 // mask; the others wait. A region is what runs under one mask, but for threads that have returned:

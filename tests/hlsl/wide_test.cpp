@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute shaders whose threads part in every way there is, several at once and one by one: the
-// bytes that they write must be the same.
+// Compute and ray generation shaders whose threads part in every way there is, several at once and
+// one by one: the bytes that they write must be the same.
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
 
@@ -314,15 +314,134 @@ RWStructuredBuffer<uint3> triples : register(u1);
   put(id, 2, words.Load3(4 * (x & 63)).z);
 })"},
 };
-constexpr size_t kCaseCount = std::size(kCases);
+
+// In front of each of those below.
+constexpr char kRayHead[] = R"(
+RaytracingAccelerationStructure scene : register(t2);
+struct Payload { uint x; float4 color; uint3 index; };
+[shader("miss")] void Miss(inout Payload p) { p.color.w = -p.color.w; p.index = DispatchRaysIndex(); }
+[shader("closesthit")] void Hit(inout Payload p, BuiltInTriangleIntersectionAttributes a) {
+  p.color = float4(RayTCurrent(), a.barycentrics, PrimitiveIndex());
+  p.index = DispatchRaysIndex();
+  p.x = mix(p.x);
+  if (p.x % 3 != 0) return;
+  RayDesc ray = {WorldRayOrigin(), 0, -WorldRayDirection(), 50};
+  TraceRay(scene, 0, 0xFF, 0, 1, 0, ray, p);
+}
+static uint calls;
+RayDesc towards(uint x) {
+  RayDesc ray = {float3(real(x), real(x + 1) + 4, -50), 0, float3(real(x + 2) / 40, 0, 1), 1000};
+  return ray;
+}
+void shoot(uint x, uint flags, inout Payload p) {
+  ++calls;
+  if (x & 1) p.color += 1;
+  TraceRay(scene, flags, 0xFF, 0, 1, 0, towards(x), p);
+}
+void put(uint3 id, uint word, Payload p) {
+  put(id, word, p.x);
+  for (uint i = 0; i < 4; ++i) put(id, word + 1 + i, p.color[i]);
+  put(id, word + 5, p.index.x + 100 * p.index.y);
+}
+)";
+
+constexpr Case kRayCases[] = {
+    {"all", R"(
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  Payload p = {id.x, 1, 2, 3, 4, 0, 0, 0};
+  TraceRay(scene, 0, 0xFF, 0, 1, 0, towards(mix(id.x)), p);
+  put(id, 0, p);
+})"},
+    {"some", R"(
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  const uint x = mix(id.x);
+  Payload p = {x, 1, 2, 3, 4, 0, 0, 0};
+  if (x % 7 == 0) return;
+  if (x & 8) {
+    shoot(x, x & 16 ? RAY_FLAG_CULL_BACK_FACING_TRIANGLES : RAY_FLAG_NONE, p);
+  } else {
+    p.color = id.x;
+  }
+  put(id, 0, p);
+  put(id, 6, calls);
+})"},
+    {"loops_left_by_rays", R"(
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  const uint x = mix(id.x);
+  Payload kept = (Payload)0;
+  for (uint i = 0; i < (x & 7); ++i) {
+    Payload p = kept;
+    p.x = x + i;
+    if ((x >> i) % 3 == 0) continue;
+    shoot(x ^ i, 0, p);
+    if (p.color.w > 900) break;
+    kept.color += p.color;
+    kept.index += p.index;
+    shoot(x + i, RAY_FLAG_SKIP_CLOSEST_HIT_SHADER, kept);
+  }
+  put(id, 0, kept);
+  put(id, 6, calls);
+})"},
+    {"an_array_of_payloads", R"(
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  const uint x = mix(id.x);
+  Payload all[2] = {(Payload)0, (Payload)0};
+  shoot(x, 0, all[x & 1]);
+  shoot(x + 1, 0, all[0]);
+  put(id, 0, all[0]);
+  put(id, 6, all[1]);
+  put(id, 12, DispatchRaysDimensions().x);
+})"},
+};
+
+// As compute shaders of 64 threads, and as ray generation shaders of rows that end within 8.
+constexpr char kThreads[] = "[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID";
+constexpr uint32_t kGroups[3] = {4, 1, 1};
+constexpr uint32_t kRays[3] = {13, 20, 1};
+
+struct Form {
+  std::string name;
+  std::string text;
+  bool rays = false;
+};
+
+std::vector<Form> make_forms() {
+  std::vector<Form> out;
+  const auto add_rays = [&out](const Case& test, const std::string& head) {
+    std::string body = test.body;
+    const size_t begin = body.find(kThreads);
+    if (begin == std::string::npos) return;  // another signature
+    const size_t end = body.find('{', begin) + 1;
+    const bool group = body.substr(begin, end - begin).find("SV_GroupID") != std::string::npos;
+    body.replace(begin, end - begin,
+                 std::string("[shader(\"raygeneration\")] void Main() {\n"
+                             "const uint3 id = {DispatchRaysIndex().y * 13 + DispatchRaysIndex().x, "
+                             "0, 0};\n") +
+                     (group ? "const uint3 g = id / 64;\n" : ""));
+    out.push_back({std::string("rays_of_") + test.name, head + body, true});
+  };
+  for (const Case& test : kCases) {
+    std::string body = test.body;
+    body.insert(body.find("[numthreads"), "[shader(\"compute\")] ");
+    out.push_back({test.name, kHead + body});
+    add_rays(test, kHead);
+  }
+  for (const Case& test : kRayCases) {
+    add_rays(test, std::string(kHead) + kRayHead);
+  }
+  return out;
+}
+const std::vector<Form>& forms() {
+  static const std::vector<Form> all = make_forms();
+  return all;
+}
 
 std::vector<hlsl::FrontendOptions> all_options() {
   std::vector<hlsl::FrontendOptions> out;
-  for (const Case& test : kCases) {
+  for (const Form& form : forms()) {
     hlsl::FrontendOptions options;
-    options.path = std::string(test.name) + ".hlsl";
-    options.text = std::string(kHead) + test.body;
-    options.text->insert(options.text->find("[numthreads"), "[shader(\"compute\")] ");
+    options.path = form.name + ".hlsl";
+    options.text = form.text;
     out.push_back(options);
   }
   return out;
@@ -331,15 +450,16 @@ std::vector<hlsl::FrontendOptions> all_options() {
 const Compiled& compiled(size_t index, hlsl::WideThreads wide) {
   static const std::vector<Compiled> scalar =
       compile_native(all_options(), hlsl::WideThreads::kNever);
-  static const std::vector<Compiled> all = compile_native(all_options());
+  static const std::vector<Compiled> all =
+      compile_native(all_options(), hlsl::WideThreads::kAlways);
   return (wide == hlsl::WideThreads::kNever ? scalar : all)[index];
 }
 
-std::vector<std::byte> run(const Compiled& code) {
+std::vector<std::byte> run(const Compiled& code, bool rays) {
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
   std::string error;
-  std::vector<std::byte> out = run_on_device("embree", *code.library, {4, 1, 1}, error);
+  std::vector<std::byte> out = run_on_device("embree", *code.library, rays ? kRays : kGroups, error);
   EXPECT_EQ(error, "");
   return out;
 }
@@ -347,8 +467,9 @@ std::vector<std::byte> run(const Compiled& code) {
 class Wide : public testing::TestWithParam<size_t> {};
 
 TEST_P(Wide, GivesWhatSingleThreadsGive) {
-  const auto expected = run(compiled(GetParam(), hlsl::WideThreads::kNever));
-  const auto actual = run(compiled(GetParam(), hlsl::WideThreads::kWhereFaster));
+  const bool rays = forms()[GetParam()].rays;
+  const auto expected = run(compiled(GetParam(), hlsl::WideThreads::kNever), rays);
+  const auto actual = run(compiled(GetParam(), hlsl::WideThreads::kAlways), rays);
   ASSERT_EQ(expected.size(), actual.size());
   EXPECT_TRUE(
       std::any_of(expected.begin(), expected.end(), [](std::byte b) { return b != std::byte{0}; }));
@@ -366,11 +487,16 @@ TEST_P(Wide, IsPlannedAtAll) {
   ASSERT_NE(module, nullptr) << error;
   hlsl::WidePlan plan;
   std::string reason;
-  EXPECT_NE(plan.add(module->entry_points[0], reason), nullptr) << reason;
+  for (const hlsl::ir::EntryPoint& entry : module->entry_points) {
+    const bool candidate =
+        entry.stage == hlsl::ir::kStageCompute || entry.stage == hlsl::ir::kStageRayGeneration;
+    if (!candidate) continue;
+    EXPECT_NE(plan.add(entry, reason), nullptr) << reason;
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, Wide, testing::Range(size_t{0}, kCaseCount),
-                         [](const auto& test) { return std::string(kCases[test.param].name); });
+INSTANTIATE_TEST_SUITE_P(Threads, Wide, testing::Range(size_t{0}, forms().size()),
+                         [](const auto& test) { return forms()[test.param].name; });
 
 struct Refused {
   const char* body;

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 8;
+inline constexpr uint32_t kAbiVersion = 9;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -160,6 +160,8 @@ enum class AnyHitResult : uint32_t { kAccept = 0, kIgnore = 1, kAcceptAndEndSear
 enum class ReportHitResult : uint32_t { kRejected = 0, kAccepted = 1, kEndSearch = 2 };
 
 using RayGenerationFn = void (*)(Invocation&);
+// Runs `count` invocations, from Invocation::index on along x. Leaves any index behind.
+using RayGenerationRowFn = void (*)(Invocation&, uint32_t count);
 using MissFn = void (*)(Invocation&, void* payload);
 using ClosestHitFn = void (*)(Invocation&, void* payload, const void* attributes);
 using AnyHitFn = AnyHitResult (*)(Invocation&, void* payload, const void* attributes);
@@ -491,6 +493,7 @@ struct ExportDesc {
   // Hash of the attributes' scalars in order: what ReportHit gives or the parameter has. 0: none,
   // or not known; 1: several types are reported.
   uint32_t attribute_type = 0;
+  RayGenerationRowFn row = nullptr;  // ray generation; null: only `entry` runs it
 };
 
 // Subobjects written in HLSL. Which members count depends on type (numbers of

@@ -251,6 +251,12 @@ KAAMOS_INLINE void store_texels(const Invocation& invocation, const BoundResourc
   simd::store_lanes<V>(invocation, texture, at, active, value);
 }
 
+// DispatchRaysIndex of kLanes invocations side by side.
+KAAMOS_INLINE vec<wide<uint32_t>, 3> wide_rays_index(const Invocation& first) {
+  return {{map<op::Add>(spread<wide<uint32_t>>(first.index[0]), lane_numbers()),
+           spread<wide<uint32_t>>(first.index[1]), spread<wide<uint32_t>>(first.index[2])}};
+}
+
 // Threads first .. first + kLanes - 1 of a group, by SV_GroupIndex.
 struct WideThread {
   wide<uint32_t> id[3];  // SV_GroupThreadID
