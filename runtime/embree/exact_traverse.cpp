@@ -149,8 +149,9 @@ bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray
 
 // Boxes have no exact form: intersection shaders get the ray that they get in every precision.
 bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
-  const ObjectRay object = to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
-                                           without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
+  const ObjectRay object =
+      to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
+                      without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
   if (!is_traceable(object)) return false;
   _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_min));
   _mm_store_ps(&ray.dir_x, object.direction);

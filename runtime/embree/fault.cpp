@@ -217,9 +217,8 @@ void record_removal(Worker& worker) {
   std::string message = message_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
     message += std::string(", shader \"") + worker.running->name + "\" at (" +
-               std::to_string(worker.fault_index[0]) + "," +
-               std::to_string(worker.fault_index[1]) + "," + std::to_string(worker.fault_index[2]) +
-               ")";
+               std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
+               "," + std::to_string(worker.fault_index[2]) + ")";
   }
   message += ").";
   const std::lock_guard lock(dispatch.mutex);

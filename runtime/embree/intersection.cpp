@@ -110,8 +110,7 @@ shader::ReportHitResult report_hit(shader::Invocation& base, float t, uint32_t h
     std::memcpy(bytes, attributes, std::min(attribute_bytes, kMaxAttributeBytes));
   }
   bool end_search = (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0;
-  if (!is_opaque(state, invocation.geometry->opaque) &&
-      invocation.record.target->any_hit.runs()) {
+  if (!is_opaque(state, invocation.geometry->opaque) && invocation.record.target->any_hit.runs()) {
     const Candidate candidate = {t, hit_kind, invocation.geometry->index, invocation.primitive,
                                  bytes};
     const auto result = run_any_hit(state, invocation.record, candidate);

@@ -47,7 +47,8 @@ struct RayState {
   const shader::Invocation* caller;
   void* payload;
   // What the shaders of this ray see. `ray` is the argument of TraceRay, and ray_flags are, without
-  // the pipeline's flags and undefined bits [DXR: RayFlags]; the rest is set before each of them runs.
+  // the pipeline's flags and undefined bits [DXR: RayFlags]; the rest is set before each of them
+  // runs.
   alignas(16) shader::RaySystemValues values;
 
   uint32_t ray_flags;       // with the pipeline's flags

@@ -29,7 +29,8 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
 // `exact`: the search was an exact one.
 template <bool exact>
 void run_closest_hit(Worker& worker, const shader::Invocation& caller,
-                     const TraceRayArguments& arguments, RayState& state, const RTCRayHit& ray_hit) {
+                     const TraceRayArguments& arguments, RayState& state,
+                     const RTCRayHit& ray_hit) {
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
   const ShaderRecord record = worker.dispatch->hit_table.at(hit_record_index(
@@ -101,7 +102,8 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
                                       const TraceRayArguments& arguments, RayState& state) {
   RTCRayHit ray_hit;
   ExactState exact;
-  if (!begin_exact_ray(state, exact, ray_hit.ray)) return run_miss(worker, caller, arguments, state);
+  if (!begin_exact_ray(state, exact, ray_hit.ray))
+    return run_miss(worker, caller, arguments, state);
   search<true>(worker, caller, arguments, state, ray_hit);
 }
 

@@ -108,6 +108,7 @@ struct Worker {
   shader::RemovalReason fault_reason = shader::RemovalReason::kOther;
   int fault_signal = 0;
   uintptr_t fault_address = 0;
+  // Of a row that runs at once: of the ray that was traced, or of the first of 8.
   uint32_t fault_index[3] = {0, 0, 0};
   Counters counters;
   uint64_t reached_hashes[64] = {};  // of late, by the low bits of the hash

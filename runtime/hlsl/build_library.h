@@ -14,7 +14,8 @@ namespace kaamos::hlsl {
 struct BuildOptions {
   Optimisation optimisation = Optimisation::kFull;
   bool spirv = true;  // false: the library runs on the CPU only
-  bool wide = true;   // compute shaders run several threads at once, except in a debug build
+  // Compute and ray generation shaders run several threads at once, except in a debug build.
+  bool wide = true;
   std::filesystem::path cache = cache_folder();
 };
 

@@ -14,10 +14,10 @@
 
 namespace kaamos::hlsl {
 
-// Compute shaders that run several threads at once. [wide_plan.h]
+// Compute and ray generation shaders that run several threads at once. [wide_plan.h]
 enum class WideThreads : uint8_t {
   kNever,
-  kWhereFaster,  // groups have as many threads
+  kWhereFaster,  // groups have as many threads, ray generation has something to compute
   kAlways,       // for tests: wherever it is possible
 };
 

@@ -66,7 +66,8 @@ void WideEmitter::plan(const EntryPoint& entry) {
     // One thread of eight is slower so than by itself.
     if (where_faster && compute && threads < 8) {
       reason = "its groups have fewer than 8 threads";
-    } else if (where_faster && !compute && count_arithmetic(*entry.function, seen) < kFewOperations) {
+    } else if (where_faster && !compute &&
+               count_arithmetic(*entry.function, seen) < kFewOperations) {
       reason = "it has few operations";
     } else {
       function = plan_.add(entry, reason);
@@ -298,7 +299,8 @@ bool WideEmitter::emit_row(size_t index) {
   const WideFunction* function = entries_[index];
   if (function == nullptr || entry.stage != kStageRayGeneration) return false;
   current_ = function;
-  open("static void row_" + std::to_string(index) + "(ks::Invocation& invocation, uint32_t count) {");
+  open("static void row_" + std::to_string(index) +
+       "(ks::Invocation& invocation, uint32_t count) {");
   line("const uint32_t first_x = invocation.index[0];");
   open("for (uint32_t first = 0; first < count; first += ks::kLanes) {");
   line("u::WideContext ctx(invocation);");

@@ -413,11 +413,12 @@ std::vector<Form> make_forms() {
     if (begin == std::string::npos) return;  // another signature
     const size_t end = body.find('{', begin) + 1;
     const bool group = body.substr(begin, end - begin).find("SV_GroupID") != std::string::npos;
-    body.replace(begin, end - begin,
-                 std::string("[shader(\"raygeneration\")] void Main() {\n"
-                             "const uint3 id = {DispatchRaysIndex().y * 13 + DispatchRaysIndex().x, "
-                             "0, 0};\n") +
-                     (group ? "const uint3 g = id / 64;\n" : ""));
+    body.replace(
+        begin, end - begin,
+        std::string("[shader(\"raygeneration\")] void Main() {\n"
+                    "const uint3 id = {DispatchRaysIndex().y * 13 + DispatchRaysIndex().x, "
+                    "0, 0};\n") +
+            (group ? "const uint3 g = id / 64;\n" : ""));
     out.push_back({std::string("rays_of_") + test.name, head + body, true});
   };
   for (const Case& test : kCases) {
@@ -459,7 +460,8 @@ std::vector<std::byte> run(const Compiled& code, bool rays) {
   EXPECT_EQ(code.error, "");
   if (code.library == nullptr) return {};
   std::string error;
-  std::vector<std::byte> out = run_on_device("embree", *code.library, rays ? kRays : kGroups, error);
+  std::vector<std::byte> out =
+      run_on_device("embree", *code.library, rays ? kRays : kGroups, error);
   EXPECT_EQ(error, "");
   return out;
 }

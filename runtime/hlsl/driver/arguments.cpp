@@ -229,7 +229,8 @@ Of its own:
                             root descriptors that are left, wrong descriptors, NaN rays; slower
   -no-source                leaves out the source, from which a checked device makes that code of
                             a library that was compiled without -check-access
-  -no-wide                  compute shaders run thread by thread, never 8 threads at once
+  -no-wide                  compute and ray generation shaders run thread by thread, never 8
+                            threads at once
   --strict                  refuses what DXC refuses, also where Kaamos could go on
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes the files that were read as a make rule

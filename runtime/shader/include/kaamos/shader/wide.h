@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The values of several threads of a compute shader side by side: wide<T> holds a T for each of
+// The values of several threads of a shader side by side: wide<T> holds a T for each of
 // kLanes threads, vec<wide<T>, N> a vector for each, and so on for matrices, arrays and structs.
 // What the prelude does to components (map()) it does to these lane by lane, with the very results
 // of the scalar code; wide_operators.h has the operations that registers do at once.
