@@ -51,7 +51,6 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
     rtapi::ShaderCompileOptions options;
     options.File = (folder_ / (std::string(name) + ".hlsl")).string();
     options.IncludeDirectories = {(folder_ / "shaders").string()};
-    options.Wide = false;  // the picture comes sooner
     const auto compiled = rtapi::CompileShaderLibrary(options);
     for (const std::string& file : compiled.Dependencies) {
       files_[file] = time_of(file);

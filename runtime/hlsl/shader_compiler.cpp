@@ -78,7 +78,6 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   if (options.Debug) settings.optimisation = hlsl::Optimisation::kDebug;
   if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
   settings.spirv = options.Spirv;
-  settings.wide = options.Wide;
   const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
   if (!object.error.empty()) {
     // What the SPIR-V failed by has an id of its own.

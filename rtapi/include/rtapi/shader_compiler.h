@@ -40,9 +40,6 @@ struct ShaderCompileOptions {
   std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
   bool Spirv = true;                // false: without what Vulkan devices need
-  // -no-wide if false: compute and ray generation shaders run thread by thread on the CPU, never 8
-  // threads at once. Slower, but compiled in half the time.
-  bool Wide = true;
   // Needs no C++ compiler; on the CPU shaders run about a hundred times slower. No cache.
   bool Interpret = false;
   // Statements that one shader invocation may run when interpreted, before the device is removed
