@@ -112,6 +112,7 @@ class CppEmitter {
   void emit_signature(const ir::Function& function);
   void emit_function(const ir::Function& function);
   void emit_entry(size_t index);
+  bool emit_row(size_t index);  // ExportDesc::row; false: none
   void emit_bound(const ir::EntryPoint& entry);
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Structs, functions and entry points that run several threads at once.
+#include "runtime/hlsl/wide_emitter.h"
+
+#include <algorithm>
 #include <unordered_set>
 
 #include "runtime/hlsl/ir_visit.h"
-#include "runtime/hlsl/wide_emitter.h"
 
 namespace kaamos::hlsl {
 
@@ -78,6 +80,11 @@ void WideEmitter::plan(const EntryPoint& entry) {
   has_rows_ = has_rows_ || (function != nullptr && !compute);
 }
 
+bool WideEmitter::any() const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const WideFunction* entry) { return entry != nullptr; });
+}
+
 // Members as the templates of wide.h look for them.
 void WideEmitter::emit_structs() {
   for (const Struct* s : out_.module_.structs) {
@@ -142,9 +149,7 @@ void WideEmitter::emit_context() {
 }
 
 void WideEmitter::emit_declarations() {
-  bool any = false;
-  for (const WideFunction* entry : entries_) any = any || entry != nullptr;
-  if (!any) return;
+  if (!any()) return;
   out_.at_generated();
   emit_structs();
   emit_context();

@@ -25,8 +25,10 @@ class WideEmitter {
  public:
   explicit WideEmitter(CppEmitter& scalar) : out_(scalar) {}
 
-  // In namespace u: what the functions of the entry points stand on, then these.
+  // For each entry point, before all else.
   void plan(const ir::EntryPoint& entry);
+  bool any() const;
+  // In namespace u: what the functions of the entry points stand on, then these.
   void emit_declarations();
   // The group's function of a compute shader that runs wide; false where it does not.
   bool emit_group(size_t index);
