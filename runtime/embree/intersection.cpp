@@ -27,7 +27,8 @@ struct IntersectionInvocation : shader::Invocation {
                          const GeometryInfo& geometry_info, uint32_t primitive_index,
                          RTCRay& embree_ray, RTCHit* embree_hit)
       : shader::Invocation(invocation_of(*ray_state.caller, shader, hit_record, values)),
-        values(ray_state.values),
+        values{
+            ray_state.values.ray, 0, ray_state.values.ray_flags, 0, 0, 0, 0, 0, nullptr, nullptr},
         state(&ray_state),
         geometry(&geometry_info),
         primitive(primitive_index),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay: guard, traverse, then run the closest-hit or the miss shader. The functions below are
-// given what trace_ray has in registers: read back from the state, it would cost as much again.
+// TraceRay: guard, traverse, then run the closest-hit or the miss shader.
 #include "runtime/embree/trace.h"
 
 #include "runtime/embree/fault.h"

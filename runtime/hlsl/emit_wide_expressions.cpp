@@ -213,20 +213,24 @@ std::string WideEmitter::gather(const Expr& expr, const LaneOperands& operands,
          "](int lane_number) KAAMOS_INLINE_LAMBDA { return " + text + "; })";
 }
 
+// Of one lane. `accessed`: operands of a load or a store.
+std::string WideEmitter::buffer_view(LaneOperands& operands,
+                                     const std::vector<const Expr*>& accessed, bool element) {
+  for (const Expr* operand : accessed) {
+    if (operand == accessed[0] && out_.is_looked_up(*operand)) continue;
+    add_operand(operands, operand);
+  }
+  return out_.buffer_view(*accessed[0], element ? accessed[1] : nullptr,
+                          [&](const Expr* e) { return operands.text.at(e); });
+}
+
 std::string WideEmitter::load(const Expr& expr) {
   LaneOperands operands;
-  const Expr* buffer = expr.operands[0];
-  for (const Expr* operand : expr.operands) {
-    if (operand != buffer || !out_.is_looked_up(*buffer)) add_operand(operands, operand);
-  }
-  const auto text = [&](size_t i) { return operands.text.at(expr.operands[i]); };
-  const std::string index = expr.kind == ExprKind::kLoadElement ? text(1) : "";
-  const std::string view = out_.is_looked_up(*buffer) ? out_.looked_up_view(*buffer, index)
-                           : !index.empty() ? "ks::element_view(" + text(0) + ", " + index + ")"
-                                            : "ks::memory_view(" + text(0) + ")";
+  const bool element = expr.kind == ExprKind::kLoadElement;
+  const std::string view = buffer_view(operands, expr.operands, element);
   return gather(expr, operands,
                 out_.memory_read(expr.type, expr.layout, expr.row_major, view,
-                                 text(expr.operands.size() - 1)));
+                                 operands.text.at(expr.operands.back())));
 }
 
 std::string WideEmitter::typed_load(const Expr& expr) {

@@ -134,16 +134,9 @@ void WideEmitter::assign(const Stmt& stmt) {
 void WideEmitter::store(const Stmt& stmt) {
   const bool element = stmt.kind == StmtKind::kStoreElement;
   LaneOperands operands;
-  const Expr* buffer = stmt.operands[0];
-  for (const Expr* operand : stmt.operands) {
-    if (operand != buffer || !out_.is_looked_up(*buffer)) add_operand(operands, operand);
-  }
+  const std::string view = buffer_view(operands, stmt.operands, element);
   add_operand(operands, stmt.value);
   const auto text = [&](const Expr* expr) { return operands.text.at(expr); };
-  const std::string index = element ? text(stmt.operands[1]) : "";
-  const std::string view = out_.is_looked_up(*buffer) ? out_.looked_up_view(*buffer, index)
-                           : element ? "ks::element_view(" + text(buffer) + ", " + index + ")"
-                                     : "ks::memory_view(" + text(buffer) + ")";
   open("ks::each_lane(" + mask_ + ", [&" + operands.captures +
        "]([[maybe_unused]] int lane_number) KAAMOS_INLINE_LAMBDA {");
   line(out_.memory_write(stmt.value->type, stmt.layout, stmt.row_major, view,

@@ -93,6 +93,8 @@ class WideEmitter {
     std::unordered_map<const ir::Expr*, std::string> text;
   };
   void add_operand(LaneOperands& operands, const ir::Expr* expr);
+  std::string buffer_view(LaneOperands& operands, const std::vector<const ir::Expr*>& accessed,
+                          bool element);
   std::string gather(const ir::Expr& expr, const LaneOperands& operands, const std::string& text);
   // Name of a member of a wide struct, which also has members of its own.
   std::string field(const ir::Expr& expr);
