@@ -11,12 +11,12 @@
 #if defined(__SANITIZE_THREAD__) || KAAMOS_HAS_FEATURE(thread_sanitizer)
 
 // oneTBB and Embree are not instrumented: locks and atomics inside them order nothing that the
-// sanitizer can see. The order of our own tasks is told by runtime/embree/parallel.cpp, so that
-// what they read and write is checked. Left out is what only those two libraries share with
-// themselves:
+// sanitizer can see. The order of our own tasks, and of what Embree's builders call, is told by
+// runtime/embree/parallel.cpp, so that what they read and write is checked. Left out is what only
+// those two libraries share with themselves:
 // - allocations, copies and locks that they make;
 // - words in Embree's settings, which its builders look up;
-// - the bookkeeping of tasks in oneTBB's headers, where tests/bench has its own loops;
+// - the bookkeeping of tasks in oneTBB's headers, which other files of ours include;
 // - Embree's report of memory it took, from its own threads: one atomic addition, in a device that
 //   Embree's locks hand over.
 extern "C" __attribute__((weak)) const char* __tsan_default_suppressions() {

@@ -10,6 +10,7 @@
 
 #include "runtime/build_inputs.h"
 #include "runtime/embree/instance_node.h"
+#include "runtime/embree/parallel.h"
 #include "runtime/structure_commands.h"
 
 namespace kaamos::embree {
@@ -76,6 +77,7 @@ uint32_t class_of(const GeometryInfo& info) {
 }
 
 void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
+  const BuilderCallback callback;
   const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
   const runtime::PaddedBounds box = runtime::padded_bounds(info.boxes[arguments->primID]);
   RTCBounds& out = *arguments->bounds_o;
@@ -294,7 +296,10 @@ rtapi::Status BottomLevel::commit(const BuildContext& context) {
   }
   // Packs have boxes with room enough for the faster traversal.
   rtcSetSceneFlags(scene_, scene_flags(flags_, context.robust && !own_bounds));
-  rtcCommitScene(scene_);
+  {
+    const BuilderRun run;
+    rtcCommitScene(scene_);
+  }
   if (auto s = embree_status(context.device, "commit"); !s) return s;
   if (own_bounds) return {};
   rtcGetSceneBounds(scene_, &bounds_);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "runtime/embree/parallel.h"
+
 namespace kaamos::embree {
 namespace {
 
@@ -20,10 +22,12 @@ Node* new_node(RTCThreadLocalAllocator allocator) {
 }
 
 void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
+  const BuilderCallback callback;
   return new_node(allocator);
 }
 
 void set_children(void* node, void** children, unsigned count, void*) {
+  const BuilderCallback callback;
   for (unsigned i = 0; i < count; ++i) {
     static_cast<Node*>(node)->children[i] = static_cast<Node*>(children[i]);
   }
@@ -33,6 +37,7 @@ void set_bounds(void*, const RTCBounds**, unsigned, void*) {}
 
 void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                   size_t count, void*) {
+  const BuilderCallback callback;
   Node* leaf = new_node(allocator);
   leaf->count = static_cast<uint32_t>(count);
   for (size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
@@ -101,7 +106,11 @@ std::vector<TrianglePack> build_packs(RTCDevice device, const std::vector<PackIn
   arguments.setNodeChildren = set_children;
   arguments.setNodeBounds = set_bounds;
   arguments.createLeaf = create_leaf;
-  const auto* root = static_cast<const Node*>(rtcBuildBVH(&arguments));
+  const Node* root = nullptr;
+  {
+    const BuilderRun run;
+    root = static_cast<const Node*>(rtcBuildBVH(&arguments));
+  }
   if (root != nullptr) collect(root, vertices, indices, packs);
   rtcReleaseBVH(tree);
   return packs;

@@ -9,6 +9,7 @@
 #include "runtime/embree/any_hit.h"
 #include "runtime/embree/exact.h"
 #include "runtime/embree/inline_query.h"
+#include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
 namespace {
@@ -194,6 +195,7 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed
 }  // namespace
 
 void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments) {
+  const BuilderCallback callback;
   const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
   const TrianglePack& pack = info.exact->packs[arguments->primID];
   double lower[3];

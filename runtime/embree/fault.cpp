@@ -72,6 +72,8 @@ void on_signal(int signal_number, siginfo_t* info, void* context) {
     worker->fault_reason = shader::RemovalReason::kStackOverflow;
   }
   note_index(*worker);
+  // The sanitizers' handlers, which stand before this one, have blocked every signal.
+  pthread_sigmask(SIG_SETMASK, &static_cast<const ucontext_t*>(context)->uc_sigmask, nullptr);
   siglongjmp(*worker->jump, 1);
 }
 

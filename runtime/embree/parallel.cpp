@@ -44,7 +44,27 @@ class TaskOrder {
 #endif
 };
 
+#if defined(KAAMOS_THREAD_SANITIZER)
+// Of all builds of the process: a callback does not say which one it belongs to.
+TaskOrder builder_order;
+#endif
+
 }  // namespace
+
+#if defined(KAAMOS_THREAD_SANITIZER)
+BuilderRun::BuilderRun() {
+  builder_order.fork();
+}
+BuilderRun::~BuilderRun() {
+  builder_order.join();
+}
+BuilderCallback::BuilderCallback() {
+  builder_order.begin_task();
+}
+BuilderCallback::~BuilderCallback() {
+  builder_order.end_task();
+}
+#endif
 
 void parallel_ranges(tbb::task_arena& arena, uint64_t count, RangeBody body, const void* context) {
   TaskOrder order;

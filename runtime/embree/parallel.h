@@ -25,6 +25,30 @@ void parallel_ranges(tbb::task_arena& arena, uint64_t count, const Body& body) {
       &body);
 }
 
+// One is on the stack while Embree builds, one of the second in each of the callbacks that it then
+// makes from any thread: these see what was written before, and what they write is seen afterwards.
+// Embree has that order by itself; the thread sanitizer cannot see it.
+class BuilderRun {
+ public:
+  BuilderRun();
+  ~BuilderRun();
+  BuilderRun(const BuilderRun&) = delete;
+  BuilderRun& operator=(const BuilderRun&) = delete;
+};
+class BuilderCallback {
+ public:
+  BuilderCallback();
+  ~BuilderCallback();
+  BuilderCallback(const BuilderCallback&) = delete;
+  BuilderCallback& operator=(const BuilderCallback&) = delete;
+};
+#if !defined(KAAMOS_THREAD_SANITIZER)
+inline BuilderRun::BuilderRun() {}
+inline BuilderRun::~BuilderRun() {}
+inline BuilderCallback::BuilderCallback() {}
+inline BuilderCallback::~BuilderCallback() {}
+#endif
+
 // Calls body(context) inside the arena, so that its threads help with what body starts.
 void run_in_arena(tbb::task_arena& arena, void (*body)(const void* context), const void* context);
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/embree/parallel.h"
+
 namespace kaamos::embree {
 namespace {
 
@@ -13,6 +15,7 @@ constexpr RTCBounds kNoBounds = {kInfinity,  kInfinity,  kInfinity,  0,
                                  -kInfinity, -kInfinity, -kInfinity, 0};
 
 void bounds_of_instance(const RTCBoundsFunctionArguments* arguments) {
+  const BuilderCallback callback;
   const auto* bounds = static_cast<const RTCBounds*>(arguments->geometryUserPtr);
   *arguments->bounds_o = bounds[arguments->primID];
 }
@@ -137,7 +140,10 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     rtcSetGeometryMask(geometry, 0xFFFFFFFFu);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(level->scene_, geometry, 0);
-    rtcCommitScene(level->scene_);
+    {
+      const BuilderRun run;
+      rtcCommitScene(level->scene_);
+    }
     rtcSetGeometryUserData(geometry, nullptr);
   }
   if (geometry != nullptr) rtcReleaseGeometry(geometry);

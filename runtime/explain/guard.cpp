@@ -25,6 +25,8 @@ void on_signal(int number, siginfo_t* info, void* context) {
   if (guarded != nullptr && info->si_code > 0) {
     guarded->signal = number;
     guarded->address = reinterpret_cast<uintptr_t>(info->si_addr);
+    // The sanitizers' handlers, which stand before this one, have blocked every signal.
+    pthread_sigmask(SIG_SETMASK, &static_cast<const ucontext_t*>(context)->uc_sigmask, nullptr);
     siglongjmp(guarded->jump, 1);
   }
   const auto* slot = std::find(std::begin(kSignals), std::end(kSignals), number);

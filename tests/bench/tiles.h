@@ -2,12 +2,11 @@
 #pragma once
 
 #include <immintrin.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstdint>
+
+#include "runtime/embree/parallel.h"
 
 namespace kaamos::bench {
 
@@ -18,11 +17,11 @@ void for_each_cell(tbb::task_arena& arena, uint32_t width, uint32_t height, Make
   constexpr uint32_t kEdge = 16;
   const uint32_t columns = (width + kEdge - 1) / kEdge;
   const uint32_t rows = (height + kEdge - 1) / kEdge;
-  const auto run = [&](const tbb::blocked_range<uint32_t>& tiles) {
+  embree::parallel_ranges(arena, uint64_t{columns} * rows, [&](uint64_t begin, uint64_t end) {
     const uint32_t saved = _mm_getcsr();
     _mm_setcsr(saved | 0x8040);  // flush to zero, denormals are zero
     auto cell = make_cell();
-    for (uint32_t tile = tiles.begin(); tile < tiles.end(); ++tile) {
+    for (auto tile = static_cast<uint32_t>(begin); tile < end; ++tile) {
       const uint32_t left = tile % columns * kEdge;
       const uint32_t top = tile / columns * kEdge;
       const uint32_t right = std::min(width, left + kEdge);
@@ -32,8 +31,7 @@ void for_each_cell(tbb::task_arena& arena, uint32_t width, uint32_t height, Make
       }
     }
     _mm_setcsr(saved);
-  };
-  arena.execute([&] { tbb::parallel_for(tbb::blocked_range<uint32_t>(0, columns * rows), run); });
+  });
 }
 
 }  // namespace kaamos::bench
