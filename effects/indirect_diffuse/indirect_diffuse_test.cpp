@@ -185,5 +185,18 @@ TEST(IndirectVolumes, TooManyCellsAreAnError) {
             std::string::npos);
 }
 
+TEST(IndirectVolumes, LargeScenesGetLargerCells) {
+  const Scene scene = small_scene(1.0f);
+  const auto cells = [&](float cell) { return count_volume_cells(scene, cell).value(); };
+  EXPECT_EQ(cells(0.5f), layout_volume(scene, 0.5f).value().cells.size());
+  EXPECT_EQ(choose_volume_cell(scene), kVolumeCell);
+  EXPECT_EQ(choose_volume_cell(scene, cells(kVolumeCell)), kVolumeCell);
+  ASSERT_GT(cells(kVolumeCell), cells(1.0f));
+  const float larger = choose_volume_cell(scene, cells(1.0f));
+  EXPECT_GT(larger, kVolumeCell);
+  EXPECT_LE(cells(larger), cells(1.0f));
+  EXPECT_GT(cells(larger / 2), cells(1.0f));
+}
+
 }  // namespace
 }  // namespace kaamos::effects

@@ -21,6 +21,7 @@ namespace kaamos::effects {
 inline constexpr std::uint32_t kBrickCells = 8;  ///< along each axis
 inline constexpr std::uint32_t kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 inline constexpr std::uint32_t kNoBrick = 0xFFFFFFFFu;
+inline constexpr float kVolumeCell = 0.25f;  ///< metres, unless a scene is too large for it
 
 /// Radiance towards a unit direction d: mean + slope_x d.x + slope_y d.y + slope_z d.z. Mirrors
 /// CellSums of volume_bake.hlsl.
@@ -39,7 +40,7 @@ static_assert(sizeof(VolumeCell) == 64);
 /// A volume on the host, in world space.
 struct IndirectVolume {
   glm::dvec3 origin{0.0};                   ///< corner of cell (0, 0, 0)
-  float cell = 0.25f;                       ///< metres
+  float cell = kVolumeCell;                 ///< metres
   glm::uvec3 bricks{0};                     ///< along each axis; all 0: no volume
   std::vector<std::uint32_t> brick_starts;  ///< where a brick's cells start, or kNoBrick; x fastest
   std::vector<VolumeCell> cells;
@@ -51,6 +52,13 @@ struct IndirectVolume {
 /// The bricks that hold geometry, and those next to them, without light yet. Errors: more than 2^24
 /// cells: a larger cell is needed.
 Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres);
+
+/// How many cells layout_volume() would make; its errors, without taking the memory.
+Result<std::uint64_t> count_volume_cells(const Scene& scene, float cell_metres);
+
+/// The edge of cells, in metres, for a scene: kVolumeCell, or as many times twice that as keep the
+/// volume within `most_cells`: a floor of 200 m has ten million cells of 25 cm, an hour of baking.
+float choose_volume_cell(const Scene& scene, std::uint64_t most_cells = 1u << 19);
 
 struct BakeDesc {
   std::uint32_t samples = 256;  ///< paths per cell

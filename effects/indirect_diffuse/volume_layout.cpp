@@ -71,7 +71,11 @@ std::vector<glm::dvec3> IndirectVolume::cell_centers() const {
   return centers;
 }
 
-Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
+namespace {
+
+// The bricks, without the memory of their cells, which are counted.
+Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std::uint64_t& cells) {
+  cells = 0;
   IndirectVolume volume;
   volume.cell = cell_metres;
   const Bounds bounds = scene_bounds(scene);
@@ -93,7 +97,6 @@ Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
   for (const Instance& instance : scene.instances) {
     if (instance.mask != kMaskEmissiveProxy) mark_instance(scene, instance, volume);
   }
-  std::uint64_t cells = 0;
   for (std::uint32_t& start : volume.brick_starts) {
     if (start == kNoBrick) continue;
     start = static_cast<std::uint32_t>(std::min<std::uint64_t>(cells, kNoBrick - 1));
@@ -104,8 +107,32 @@ Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
                            " m would have " + std::to_string(cells) +
                            " of them, more than 2^24; choose larger cells");
   }
-  volume.cells.resize(cells);
   return volume;
+}
+
+}  // namespace
+
+Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
+  std::uint64_t cells = 0;
+  auto volume = layout_bricks(scene, cell_metres, cells);
+  if (volume.ok()) volume.value().cells.resize(cells);
+  return volume;
+}
+
+Result<std::uint64_t> count_volume_cells(const Scene& scene, float cell_metres) {
+  std::uint64_t cells = 0;
+  const auto volume = layout_bricks(scene, cell_metres, cells);
+  if (!volume.ok()) return Status::failure(volume.error());
+  return cells;
+}
+
+float choose_volume_cell(const Scene& scene, std::uint64_t most_cells) {
+  float cell = kVolumeCell;
+  for (; cell < 1e6f; cell *= 2) {
+    const auto cells = count_volume_cells(scene, cell);
+    if (cells.ok() && cells.value() <= most_cells) break;
+  }
+  return cell;
 }
 
 }  // namespace kaamos::effects

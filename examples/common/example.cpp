@@ -89,7 +89,11 @@ int Main(int argc, char** argv, const char* name, Body body,
     app.add_option("--break", broken, "do that wrong, to see what checked mode says")
         ->check(CLI::IsMember(breakable));
   }
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;  // 0: --help
+  }
 
   Setup setup;
   setup.broken = broken;

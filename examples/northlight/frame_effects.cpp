@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame_effects.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <filesystem>
 #include <tuple>
 
@@ -297,8 +299,15 @@ rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
     if (!loaded.ok()) return failure(loaded.error());
     return std::move(loaded.value());
   }
-  auto laid_out = layout_volume(scene, options.gi_cell);
+  const float cell = options.gi_cell > 0 ? options.gi_cell : choose_volume_cell(scene);
+  auto laid_out = layout_volume(scene, cell);
   if (!laid_out.ok()) return failure(laid_out.error());
+  if (options.gi_cell == 0 && cell != kVolumeCell) {
+    left_out_.push_back(
+        fmt::format("cells of {} m in the volume of indirect light: the scene is "
+                    "large, {} cells of {} m bake faster (--gi-cell {})",
+                    kVolumeCell, laid_out.value().cells.size(), cell, kVolumeCell));
+  }
   BakeDesc desc;
   desc.samples = options.gi_bake_samples;
   desc.seed = options.seed;

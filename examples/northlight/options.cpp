@@ -241,8 +241,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--gi-samples", options.gi_samples, "indirect rays per pixel")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--gi-cell", options.gi_cell, "cells of the volume of indirect light, in metres")
-      ->capture_default_str()
+  app.add_option("--gi-cell", options.gi_cell,
+                 "cells of the volume of indirect light, in metres (0.25, larger in large scenes)")
       ->check(CLI::Range(1e-3f, 1e3f));
   app.add_option("--gi-bake-samples", options.gi_bake_samples, "paths per cell")
       ->capture_default_str()

@@ -150,7 +150,8 @@ rtapi::Status Stage::create_volume(const std::string& cache, const StageProgress
     if (!loaded.ok()) return failure(loaded.error());
     volume = std::move(loaded.value());
   } else {
-    auto laid_out = layout_volume(scene_, options_.gi_cell);
+    auto laid_out =
+        layout_volume(scene_, options_.gi_cell > 0 ? options_.gi_cell : choose_volume_cell(scene_));
     if (!laid_out.ok()) return failure(laid_out.error());
     volume = std::move(laid_out.value());
     BakeDesc desc;
