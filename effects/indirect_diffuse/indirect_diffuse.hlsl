@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Indirect diffuse light of each pixel, in the four ways that the talk compares. [effects-spec B5.2 to
 // B5.4]
-#include "hit_shading.hlsli"
-#include "indirect_volume.hlsli"
+#include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
@@ -46,10 +45,8 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
   payload.distance = RayTCurrent();
   if (constants.mode != kModeNearField) return;
   const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
-  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
-                                                 Fallback(surface.normal));
+                     IndirectAtHit(surface, -WorldRayDirection());
 }
 
 // What one direction brings, and in w how far its ray got.

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Opaque reflections: one ray per sample in a direction that GGX's facets as seen by the camera
 // choose, shaded where it hits. [effects-spec B4.10; Control]
-#include "hit_shading.hlsli"
-#include "indirect_volume.hlsli"
+#include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
@@ -44,10 +43,8 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent() * frame.pixel_angle);
-  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
-                                                 SkyTowards(surface.normal));
+                     IndirectAtHit(surface, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 

@@ -137,6 +137,24 @@ TEST(Reflections, MirrorsHitWhereTheyMust) {
   EXPECT_GT(hits, 3);
 }
 
+// A white mirror sees a white metal ball under a sky of 1: it sends back what it gets, and is as
+// bright as the sky beside it. The volume, which has nothing stored here, gives the sky.
+TEST(Reflections, MirrorsInMirrorsAreNotBlack) {
+  Scene scene = furnace(0, 0);
+  scene.instances = make_sphere_oracle(1.0, 1.5).instances;
+  scene.cameras = make_sphere_oracle(1.0, 1.5).cameras;
+  const Reflected result = reflect(scene, 1, {});
+  int hits = 0;
+  for (std::uint32_t y = 0; y < kSize; ++y) {
+    for (std::uint32_t x = 0; x < kSize; ++x) {
+      if (result.ids.at(x, y, 0) != 1.0f) continue;  // the plane
+      for (std::uint32_t c = 0; c < 3; ++c) EXPECT_NEAR(result.sum.at(x, y, c), 1, 0.05);
+      hits += result.sum.at(x, y, 3) < 100;  // the ball, not the end of a ray
+    }
+  }
+  EXPECT_GT(hits, 3);
+}
+
 // The clamp takes energy and nothing else; the picture says how much.
 TEST(Reflections, TheFireflyLimitOnlyDarkens) {
   Scene scene = furnace(0.5, 0.5f);

@@ -109,9 +109,12 @@ float3 VolumeIrradiance(float3 position, float3 normal, float3 fallback) {
   return VolumeTowards(position, normal, 2.0 / 3.0, fallback);
 }
 
-// The same of a surface: half a cell off it, so that the cells behind it count less.
+// The same two of a surface: half a cell off it, so that the cells behind it count less.
 float3 VolumeIrradianceAt(float3 position, float3 normal, float3 fallback) {
   return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), normal, fallback);
+}
+float3 VolumeRadianceAt(float3 position, float3 normal, float3 direction, float3 fallback) {
+  return VolumeRadiance(position + normal * (0.5 * volume_constants[0].cell), direction, fallback);
 }
 
 #endif

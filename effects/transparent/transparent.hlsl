@@ -2,8 +2,7 @@
 // Glass in front of what the G-buffer holds: the first layers one by one, with a mirrored ray each;
 // those behind them in one ray whose any-hit shader blends them without an order.
 // [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
-#include "hit_shading.hlsli"
-#include "indirect_volume.hlsli"
+#include "hit_indirect.hlsli"
 
 // Radiance of the glass, and the view depth of its first layer, metres (0: no glass).
 RWTexture2D<float4> glass_radiance : register(u0, space3);
@@ -201,10 +200,8 @@ float3 MirrorImage(Surface surface, float3 direction) {
 }
 
 void ShadeMirrored(inout GlassPayload payload, Surface surface) {
-  const float3 albedo = surface.base_color * (1.0 - surface.metallic);
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun != 0) +
-                     albedo * VolumeIrradianceAt(surface.position, surface.normal,
-                                                 SkyTowards(surface.normal));
+                     IndirectAtHit(surface, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 

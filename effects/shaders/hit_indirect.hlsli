@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Indirect light at what an effect's rays hit, from the volume.
+#ifndef KAAMOS_HIT_INDIRECT_HLSLI
+#define KAAMOS_HIT_INDIRECT_HLSLI
+
+#include "hit_shading.hlsli"
+#include "indirect_volume.hlsli"
+
+// Radiance towards where the ray came from. A metal has no diffuse light: it shows the volume's from
+// where it mirrors, which is no picture, but keeps mirrors in mirrors from being black.
+float3 IndirectAtHit(Surface surface, float3 view) {
+  float3 radiance = surface.base_color * (1.0 - surface.metallic) *
+                    VolumeIrradianceAt(surface.position, surface.normal, SkyTowards(surface.normal));
+  if (surface.metallic > 0.0) {
+    const float3 f0 = MakeBrdf(surface.base_color, surface.metallic, surface.roughness).f0;
+    const float3 mirrored = reflect(-view, surface.shading_normal);
+    radiance += surface.metallic *
+                SpecularAlbedo(f0, surface.roughness, dot(surface.shading_normal, view)) *
+                VolumeRadianceAt(surface.position, surface.normal, mirrored, SkyTowards(mirrored));
+  }
+  return radiance;
+}
+
+#endif
