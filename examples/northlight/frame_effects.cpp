@@ -303,10 +303,11 @@ rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
   auto laid_out = layout_volume(scene, cell);
   if (!laid_out.ok()) return failure(laid_out.error());
   if (options.gi_cell == 0 && cell != kVolumeCell) {
-    left_out_.push_back(
-        fmt::format("cells of {} m in the volume of indirect light: the scene is "
-                    "large, {} cells of {} m bake faster (--gi-cell {})",
-                    kVolumeCell, laid_out.value().cells.size(), cell, kVolumeCell));
+    std::ostringstream text;
+    text << "cells of " << kVolumeCell << " m in the volume of indirect light: the scene is large, "
+         << laid_out.value().cells.size() << " cells of " << cell << " m bake faster (--gi-cell "
+         << kVolumeCell << ")";
+    left_out_.push_back(text.str());
   }
   BakeDesc desc;
   desc.samples = options.gi_bake_samples;
