@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame_effects.h"
 
-#include <fmt/format.h>
 #include <algorithm>
-
 #include <filesystem>
+#include <sstream>
 #include <tuple>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
