@@ -12,10 +12,11 @@ float3 IndirectAtHit(Surface surface, float3 view) {
   float3 radiance = surface.base_color * (1.0 - surface.metallic) *
                     VolumeIrradianceAt(surface.position, surface.normal, SkyTowards(surface.normal));
   if (surface.metallic > 0.0) {
-    const float3 f0 = MakeBrdf(surface.base_color, surface.metallic, surface.roughness).f0;
+    // Its roughness is the one that lights see: never quite 0.
+    const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
     const float3 mirrored = reflect(-view, surface.shading_normal);
     radiance += surface.metallic *
-                SpecularAlbedo(f0, surface.roughness, dot(surface.shading_normal, view)) *
+                SpecularAlbedo(brdf.f0, sqrt(brdf.alpha), dot(surface.shading_normal, view)) *
                 VolumeRadianceAt(surface.position, surface.normal, mirrored, SkyTowards(mirrored));
   }
   return radiance;
