@@ -25,7 +25,6 @@ struct IndirectPayload {
   float distance;  // of the hit, metres; negative: none
 };
 
-float3 Fallback(float3 direction) { return SkyTowards(direction); }
 float RayLength() { return Contain(constants.length, kLongestRay); }
 
 [shader("miss")]
@@ -64,13 +63,13 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
            kRayTypeSurface, ray, payload);
   const float3 end = origin + direction * length + jitter * volume_constants[0].cell;
   if (payload.distance < 0.0) {
-    return float4(VolumeRadiance(end, direction, Fallback(direction)), length);
+    return float4(VolumeRadiance(end, direction, SkyTowards(direction)), length);
   }
   if (constants.mode == kModeHitBlack) return float4(0, 0, 0, payload.distance);
   // Close to the ray's end the volume takes over, so that no shell shows where rays end.
   const float far = smoothstep(0.8 * length, length, payload.distance);
   if (far == 0.0) return float4(payload.radiance, payload.distance);
-  const float3 from_volume = VolumeRadiance(end, direction, Fallback(direction));
+  const float3 from_volume = VolumeRadiance(end, direction, SkyTowards(direction));
   return float4(lerp(payload.radiance, from_volume, far), payload.distance);
 }
 
@@ -89,7 +88,7 @@ void IndirectRayGen() {
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
     indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, shading_normal,
-                                                         Fallback(shading_normal)), 0.0);
+                                                         SkyTowards(shading_normal)), 0.0);
     return;
   }
   const float3 origin = position.xyz + normal * position.w;

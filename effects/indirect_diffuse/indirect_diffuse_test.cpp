@@ -187,15 +187,15 @@ TEST(IndirectVolumes, TooManyCellsAreAnError) {
 
 TEST(IndirectVolumes, LargeScenesGetLargerCells) {
   const Scene scene = small_scene(1.0f);
-  const auto cells = [&](float cell) { return count_volume_cells(scene, cell).value(); };
-  EXPECT_EQ(cells(0.5f), layout_volume(scene, 0.5f).value().cells.size());
-  EXPECT_EQ(choose_volume_cell(scene), kVolumeCell);
-  EXPECT_EQ(choose_volume_cell(scene, cells(kVolumeCell)), kVolumeCell);
+  const auto cells = [&](float cell) { return layout_volume(scene, cell).value().cells.size(); };
+  EXPECT_EQ(layout_volume(scene).value().cell, kVolumeCell);
+  EXPECT_EQ(layout_volume(scene, {}, cells(kVolumeCell)).value().cell, kVolumeCell);
   ASSERT_GT(cells(kVolumeCell), cells(1.0f));
-  const float larger = choose_volume_cell(scene, cells(1.0f));
-  EXPECT_GT(larger, kVolumeCell);
-  EXPECT_LE(cells(larger), cells(1.0f));
-  EXPECT_GT(cells(larger / 2), cells(1.0f));
+  const IndirectVolume larger = layout_volume(scene, {}, cells(1.0f)).value();
+  EXPECT_GT(larger.cell, kVolumeCell);
+  EXPECT_EQ(larger.cells.size(), cells(larger.cell));
+  EXPECT_LE(larger.cells.size(), cells(1.0f));
+  EXPECT_GT(cells(larger.cell / 2), cells(1.0f));
 }
 
 }  // namespace

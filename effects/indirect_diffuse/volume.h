@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,16 +50,12 @@ struct IndirectVolume {
   std::vector<glm::dvec3> cell_centers() const;
 };
 
-/// The bricks that hold geometry, and those next to them, without light yet. Errors: more than 2^24
-/// cells: a larger cell is needed.
-Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres);
-
-/// How many cells layout_volume() would make; its errors, without taking the memory.
-Result<std::uint64_t> count_volume_cells(const Scene& scene, float cell_metres);
-
-/// The edge of cells, in metres, for a scene: kVolumeCell, or as many times twice that as keep the
-/// volume within `most_cells`: a floor of 200 m has ten million cells of 25 cm, an hour of baking.
-float choose_volume_cell(const Scene& scene, std::uint64_t most_cells = 1u << 19);
+/// The bricks that hold geometry, and those next to them, without light yet. Without a size of
+/// cells they are of kVolumeCell, or of as many times twice that as keep the volume within
+/// `most_cells`: baking takes as long as there are cells, and a large floor has many. Errors: more
+/// than 2^24 cells: a larger cell is needed.
+Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres = {},
+                                     std::uint64_t most_cells = 1u << 19);
 
 struct BakeDesc {
   std::uint32_t samples = 256;  ///< paths per cell

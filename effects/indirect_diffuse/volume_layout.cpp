@@ -112,27 +112,17 @@ Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std:
 
 }  // namespace
 
-Result<IndirectVolume> layout_volume(const Scene& scene, float cell_metres) {
-  std::uint64_t cells = 0;
-  auto volume = layout_bricks(scene, cell_metres, cells);
-  if (volume.ok()) volume.value().cells.resize(cells);
-  return volume;
-}
-
-Result<std::uint64_t> count_volume_cells(const Scene& scene, float cell_metres) {
-  std::uint64_t cells = 0;
-  const auto volume = layout_bricks(scene, cell_metres, cells);
-  if (!volume.ok()) return Status::failure(volume.error());
-  return cells;
-}
-
-float choose_volume_cell(const Scene& scene, std::uint64_t most_cells) {
-  float cell = kVolumeCell;
-  for (; cell < 1e6f; cell *= 2) {
-    const auto cells = count_volume_cells(scene, cell);
-    if (cells.ok() && cells.value() <= most_cells) break;
+Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres,
+                                     std::uint64_t most_cells) {
+  constexpr float kLargestCell = 1e6f;
+  for (float cell = cell_metres.value_or(kVolumeCell);; cell *= 2) {
+    std::uint64_t cells = 0;
+    auto volume = layout_bricks(scene, cell, cells);
+    const bool fits = volume.ok() && cells <= most_cells;
+    if (!cell_metres && !fits && cell < kLargestCell) continue;
+    if (volume.ok()) volume.value().cells.resize(cells);
+    return volume;
   }
-  return cell;
 }
 
 }  // namespace kaamos::effects

@@ -298,10 +298,9 @@ rtapi::Result<IndirectVolume> FrameEffects::volume(const Scene& scene,
     if (!loaded.ok()) return failure(loaded.error());
     return std::move(loaded.value());
   }
-  const float cell = options.gi_cell > 0 ? options.gi_cell : choose_volume_cell(scene);
-  auto laid_out = layout_volume(scene, cell);
+  auto laid_out = layout_volume(scene, options.gi_cell);
   if (!laid_out.ok()) return failure(laid_out.error());
-  if (options.gi_cell == 0 && cell != kVolumeCell) {
+  if (const float cell = laid_out.value().cell; !options.gi_cell && cell != kVolumeCell) {
     std::ostringstream text;
     text << "cells of " << kVolumeCell << " m in the volume of indirect light: the scene is large, "
          << laid_out.value().cells.size() << " cells of " << cell << " m bake faster (--gi-cell "

@@ -42,7 +42,7 @@ struct Options {
   float contact_length = 1.0f;         // metres
   std::string gi_mode = "near-field";  // direct, hit-black, near-field
   std::uint32_t gi_samples = 1;
-  float gi_cell = 0;  // metres; 0: chosen for the scene
+  std::optional<float> gi_cell;  // metres; else by the size of the scene
   std::uint32_t gi_bake_samples = 256;
   std::string gi_volume;  // file that holds it, or will; empty: baked each time
   std::uint32_t reflection_samples = 1;

@@ -33,7 +33,7 @@ rtapi::Error failure(const std::string& text) {
 // What the volume follows from; the program's own time, since its shaders are part of it.
 std::string volume_key(const Options& options) {
   std::error_code ignored;
-  std::string text = fmt::format("{} {} {} {}", options.scene, options.gi_cell,
+  std::string text = fmt::format("{} {} {} {}", options.scene, options.gi_cell.value_or(0),
                                  options.gi_bake_samples, options.seed);
   for (const std::string& material : options.materials) text += " " + material;
   for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
@@ -150,8 +150,7 @@ rtapi::Status Stage::create_volume(const std::string& cache, const StageProgress
     if (!loaded.ok()) return failure(loaded.error());
     volume = std::move(loaded.value());
   } else {
-    auto laid_out =
-        layout_volume(scene_, options_.gi_cell > 0 ? options_.gi_cell : choose_volume_cell(scene_));
+    auto laid_out = layout_volume(scene_, options_.gi_cell);
     if (!laid_out.ok()) return failure(laid_out.error());
     volume = std::move(laid_out.value());
     BakeDesc desc;
