@@ -193,7 +193,7 @@ class Checker {
   ir::Block& block() { return *block_; }
   void emit(const ir::Stmt* statement);
   const ir::Variable* temporary(const ir::Expr* value, size_t* position = nullptr);
-  const ir::Variable* empty_temporary(const ir::Type* type);
+  ir::Variable* empty_temporary(const ir::Type* type);
   // Simple enough to be repeated; else read from a temporary.
   const ir::Expr* repeatable(const ir::Expr* value);
   void assign(const ir::Variable* variable, const ir::Expr* value);
@@ -299,6 +299,7 @@ class Checker {
   void lower_block(std::span<const Stmt* const> statements);
   void lower_body(const Stmt* statement, ir::Block& target);
   void lower_local(const VariableDecl* decl);
+  bool is_result_of_last_call(const ir::Expr* value) const;
   void lower_local_static(const VariableDecl* decl, const Type* type);
   void lower_if(const IfStmt* statement);
   void lower_loop(const Expr* condition, const Expr* step, const Stmt* body, bool test_at_end,
@@ -401,6 +402,8 @@ class Checker {
   int function_depth_ = 0;  // of functions lowered on the way to others
   int template_depth_ = 0;
   bool result_unused_ = false;
+  // What the last kCall gives its result to, until a variable of the source takes its place.
+  ir::Variable* call_result_ = nullptr;
 
   std::vector<FunctionInfo*> all_functions_;      // in declaration order, no templates
   std::vector<FunctionInfo*> lowered_functions_;  // callees before callers

@@ -93,11 +93,12 @@ class CppEmitter {
   // emit_statements.cpp
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
+  void begin_statement(const ir::Stmt& stmt);
   void declare(const ir::Stmt& stmt);
   void assign(const ir::Expr* target, const std::string& value);
   void store(const ir::Stmt& stmt);
   std::string atomic_text(const ir::Stmt& stmt, const TextOf& text);
-  void call_function(const ir::Stmt& stmt);
+  void call_function(const ir::Stmt& stmt, bool declares_result);
   void trace_ray(const ir::Stmt& stmt);
   void report_hit(const ir::Stmt& stmt);
   void query(const ir::Stmt& stmt);
@@ -186,6 +187,8 @@ class CppEmitter {
   std::string return_text_ = "return;";
 };
 
+// Whether the statements i and i + 1 are `T x;` and `x = f();`.
+bool begins_with_call(const ir::Block& body, size_t i);
 // As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".
 const char* scalar_name(ir::Scalar scalar);
 // Quoted for C and C++.

@@ -59,10 +59,28 @@ void CppEmitter::at_generated() {
   }
 }
 
+// `x` is declared, and begins with what the function of the next statement returns: as `T x = f()`
+// it is neither cleared nor copied.
+bool begins_with_call(const Block& body, size_t i) {
+  const Stmt& first = *body[i];
+  return first.kind == StmtKind::kDeclare && first.value == nullptr && i + 1 < body.size() &&
+         body[i + 1]->kind == StmtKind::kCall && body[i + 1]->result == first.variable;
+}
+
+void CppEmitter::begin_statement(const Stmt& stmt) {
+  at(stmt.location);
+  statement_location_ = stmt.location;
+}
+
 void CppEmitter::block(const Block& body) {
   local_names_.push();
-  for (const Stmt* stmt : body) {
-    statement(*stmt);
+  for (size_t i = 0; i < body.size(); ++i) {
+    if (begins_with_call(body, i) && placed_.count(body[i]->variable) == 0) {
+      begin_statement(*body[++i]);
+      call_function(*body[i], true);
+    } else {
+      statement(*body[i]);
+    }
   }
   local_names_.pop();
 }
@@ -133,11 +151,17 @@ std::string CppEmitter::atomic_text(const Stmt& stmt, const TextOf& text) {
   return out + text(v) + ")";
 }
 
-void CppEmitter::call_function(const Stmt& stmt) {
-  std::string text = stmt.result != nullptr ? variable(stmt.result) + " = " : "";
-  text += "u::" + function_names_[stmt.function] + "(ctx";
+void CppEmitter::call_function(const Stmt& stmt, bool declares_result) {
+  std::string text = "u::" + function_names_[stmt.function] + "(ctx";
   for (const Expr* argument : stmt.arguments) {
     text += ", " + value(argument);
+  }
+  if (declares_result) {
+    const std::string name = local_names_.declare(stmt.result->name);
+    variable_names_[stmt.result] = name;
+    text = type(stmt.result->type) + " " + name + " = " + text;
+  } else if (stmt.result != nullptr) {
+    text = variable(stmt.result) + " = " + text;
   }
   line(text + ");");
   if (stmt.function->may_end_shader && !stmt.outlives_end) {
@@ -241,10 +265,7 @@ void CppEmitter::switch_(const Stmt& stmt) {
 }
 
 void CppEmitter::statement(const Stmt& stmt) {
-  if (stmt.kind != StmtKind::kBlock) {
-    at(stmt.location);
-    statement_location_ = stmt.location;
-  }
+  if (stmt.kind != StmtKind::kBlock) begin_statement(stmt);
   switch (stmt.kind) {
     case StmtKind::kBlock:
       open("{");
@@ -276,7 +297,7 @@ void CppEmitter::statement(const Stmt& stmt) {
            atomic_text(stmt, [this](const Expr* e) { return value(e); }) + ";");
       break;
     case StmtKind::kCall:
-      call_function(stmt);
+      call_function(stmt, false);
       break;
     case StmtKind::kTraceRay:
       trace_ray(stmt);

@@ -221,7 +221,11 @@ void WideEmitter::emit_function(const WideFunction& function) {
       line(name + " = " + out_.type(parameter->type) + "{};");
     }
   }
+  for (const Variable* parameter : f.parameters) {
+    if (parameter->mode == ParameterMode::kIn) declare_texel_row(parameter, nullptr);
+  }
   scope(f.body);
+  texel_rows_.clear();
   out_.at(f.end_location);
   // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
   if (!result_.empty()) {

@@ -233,6 +233,37 @@ std::string WideEmitter::load(const Expr& expr) {
                                  operands.text.at(expr.operands.back())));
 }
 
+bool WideEmitter::has_texel_row(const Variable* variable) const {
+  const Type* t = variable->type;
+  return current_->is_varying(variable) && current_->written.count(variable) == 0 &&
+         t->kind == TypeKind::kVector && t->columns == 2 &&
+         (t->scalar == Scalar::kInt32 || t->scalar == Scalar::kUint32);
+}
+
+// What is known of texel coordinates from others that they are some way away from; empty: nothing.
+std::string WideEmitter::texel_row(const Expr* at) {
+  if (at->kind == ExprKind::kVariable) {
+    const auto known = texel_rows_.find(at->variable);
+    return known != texel_rows_.end() ? known->second : "";
+  }
+  const bool adds = at->kind == ExprKind::kBinary && at->binary == BinaryOp::kAdd;
+  if (!adds && !(at->kind == ExprKind::kBinary && at->binary == BinaryOp::kSubtract)) return "";
+  const Expr* from = at->operands[0];
+  const Expr* by = at->operands[1];
+  if (adds && !is_varying(from)) std::swap(from, by);
+  if (!is_varying(from) || is_varying(by)) return "";
+  const std::string row = texel_row(from);
+  if (row.empty()) return "";
+  const std::string way = adds ? out_.value(by) : "ks::negate(" + out_.value(by) + ")";
+  return "ks::moved(" + row + ", " + way + ")";
+}
+
+std::string WideEmitter::texel_coordinates(const Expr* at) {
+  const std::string row = texel_row(at);
+  if (row.empty()) return value(at);
+  return row + ", [&]() KAAMOS_INLINE_LAMBDA { return " + value(at) + "; }";
+}
+
 std::string WideEmitter::typed_load(const Expr& expr) {
   const Type* resource = expr.operands[0]->type;
   const std::string result = "<" + out_.type(expr.type) + ">(ctx.invocation, ";
@@ -247,7 +278,7 @@ std::string WideEmitter::typed_load(const Expr& expr) {
   if (plain && first_mip && offset == nullptr && out_.is_looked_up(*expr.operands[0]) &&
       expr.operands[1]->type->columns == 2) {
     return "ks::load_texels" + result + out_.texture(expr.operands[0]) + ", " +
-           varying(*expr.operands[1]) + ", " + mask_ + ")";
+           texel_coordinates(expr.operands[1]) + ", " + mask_ + ")";
   }
   LaneOperands operands;
   for (size_t i = 1; i < expr.operands.size(); ++i) add_operand(operands, expr.operands[i]);

@@ -33,7 +33,12 @@ std::string WideEmitter::declare_mask(const std::string& value) {
 
 void WideEmitter::block(const Block& body) {
   for (size_t i = 0; i < body.size(); ++i) {
-    statement(*body[i]);
+    if (begins_with_call(body, i) && !facts(*body[i + 1]).blends) {
+      out_.begin_statement(*body[++i]);
+      call_function(*body[i], true);
+    } else {
+      statement(*body[i]);
+    }
     if (i + 1 < body.size() && facts(*body[i]).narrows) {
       line("if (ks::no_lane(" + mask_ + ")) goto skip_" + std::to_string(skip_label_) + ";");
       skip_used_ = true;
@@ -62,6 +67,17 @@ void WideEmitter::declare(const Stmt& stmt) {
   const std::string name = out_.local_names_.declare(stmt.variable->name);
   out_.variable_names_[stmt.variable] = name;
   line(type(stmt.variable->type) + " " + name + initial + ";");
+  if (stmt.value != nullptr) declare_texel_row(stmt.variable, stmt.value);
+}
+
+// Of a variable that keeps its value; `value`: null for a parameter.
+void WideEmitter::declare_texel_row(const Variable* variable, const Expr* value) {
+  if (!has_texel_row(variable)) return;
+  std::string row = value != nullptr ? texel_row(value) : "";
+  if (row.empty()) row = "ks::texel_row(" + out_.variable(variable) + ")";
+  const std::string name = out_.local_names_.declare(out_.variable(variable) + "_row");
+  line("[[maybe_unused]] const ks::TexelRow " + name + " = " + row + ";");
+  texel_rows_[variable] = name;
 }
 
 // Another element in each lane.
@@ -151,7 +167,7 @@ void WideEmitter::typed_store(const Stmt& stmt) {
   if (resource->resource == ResourceKind::kRWTexture2D && out_.is_looked_up(*stmt.operands[0]) &&
       stmt.operands[1]->type->columns == 2) {
     line("ks::store_texels<" + out_.type(stmt.value->type) + ">(ctx.invocation, " +
-         out_.texture(stmt.operands[0]) + ", " + value(stmt.operands[1]) + ", " +
+         out_.texture(stmt.operands[0]) + ", " + texel_coordinates(stmt.operands[1]) + ", " +
          value(stmt.value) + ", " + mask_ + ");");
     return;
   }
@@ -213,7 +229,7 @@ bool is_of_static(const Expr* e) {
 
 }  // namespace
 
-void WideEmitter::call_function(const Stmt& stmt) {
+void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
   const WideFunction* callee = current_->callees.at(&stmt);
   std::string text = "u::" + names_[callee] + "(ctx, " + mask_;
   for (size_t i = 0; i < stmt.arguments.size(); ++i) {
@@ -230,15 +246,19 @@ void WideEmitter::call_function(const Stmt& stmt) {
   }
   text += ")";
   if (stmt.result == nullptr) return line(text + ";");
-  const std::string& result = out_.variable(stmt.result);
-  if (!current_->is_varying(stmt.result)) return line(result + " = " + text + ";");
-  if (!callee->varying_result) {
+  const bool varying = current_->is_varying(stmt.result);
+  if (varying && !callee->varying_result) {
     text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
   }
-  if (facts(stmt).blends) {
-    line("ks::blend(" + result + ", " + text + ", " + mask_ + ");");
+  if (declares_result) {
+    const std::string name = out_.local_names_.declare(stmt.result->name);
+    out_.variable_names_[stmt.result] = name;
+    const Type* t = stmt.result->type;
+    line((varying ? type(t) : out_.type(t)) + " " + name + " = " + text + ";");
+  } else if (varying && facts(stmt).blends) {
+    line("ks::blend(" + out_.variable(stmt.result) + ", " + text + ", " + mask_ + ");");
   } else {
-    line(result + " = " + text + ";");
+    line(out_.variable(stmt.result) + " = " + text + ";");
   }
 }
 
@@ -431,10 +451,7 @@ void WideEmitter::return_(const Stmt& stmt) {
 }
 
 void WideEmitter::statement(const Stmt& stmt) {
-  if (stmt.kind != StmtKind::kBlock) {
-    out_.at(stmt.location);
-    out_.statement_location_ = stmt.location;
-  }
+  if (stmt.kind != StmtKind::kBlock) out_.begin_statement(stmt);
   switch (stmt.kind) {
     case StmtKind::kBlock:
       return scope(stmt.body);
@@ -450,7 +467,7 @@ void WideEmitter::statement(const Stmt& stmt) {
     case StmtKind::kAtomic:
       return atomic(stmt);
     case StmtKind::kCall:
-      return call_function(stmt);
+      return call_function(stmt, false);
     case StmtKind::kTraceRay:
       return trace_ray(stmt);
     case StmtKind::kIf:

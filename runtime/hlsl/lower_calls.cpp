@@ -252,13 +252,14 @@ Value Checker::call(FunctionInfo* function, const Value* object, std::vector<Val
     }
   }
   at(location);
-  const ir::Variable* result = nullptr;
+  ir::Variable* result = nullptr;
   if (!function->result->is_void() && !unused) {
     result = empty_temporary(function->result->ir);
     statement->result = result;
   }
   if (function_) function_->callees.push_back(function);
   emit(statement);
+  call_result_ = result;
   for (const CopyOut& copy : copies) {
     const Value value = rvalue(build_.read(copy.variable), copy.type);
     store(copy.target, convert(value, copy.target.type, location, true));

@@ -67,7 +67,7 @@ const ir::Variable* Checker::temporary(const ir::Expr* value, size_t* position) 
   return variable;
 }
 
-const ir::Variable* Checker::empty_temporary(const ir::Type* type) {
+ir::Variable* Checker::empty_temporary(const ir::Type* type) {
   ir::Variable* variable = build_.variable({}, type, ir::Storage::kLocal);
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kDeclare);
   statement->variable = variable;

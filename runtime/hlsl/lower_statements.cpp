@@ -198,6 +198,13 @@ const ir::Expr* Checker::initial_value(const Expr* initialiser, const Type* type
   return convert(value, type, initialiser->location);
 }
 
+// A temporary that nothing else reads: a variable that begins with it may take its place.
+bool Checker::is_result_of_last_call(const ir::Expr* value) const {
+  return value && value->kind == ir::ExprKind::kVariable && value->variable == call_result_ &&
+         !block_->empty() && block_->back()->kind == ir::StmtKind::kCall &&
+         block_->back()->result == call_result_;
+}
+
 void Checker::lower_local(const VariableDecl* decl) {
   const Type* type = resolve_type(decl->type, scope_);
   at(decl->location);
@@ -251,11 +258,17 @@ void Checker::lower_local(const VariableDecl* decl) {
   at(decl->location);
   if (valid) {
     info->type = type;
-    info->variable = build_.variable(std::string(decl->name), type->ir, ir::Storage::kLocal);
-    ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
-    node->variable = info->variable;
-    node->value = value;
-    emit(node);
+    if (is_result_of_last_call(value)) {
+      info->variable = call_result_;
+      info->variable->name = decl->name;
+      call_result_ = nullptr;  // it has an owner now
+    } else {
+      info->variable = build_.variable(std::string(decl->name), type->ir, ir::Storage::kLocal);
+      ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
+      node->variable = info->variable;
+      node->value = value;
+      emit(node);
+    }
     // `const uint n = 4; float a[n];`
     const bool is_known = info->is_const && value && type->ir->kind == ir::TypeKind::kScalar &&
                           value->kind == ir::ExprKind::kLiteral;

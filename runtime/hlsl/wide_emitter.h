@@ -58,7 +58,7 @@ class WideEmitter {
   void typed_store(const ir::Stmt& stmt);
   void atomic(const ir::Stmt& stmt);
   void trace_ray(const ir::Stmt& stmt);
-  void call_function(const ir::Stmt& stmt);
+  void call_function(const ir::Stmt& stmt, bool declares_result);
   void if_(const ir::Stmt& stmt);
   void masked_if(const ir::Stmt& stmt);
   bool masked_leave(const ir::Stmt& stmt);
@@ -69,6 +69,7 @@ class WideEmitter {
   void masked_jump(const ir::Stmt& stmt);
   void return_(const ir::Stmt& stmt);
   std::string declare_mask(const std::string& value);
+  void declare_texel_row(const ir::Variable* variable, const ir::Expr* value);
 
   // emit_wide_expressions.cpp
   std::string value(const ir::Expr* expr);  // wide, of a uniform expression too
@@ -82,6 +83,10 @@ class WideEmitter {
   std::string logical(const ir::Expr& expr);
   std::string load(const ir::Expr& expr);
   std::string typed_load(const ir::Expr& expr);
+  // As the prelude's load_texels and store_texels take them. [wide_memory.h: TexelRow]
+  std::string texel_coordinates(const ir::Expr* at);
+  std::string texel_row(const ir::Expr* at);
+  bool has_texel_row(const ir::Variable* variable) const;
   std::string sample(const ir::Expr& expr);
   std::string dimensions(const ir::Expr& expr);
   // `[&](const ks::lanes& name) { return text; }` with the text under that mask.
@@ -112,6 +117,7 @@ class WideEmitter {
   std::unordered_map<const WideFunction*, std::string> names_;
   std::unordered_map<const ir::Struct*, std::string> struct_names_;
   std::unordered_set<const WideFunction*> emitted_;
+  std::unordered_map<const ir::Variable*, std::string> texel_rows_;  // names, in this function
 
   const WideFunction* current_ = nullptr;
   std::string mask_;       // name of the mask that the statement runs under

@@ -266,6 +266,36 @@ SamplerState linear_sampler : register(s0);
   if (mix(id.x) & 1) put(id, 4, picture[pixel + int2(1, 0)].x);
   put(id, 5, source_array_like[pixel & 3].y);
 })"},
+    {"pictures_some_way_from_the_pixel", R"(
+RWTexture2D<float4> picture : register(u1);
+Texture2D<float4> source : register(t2);
+float4 beside(int2 pixel, int2 by) { return picture[pixel + by]; }
+[numthreads(8, 8, 1)] void main(uint3 t : SV_GroupThreadID, uint3 g : SV_GroupID) {
+  const uint3 id = uint3(t.x + 8 * t.y + 64 * g.x, 0, 0);
+  const int2 pixel = int2(t.xy);
+  const int2 right = pixel + int2(three, one);
+  const int2 left = right - int2(two, zero);
+  int2 moving = pixel + int2(1, 0);
+  float2 sum = picture[right].xy + 2 * source[left].xy;
+  for (int i = 0; i < 3; ++i) {
+    const int2 other = moving + int2(i, one);
+    sum += (i + 1) * picture[other].xy;
+    moving.x += i;
+    const int2 mirrored = int2(three, three) - pixel;  // from right to left
+    sum += picture[mirrored + int2(i, 2)].yx * 5;
+  }
+  put(id, 0, dot(sum, float2(1, 64)));
+  if (mix(id.x) & 1) moving = pixel.yx;
+  put(id, 1, picture[moving + int2(1, 1)].x + 10 * picture[moving].y);
+  const uint2 above = t.xy + uint2(one, 0xFFFFFFFF);  // none above the first row
+  put(id, 2, picture[above].y * 100 + source[above + uint2(0, 2)].x);
+  put(id, 3, beside(pixel, int2(1, two)).x + beside(right, -int2(one, one)).y * 16);
+  put(id, 4, picture[pixel + int2(words.Load(4 * (id.x & 3)), 0)].x);
+  if (g.x != 0) return;
+  const int2 here = pixel + int2(zero, zero);
+  picture[here] = float4(t.xy, 0, real(id.x));
+  put(id, 5, picture[pixel].w + picture[here].x);
+})"},
     {"pictures_that_are_written", R"(
 RWTexture2D<float4> picture : register(u1);
 RWTexture2D<float2> pairs : register(u2);

@@ -13,9 +13,10 @@ namespace op {
 // e^x within 1 ulp in the same steps for one number and for those of several threads, so that both
 // give the same bits: 2^k e^r with k an integer and r within ln(2) / 2, e^r by a polynomial.
 // F is float, or a vector of floats; `Bits` gives its bits as unsigned integers, `Floats` the
-// floats of such bits.
-template <class F, class Bits, class Floats, class Choose>
-KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose) {
+// floats of such bits; `Every` says whether a condition holds for all.
+template <class F, class Bits, class Floats, class Choose, class Every>
+KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose,
+                            const Every& every) {
   const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
   const F k = shifted - 12582912.0f;
   const F r = (x - k * 0.693359375f) - k * -2.12194440e-4f;
@@ -25,9 +26,10 @@ KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const C
   p = p * r + 1.6666665459e-1f;
   p = p * r + 5.0000001201e-1f;
   const F y = p * r * r + r + 1.0f;
+  F result = floats(bits(y) + (bits(shifted) << 23));
+  if (__builtin_expect(every(floats(bits(x) & 0x7FFFFFFFu) <= 87.3365402f), 1)) return result;
   // What has no such exponent is replaced: more than the largest float, less than the least normal
   // one (a denormal, which D3D flushes), and what is not a number.
-  F result = floats(bits(y) + (bits(shifted) << 23));
   result = choose(x > 88.7228317f, F{} + __builtin_inff(), result);
   result = choose(x < -87.3365402f, F{}, result);
   return choose(x == x, result, x);
@@ -36,7 +38,8 @@ KAAMOS_INLINE float exponential(float x) {
   return exponential(
       x, [](float f) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(uint32_t, f); },
       [](uint32_t i) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(float, i); },
-      [](bool c, float a, float b) KAAMOS_INLINE_LAMBDA { return c ? a : b; });
+      [](bool c, float a, float b) KAAMOS_INLINE_LAMBDA { return c ? a : b; },
+      [](bool c) KAAMOS_INLINE_LAMBDA { return c; });
 }
 
 }  // namespace op

@@ -247,34 +247,47 @@ KAAMOS_INLINE W spread(const Lane<W>& value) {
 // ---------------------------------------------------------------------------------------------
 // Lanes that take part.
 
-// Bit i: lane i.
-KAAMOS_INLINE uint32_t bits_of(const lanes& x) {
+namespace simd {
+
+// One bit for each lane of a register: whether it is negative.
+KAAMOS_INLINE uint32_t sign_bits(Ints x) {
 #if defined(__AVX2__)
-  return static_cast<uint32_t>(__builtin_ia32_movmskps256((simd::Floats)x.a));
+  return static_cast<uint32_t>(__builtin_ia32_movmskps256((Floats)x));
 #elif defined(__SSE2__)
-  return static_cast<uint32_t>(__builtin_ia32_movmskps((simd::Floats)x.a)) |
-         static_cast<uint32_t>(__builtin_ia32_movmskps((simd::Floats)x.b)) << 4;
+  return static_cast<uint32_t>(__builtin_ia32_movmskps((Floats)x));
 #else
   uint32_t bits = 0;
-  for (int i = 0; i < kLanes; ++i) bits |= static_cast<uint32_t>(get(x, i)) << i;
+  for (int i = 0; i < kRegisterBytes / 4; ++i) bits |= static_cast<uint32_t>(x[i] < 0) << i;
   return bits;
 #endif
 }
-KAAMOS_INLINE bool any_lane(const lanes& x) {
-#if defined(__SSE2__) && !defined(__AVX2__)
-  return __builtin_ia32_movmskps((simd::Floats)(x.a | x.b)) != 0;
+inline constexpr uint32_t kEverySignBit = (1u << kRegisterBytes / 4) - 1;
+
+}  // namespace simd
+
+// Bit i: lane i.
+KAAMOS_INLINE uint32_t bits_of(const lanes& x) {
+#ifdef __AVX2__
+  return simd::sign_bits(x.a);
 #else
-  return bits_of(x) != 0;
+  return simd::sign_bits(x.a) | simd::sign_bits(x.b) << 4;
+#endif
+}
+KAAMOS_INLINE bool any_lane(const lanes& x) {
+#ifdef __AVX2__
+  return simd::sign_bits(x.a) != 0;
+#else
+  return simd::sign_bits(x.a | x.b) != 0;
 #endif
 }
 KAAMOS_INLINE bool no_lane(const lanes& x) {
   return !any_lane(x);
 }
 KAAMOS_INLINE bool every_lane(const lanes& x) {
-#if defined(__SSE2__) && !defined(__AVX2__)
-  return __builtin_ia32_movmskps((simd::Floats)(x.a & x.b)) == 15;
+#ifdef __AVX2__
+  return simd::sign_bits(x.a) == simd::kEverySignBit;
 #else
-  return bits_of(x) == (1u << kLanes) - 1;
+  return simd::sign_bits(x.a & x.b) == simd::kEverySignBit;
 #endif
 }
 KAAMOS_INLINE lanes operator&(const lanes& x, const lanes& y) {

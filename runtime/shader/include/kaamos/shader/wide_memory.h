@@ -14,6 +14,28 @@ namespace kaamos::shader {
 template <class V>
 using Wide = with_scalar<V, wide<scalar_of<V>>>;
 
+// Coordinates of lanes that read a row of texels in their order, from x, y on, or in no order.
+// Those that are the same way away from such coordinates have none to look for: what reads the
+// neighbours of its pixel needs to look at the pixel's only.
+struct TexelRow {
+  bool in_order;
+  uint32_t x, y;
+};
+template <class C>
+KAAMOS_INLINE TexelRow texel_row(const vec<wide<C>, 2>& at) {
+  const auto x = convert<uint32_t>(at.e[0]), y = convert<uint32_t>(at.e[1]);
+  const uint32_t first = get(x, 0), row = get(y, 0);
+  const lanes in_order =
+      map<op::Equal>(x, map<op::Add>(spread<wide<uint32_t>>(first), lane_numbers())) &
+      map<op::Equal>(y, spread<wide<uint32_t>>(row));
+  return {every_lane(in_order), first, row};
+}
+template <class C>
+KAAMOS_INLINE TexelRow moved(const TexelRow& row, const vec<C, 2>& by) {
+  return {row.in_order, row.x + static_cast<uint32_t>(by.e[0]),
+          row.y + static_cast<uint32_t>(by.e[1])};
+}
+
 namespace simd {
 
 #ifdef __AVX2__
@@ -151,19 +173,14 @@ KAAMOS_INLINE void store_row(uint8_t* to, const vec<wide<T>, 4>& value) {
 
 // The first of texels of `bytes` that are the lanes' in their order, where all lie inside; else
 // null.
-template <class C>
-KAAMOS_INLINE uint8_t* row_of(const BoundResource& texture, const vec<wide<C>, 2>& at,
-                              uint32_t bytes) {
-  const auto x = convert<uint32_t>(at.e[0]), y = convert<uint32_t>(at.e[1]);
-  const uint32_t first = get(x, 0), row = get(y, 0);
-  const lanes in_row =
-      map<op::Equal>(x, map<op::Add>(spread<wide<uint32_t>>(first), lane_numbers())) &
-      map<op::Equal>(y, spread<wide<uint32_t>>(row));
-  if (!every_lane(in_row) || row >= texture.height || texture.width < uint32_t{kLanes} ||
-      first > texture.width - uint32_t{kLanes}) {
+KAAMOS_INLINE uint8_t* first_texel(const BoundResource& texture, const TexelRow& row,
+                                   uint32_t bytes) {
+  if (!row.in_order || row.y >= texture.height || texture.width < uint32_t{kLanes} ||
+      row.x > texture.width - uint32_t{kLanes}) {
     return nullptr;
   }
-  return texture.texels + static_cast<uint64_t>(row) * texture.row_pitch + uint64_t{first} * bytes;
+  return texture.texels + static_cast<uint64_t>(row.y) * texture.row_pitch +
+         uint64_t{row.x} * bytes;
 }
 
 // Rows of short formats. [texture_access.h: load_short]
@@ -210,45 +227,64 @@ template <class V, class C>
 
 }  // namespace simd
 
-// Texels of mip 0 of a 2-D texture; V is what one lane reads. Lanes that take no part may read what
-// they would if they did.
-template <class V, class C>
+// Texels of mip 0 of a 2-D texture; V is what one lane reads. at() are the coordinates, `row` what
+// is known of them. Lanes that take no part may read what they would if they did.
+template <class V, class At>
 KAAMOS_INLINE Wide<V> load_texels(const Invocation& invocation, const BoundResource& texture,
-                                  const vec<wide<C>, 2>& at, const lanes& active) {
+                                  const TexelRow& row, const At& at, const lanes& active) {
   constexpr uint32_t kFormat = texture_access::direct_format<V>();
   if constexpr (kFormat != 0 && shape<V>::count != 3) {
     if (__builtin_expect(texture.direct_format == kFormat, 1)) {
-      if (const uint8_t* row = simd::row_of(texture, at, sizeof(V))) {
-        return simd::load_row(row, static_cast<Wide<V>*>(nullptr));
+      if (const uint8_t* first = simd::first_texel(texture, row, sizeof(V))) {
+        return simd::load_row(first, static_cast<Wide<V>*>(nullptr));
       }
     } else if constexpr (std::is_same_v<V, vec<float, 2>>) {
       if (texture.direct_format == texture_access::kR16G16Snorm) {
-        if (const uint8_t* row = simd::row_of(texture, at, 4)) return simd::load_snorm16_row(row);
+        if (const uint8_t* first = simd::first_texel(texture, row, 4)) {
+          return simd::load_snorm16_row(first);
+        }
       }
     } else if constexpr (std::is_same_v<V, vec<float, 4>>) {
       if (texture.direct_format == texture_access::kR8G8B8A8Unorm) {
-        if (const uint8_t* row = simd::row_of(texture, at, 4)) return simd::load_unorm8_row(row);
+        if (const uint8_t* first = simd::first_texel(texture, row, 4)) {
+          return simd::load_unorm8_row(first);
+        }
       }
     }
   }
   Wide<V> out;
-  simd::load_lanes<V>(invocation, texture, at, active, out);
+  simd::load_lanes<V>(invocation, texture, at(), active, out);
   return out;
+}
+template <class V, class At>
+KAAMOS_INLINE void store_texels(const Invocation& invocation, const BoundResource& texture,
+                                const TexelRow& row, const At& at, const Wide<V>& value,
+                                const lanes& active) {
+  constexpr uint32_t kFormat = texture_access::direct_format<V>();
+  if constexpr (kFormat != 0 && shape<V>::count != 3) {
+    if (texture.direct_format == kFormat && texture.writable && every_lane(active)) {
+      if (uint8_t* first = simd::first_texel(texture, row, sizeof(V))) {
+        simd::store_row(first, value);
+        return;
+      }
+    }
+  }
+  simd::store_lanes<V>(invocation, texture, at(), active, value);
+}
+
+// The same where nothing is known of the coordinates.
+template <class V, class C>
+KAAMOS_INLINE Wide<V> load_texels(const Invocation& invocation, const BoundResource& texture,
+                                  const vec<wide<C>, 2>& at, const lanes& active) {
+  return load_texels<V>(
+      invocation, texture, texel_row(at), [&]() KAAMOS_INLINE_LAMBDA { return at; }, active);
 }
 template <class V, class C>
 KAAMOS_INLINE void store_texels(const Invocation& invocation, const BoundResource& texture,
                                 const vec<wide<C>, 2>& at, const Wide<V>& value,
                                 const lanes& active) {
-  constexpr uint32_t kFormat = texture_access::direct_format<V>();
-  if constexpr (kFormat != 0 && shape<V>::count != 3) {
-    if (texture.direct_format == kFormat && texture.writable && every_lane(active)) {
-      if (uint8_t* row = simd::row_of(texture, at, sizeof(V))) {
-        simd::store_row(row, value);
-        return;
-      }
-    }
-  }
-  simd::store_lanes<V>(invocation, texture, at, active, value);
+  store_texels<V>(
+      invocation, texture, texel_row(at), [&]() KAAMOS_INLINE_LAMBDA { return at; }, value, active);
 }
 
 // DispatchRaysIndex of kLanes invocations side by side.

@@ -104,7 +104,8 @@ KAAMOS_INLINE Floats exponential(Floats x) {
   return op::exponential(
       x, [](Floats f) KAAMOS_INLINE_LAMBDA { return (Uints)f; },
       [](Uints i) KAAMOS_INLINE_LAMBDA { return (Floats)i; },
-      [](Ints c, Floats a, Floats b) KAAMOS_INLINE_LAMBDA { return c ? a : b; });
+      [](Ints c, Floats a, Floats b) KAAMOS_INLINE_LAMBDA { return c ? a : b; },
+      [](Ints c) KAAMOS_INLINE_LAMBDA { return sign_bits(c) == kEverySignBit; });
 }
 template <class R>
 KAAMOS_INLINE R smaller(R x, R y) {
