@@ -107,7 +107,6 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
   }
   Denoiser out;
   out.desc_ = desc;
-  out.desc_.iterations = std::min<std::uint32_t>(desc.iterations, 8);
   out.desc_.constants.normal_squarings = squarings_of(desc.constants.sigma_n);
   out.desc_.constants.signals = static_cast<std::int32_t>(signals.size());
   for (const Signal& signal : signals) {
@@ -115,18 +114,26 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
     out.channels_.push_back({.name = signal.name, .signal = signal.picture});
   }
   if (const auto s = out.create_pictures(device, frame); !s) return s.error();
-  const Recorder recorder = {device, frame, libraries};
   if (!is_temporal(desc.method)) {
+    const Recorder recorder = {device, frame, libraries, out.steps_[0]};
     if (desc.method != DenoiseMethod::kNone) {
-      if (const auto s = out.add_guides(recorder, 0); !s) return s.error();
+      if (const auto s = out.add_guides(recorder); !s) return s.error();
     }
     for (const Channel& channel : out.channels_) {
       if (const auto s = out.add_spatial(recorder, channel); !s) return s.error();
     }
     return out;
   }
+  constexpr std::uint32_t kMostIterations = 8;
+  const std::uint32_t first = std::min(desc.iterations, kMostIterations);
+  const std::uint32_t later = std::min(desc.iterations_with_history, kMostIterations);
   for (std::uint32_t parity = 0; parity < 2; ++parity) {
-    if (const auto s = out.add_temporal(recorder, parity); !s) return s.error();
+    const Recorder recorder = {device, frame, libraries, out.steps_[parity], parity, first};
+    if (const auto s = out.add_temporal(recorder); !s) return s.error();
+    if (desc.method != DenoiseMethod::kSvgf || later == first) continue;
+    const Recorder with_history = {device, frame, libraries, out.steps_with_history_[parity],
+                                   parity, later};
+    if (const auto s = out.add_temporal(with_history); !s) return s.error();
   }
   return out;
 }
@@ -178,7 +185,7 @@ Denoiser::Pictures Denoiser::moments_of(std::uint32_t parity) const {
   return out;
 }
 
-rtapi::Status Denoiser::add(const Recorder& to, std::uint32_t parity, const Kernel& kernel,
+rtapi::Status Denoiser::add(const Recorder& to, const Kernel& kernel,
                             const std::vector<Binding>& bindings,
                             const DenoiseConstants& constants) {
   const rtapi::ShaderLibrary& library = to.libraries.*kernel.library;
@@ -189,13 +196,13 @@ rtapi::Status Denoiser::add(const Recorder& to, std::uint32_t parity, const Kern
   for (const Binding& binding : bindings) {
     if (const auto s = views->set_unordered_access(binding.u, *binding.texture); !s) return s;
   }
-  steps_[parity].push_back({*pass, *views, constants});
+  to.steps.push_back({*pass, *views, constants});
   return {};
 }
 
 rtapi::Status Denoiser::add_spatial(const Recorder& to, const Channel& channel) {
   if (desc_.method == DenoiseMethod::kNone) {
-    return add_copy(to, 0, {&channel.signal}, {&channel.result});
+    return add_copy(to, {&channel.signal}, {&channel.result});
   }
   const bool exact = desc_.method == DenoiseMethod::kBilateralExact;
   const Kernel kernel = desc_.method == DenoiseMethod::kGaussian ? kGaussian
@@ -206,8 +213,7 @@ rtapi::Status Denoiser::add_spatial(const Recorder& to, const Channel& channel) 
     const Texture* into = exact || vertical == 1 ? &channel.result : &channel.accumulated;
     DenoiseConstants constants = desc_.constants;
     constants.vertical = vertical;
-    if (const auto s = add(to, 0, kernel, {{0, from}, {1, into}, {3, &guides_[0]}}, constants);
-        !s) {
+    if (const auto s = add(to, kernel, {{0, from}, {1, into}, {3, &guides_[0]}}, constants); !s) {
       return s;
     }
     from = into;
@@ -215,55 +221,54 @@ rtapi::Status Denoiser::add_spatial(const Recorder& to, const Channel& channel) 
   return {};
 }
 
-rtapi::Status Denoiser::add_guides(const Recorder& to, std::uint32_t parity) {
-  return add(to, parity, kPrepareGuides, {{3, &guides_[parity]}}, desc_.constants);
+rtapi::Status Denoiser::add_guides(const Recorder& to) {
+  return add(to, kPrepareGuides, {{3, &guides_[to.parity]}}, desc_.constants);
 }
 
-rtapi::Status Denoiser::add_copy(const Recorder& to, std::uint32_t parity, const Pictures& from,
-                                 const Pictures& into) {
+rtapi::Status Denoiser::add_copy(const Recorder& to, const Pictures& from, const Pictures& into) {
   for (std::size_t i = 0; i < from.size(); ++i) {
-    const auto s = add(to, parity, kCopy, {{0, from[i]}, {1, into[i]}}, desc_.constants);
+    const auto s = add(to, kCopy, {{0, from[i]}, {1, into[i]}}, desc_.constants);
     if (!s) return s;
   }
   return {};
 }
 
-rtapi::Status Denoiser::add_temporal(const Recorder& to, std::uint32_t parity) {
+rtapi::Status Denoiser::add_temporal(const Recorder& to) {
   const bool is_control = desc_.method == DenoiseMethod::kControl;
-  if (const auto s = add_guides(to, parity); !s) return s;
+  if (const auto s = add_guides(to); !s) return s;
   if (is_control) {
     for (const Channel& channel : channels_) {
-      const auto s = add(to, parity, kClampFireflies,
-                         {{0, &channel.signal}, {1, &channel.clamped}, {3, &guides_[parity]}},
+      const auto s = add(to, kClampFireflies,
+                         {{0, &channel.signal}, {1, &channel.clamped}, {3, &guides_[to.parity]}},
                          desc_.constants);
       if (!s) return s;
     }
   }
   const Pictures accumulated = pictures(&Channel::accumulated);
-  std::vector<Binding> bindings = {{3, &guides_[parity]}, {kPreviousGuides, &guides_[1 - parity]}};
+  std::vector<Binding> bindings = {{3, &guides_[to.parity]},
+                                   {kPreviousGuides, &guides_[1 - to.parity]}};
   add_bindings(bindings, kSignals, pictures(is_control ? &Channel::clamped : &Channel::signal));
   add_bindings(bindings, kHistories, pictures(&Channel::history));
-  add_bindings(bindings, kPreviousMoments, moments_of(1 - parity));
+  add_bindings(bindings, kPreviousMoments, moments_of(1 - to.parity));
   add_bindings(bindings, kAccumulated, accumulated);
-  add_bindings(bindings, kMoments, moments_of(parity));
-  if (const auto s = add(to, parity, kTemporal, bindings, desc_.constants); !s) return s;
+  add_bindings(bindings, kMoments, moments_of(to.parity));
+  if (const auto s = add(to, kTemporal, bindings, desc_.constants); !s) return s;
   if (desc_.method == DenoiseMethod::kSvgf) {
     // Into the moments of the frame before, which are done with.
-    if (const auto s = add(to, parity, kVariance, bindings, desc_.constants); !s) return s;
-    return add_wavelet(to, parity);
+    if (const auto s = add(to, kVariance, bindings, desc_.constants); !s) return s;
+    return add_wavelet(to);
   }
-  const auto kept = add_copy(to, parity, accumulated, pictures(&Channel::history));
+  const auto kept = add_copy(to, accumulated, pictures(&Channel::history));
   if (!kept) return kept;
-  if (!is_control) return add_copy(to, parity, accumulated, pictures(&Channel::result));
+  if (!is_control) return add_copy(to, accumulated, pictures(&Channel::result));
   for (const Channel& channel : channels_) {
-    if (const auto s = add_lobe_filter(to, parity, channel); !s) return s;
+    if (const auto s = add_lobe_filter(to, channel); !s) return s;
   }
   return {};
 }
 
-rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, std::uint32_t parity,
-                                        const Channel& channel) {
-  const Texture& scratch = channel.moments[1 - parity];
+rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, const Channel& channel) {
+  const Texture& scratch = channel.moments[1 - to.parity];
   for (std::uint32_t i = 0; i < 4; ++i) {
     const Texture& from = i % 2 == 0 ? channel.accumulated : scratch;
     const Texture& into = i % 2 == 0 ? scratch : i == 3 ? channel.result : channel.accumulated;
@@ -271,38 +276,38 @@ rtapi::Status Denoiser::add_lobe_filter(const Recorder& to, std::uint32_t parity
     constants.vertical = i % 2;
     constants.step = i < 2 ? 1 : 2;
     const auto s =
-        add(to, parity, kFilterLobe,
-            {{0, &from}, {1, &into}, {2, &channel.clamped}, {3, &guides_[parity]}}, constants);
+        add(to, kFilterLobe,
+            {{0, &from}, {1, &into}, {2, &channel.clamped}, {3, &guides_[to.parity]}}, constants);
     if (!s) return s;
   }
   return {};
 }
 
-rtapi::Status Denoiser::add_wavelet(const Recorder& to, std::uint32_t parity) {
-  const Pictures first = moments_of(1 - parity);
+rtapi::Status Denoiser::add_wavelet(const Recorder& to) {
+  const Pictures first = moments_of(1 - to.parity);
   const Pictures accumulated = pictures(&Channel::accumulated);
   const Pictures history = pictures(&Channel::history);
   const Pictures results = pictures(&Channel::result);
   // The first pass's result is what the next frame starts from. [Schied et al. 2017]
   const Pictures* from = &first;
-  for (std::uint32_t i = 0; i < desc_.iterations; ++i) {
-    const bool last = i + 1 == desc_.iterations;
+  for (std::uint32_t i = 0; i < to.iterations; ++i) {
+    const bool last = i + 1 == to.iterations;
     const Pictures* into = i == 0                 ? &history
                            : last                 ? &results
                            : from == &accumulated ? &first
                                                   : &accumulated;
     DenoiseConstants constants = desc_.constants;
     constants.step = 1 << i;
-    std::vector<Binding> bindings = {{3, &guides_[parity]}};
+    std::vector<Binding> bindings = {{3, &guides_[to.parity]}};
     add_bindings(bindings, kSignals, *from);
     add_bindings(bindings, kAccumulated, *into);
-    if (const auto s = add(to, parity, kAtrous, bindings, constants); !s) return s;
+    if (const auto s = add(to, kAtrous, bindings, constants); !s) return s;
     from = into;
   }
-  if (desc_.iterations == 0) {
-    if (const auto s = add_copy(to, parity, *from, history); !s) return s;
+  if (to.iterations == 0) {
+    if (const auto s = add_copy(to, *from, history); !s) return s;
   }
-  if (desc_.iterations < 2) return add_copy(to, parity, history, results);
+  if (to.iterations < 2) return add_copy(to, history, results);
   return {};
 }
 
@@ -349,7 +354,8 @@ void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale,
 
 void Denoiser::dispatch(rtapi::CommandList& list, const Frame& frame) {
   const std::uint32_t parity = is_temporal(desc_.method) ? frames_ % 2 : 0;
-  for (const Step& step : steps_[parity]) {
+  const bool has_history = frames_ >= kFramesOfHistory && !steps_with_history_[parity].empty();
+  for (const Step& step : has_history ? steps_with_history_[parity] : steps_[parity]) {
     DenoiseConstants constants = step.constants;
     constants.history_valid = frames_ > 0 ? 1 : 0;
     step.pass->dispatch(list, frame, {}, PassArguments(step.views, constants), frame.width(),

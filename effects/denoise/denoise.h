@@ -59,8 +59,15 @@ enum class DenoiseMethod {
 struct DenoiseDesc {
   DenoiseMethod method = DenoiseMethod::kSvgf;
   DenoiseConstants constants;
-  std::uint32_t iterations = 5;  ///< of SVGF's wavelet filter, 0 to 8
+  /// Of SVGF's wavelet filter, 0 to 8: while fewer than kFramesOfHistory frames stand behind this
+  /// one, and then. What many frames have smoothed already needs no filter that wide: with fewer
+  /// passes it is nearer to the truth. [README.md]
+  std::uint32_t iterations = 5;
+  std::uint32_t iterations_with_history = 3;
 };
+
+/// From here on the variance is one over time. [svgf.hlsl: kEnoughFrames]
+inline constexpr std::uint32_t kFramesOfHistory = 4;
 
 /// What a method takes by default: B6.1 for the bilateral filters, alpha 0.05 for accumulation.
 /// kControl: a filter of fixed radius; with constants.lobe_scale 1 it is that of reflections, whose
@@ -166,6 +173,9 @@ class Denoiser {
     const rtapi::Device& device;
     const Frame& frame;
     const DenoiseLibraries& libraries;
+    std::vector<Step>& steps;
+    std::uint32_t parity = 0;
+    std::uint32_t iterations = 0;  // of the wavelet filter
   };
   // A picture of each channel.
   using Pictures = std::vector<const rtapi::Texture*>;
@@ -182,15 +192,14 @@ class Denoiser {
       kFilterLobe{kControlLibrary, "FilterLobe"};
 
   rtapi::Status create_pictures(const rtapi::Device& device, const Frame& frame);
-  rtapi::Status add(const Recorder& to, std::uint32_t parity, const Kernel& kernel,
-                    const std::vector<Binding>& bindings, const DenoiseConstants& constants);
-  rtapi::Status add_guides(const Recorder& to, std::uint32_t parity);
+  rtapi::Status add(const Recorder& to, const Kernel& kernel, const std::vector<Binding>& bindings,
+                    const DenoiseConstants& constants);
+  rtapi::Status add_guides(const Recorder& to);
   rtapi::Status add_spatial(const Recorder& to, const Channel& channel);
-  rtapi::Status add_temporal(const Recorder& to, std::uint32_t parity);
-  rtapi::Status add_lobe_filter(const Recorder& to, std::uint32_t parity, const Channel& channel);
-  rtapi::Status add_wavelet(const Recorder& to, std::uint32_t parity);
-  rtapi::Status add_copy(const Recorder& to, std::uint32_t parity, const Pictures& from,
-                         const Pictures& into);
+  rtapi::Status add_temporal(const Recorder& to);
+  rtapi::Status add_lobe_filter(const Recorder& to, const Channel& channel);
+  rtapi::Status add_wavelet(const Recorder& to);
+  rtapi::Status add_copy(const Recorder& to, const Pictures& from, const Pictures& into);
   template <class Member>
   Pictures pictures(Member member) const;
   Pictures moments_of(std::uint32_t parity) const;
@@ -198,8 +207,9 @@ class Denoiser {
   DenoiseDesc desc_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
-  std::vector<Step> steps_[2];  // of even and odd frames
-  std::uint32_t frames_ = 0;    // since the last cut
+  std::vector<Step> steps_[2];               // of even and odd frames
+  std::vector<Step> steps_with_history_[2];  // empty: the same
+  std::uint32_t frames_ = 0;                 // since the last cut
 };
 
 }  // namespace kaamos::effects

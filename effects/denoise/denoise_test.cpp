@@ -126,6 +126,29 @@ TEST_F(DenoiseTest, SvgfRemovesNoiseAndKeepsTheMean) {
   EXPECT_LT(squares / count, 0.24 / 100);
 }
 
+// Few frames behind a pixel are filtered as wide as one; what four frames have smoothed is not.
+TEST_F(DenoiseTest, SvgfIsNarrowerWithHistory) {
+  DenoiseDesc wide = default_denoise(DenoiseMethod::kSvgf);
+  wide.iterations = wide.iterations_with_history = 5;
+  DenoiseDesc narrow = wide;
+  narrow.iterations = narrow.iterations_with_history = 3;
+  Denoiser denoiser = make(default_denoise(DenoiseMethod::kSvgf));
+  Denoiser always_wide = make(wide);
+  Denoiser always_narrow = make(narrow);
+  std::mt19937 random(12);
+  std::bernoulli_distribution open(0.4);
+  for (std::uint32_t i = 0; i < kFramesOfHistory + 3; ++i) {
+    FloatImage light(kWidth, kHeight, 1);
+    for (float& value : light.values) value = open(random) ? 1.0f : 0.0f;
+    const auto value = [&](auto x, auto y) { return light.at(x, y); };
+    const FloatImage out = run(denoiser, value);
+    const FloatImage five = run(always_wide, value);
+    const FloatImage three = run(always_narrow, value);
+    ASSERT_NE(five.values, three.values);
+    ASSERT_EQ(out.values, i < kFramesOfHistory ? five.values : three.values) << "frame " << i;
+  }
+}
+
 // Signals that are filtered together come out as each does alone, to the bit, for several frames.
 TEST_F(DenoiseTest, SignalsDoNotSeeEachOther) {
   for (const auto method : {DenoiseMethod::kBilateral, DenoiseMethod::kTemporal,

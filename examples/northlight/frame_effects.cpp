@@ -159,7 +159,9 @@ rtapi::Status FrameEffects::add_signal(const std::string& name, const rtapi::Tex
 
 rtapi::Status FrameEffects::create_filters() {
   DenoiseDesc desc = default_denoise(denoise_method(given_.options.denoise));
-  desc.iterations = given_.options.denoise_passes;
+  if (const auto passes = given_.options.denoise_passes) {
+    desc.iterations = desc.iterations_with_history = *passes;
+  }
   std::vector<Signal*> alike;
   for (const auto& signal : signals_) {
     // Only reflections tell how far away their hits are.

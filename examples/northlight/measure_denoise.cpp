@@ -32,6 +32,7 @@ struct Method {
   const char* label;
   DenoiseMethod method;
   std::uint32_t iterations = 5;
+  std::uint32_t iterations_with_history = iterations;
 };
 
 constexpr Method kMethods[] = {{"in space", "gaussian", DenoiseMethod::kGaussian},
@@ -41,7 +42,8 @@ constexpr Method kMethods[] = {{"in space", "gaussian", DenoiseMethod::kGaussian
                                {"svgf by iterations", "2", DenoiseMethod::kSvgf, 2},
                                {"svgf by iterations", "3", DenoiseMethod::kSvgf, 3},
                                {"svgf by iterations", "4", DenoiseMethod::kSvgf, 4},
-                               {"svgf by iterations", "5", DenoiseMethod::kSvgf, 5}};
+                               {"svgf by iterations", "5", DenoiseMethod::kSvgf, 5},
+                               {"svgf by iterations", "5, then 3", DenoiseMethod::kSvgf, 5, 3}};
 
 // The errors of one method at one frame of the sequence.
 struct Place {
@@ -108,6 +110,7 @@ rtapi::Status Signal::create(const std::string& name, const Setting& setting, fl
   for (const Method& method : kMethods) {
     DenoiseDesc desc = default_denoise(method.method);
     desc.iterations = method.iterations;
+    desc.iterations_with_history = method.iterations_with_history;
     auto denoiser = Denoiser::create(stage_.device(), stage_.frame(), libraries_.denoise,
                                      name + " " + method.label, mean_, desc);
     if (!denoiser) return denoiser.error();

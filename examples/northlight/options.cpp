@@ -219,8 +219,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
   app.add_option("--denoise-passes", options.denoise_passes,
-                 "passes of svgf's wavelet filter: each is twice as wide as the one before")
-      ->capture_default_str()
+                 "passes of svgf's wavelet filter, each twice as wide as the one before "
+                 "(5; 3 where four frames of a sequence stand behind)")
       ->check(CLI::Range(0u, 8u));
   app.add_option("--half-resolution", options.half_resolution,
                  "of the whole frame: effects that trace a quarter of the pixels, comma-separated: "

@@ -28,8 +28,8 @@ struct Options {
   // Whether any effect besides ambient occlusion and the sun is rendered.
   bool whole_frame() const { return local || gi || reflections || transparent; }
   std::string denoise = "svgf";  // of the whole frame: none, gaussian, bilateral, temporal, svgf
-  std::uint32_t denoise_passes = 5;          // of svgf
-  std::vector<std::string> half_resolution;  // effects that trace a quarter of the pixels; "all"
+  std::optional<std::uint32_t> denoise_passes;  // of svgf
+  std::vector<std::string> half_resolution;     // effects that trace a quarter of the pixels; "all"
   // 2 for those, else 1. Without denoising passes nothing would fill the other pixels.
   std::uint32_t pixel_step(const std::string& effect) const {
     if (!whole_frame()) return 1;

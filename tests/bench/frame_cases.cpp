@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "effects/denoise/denoise.h"
 #include "effects/frame/picture.h"
 #include "fixtures.h"
 #include "frame_run.h"
@@ -19,7 +20,6 @@ namespace {
 
 constexpr uint32_t kWidth = 1280, kHeight = 720;
 constexpr uint32_t kQuickWidth = 96, kQuickHeight = 54;
-constexpr int kFramesOfHistory = 4;
 
 std::unique_ptr<FrameRun> make_run(Fixtures& fixtures) {
   const bool quick = fixtures.options().quick;
@@ -54,7 +54,7 @@ Line compare_frame(const char* name, Fixtures& fixtures, const Measure& measure,
   const std::unique_ptr<FrameRun> run = make_run(fixtures);
   const Rays rays(*run);
   // As in the middle of a sequence: filters have their history.
-  for (int frame = 0; whole && frame < kFramesOfHistory; ++frame) {
+  for (uint32_t frame = 0; whole && frame < effects::kFramesOfHistory; ++frame) {
     run->trace_and_shade();
     run->denoise_and_compose();
   }
