@@ -81,7 +81,8 @@ ScalarSvgf::ScalarSvgf(uint32_t width, uint32_t height, const effects::DenoiseDe
     : width_(static_cast<int>(width)),
       height_(static_cast<int>(height)),
       constants_(desc.constants),
-      iterations_(desc.iterations) {
+      iterations_(desc.iterations),
+      iterations_with_history_(desc.iterations_with_history) {
   for (auto* picture : {&guides_[0], &guides_[1], &moments_[0], &moments_[1], &history_,
                         &accumulated_, &scratch_, &result_}) {
     picture->resize(size_t{width} * height);
@@ -342,14 +343,16 @@ void ScalarSvgf::run(tbb::task_arena& arena, const SvgfInput& input) {
   // The first pass's result is what the next frame starts from.
   pass([&](int x, int y) { filter(scratch_, history_, 1, x, y); });
   const std::vector<Float4>* from = &history_;
-  for (uint32_t i = 1; i < iterations_; ++i) {
-    std::vector<Float4>& to = i + 1 == iterations_    ? result_
+  const uint32_t iterations =
+      frames_ >= effects::kFramesOfHistory ? iterations_with_history_ : iterations_;
+  for (uint32_t i = 1; i < iterations; ++i) {
+    std::vector<Float4>& to = i + 1 == iterations     ? result_
                               : from == &accumulated_ ? scratch_
                                                       : accumulated_;
     pass([&](int x, int y) { filter(*from, to, 1 << i, x, y); });
     from = &to;
   }
-  if (iterations_ < 2) result_ = history_;
+  if (iterations < 2) result_ = history_;
   ++frames_;
 }
 

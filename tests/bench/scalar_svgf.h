@@ -65,6 +65,7 @@ class ScalarSvgf {
   int height_;
   effects::DenoiseConstants constants_;
   uint32_t iterations_;
+  uint32_t iterations_with_history_;
   uint32_t frames_ = 0;
   // [parity of the frame]
   std::vector<Float4> guides_[2], moments_[2];
