@@ -211,28 +211,20 @@ void EstimateVariance(uint3 id : SV_DispatchThreadID) {
   }
 }
 
-// Of each signal.
-struct Variances {
-  float of[kMostSignals];
-};
-
-// The variances that guide the luminance weights, themselves smoothed. [Schied et al. 2017,
-// equation 5]
-Variances SmoothVariances(int2 pixel, int2 size) {
-  Variances sums;
-  for (int i = 0; i < kMostSignals; ++i) sums.of[i] = 0.0;
+// The variance that guides the luminance weight, itself smoothed. [Schied et al. 2017, equation 5]
+float SmoothVariance(int2 pixel, int2 size, int s) {
+  float sum = 0.0;
   float weights = 0.0;
   for (int y = -1; y <= 1; ++y) {
     for (int x = -1; x <= 1; ++x) {
       const int2 other = pixel + int2(x, y);
       if (!IsInside(other, size)) continue;
       const float weight = (x == 0 ? 0.5 : 0.25) * (y == 0 ? 0.5 : 0.25);
-      for (int s = 0; s < denoise.signals; ++s) sums.of[s] += weight * signal[s][other].w;
+      sum += weight * signal[s][other].w;
       weights += weight;
     }
   }
-  for (int j = 0; j < denoise.signals; ++j) sums.of[j] /= weights;
-  return sums;
+  return sum / weights;
 }
 
 // The pixels that a pass of the wavelet filter mixes: 5 x 5, `step` apart.
@@ -302,10 +294,9 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const Taps taps = WeighTaps(LoadGuide(pixel, size), pixel, size);
-  const Variances variances = SmoothVariances(pixel, size);
   for (int s = 0; s < denoise.signals; ++s) {
     const float4 center = signal[s][pixel];
-    const float deviation = sqrt(max(variances.of[s], 0.0));
+    const float deviation = sqrt(max(SmoothVariance(pixel, size, s), 0.0));
     // Without variance there is no noise: only equal light would be mixed.
     accumulated[s][pixel] =
         deviation == 0.0 || IsExact(pixel, s) ? center : Mix(taps, pixel, center, deviation, s);

@@ -73,7 +73,7 @@ inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mas
   state.ended = false;
   state.search = nullptr;
   // A negative TMin is undefined in DXR; here it is 0.
-  state.t_min = _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(t_min), _mm_setzero_ps()));
+  state.t_min = t_min > 0 ? t_min : 0.0f;
   state.t_max = t_max;
   state.t_near = next_above(state.t_min);
   state.t_far = next_below(state.t_max);

@@ -94,6 +94,7 @@ class CppEmitter {
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
   void begin_statement(const ir::Stmt& stmt);
+  const std::string& name_local(const ir::Variable* variable);  // where it is declared
   void declare(const ir::Stmt& stmt);
   void assign(const ir::Expr* target, const std::string& value);
   void store(const ir::Stmt& stmt);

@@ -90,6 +90,10 @@ void CppEmitter::end_shader() {
                                                  : "return " + type(current_->result) + "{};");
 }
 
+const std::string& CppEmitter::name_local(const Variable* variable) {
+  return variable_names_[variable] = local_names_.declare(variable->name);
+}
+
 void CppEmitter::declare(const Stmt& stmt) {
   // The initialiser is printed before the name is declared: `float x = x` means the outer x.
   const std::string initial = stmt.value != nullptr ? " = " + value(stmt.value) : "{}";
@@ -98,9 +102,7 @@ void CppEmitter::declare(const Stmt& stmt) {
          (stmt.value != nullptr ? initial : " = " + type(stmt.variable->type) + "{}") + ";");
     return;
   }
-  const std::string name = local_names_.declare(stmt.variable->name);
-  variable_names_[stmt.variable] = name;
-  line(type(stmt.variable->type) + " " + name + initial + ";");
+  line(type(stmt.variable->type) + " " + name_local(stmt.variable) + initial + ";");
 }
 
 void CppEmitter::assign(const Expr* target, const std::string& text) {
@@ -157,9 +159,7 @@ void CppEmitter::call_function(const Stmt& stmt, bool declares_result) {
     text += ", " + value(argument);
   }
   if (declares_result) {
-    const std::string name = local_names_.declare(stmt.result->name);
-    variable_names_[stmt.result] = name;
-    text = type(stmt.result->type) + " " + name + " = " + text;
+    text = type(stmt.result->type) + " " + name_local(stmt.result) + " = " + text;
   } else if (stmt.result != nullptr) {
     text = variable(stmt.result) + " = " + text;
   }

@@ -64,9 +64,7 @@ void WideEmitter::scope(const Block& body) {
 void WideEmitter::declare(const Stmt& stmt) {
   if (!current_->is_varying(stmt.variable)) return out_.declare(stmt);
   const std::string initial = stmt.value != nullptr ? " = " + value(stmt.value) : "{}";
-  const std::string name = out_.local_names_.declare(stmt.variable->name);
-  out_.variable_names_[stmt.variable] = name;
-  line(type(stmt.variable->type) + " " + name + initial + ";");
+  line(type(stmt.variable->type) + " " + out_.name_local(stmt.variable) + initial + ";");
   if (stmt.value != nullptr) declare_texel_row(stmt.variable, stmt.value);
 }
 
@@ -251,10 +249,9 @@ void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
     text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
   }
   if (declares_result) {
-    const std::string name = out_.local_names_.declare(stmt.result->name);
-    out_.variable_names_[stmt.result] = name;
     const Type* t = stmt.result->type;
-    line((varying ? type(t) : out_.type(t)) + " " + name + " = " + text + ";");
+    line((varying ? type(t) : out_.type(t)) + " " + out_.name_local(stmt.result) + " = " + text +
+         ";");
   } else if (varying && facts(stmt).blends) {
     line("ks::blend(" + out_.variable(stmt.result) + ", " + text + ", " + mask_ + ");");
   } else {

@@ -14,6 +14,8 @@
 // EXPECT u32 44 1
 // EXPECT u32 48 0
 // EXPECT u32 52 11
+// EXPECT u32 56 103
+// EXPECT u32 60 3
 void both(inout uint a, inout uint b) {
   a += 1;
   b += 10;
@@ -22,6 +24,16 @@ void half_way(inout int x) { x = x / 2; }
 RWStructuredBuffer<uint4> buffer : register(u1);
 RWTexture2D<float4> image : register(u2);
 void raise(inout float x) { x += 5; }
+struct Pair {
+  uint first;
+  float3 second;
+};
+Pair make_pair(uint x) {
+  Pair pair;
+  pair.first = x;
+  pair.second = float3(x, 2, 3);
+  return pair;
+}
 RWByteAddressBuffer results : register(u0);
 
 [shader("compute")]
@@ -46,4 +58,8 @@ void main() {
   uint i = 1;
   both(a[i], i);
   results.Store4(40, uint4(a[0], a[1], a[2], i));
+  Pair pair = make_pair(3 + z);
+  const Pair copy = pair;  // not another name of it
+  pair.first += 100;
+  results.Store2(56, uint2(pair.first, copy.first));
 }
