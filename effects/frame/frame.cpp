@@ -97,6 +97,10 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   };
   set_axes(camera, c.camera_right, c.camera_up, c.camera_forward);
   set_axes(time.previous_camera, c.previous_right, c.previous_up, c.previous_forward);
+  c.over_right = 1 / glm::length(c.camera_right);
+  c.over_up = 1 / glm::length(c.camera_up);
+  c.over_previous_right = 1 / glm::length(c.previous_right);
+  c.over_previous_up = 1 / glm::length(c.previous_up);
   c.camera_motion = glm::vec3(camera.position() - time.previous_camera.position());
   c.frame_index = time.index;
   c.jitter = time.jitter;

@@ -32,13 +32,13 @@ struct FrameConstants {
   glm::vec3 sky_zenith;
   std::uint32_t frame_index;
   glm::vec3 sky_horizon;
-  float padding0;
+  float over_right;
   glm::vec3 sky_ground;
-  float padding1;
+  float over_up;
   glm::vec3 previous_right;
-  float padding2;
+  float over_previous_right;
   glm::vec3 previous_up;
-  float padding3;
+  float over_previous_up;
   glm::vec3 previous_forward;
   float padding4;
   glm::vec3 camera_motion;

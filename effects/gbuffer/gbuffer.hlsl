@@ -50,12 +50,13 @@ void GBufferAnyHit(inout SurfacePayload payload, in BuiltInTriangleIntersectionA
 }
 
 // Where on the picture, from the left upper corner, a point relative to a camera stands; `view_z` is
-// its distance along the camera's axis.
-float2 PictureUv(float3 position, float3 right, float3 up, float3 forward, out float view_z) {
+// its distance along the camera's axis. `over_right`, `over_up`: 1 / length.
+float2 PictureUv(float3 position, float3 right, float over_right, float3 up, float over_up,
+                 float3 forward, out float view_z) {
   view_z = dot(position, forward);
   // right and up are as long as half the picture at distance 1.
-  const float2 ndc = float2(dot(position, right) / dot(right, right),
-                            dot(position, up) / dot(up, up)) / view_z;
+  const float2 ndc = float2(dot(position, right) * (over_right * over_right),
+                            dot(position, up) * (over_up * over_up)) / view_z;
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 
@@ -81,11 +82,11 @@ float3 PreviousPosition(float3 position, float2 barycentrics) {
 // `previous_position`: relative to the camera of then.
 float3 MotionOf(float3 position, float3 previous_position) {
   float view_z, previous_view_z;
-  const float2 now = PictureUv(position, frame.camera_right, frame.camera_up, frame.camera_forward,
-                               view_z);
+  const float2 now = PictureUv(position, frame.camera_right, frame.over_right, frame.camera_up,
+                               frame.over_up, frame.camera_forward, view_z);
   const float2 before =
-      PictureUv(previous_position, frame.previous_right, frame.previous_up, frame.previous_forward,
-                previous_view_z);
+      PictureUv(previous_position, frame.previous_right, frame.over_previous_right,
+                frame.previous_up, frame.over_previous_up, frame.previous_forward, previous_view_z);
   return float3(before - now, previous_view_z - view_z);
 }
 

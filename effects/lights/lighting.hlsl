@@ -10,9 +10,28 @@ float DistanceSquared(float3 low, float3 high, float3 p) {
   return dot(d, d);
 }
 
+struct Sphere {
+  float3 center;
+  float radius;
+};
+
+// The least sphere about all that a light reaches. A spot's cone ends in a cap: a narrow one's sphere
+// goes through its tip and the cap's rim, a wide one's has the rim for its equator.
+Sphere ReachOf(LightConstants light) {
+  Sphere reach;
+  reach.center = light.position;
+  reach.radius = light.range;
+  // A map's cone ends at a cosine of 0.05; the light's may be wider. [light_constants.cpp]
+  if (light.is_spot == 0 || light.cos_outer <= 0.05) return reach;
+  const bool is_narrow = light.cos_outer > 0.70710678;
+  const float along = is_narrow ? 0.5 / light.cos_outer : light.cos_outer;
+  reach.center += light.direction * (along * light.range);
+  reach.radius *= is_narrow ? along : sqrt(1.0 - light.cos_outer * light.cos_outer);
+  return reach;
+}
+
 // One thread per cluster. Lights stand in ascending order, so that a sum over a cluster adds up in
-// the order of a sum over all. A spot is kept by the sphere of its range: lossless, and never by more
-// than its cone's share.
+// the order of a sum over all.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BuildClusters(uint3 id : SV_DispatchThreadID) {
@@ -23,10 +42,10 @@ void BuildClusters(uint3 id : SV_DispatchThreadID) {
   const float3 high = float3(ClusterHigh(cell.x), ClusterHigh(cell.y), ClusterHigh(cell.z));
   uint count = 0;
   for (uint i = 0; i < frame.light_count; ++i) {
-    const LightConstants light = lights[i];
-    // Rounding of positions and bounds: a little more than the range.
-    const float range = light.range * 1.0001 + 1e-4 * length(light.position);
-    if (DistanceSquared(low, high, ClusterSpace(light.position)) > range * range) continue;
+    const Sphere reach = ReachOf(lights[i]);
+    // Rounding of positions and bounds: a little more.
+    const float radius = reach.radius * 1.0001 + 1e-4 * length(reach.center);
+    if (DistanceSquared(low, high, ClusterSpace(reach.center)) > radius * radius) continue;
     if (count < kClusterCapacity) cluster_lights[cluster * kClusterCapacity + count] = i;
     ++count;
   }

@@ -105,6 +105,8 @@ Scene scene_of_many_lights(int count, double extent) {
     if (i % 3 == 0) {
       light.type = LightType::kSpot;
       light.direction = glm::normalize(glm::vec3(place(random), -extent, place(random)));
+      light.outer_cone_angle = 0.1f + 1.45f * static_cast<float>(i) / static_cast<float>(count);
+      light.inner_cone_angle = 0.5f * light.outer_cone_angle;
     }
     scene.lights.push_back(light);
   }
@@ -126,8 +128,17 @@ std::uint32_t cluster_of(const FrameConstants& frame, const glm::vec3& position)
   return index;
 }
 
-// Points anywhere about the camera, behind it too: each light in whose range one lies is in its
-// list.
+bool reaches(const LightConstants& light, const glm::vec3& p) {
+  const glm::vec3 from_light = p - light.position;
+  const float distance = glm::length(from_light);
+  if (distance >= light.range) return false;
+  return light.is_spot == 0 ||
+         glm::dot(from_light, light.direction) * light.spot_scale + light.spot_offset * distance >
+             0;
+}
+
+// Points anywhere about the camera, behind it too: each light that reaches one, by its range and by
+// its cone, is in its list.
 TEST(Clusters, NoLightIsLost) {
   Stage stage(scene_of_many_lights(100, 30));
   std::vector<std::byte> bytes =
@@ -143,24 +154,38 @@ TEST(Clusters, NoLightIsLost) {
   const Camera& camera = stage.scene.cameras.front();
   const FrameConstants constants =
       frame_constants(stage.scene, camera, desc, {.previous_camera = camera});
-  std::mt19937 random(23);
-  std::uniform_real_distribution<float> place(-40, 40);
   std::uint64_t in_range = 0, listed = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    const glm::vec3 p(place(random), place(random), place(random));
+  const auto expect_listed = [&](const glm::vec3& p) {
     const std::uint32_t cluster = cluster_of(constants, p);
     ASSERT_LE(counts[cluster], kClusterCapacity);
     const auto begin = indices.begin() + cluster * kClusterCapacity;
     listed += counts[cluster];
     for (std::uint32_t light = 0; light < stage.lights.size(); ++light) {
-      if (glm::length(stage.lights[light].position - p) >= stage.lights[light].range) continue;
+      if (!reaches(stage.lights[light], p)) continue;
       ++in_range;
       ASSERT_TRUE(std::binary_search(begin, begin + counts[cluster], light))
           << "light " << light << " at " << p.x << "," << p.y << "," << p.z;
     }
-  }
+  };
+  std::mt19937 random(23);
+  std::uniform_real_distribution<float> place(-40, 40);
+  for (int i = 0; i < 20'000; ++i) expect_listed({place(random), place(random), place(random)});
   EXPECT_GT(in_range, 500u);
   EXPECT_LT(listed, 20'000u * 100 / 4);  // and they do leave most out
+  // Where spots end: the rims of their caps.
+  for (const LightConstants& light : stage.lights) {
+    if (light.is_spot == 0) continue;
+    const glm::vec3 x = glm::normalize(glm::cross(light.direction, glm::vec3(0.3f, 0.2f, 0.9f)));
+    const glm::vec3 y = glm::cross(light.direction, x);
+    const float angle = 0.9999f * std::acos(light.cos_outer);
+    for (int i = 0; i < 200; ++i) {
+      const float turn = 0.0314159f * static_cast<float>(i);
+      const glm::vec3 across = x * std::cos(turn) + y * std::sin(turn);
+      expect_listed(light.position +
+                    0.9999f * light.range *
+                        (light.direction * std::cos(angle) + across * std::sin(angle)));
+    }
+  }
 }
 
 // The same bits as the loop over all lights, which an overflow of every cluster means.

@@ -25,14 +25,14 @@ struct FrameConstants {
   float3 sky_zenith;
   uint frame_index;
   float3 sky_horizon;
-  float padding0;
+  float over_right;  // 1 / length(camera_right), and so on
   float3 sky_ground;
-  float padding1;
+  float over_up;
   // The camera of the frame before, as above; the same camera in the first frame.
   float3 previous_right;
-  float padding2;
+  float over_previous_right;
   float3 previous_up;
-  float padding3;
+  float over_previous_up;
   float3 previous_forward;
   float padding4;
   float3 camera_motion;  // metres, from the camera before to this one

@@ -31,8 +31,9 @@ static const float kShadowTolerance = 0.5;   // texels, behind an occluder that 
 // Cells grow with the distance from the camera; the outermost reach to infinity, so that every point
 // lies in one, also behind the camera: rays hit what the camera does not see.
 int ClusterCoordinate(float x) {
-  const float scaled = log2(1.0 + abs(x) / kClusterInnerSize);
-  const int cell = min(int(scaled), int(kClusterCells) / 2 - 1);
+  // The exponent is the whole part of the logarithm to base 2.
+  const int doublings = int(asuint(1.0 + abs(x) / kClusterInnerSize) >> 23) - 127;
+  const int cell = min(doublings, int(kClusterCells) / 2 - 1);
   return int(kClusterCells) / 2 + (x < 0.0 ? -1 - cell : cell);
 }
 
@@ -55,8 +56,8 @@ float ClusterHigh(int coordinate) {
 
 // The grid's axes are the camera's.
 float3 ClusterSpace(float3 position) {
-  return float3(dot(position, normalize(frame.camera_right)), dot(position, normalize(frame.camera_up)),
-                dot(position, frame.camera_forward));
+  return float3(dot(position, frame.camera_right) * frame.over_right,
+                dot(position, frame.camera_up) * frame.over_up, dot(position, frame.camera_forward));
 }
 
 uint ClusterOf(float3 position) {
