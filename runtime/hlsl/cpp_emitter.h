@@ -123,7 +123,9 @@ class CppEmitter {
   void emit_tables();
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   std::string entry_arguments(const ir::EntryPoint& entry);
+  void collect_parameters_by_reference();
   void collect_static_use();
+  void look_up_once(const ir::Function& function);
 
   // emit_groups.cpp: compute shaders that are cut at their barriers
   bool emit_split_group(size_t index);  // false: it must run on fibers
@@ -176,6 +178,11 @@ class CppEmitter {
   std::unordered_map<const ir::Function*, std::unordered_set<const ir::Variable*>> statics_;
   std::unordered_map<const ir::Function*, uint32_t> stack_;
   std::unordered_set<const ir::Function*> hit_kind_readers_;  // and what calls them
+  // By binding: what the running function has looked up for all its uses.
+  std::unordered_map<uint32_t, std::string> resources_found_;  // ks::Descriptor
+  std::unordered_map<uint32_t, std::string> views_found_;      // ks::MemoryView
+  // Parameters of several words that no statement writes: passed by reference.
+  std::unordered_set<const ir::Variable*> by_reference_;
   const ir::Function* current_ = nullptr;
   ir::Location statement_location_;
   // The innermost loops: number of the label that `continue` jumps to.

@@ -4,6 +4,7 @@
 #include "runtime/hlsl/emit_cpp.h"
 
 #include <algorithm>
+#include <map>
 
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
@@ -56,6 +57,25 @@ CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
     const bool small_array = binding.count > 1 && binding.count <= kMostBoundElements;
     bound_elements_.push_back(binds_per_group_ && small_array ? bound_count_ : 0);
     if (bound_elements_.back() != 0) bound_count_ += binding.count;
+  }
+}
+
+// Copies of structures cost more than what many functions do with them: every component is stored
+// and loaded again, and a load of several that were stored one by one waits for all of them.
+void CppEmitter::collect_parameters_by_reference() {
+  for (const Function* function : module_.functions) {
+    for (const Variable* parameter : function->parameters) {
+      const TypeKind kind = parameter->type->kind;
+      const bool is_large =
+          kind == TypeKind::kStruct || kind == TypeKind::kArray || kind == TypeKind::kMatrix;
+      if (is_large && parameter->mode == ParameterMode::kIn) by_reference_.insert(parameter);
+    }
+    visit(
+        function->body, [](const Expr&) {},
+        [&](const Stmt& stmt) {
+          visit_written(
+              stmt, [&](const Variable* written, const Expr*) { by_reference_.erase(written); });
+        });
   }
 }
 
@@ -161,11 +181,51 @@ void CppEmitter::emit_signature(const Function& function) {
                      "([[maybe_unused]] Context& ctx";
   for (const Variable* parameter : function.parameters) {
     variable_names_[parameter] = local_names_.declare(parameter->name);
-    text += ", " + type(parameter->type) + (parameter->mode == ParameterMode::kIn ? " " : "& ") +
-            variable_names_[parameter];
+    const bool is_in = parameter->mode == ParameterMode::kIn;
+    const bool only_read = by_reference_.count(parameter) != 0;
+    text += std::string(only_read ? ", const " : ", ") + type(parameter->type) +
+            (is_in && !only_read ? " " : "& ") + variable_names_[parameter];
   }
   at(function.location);
   open(text + ") {");
+}
+
+// What a function uses more than once is looked up at its start: the compiler cannot know that a
+// store to a picture leaves the bindings as they are.
+void CppEmitter::look_up_once(const Function& function) {
+  if (!reads_bound_) return;
+  std::map<uint32_t, int> resources, views;
+  const auto is_buffer = [](const Expr& expr) {
+    return expr.kind == ExprKind::kBinding && expr.operands.empty() &&
+           expr.type->resource <= ResourceKind::kRWStructuredBuffer;  // has bytes
+  };
+  visit(
+      function.body,
+      [&](const Expr& expr) {
+        if (is_buffer(expr)) ++resources[expr.index];
+        const bool reads = expr.kind == ExprKind::kLoad || expr.kind == ExprKind::kLoadElement;
+        if (!reads || !is_buffer(*expr.operands[0])) return;
+        --resources[expr.operands[0]->index];
+        if (expr.kind == ExprKind::kLoad) ++views[expr.operands[0]->index];
+      },
+      [&](const Stmt& stmt) {
+        const bool writes = stmt.kind == StmtKind::kStore || stmt.kind == StmtKind::kStoreElement;
+        if (!writes || !is_buffer(*stmt.operands[0])) return;
+        --resources[stmt.operands[0]->index];
+        if (stmt.kind == StmtKind::kStore) ++views[stmt.operands[0]->index];
+      });
+  const auto declare = [&](const char* type, const char* look_up, uint32_t binding) {
+    const std::string name = local_names_.declare(module_.bindings[binding].name);
+    line(std::string("const ks::") + type + " " + name + " = ks::" + look_up + "(ctx.invocation, " +
+         std::to_string(binding) + "u);");
+    return name;
+  };
+  for (const auto& [binding, uses] : views) {
+    if (uses > 1) views_found_[binding] = declare("MemoryView", "bound_memory_view", binding);
+  }
+  for (const auto& [binding, uses] : resources) {
+    if (uses > 1) resources_found_[binding] = declare("Descriptor", "bound_resource", binding);
+  }
 }
 
 void CppEmitter::emit_function(const Function& function) {
@@ -177,7 +237,10 @@ void CppEmitter::emit_function(const Function& function) {
       line(variable_names_[parameter] + " = " + type(parameter->type) + "{};");
     }
   }
+  look_up_once(function);
   block(function.body);
+  resources_found_.clear();
+  views_found_.clear();
   at(function.end_location);
   // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
   if (function.result->kind != TypeKind::kVoid) {
@@ -385,6 +448,7 @@ std::string CppEmitter::run() {
   for (const char* reserved : {"Shared", "Statics", "Context", "WideStatics", "WideContext"}) {
     global_names_.add(reserved);
   }
+  collect_parameters_by_reference();
   collect_static_use();
   emit_structs();
   emit_memory_functions();

@@ -307,6 +307,8 @@ std::string CppEmitter::binding(const Expr& expr) {
   }
   if (is_bound(expr)) return bound(expr) + ".descriptor";
   if (reads_bound_ && expr.operands.empty()) {
+    const auto found = resources_found_.find(expr.index);
+    if (found != resources_found_.end()) return found->second;
     return "ks::bound_resource(ctx.invocation, " + std::to_string(expr.index) + "u)";
   }
   return "ks::resource(ctx.invocation, " + std::to_string(expr.index) + "u, " + index + ")";

@@ -3,6 +3,7 @@
 // Statements: everything that has an effect.
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
+#include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/trace_calls.h"
 
 namespace kaamos::hlsl {
@@ -155,8 +156,11 @@ std::string CppEmitter::atomic_text(const Stmt& stmt, const TextOf& text) {
 
 void CppEmitter::call_function(const Stmt& stmt, bool declares_result) {
   std::string text = "u::" + function_names_[stmt.function] + "(ctx";
-  for (const Expr* argument : stmt.arguments) {
-    text += ", " + value(argument);
+  for (size_t i = 0; i < stmt.arguments.size(); ++i) {
+    const Variable* parameter = stmt.function->parameters[i];
+    const std::string argument = value(stmt.arguments[i]);
+    const bool copies = by_reference_.count(parameter) != 0 && callee_can_write(stmt.arguments[i]);
+    text += ", " + (copies ? type(parameter->type) + "(" + argument + ")" : argument);
   }
   if (declares_result) {
     text = type(stmt.result->type) + " " + name_local(stmt.result) + " = " + text;

@@ -245,6 +245,8 @@ std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element, con
   const std::string index = element != nullptr ? ", " + text(element) : "";
   if (is_bound(buffer)) return "ks::" + view + bound(buffer) + index + ")";
   if (is_looked_up(buffer)) {
+    const auto found = views_found_.find(buffer.index);
+    if (element == nullptr && found != views_found_.end()) return found->second;
     return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
            ")";
   }

@@ -2,6 +2,7 @@
 //
 // Statements under masks. A jump takes lanes out of the mask that it stands under; masks of what
 // stands around join what is left. A scope whose mask has become empty is left.
+#include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/wide_emitter.h"
 
 namespace kaamos::hlsl {
@@ -217,16 +218,6 @@ void WideEmitter::trace_ray(const Stmt& stmt) {
   close("});");
 }
 
-namespace {
-
-// A static global, or a part of one.
-bool is_of_static(const Expr* e) {
-  while (e->kind == ExprKind::kField || e->kind == ExprKind::kElement) e = e->operands[0];
-  return e->kind == ExprKind::kVariable && e->variable->storage == Storage::kStaticGlobal;
-}
-
-}  // namespace
-
 void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
   const WideFunction* callee = current_->callees.at(&stmt);
   std::string text = "u::" + names_[callee] + "(ctx, " + mask_;
@@ -236,7 +227,7 @@ void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
     text += ", ";
     if (parameter->mode != ParameterMode::kIn) {
       text += out_.variable(argument->variable);
-    } else if (callee->only_reads(parameter) && is_of_static(argument)) {
+    } else if (callee->only_reads(parameter) && callee_can_write(argument)) {
       text += type(parameter->type) + "(" + value(argument) + ")";  // the callee may change it
     } else {
       text += callee->is_varying(parameter) ? value(argument) : out_.value(argument);

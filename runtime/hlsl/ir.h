@@ -142,6 +142,7 @@ struct Variable {
   const Type* type = nullptr;
   Storage storage = Storage::kLocal;
   ParameterMode mode = ParameterMode::kIn;
+  bool is_const = false;              // a local that nothing writes after its declaration
   const Expr* initialiser = nullptr;  // kStaticGlobal, kConstant; null: zero
   Location location;
   uint32_t id = 0;  // unique in the module

@@ -51,6 +51,18 @@ inline const Variable* root_of(const Expr* place) {
   return place != nullptr ? place->variable : nullptr;
 }
 
+// Whether a function can change what it is given for a parameter that it gets by reference without
+// being told to: globals that it names itself.
+inline bool callee_can_write(const Expr* argument) {
+  bool names_global = false;
+  visit_expr(argument, [&](const Expr& expr) {
+    names_global = names_global || (expr.kind == ExprKind::kVariable &&
+                                    (expr.variable->storage == Storage::kStaticGlobal ||
+                                     expr.variable->storage == Storage::kGroupShared));
+  });
+  return names_global;
+}
+
 // on_variable(const Variable*, const Expr* value) for each variable that the statement itself gives
 // a value; value is null where it is not one expression of the statement (results, references,
 // parts of a variable), and on_variable is called with the statement's own `value` for a whole one.

@@ -107,7 +107,8 @@ void Checker::assign(const ir::Variable* variable, const ir::Expr* value) {
 bool Checker::is_fixed(const ir::Expr* expr) {
   switch (expr->kind) {
     case ir::ExprKind::kVariable:
-      return expr->variable->name.empty() || expr->variable->storage == ir::Storage::kConstant;
+      return expr->variable->name.empty() || expr->variable->is_const ||
+             expr->variable->storage == ir::Storage::kConstant;
     case ir::ExprKind::kLoad:
     case ir::ExprKind::kLoadElement:
     case ir::ExprKind::kTypedLoad: {

@@ -269,6 +269,7 @@ void Checker::lower_local(const VariableDecl* decl) {
       node->value = value;
       emit(node);
     }
+    info->variable->is_const = info->is_const;
     // `const uint n = 4; float a[n];`
     const bool is_known = info->is_const && value && type->ir->kind == ir::TypeKind::kScalar &&
                           value->kind == ir::ExprKind::kLiteral;
