@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 #include "runtime/clear_view.h"
 #include "runtime/embree/memory.h"
@@ -13,19 +14,21 @@ namespace {
 
 constexpr size_t kKeptAfterEnd = 4096;  // views, of some 650 bytes
 
-void clear_texture(const shader::Descriptor& descriptor, const shader::TextureView& view,
-                   const shader::Texel& value) {
+void clear_texture(const shader::TextureView& view, const shader::Texel& value) {
+  const shader::FormatCodec& codec = shader::format_codec(view.format);
+  if (codec.encode == nullptr || !view.unordered_access) return;
+  // Every row is the beginning of the widest one.
+  std::vector<uint8_t> row(size_t{view.mips[0].width} * codec.bytes);
+  for (size_t at = 0; at < row.size(); at += codec.bytes) codec.encode(&row[at], value);
   for (uint32_t mip = 0; mip < view.mip_count; ++mip) {
     const shader::TextureMip& m = view.mips[mip];
+    if (m.texels == nullptr) continue;
     const uint32_t slices =
         view.dimension == shader::TextureDimension::k3D ? m.depth : view.slice_count;
     for (uint32_t z = 0; z < slices; ++z) {
       for (uint32_t y = 0; y < m.height; ++y) {
-        for (uint32_t x = 0; x < m.width; ++x) {
-          const int32_t coordinates[4] = {static_cast<int32_t>(x), static_cast<int32_t>(y),
-                                          static_cast<int32_t>(z), static_cast<int32_t>(mip)};
-          shader::store_texel(descriptor, coordinates, value);
-        }
+        std::memcpy(m.texels + z * m.slice_pitch + uint64_t{y} * m.row_pitch, row.data(),
+                    size_t{m.width} * codec.bytes);
       }
     }
   }
@@ -153,7 +156,7 @@ void clear_view(const shader::Descriptor& descriptor, bool is_float, const uint3
   const shader::TextureView* view = shader::texture_view(descriptor);
   if (view == nullptr) return runtime::clear_buffer_view(descriptor, is_float, values);
   const auto format = static_cast<rtapi::Format>(view->format);
-  clear_texture(descriptor, *view, runtime::clear_texel(format, is_float, values));
+  clear_texture(*view, runtime::clear_texel(format, is_float, values));
 }
 
 }  // namespace kaamos::embree

@@ -200,4 +200,57 @@ TEST_P(Descriptors, ClearUnorderedAccessViewFloat) {
   EXPECT_EQ(std::to_integer<uint32_t>(bytes[29]), 255u);
 }
 
+// Elements 1 and 2 of three, level 1 of two; and a whole volume.
+TEST_P(Descriptors, ClearUnorderedAccessViewFillsWhatTheViewShows) {
+  TextureDesc desc;
+  desc.Width = 6;
+  desc.Height = 4;
+  desc.DepthOrArraySize = 3;
+  desc.MipLevels = 2;
+  desc.Format = Format::kR16G16B16A16Float;
+  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+  desc.InitialState = ResourceStates::kUnorderedAccess;
+  const Texture layers = device_.CreateTexture(desc).value();
+  UnorderedAccessViewDesc view;
+  view.ViewDimension = UavDimension::kTexture2DArray;
+  view.Texture2DArray.MipSlice = 1;
+  view.Texture2DArray.FirstArraySlice = 1;
+  view.Texture2DArray.ArraySize = 2;
+  device_.CreateUnorderedAccessView(layers, view, slot(kTextureOut)).value();
+  desc.Dimension = ResourceDimension::kTexture3D;
+  desc.MipLevels = 1;
+  const Texture volume = device_.CreateTexture(desc).value();
+  view = {};
+  view.ViewDimension = UavDimension::kTexture3D;
+  view.Texture3D.WSize = 3;
+  device_.CreateUnorderedAccessView(volume, view, slot(kTypedOut)).value();
+  CommandList list = device_.CreateCommandList().value();
+  list.SetDescriptorHeaps({views_, samplers_});
+  const float values[4] = {1, -2, 0.5f, 65504};
+  list.ClearUnorderedAccessViewFloat(views_.GetGPUDescriptorHandle(kTextureOut), slot(kTextureOut),
+                                     layers, values);
+  list.ClearUnorderedAccessViewFloat(views_.GetGPUDescriptorHandle(kTypedOut), slot(kTypedOut),
+                                     volume, values);
+  KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
+  const auto halves = [&](const Texture& picture, uint32_t subresource) {
+    const auto bytes = ReadbackTexture(device_, queue_, picture, subresource).value();
+    std::vector<uint16_t> out(bytes.size() / 2);
+    std::memcpy(out.data(), bytes.data(), bytes.size());
+    return out;
+  };
+  const auto filled = [](uint32_t texels) {
+    constexpr uint16_t kTexel[4] = {0x3C00, 0xC000, 0x3800, 0x7BFF};
+    std::vector<uint16_t> out(size_t{4} * texels);
+    for (size_t i = 0; i < out.size(); ++i) out[i] = kTexel[i % 4];
+    return out;
+  };
+  for (uint32_t layer = 0; layer < 3; ++layer) {
+    EXPECT_EQ(halves(layers, 2 * layer), std::vector<uint16_t>(6 * 4 * 4)) << layer;
+    EXPECT_EQ(halves(layers, 2 * layer + 1),
+              layer == 0 ? std::vector<uint16_t>(3 * 2 * 4) : filled(3 * 2))
+        << layer;
+  }
+  EXPECT_EQ(halves(volume, 0), filled(6 * 4 * 3));
+}
+
 }  // namespace

@@ -199,10 +199,16 @@ KAAMOS_INLINE bool load_short(const Descriptor& texture, const int4& at, V& valu
     return true;
   }
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 4) {
-    const uint8_t* texel = texel_in_place(texture, at, kR8G8B8A8Unorm, 4);
-    if (texel == nullptr) return false;
-    for (int i = 0; i < 4; ++i) component(value, i) = static_cast<float>(texel[i]) / 255.0f;
-    return true;
+    if (const uint8_t* texel = texel_in_place(texture, at, kR8G8B8A8Unorm, 4)) {
+      for (int i = 0; i < 4; ++i) component(value, i) = static_cast<float>(texel[i]) / 255.0f;
+      return true;
+    }
+    if (const uint8_t* texel = texel_in_place(texture, at, kR16G16B16A16Float, 8)) {
+      half stored[4];
+      __builtin_memcpy(stored, texel, sizeof(stored));
+      for (int i = 0; i < 4; ++i) component(value, i) = to_float(stored[i]);
+      return true;
+    }
   }
   return false;
 }
