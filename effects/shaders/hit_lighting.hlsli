@@ -136,7 +136,7 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
   const float2 part = at - floor(at);
   const uint2 origin = ShadowTileOrigin(id);
   float visible = 0.0;
-  for (int i = 0; i < 4; ++i) {
+  [unroll] for (int i = 0; i < 4; ++i) {
     const int2 offset = int2(i & 1, i >> 1);
     const int2 texel_at = clamp(corner + offset, int2(0, 0), int2(kShadowTile - 1, kShadowTile - 1));
     const float4 occluder = shadow_atlas[origin + uint2(texel_at)];

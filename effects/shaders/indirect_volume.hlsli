@@ -69,7 +69,7 @@ VolumeLight SampleVolume(float3 position, out float weight) {
   const bool one_brick = all(low >= int3(0, 0, 0)) && all(uint3(low) % kBrickCells != last);
   const uint first = one_brick ? VolumeIndex(volume, low) : 0;
   if (first == kNoBrick) return sum;
-  for (uint i = 0; i < 8; ++i) {
+  [unroll] for (uint i = 0; i < 8; ++i) {
     const uint3 offset = uint3(i & 1, (i >> 1) & 1, i >> 2);
     const uint index = one_brick ? first + (offset.z * kBrickCells + offset.y) * kBrickCells + offset.x
                                  : VolumeIndex(volume, low + int3(offset));

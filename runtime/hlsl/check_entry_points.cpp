@@ -36,14 +36,19 @@ constexpr std::string_view kOtherStages[] = {"vertex", "pixel", "geometry",     
 const Attribute* find_attribute(const FunctionInfo& function, std::string_view name) {
   for (const FunctionDecl* decl : {function.decl, function.definition}) {
     if (!decl) continue;
-    for (const Attribute& attribute : decl->attributes) {
-      if (attribute.scope.empty() && same_word(attribute.name, name)) return &attribute;
-    }
+    if (const Attribute* found = find_attribute(decl->attributes, name)) return found;
   }
   return nullptr;
 }
 
 }  // namespace
+
+const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name) {
+  for (const Attribute& attribute : attributes) {
+    if (attribute.scope.empty() && same_word(attribute.name, name)) return &attribute;
+  }
+  return nullptr;
+}
 
 // 0: none.
 uint32_t Checker::stage_attribute(FunctionInfo* function) {

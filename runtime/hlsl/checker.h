@@ -30,6 +30,9 @@ namespace kaamos::hlsl {
 
 struct PayloadLeaf;
 
+// [name] among them, written in any case; null where there is none.
+const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
+
 using CheckId = DiagnosticId;
 
 class Checker {
@@ -302,8 +305,9 @@ class Checker {
   bool is_result_of_last_call(const ir::Expr* value) const;
   void lower_local_static(const VariableDecl* decl, const Type* type);
   void lower_if(const IfStmt* statement);
+  static uint32_t unroll_count(const Stmt& loop);
   void lower_loop(const Expr* condition, const Expr* step, const Stmt* body, bool test_at_end,
-                  SourceLocation location);
+                  const Stmt& statement);
   void lower_switch(const SwitchStmt* statement);
   void share_section_variables(ir::Stmt* node);
   void lower_return(const ReturnStmt* statement);

@@ -197,6 +197,8 @@ class CppEmitter {
 
 // Whether the statements i and i + 1 are `T x;` and `x = f();`.
 bool begins_with_call(const ir::Block& body, size_t i);
+// Whether a loop is one that KAAMOS_UNROLL can stand before.
+bool is_unrolled(const ir::Stmt& loop);
 // As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".
 const char* scalar_name(ir::Scalar scalar);
 // Quoted for C and C++.

@@ -68,6 +68,11 @@ bool begins_with_call(const Block& body, size_t i) {
          body[i + 1]->kind == StmtKind::kCall && body[i + 1]->result == first.variable;
 }
 
+// The compiler wants the condition in its place.
+bool is_unrolled(const Stmt& loop) {
+  return loop.unroll > 1 && loop.prelude.empty() && loop.value != nullptr && !loop.test_at_end;
+}
+
 void CppEmitter::begin_statement(const Stmt& stmt) {
   at(stmt.location);
   statement_location_ = stmt.location;
@@ -220,7 +225,9 @@ void CppEmitter::report_hit(const Stmt& stmt) {
 
 void CppEmitter::loop(const Stmt& stmt) {
   const int label = next_label_++;
-  open("for (;;) {");
+  const bool unrolls = is_unrolled(stmt);
+  if (unrolls) line("KAAMOS_UNROLL(" + std::to_string(stmt.unroll) + ")");
+  open(unrolls ? "for (; " + value(stmt.value) + ";) {" : "for (;;) {");
   local_names_.push();
   const auto condition = [&] {
     for (const Stmt* s : stmt.prelude) {
@@ -230,7 +237,7 @@ void CppEmitter::loop(const Stmt& stmt) {
       line("if (!(" + value(stmt.value) + ")) break;");
     }
   };
-  if (!stmt.test_at_end) {
+  if (!stmt.test_at_end && !unrolls) {
     condition();
   }
   loops_.push_back(label);

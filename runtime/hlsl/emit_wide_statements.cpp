@@ -334,7 +334,9 @@ void WideEmitter::loop(const Stmt& stmt) {
   out_.local_names_.push();
   if (f.masked) mask_ = declare_mask(outer);
   const std::string mask = mask_;
-  open("for (;;) {");
+  const bool unrolls = is_unrolled(stmt) && !is_varying(stmt.value);
+  if (unrolls) line("KAAMOS_UNROLL(" + std::to_string(stmt.unroll) + ")");
+  open(unrolls ? "for (; " + out_.value(stmt.value) + ";) {" : "for (;;) {");
   out_.local_names_.push();
   const auto condition = [&] {
     for (const Stmt* s : stmt.prelude) statement(*s);
@@ -346,7 +348,7 @@ void WideEmitter::loop(const Stmt& stmt) {
       line("if (!(" + out_.value(stmt.value) + ")) break;");
     }
   };
-  if (!stmt.test_at_end) condition();
+  if (!stmt.test_at_end && !unrolls) condition();
   loop_body(stmt, mask);
   for (const Stmt* s : stmt.step) statement(*s);
   if (stmt.test_at_end) condition();

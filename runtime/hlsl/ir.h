@@ -364,6 +364,7 @@ struct Stmt {
   Block orelse;
   Block step;
   bool test_at_end = false;
+  uint32_t unroll = 0;  // how often [unroll] asks for the body to be repeated; 0: it does not
   std::vector<SwitchCase> cases;
   AtomicOp atomic = AtomicOp::kAdd;
   AtomicTarget target = AtomicTarget::kPlace;

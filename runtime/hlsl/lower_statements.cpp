@@ -150,7 +150,7 @@ void Checker::lower_statement(const Stmt* statement) {
       scope_ = make_scope(ScopeKind::kBlock, scope);
       block_ = &node->body;
       if (loop->init) lower_statement(loop->init);
-      lower_loop(loop->condition, loop->step, loop->body, false, loop->location);
+      lower_loop(loop->condition, loop->step, loop->body, false, *loop);
       block_ = outer;
       scope_ = scope;
       emit(node);
@@ -158,12 +158,12 @@ void Checker::lower_statement(const Stmt* statement) {
     }
     case StmtKind::kWhile: {
       const auto* loop = static_cast<const WhileStmt*>(statement);
-      lower_loop(loop->condition, nullptr, loop->body, false, loop->location);
+      lower_loop(loop->condition, nullptr, loop->body, false, *loop);
       break;
     }
     case StmtKind::kDo: {
       const auto* loop = static_cast<const DoStmt*>(statement);
-      lower_loop(loop->condition, nullptr, loop->body, true, loop->location);
+      lower_loop(loop->condition, nullptr, loop->body, true, *loop);
       break;
     }
     case StmtKind::kSwitch:
@@ -316,11 +316,22 @@ void Checker::lower_if(const IfStmt* statement) {
   emit(node);
 }
 
+// A hint: what is no number of times is none.
+uint32_t Checker::unroll_count(const Stmt& loop) {
+  constexpr uint32_t kMost = 16;
+  const Attribute* attribute = find_attribute(loop.attributes, "unroll");
+  if (attribute == nullptr) return 0;
+  if (attribute->arguments.empty()) return kMost;
+  const auto* count = as<IntLiteralExpr>(attribute->arguments[0]);
+  return count != nullptr ? static_cast<uint32_t>(std::min<uint64_t>(count->value, kMost)) : 0;
+}
+
 void Checker::lower_loop(const Expr* condition, const Expr* step, const Stmt* body,
-                         bool test_at_end, SourceLocation location) {
-  at(location);
+                         bool test_at_end, const Stmt& statement) {
+  at(statement.location);
   ir::Stmt* node = build_.stmt(ir::StmtKind::kLoop);
   node->test_at_end = test_at_end;
+  node->unroll = unroll_count(statement);
   ir::Block* outer = block_;
   const auto lower_condition = [&] {
     if (!condition) return;

@@ -14,6 +14,14 @@
 // After a lambda's parameter list.
 #define KAAMOS_INLINE_LAMBDA __attribute__((always_inline))
 
+// Before a `for` that has a condition.
+#define KAAMOS_PRAGMA(text) _Pragma(#text)
+#ifdef __clang__
+#define KAAMOS_UNROLL(times) KAAMOS_PRAGMA(clang loop unroll_count(times))
+#else
+#define KAAMOS_UNROLL(times) KAAMOS_PRAGMA(GCC unroll times)
+#endif
+
 namespace kaamos::shader {
 
 struct half {
