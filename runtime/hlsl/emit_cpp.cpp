@@ -60,8 +60,8 @@ CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
   }
 }
 
-// Copies of structures cost more than what many functions do with them: every component is stored
-// and loaded again, and a load of several that were stored one by one waits for all of them.
+// Copies of structures cost more than what many functions do with them: a tenth of the instructions
+// of a reflection's closest-hit shader.
 void CppEmitter::collect_parameters_by_reference() {
   for (const Function* function : module_.functions) {
     for (const Variable* parameter : function->parameters) {
