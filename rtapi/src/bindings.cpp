@@ -101,7 +101,6 @@ Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range
                      " is a root descriptor. Bind it through a descriptor table");
   }
   slot.source = SlotSource::kRootDescriptor;
-  if (binding.type == BindingType::kStructuredBuffer) slot.stride_bytes = binding.size_bytes;
   if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
   return {};
 }
@@ -121,6 +120,7 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
                 const RegisterRange& range, const std::string& where, BindingSlot& slot) {
   slot.kind = KindOf(binding.type);
   slot.access = AccessOf(binding.register_class);
+  if (binding.type == BindingType::kStructuredBuffer) slot.stride_bytes = binding.size_bytes;
   if (range.static_sampler) {
     if (binding.count != 1) {
       return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),

@@ -306,7 +306,11 @@ std::string CppEmitter::binding(const Expr& expr) {
            std::to_string(expr.index) + "u, " + index + ")";
   }
   if (is_bound(expr)) return bound(expr) + ".descriptor";
-  if (reads_bound_ && expr.operands.empty()) {
+  if (reads_bound_ && !expr.operands.empty()) {
+    return "ks::bound_array_element(ctx.invocation, " + std::to_string(expr.index) + "u, " + index +
+           ")";
+  }
+  if (reads_bound_) {
     const auto found = resources_found_.find(expr.index);
     if (found != resources_found_.end()) return found->second;
     return "ks::bound_resource(ctx.invocation, " + std::to_string(expr.index) + "u)";

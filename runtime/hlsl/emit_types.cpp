@@ -241,16 +241,17 @@ bool CppEmitter::is_looked_up(const Expr& resource) const {
 }
 
 std::string CppEmitter::buffer_view(const Expr& buffer, const Expr* element, const TextOf& text) {
-  const std::string view = element != nullptr ? "element_view(" : "memory_view(";
+  const std::string view = element != nullptr ? "element_view" : "memory_view";
   const std::string index = element != nullptr ? ", " + text(element) : "";
-  if (is_bound(buffer)) return "ks::" + view + bound(buffer) + index + ")";
-  if (is_looked_up(buffer)) {
-    const auto found = views_found_.find(buffer.index);
-    if (element == nullptr && found != views_found_.end()) return found->second;
-    return "ks::bound_" + view + "ctx.invocation, " + std::to_string(buffer.index) + "u" + index +
-           ")";
-  }
-  return "ks::" + view + text(&buffer) + index + ")";
+  if (!is_looked_up(buffer)) return "ks::" + view + "(" + text(&buffer) + index + ")";
+  const auto found = views_found_.find(buffer.index);
+  if (element == nullptr && found != views_found_.end()) return found->second;
+  const std::string of_bytes =
+      element != nullptr ? "<" + std::to_string(module_.bindings[buffer.index].size_bytes) + "u>"
+                         : "";
+  if (is_bound(buffer)) return "ks::" + view + of_bytes + "(" + bound(buffer) + index + ")";
+  return "ks::bound_" + view + of_bytes + "(ctx.invocation, " + std::to_string(buffer.index) + "u" +
+         index + ")";
 }
 
 std::string CppEmitter::load(const Expr& expr) {

@@ -101,6 +101,9 @@ void WideEmitter::emit_structs() {
     line("using lane = " + scalar + ";");
     for (size_t i = 0; i < fields.size(); ++i)
       line(type(s->fields[i].type) + " m_" + fields[i] + ";");
+    std::string words = "true";
+    for (const std::string& field : fields) words += " && ks::is_words<decltype(m_" + field + ")>";
+    line("static constexpr bool words = " + words + ";");
     open("KAAMOS_INLINE lane get(int lane_number) const {");
     line("lane out;");
     for (const std::string& field : fields) {

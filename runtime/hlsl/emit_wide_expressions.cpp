@@ -227,6 +227,21 @@ std::string WideEmitter::buffer_view(LaneOperands& operands,
 std::string WideEmitter::load(const Expr& expr) {
   LaneOperands operands;
   const bool element = expr.kind == ExprKind::kLoadElement;
+  // What says where the lanes read, if it is one thing.
+  const Expr* at = element ? expr.operands[1] : expr.operands.back();
+  const bool is_at =
+      std::all_of(expr.operands.begin(), expr.operands.end(),
+                  [&](const Expr* operand) { return (operand == at) == is_varying(operand); });
+  if (is_at) {
+    operands.text[at] = "lane_value";
+    const std::string view = buffer_view(operands, expr.operands, element);
+    const auto offset = expr.operands.back();
+    return "ks::gather_at<" + type(expr.type) + ">(" + mask_ + ", " + varying(*at) + ", [&" +
+           operands.captures + "](auto lane_value) KAAMOS_INLINE_LAMBDA { return " +
+           out_.memory_read(expr.type, expr.layout, expr.row_major, view,
+                            operands.text.at(offset)) +
+           "; })";
+  }
   const std::string view = buffer_view(operands, expr.operands, element);
   return gather(expr, operands,
                 out_.memory_read(expr.type, expr.layout, expr.row_major, view,

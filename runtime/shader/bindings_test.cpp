@@ -4,6 +4,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "kaamos/shader/bound.h"
 #include "kaamos/shader/memory.h"
 #include "kaamos/shader/system_values.h"
 #include "runtime/shader/test_values.h"
@@ -19,6 +20,7 @@ struct ShaderBindings : testing::Test {
   BindingSlot slot;
   Dispatch dispatch;
   Invocation invocation;
+  BoundResource bound;
 
   ShaderBindings() {
     for (uint32_t i = 0; i < 4; ++i) {
@@ -34,6 +36,7 @@ struct ShaderBindings : testing::Test {
     dispatch.sampler_heap_end = samplers + 2;
     invocation.dispatch = &dispatch;
     invocation.slots = &slot;
+    invocation.bound = &bound;
     invocation.local_arguments = record;
   }
   static void put(uint8_t* at, uint64_t value) { std::memcpy(at, &value, 8); }
@@ -43,23 +46,38 @@ struct ShaderBindings : testing::Test {
     slot.argument_offset = 8;
     put(root + 8, reinterpret_cast<uintptr_t>(first));
   }
+  void bind_slot() {
+    constexpr uint32_t kUsed = 0;
+    bound = {};
+    bind(invocation, &kUsed, 1, &bound);
+  }
+  // An element of the array as every shader sees it, and as ray shaders find it bound.
+  Descriptor element(uint32_t index) {
+    const Descriptor looked_up = resource(invocation, 0, index);
+    bind_slot();
+    const Descriptor found = bound_array_element(invocation, 0, index);
+    EXPECT_EQ(found.kind, looked_up.kind) << index;
+    EXPECT_EQ(found.address, looked_up.address) << index;
+    EXPECT_EQ(found.size_bytes, looked_up.size_bytes) << index;
+    return looked_up;
+  }
 };
 
 TEST_F(ShaderBindings, TablesCountFromTheirHandle) {
   set_table(views + 1);
   slot.descriptor_index = 1;
   slot.descriptor_count = 2;
-  EXPECT_EQ(resource(invocation, 0, 0).address, 0x1002u);
-  EXPECT_EQ(resource(invocation, 0, 1).address, 0x1003u);
-  EXPECT_EQ(resource(invocation, 0, 2).kind, DescriptorKind::kNull);  // past the range
+  EXPECT_EQ(element(0).address, 0x1002u);
+  EXPECT_EQ(element(1).address, 0x1003u);
+  EXPECT_EQ(element(2).kind, DescriptorKind::kNull);  // past the range
 }
 
 TEST_F(ShaderBindings, UnboundedTablesEndWithTheHeap) {
   set_table(views + 1);
   slot.descriptor_count = kUnbounded;
-  EXPECT_EQ(resource(invocation, 0, 2).address, 0x1003u);
+  EXPECT_EQ(element(2).address, 0x1003u);
   for (const uint32_t index : {3u, 4u, 0x7FFFFFFFu, 0xFFFFFFFEu, 0xFFFFFFFFu}) {
-    EXPECT_EQ(resource(invocation, 0, index).kind, DescriptorKind::kNull) << index;
+    EXPECT_EQ(element(index).kind, DescriptorKind::kNull) << index;
   }
 }
 
@@ -72,6 +90,51 @@ TEST_F(ShaderBindings, WildHandlesAreNull) {
     put(root + 8, handle);
     EXPECT_EQ(resource(invocation, 0).kind, DescriptorKind::kNull) << handle;
   }
+}
+
+TEST_F(ShaderBindings, WildHandlesOfArraysAreNull) {
+  set_table(views);
+  slot.descriptor_count = kUnbounded;
+  for (const uint64_t handle :
+       {uint64_t{0}, ~uint64_t{0}, uint64_t{reinterpret_cast<uintptr_t>(views)} + 8,
+        uint64_t{reinterpret_cast<uintptr_t>(views + 4)}}) {
+    put(root + 8, handle);
+    for (const uint32_t index : {0u, 1u, 4u}) {
+      EXPECT_EQ(element(index).kind, DescriptorKind::kNull) << handle;
+    }
+  }
+  // A table that starts in front of the heap: its elements are where they are.
+  put(root + 8, reinterpret_cast<uintptr_t>(views) - sizeof(Descriptor));
+  EXPECT_EQ(element(0).kind, DescriptorKind::kNull);
+  EXPECT_EQ(element(2).address, 0x1001u);
+}
+
+TEST_F(ShaderBindings, ElementsOfAnotherKindAreNull) {
+  set_table(views);
+  slot.descriptor_count = kUnbounded;
+  views[1].kind = DescriptorKind::kTexture;
+  views[2].access = DescriptorAccess::kUnorderedAccess;
+  EXPECT_EQ(element(0).address, 0x1000u);
+  EXPECT_EQ(element(1).kind, DescriptorKind::kNull);
+  EXPECT_EQ(element(2).kind, DescriptorKind::kNull);
+  EXPECT_EQ(element(3).address, 0x1003u);
+  slot.local = true;  // of the shader record
+  put(record + 8, reinterpret_cast<uintptr_t>(views + 3));
+  EXPECT_EQ(element(0).address, 0x1003u);
+}
+
+// Else the tests above would say nothing of what is bound.
+TEST_F(ShaderBindings, BoundElementsAreThoseOfTheHeap) {
+  set_table(views + 1);
+  slot.descriptor_count = kUnbounded;
+  bind_slot();
+  EXPECT_EQ(&bound_array_element(invocation, 0, 2), views + 3);
+  set_table(samplers);
+  slot.kind = DescriptorKind::kSampler;
+  slot.access = DescriptorAccess::kOther;
+  slot.descriptor_count = 2;
+  bind_slot();
+  EXPECT_EQ(&bound_array_element(invocation, 0, 1), samplers + 1);
 }
 
 TEST_F(ShaderBindings, WrongKindOrAccessIsNull) {
@@ -122,6 +185,34 @@ TEST_F(ShaderBindings, RootDescriptorsHaveNoBounds) {
   EXPECT_EQ(d.size_bytes, ~uint64_t{0});
   expect_components(load_element<uint3>(d, 1, 0), {4, 5, 6});
   EXPECT_EQ(resource(invocation, 0, 1).kind, DescriptorKind::kNull);
+}
+
+// What the HLSL declares and what the view says may differ: the view's stride counts.
+TEST_F(ShaderBindings, BoundElementsStandAtTheStrideOfTheirView) {
+  const uint32_t data[] = {1, 2, 3, 4, 5, 6, 7, 8};
+  views[0].kind = DescriptorKind::kStructuredBuffer;
+  views[0].address = reinterpret_cast<uintptr_t>(data);
+  set_table(views);
+  slot.kind = DescriptorKind::kStructuredBuffer;
+  slot.descriptor_count = 1;
+  slot.stride_bytes = 8;
+  const auto expect_element = [&](uint32_t index, double first, double second) {
+    for (const MemoryView& view :
+         {bound_element_view<8>(invocation, 0, index), element_view<8>(bound, index)}) {
+      expect_components(read<uint2, Layout::kStructured, false>(view, 0), {first, second});
+    }
+  };
+  for (const uint32_t stride : {8u, 12u, 4u}) {
+    const double at = 1 + stride / 4;  // word i is i + 1
+    views[0].stride_bytes = stride;
+    views[0].size_bytes = 24;
+    bind_slot();
+    expect_element(1, at, stride < 8 ? 0 : at + 1);
+    expect_element(24 / stride, 0, 0);
+    views[0].size_bytes = stride + 4;  // the second is there in part
+    bind_slot();
+    expect_element(1, at, 0);
+  }
 }
 
 TEST_F(ShaderBindings, UnboundIsNullAndHeapsAreBounded) {

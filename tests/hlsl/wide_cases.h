@@ -322,6 +322,30 @@ void main(uint3 id : SV_DispatchThreadID, uint3 t : SV_GroupThreadID, uint i : S
   put(at, 1, t.x + 100 * t.y + 10000 * t.z);
   put(at, 2, i + 1000 * g.x);
 })"},
+    {"buffers_read_alike", R"(
+struct Words { float a; uint2 b; float3x2 c; int d[2]; };   // 11 words: no whole number of fours
+struct Mixed { uint a; bool b; double c; uint d; };
+StructuredBuffer<Words> some : register(t2);
+StructuredBuffer<Mixed> mixed : register(t3);
+float sum(Words w) {
+  return w.a + 3 * w.b.x + 5 * w.b.y + dot(w.c[0], float2(7, 11)) + dot(w.c[2], float2(13, 17)) +
+         w.c[1].y + 19 * w.d[0] + 23 * w.d[1];
+}
+uint sum(Mixed m) { return m.a + (m.b ? 3 : 5) + 7 * m.d + uint(asuint(float(m.c)) & 0xFF); }
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  const uint x = mix(id.x);
+  // Eight alike, four and four, each another, any, all.
+  const uint at[5] = {id.x / 8, id.x / 4, id.x ^ 5, x & 15, three};
+  for (uint i = 0; i < 5; ++i) {
+    put(id, i, asuint(sum(some[at[i]])) + sum(mixed[at[i]]));
+    put(id, 5 + i, dot(records[at[i]], uint4(1, 3, 5, 7)) + words.Load4(4 * at[i]).w);
+  }
+  if ((x & 3) == 0) {  // few take part
+    put(id, 10, sum(some[id.x / 8]));
+    put(id, 11, sum(some[x & 31]));
+    for (uint k = 0; k < (x >> 4 & 3); ++k) put(id, 12 + k, records[id.x / 16 + k].z);
+  }
+})"},
     {"atomics_and_buffers", R"(
 RWStructuredBuffer<uint3> triples : register(u1);
 [numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID, uint3 g : SV_GroupID) {

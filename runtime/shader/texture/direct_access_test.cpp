@@ -107,6 +107,35 @@ void expect_same(uint32_t format) {
   EXPECT_EQ(direct.memory, before);
 }
 
+TEST(DirectAccess, DimensionsAreThoseOfTheServices) {
+  Access access;
+  RandomTexture texture(2, true);
+  TextureView& view = texture.view;
+  view.mip_count = 3;
+  view.slice_count = 6;
+  for (uint32_t mip = 0; mip < kMaxTextureMips; ++mip) {
+    view.mips[mip].width = 40 >> mip;
+    view.mips[mip].height = 24 >> mip;
+    view.mips[mip].depth = 5;
+  }
+  for (const TextureDimension dimension :
+       {TextureDimension::k2D, TextureDimension::k2DArray, TextureDimension::k3D,
+        TextureDimension::kCube, TextureDimension::kCubeArray, TextureDimension::k1D}) {
+    view.dimension = dimension;
+    for (const uint32_t mip : {0u, 2u, 3u, 0xFFFFFFFFu}) {
+      access.dispatch.direct_texels = true;
+      const uint4 direct = dimensions(access.invocation, texture.descriptor, mip);
+      access.dispatch.direct_texels = false;
+      EXPECT_TRUE(same(direct, dimensions(access.invocation, texture.descriptor, mip)))
+          << static_cast<uint32_t>(dimension) << ", mip " << mip;
+    }
+  }
+  view.dimension = TextureDimension::k2D;
+  access.dispatch.direct_texels = true;
+  const uint4 first = dimensions(access.invocation, texture.descriptor, 0);
+  EXPECT_TRUE(same(first, uint4{{40, 24, 6, 3}}));
+}
+
 TEST(DirectAccess, GivesWhatTheServicesGive) {
   expect_same<float>(41);
   expect_same<vec<float, 2>>(16);

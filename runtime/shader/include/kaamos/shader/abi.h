@@ -71,7 +71,7 @@ struct BindingSlot {
       0;  // first descriptor of the binding, counted from the table's handle
   uint32_t descriptor_count = 0;  // descriptors of the binding in its range; kUnbounded possible
   uint32_t size_bytes = 0;        // kRootConstants
-  uint32_t stride_bytes = 0;      // kRootDescriptor on structured buffers: the HLSL element's size
+  uint32_t stride_bytes = 0;      // of structured buffers: the HLSL element's size
   const Descriptor* static_sampler = nullptr;
 };
 

@@ -4,6 +4,8 @@
 // while a dispatch runs: for all threads of a compute group, for all invocations of a ray shader.
 #pragma once
 
+#include <new>
+
 #include "kaamos/shader/bindings.h"
 #include "kaamos/shader/texture_access.h"
 #include "kaamos/shader/views.h"
@@ -17,17 +19,25 @@ struct BoundResource {
   uint32_t width = 0;
   uint32_t height = 0;
   uint32_t row_pitch = 0;
-  uint8_t* texels = nullptr;
+  union {
+    uint8_t* texels = nullptr;
+    const Descriptor* array;  // of an array in a table of the global root signature: the first
+  };
   bool writable = false;
   bool ready = false;   // false: of the shader record, another one for each invocation
   bool buffer = false;  // has bytes: see memory::buffer_bytes
-  // Of structured buffers: the first elements, which are whole. Below it nothing else needs a test.
+  // Of structured buffers whose stride is what the HLSL declares: the first elements, which are
+  // whole. Below it nothing else needs a test. Of arrays: the descriptors that stand in the heap
+  // from `array` on.
   uint32_t elements = 0;
 };
 static_assert(sizeof(BoundResource) == 64);
 
-KAAMOS_INLINE uint32_t whole_elements(const Descriptor& buffer) {
-  if (buffer.kind != DescriptorKind::kStructuredBuffer || buffer.stride_bytes == 0) return 0;
+KAAMOS_INLINE uint32_t whole_elements(const Descriptor& buffer, uint32_t declared_bytes) {
+  if (buffer.kind != DescriptorKind::kStructuredBuffer || buffer.stride_bytes == 0 ||
+      buffer.stride_bytes != declared_bytes) {
+    return 0;
+  }
   const uint64_t count = buffer.size_bytes / buffer.stride_bytes;
   return count < 0xFFFFFFFFu ? static_cast<uint32_t>(count) : 0xFFFFFFFFu;
 }
@@ -38,7 +48,7 @@ inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index
   if (!out.ready) return;
   out.descriptor = resource(invocation, slot, index);
   out.buffer = memory::buffer_bytes(out.descriptor) != 0;
-  out.elements = whole_elements(out.descriptor);
+  out.elements = whole_elements(out.descriptor, invocation.slots[slot].stride_bytes);
   if (!invocation.dispatch->direct_texels) return;
   const auto* view = reinterpret_cast<const TextureView*>(out.descriptor.address);
   if (out.descriptor.kind != DescriptorKind::kTexture || view == nullptr ||
@@ -54,10 +64,33 @@ inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index
   out.writable = view->unordered_access;
 }
 
-// `used`: the bindings that are no arrays, `count` of them. Others are left as they are.
+// Of an array in a descriptor table.
+inline void bind_table(const Invocation& invocation, const BindingSlot& slot, BoundResource& out) {
+  const Dispatch& dispatch = *invocation.dispatch;
+  if (dispatch.root_arguments == nullptr || slot.kind == DescriptorKind::kNull) return;
+  const bool sampler = slot.kind == DescriptorKind::kSampler;
+  const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;
+  const Descriptor* first =
+      bindings::heap_slot(bindings::read_address(dispatch.root_arguments + slot.argument_offset) +
+                              uint64_t{slot.descriptor_index} * sizeof(Descriptor),
+                          sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin, end);
+  if (first == nullptr) return;
+  const auto left = static_cast<uint64_t>(end - first);
+  out.array = first;
+  out.elements = left < slot.descriptor_count ? static_cast<uint32_t>(left) : slot.descriptor_count;
+}
+
+// `used`: `count` bindings. Others are left as they are.
 [[gnu::noinline]] inline void bind(const Invocation& invocation, const uint32_t* used,
                                    uint32_t count, BoundResource* bound) {
-  for (uint32_t i = 0; i < count; ++i) bind_one(invocation, used[i], 0, bound[used[i]]);
+  for (uint32_t i = 0; i < count; ++i) {
+    const BindingSlot& slot = invocation.slots[used[i]];
+    if (slot.source == SlotSource::kDescriptorTable && slot.descriptor_count != 1) {
+      if (!slot.local) bind_table(invocation, slot, bound[used[i]]);
+    } else {
+      bind_one(invocation, used[i], 0, bound[used[i]]);
+    }
+  }
 }
 // The `count` elements of a binding that is an array.
 [[gnu::noinline]] inline void bind_array(const Invocation& invocation, uint32_t slot,
@@ -79,23 +112,48 @@ KAAMOS_INLINE Descriptor bound_resource(const Invocation& invocation, uint32_t s
     return bound.descriptor;
   return local_resource(invocation, slot);
 }
-KAAMOS_INLINE BoundResource bound_texture(const Invocation& invocation, uint32_t slot) {
-  if (invocation.bound[slot].ready) [[likely]]
-    return invocation.bound[slot];
-  BoundResource texture;
-  texture.descriptor = local_resource(invocation, slot);
-  return texture;
+// Where what is not bound stands while one expression uses it. Costs nothing where all is.
+template <class T>
+struct Unbound {
+  Unbound() {}
+  alignas(T) uint8_t bytes[sizeof(T)];
+};
+KAAMOS_INLINE const BoundResource& bound_texture(
+    const Invocation& invocation, uint32_t slot,
+    Unbound<BoundResource>&& unbound = Unbound<BoundResource>()) {
+  const BoundResource& bound = invocation.bound[slot];
+  if (bound.ready) [[likely]]
+    return bound;
+  return *new (unbound.bytes) BoundResource{.descriptor = local_resource(invocation, slot)};
+}
+// An element of a binding that is an array, of a ray shader.
+KAAMOS_INLINE const Descriptor& bound_array_element(
+    const Invocation& invocation, uint32_t slot, uint32_t index,
+    Unbound<Descriptor>&& unbound = Unbound<Descriptor>()) {
+  const BoundResource& bound = invocation.bound[slot];
+  const BindingSlot& binding = invocation.slots[slot];
+  if (index < bound.elements) [[likely]] {
+    const Descriptor& found = bound.array[index];
+    if (found.kind == binding.kind && found.access == binding.access) [[likely]]
+      return found;
+  }
+  return *new (unbound.bytes) Descriptor(bindings::resolve(invocation, binding, index));
 }
 
 KAAMOS_INLINE MemoryView memory_view(const BoundResource& bound) {
   return {bound.descriptor.address, bound.buffer ? bound.descriptor.size_bytes : 0};
 }
-KAAMOS_INLINE MemoryView element_view(const BoundResource& bound, uint32_t index) {
-  const Descriptor& buffer = bound.descriptor;
-  if (index < bound.elements) [[likely]] {
-    return {buffer.address + uint64_t{index} * buffer.stride_bytes, buffer.stride_bytes};
-  }
+// Out of line: elements that are past the end or not what the HLSL declares are rare.
+[[gnu::noinline, gnu::cold, gnu::pure]] inline MemoryView other_element(const Descriptor& buffer,
+                                                                        uint32_t index) {
   return element_view(buffer, index);
+}
+// Bytes: of an element, as the HLSL declares it.
+template <uint32_t Bytes>
+KAAMOS_INLINE MemoryView element_view(const BoundResource& bound, uint32_t index) {
+  if (index < bound.elements) [[likely]]
+    return {bound.descriptor.address + uint64_t{index} * Bytes, Bytes};
+  return other_element(bound.descriptor, index);
 }
 // As bound_resource().
 KAAMOS_INLINE MemoryView bound_memory_view(const Invocation& invocation, uint32_t slot) {
@@ -104,24 +162,41 @@ KAAMOS_INLINE MemoryView bound_memory_view(const Invocation& invocation, uint32_
     return memory_view(bound);
   return memory_view(local_resource(invocation, slot));
 }
+[[gnu::noinline, gnu::cold, gnu::pure]] inline MemoryView other_bound_element(
+    const Invocation& invocation, uint32_t slot, uint32_t index) {
+  return element_view(bound_resource(invocation, slot), index);
+}
+template <uint32_t Bytes>
 KAAMOS_INLINE MemoryView bound_element_view(const Invocation& invocation, uint32_t slot,
                                             uint32_t index) {
   const BoundResource& bound = invocation.bound[slot];
   if (index < bound.elements) [[likely]]
-    return element_view(bound, index);
-  return element_view(bound_resource(invocation, slot), index);
+    return {bound.descriptor.address + uint64_t{index} * Bytes, Bytes};
+  return other_bound_element(invocation, slot, index);
+}
+
+// As texture_access has them of a Descriptor.
+KAAMOS_INLINE uint8_t* texel_in_place(const BoundResource& texture, const int4& at, uint32_t format,
+                                      uint32_t bytes) {
+  const auto x = static_cast<uint32_t>(at.e[0]);
+  const auto y = static_cast<uint32_t>(at.e[1]);
+  const bool is_direct =
+      texture.direct_format == format && x < texture.width && y < texture.height && at.e[3] == 0;
+  if (!is_direct) return nullptr;
+  return texture.texels + static_cast<uint64_t>(y) * texture.row_pitch + uint64_t{x} * bytes;
+}
+KAAMOS_INLINE bool is_writable(const BoundResource& texture) {
+  return texture.writable;
+}
+KAAMOS_INLINE const Descriptor& descriptor_of(const BoundResource& texture) {
+  return texture.descriptor;
 }
 
 namespace texture_access {
 
 template <class V>
 KAAMOS_INLINE uint8_t* direct_texel(const BoundResource& texture, const int4& at) {
-  const auto x = static_cast<uint32_t>(at.e[0]);
-  const auto y = static_cast<uint32_t>(at.e[1]);
-  const bool is_direct = texture.direct_format == direct_format<V>() && x < texture.width &&
-                         y < texture.height && at.e[3] == 0;
-  if (!is_direct) return nullptr;
-  return texture.texels + static_cast<uint64_t>(y) * texture.row_pitch + x * sizeof(V);
+  return texel_in_place(texture, at, direct_format<V>(), sizeof(V));
 }
 
 }  // namespace texture_access
@@ -136,7 +211,7 @@ KAAMOS_INLINE V load_texel(const Invocation& invocation, const BoundResource& te
       return value;
     }
   }
-  return texture_access::load_converted<V>(invocation, texture.descriptor, coordinates);
+  return texture_access::load_converted<V>(invocation, texture, coordinates);
 }
 template <class V>
 KAAMOS_INLINE void store_texel(const Invocation& invocation, const BoundResource& texture,
@@ -148,7 +223,7 @@ KAAMOS_INLINE void store_texel(const Invocation& invocation, const BoundResource
       return;
     }
   }
-  texture_access::store_converted<V>(invocation, texture.descriptor, coordinates, value);
+  texture_access::store_converted<V>(invocation, texture, coordinates, value);
 }
 
 }  // namespace kaamos::shader

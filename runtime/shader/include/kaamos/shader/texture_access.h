@@ -149,7 +149,7 @@ constexpr uint32_t direct_format() {
 inline constexpr uint32_t kR16G16B16A16Float = 10, kR8G8B8A8Unorm = 28, kR16G16Snorm = 37;
 
 // A texel of `bytes` in a texture that is stored in that format, where it can be used in place;
-// else null.
+// else null. bound.h has the same of a BoundResource.
 KAAMOS_INLINE uint8_t* texel_in_place(const Descriptor& texture, const int4& at, uint32_t format,
                                       uint32_t bytes) {
   const auto* view = reinterpret_cast<const TextureView*>(texture.address);
@@ -187,9 +187,16 @@ KAAMOS_INLINE uint8_t to_unorm8(float x) {
   return x >= 1.0f ? 255 : static_cast<uint8_t>(static_cast<uint32_t>(x * 255.0f + 0.5f));
 }
 
-// Whether one of the short formats was read.
-template <class V>
-KAAMOS_INLINE bool load_short(const Descriptor& texture, const int4& at, V& value) {
+KAAMOS_INLINE bool is_writable(const Descriptor& texture) {
+  return reinterpret_cast<const TextureView*>(texture.address)->unordered_access;
+}
+KAAMOS_INLINE const Descriptor& descriptor_of(const Descriptor& texture) {
+  return texture;
+}
+
+// Whether one of the short formats was read. Texture: a Descriptor or a BoundResource.
+template <class Texture, class V>
+KAAMOS_INLINE bool load_short(const Texture& texture, const int4& at, V& value) {
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {
     const uint8_t* texel = texel_in_place(texture, at, kR16G16Snorm, 4);
     if (texel == nullptr) return false;
@@ -212,26 +219,23 @@ KAAMOS_INLINE bool load_short(const Descriptor& texture, const int4& at, V& valu
   }
   return false;
 }
-template <class V>
-KAAMOS_INLINE bool store_short(const Descriptor& texture, const int4& at, const V& value) {
-  const auto writable = [&] {
-    return reinterpret_cast<const TextureView*>(texture.address)->unordered_access;
-  };
+template <class Texture, class V>
+KAAMOS_INLINE bool store_short(const Texture& texture, const int4& at, const V& value) {
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {
     uint8_t* texel = texel_in_place(texture, at, kR16G16Snorm, 4);
-    if (texel == nullptr || !writable()) return false;
+    if (texel == nullptr || !is_writable(texture)) return false;
     const int16_t stored[2] = {to_snorm16(component(value, 0)), to_snorm16(component(value, 1))};
     __builtin_memcpy(texel, stored, sizeof(stored));
     return true;
   }
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 4) {
     if (uint8_t* texel = texel_in_place(texture, at, kR8G8B8A8Unorm, 4)) {
-      if (!writable()) return false;
+      if (!is_writable(texture)) return false;
       for (int i = 0; i < 4; ++i) texel[i] = to_unorm8(component(value, i));
       return true;
     }
     if (uint8_t* texel = texel_in_place(texture, at, kR16G16B16A16Float, 8)) {
-      if (!writable()) return false;
+      if (!is_writable(texture)) return false;
       uint16_t stored[4];
       for (int i = 0; i < 4; ++i) stored[i] = to_half(component(value, i)).bits;
       __builtin_memcpy(texel, stored, sizeof(stored));
@@ -243,19 +247,20 @@ KAAMOS_INLINE bool store_short(const Descriptor& texture, const int4& at, const 
 
 // Out of line: conversions, arrays, and what is out of bounds. Pure: what a loop reads of other
 // memory stays known around it.
-template <class V>
+template <class V, class Texture>
 [[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation,
-                                                     const Descriptor& texture, int4 coordinates) {
+                                                     const Texture& texture, int4 coordinates) {
   V value{};
   if (invocation.dispatch->direct_texels && load_short(texture, coordinates, value)) return value;
-  return from_texel<V>(invocation.dispatch->services->load_texel(texture, coordinates.e));
+  return from_texel<V>(
+      invocation.dispatch->services->load_texel(descriptor_of(texture), coordinates.e));
 }
-template <class V>
-[[gnu::noinline]] inline void store_converted(const Invocation& invocation,
-                                              const Descriptor& texture, int4 coordinates,
-                                              V value) {
+template <class V, class Texture>
+[[gnu::noinline]] inline void store_converted(const Invocation& invocation, const Texture& texture,
+                                              int4 coordinates, V value) {
   if (invocation.dispatch->direct_texels && store_short(texture, coordinates, value)) return;
-  invocation.dispatch->services->store_texel(texture, coordinates.e, to_texel(value));
+  invocation.dispatch->services->store_texel(descriptor_of(texture), coordinates.e,
+                                             to_texel(value));
 }
 
 }  // namespace texture_access
@@ -312,9 +317,11 @@ KAAMOS_INLINE T* typed_address(const Invocation& invocation, const Descriptor& b
   return static_cast<T*>(invocation.dispatch->services->typed_address(buffer, element));
 }
 
-// Textures: {width, height, depth or elements, mips} of the mip. Buffers: {elements or bytes,
-// stride, 0, 0}. A root descriptor has no size: the largest number stands for it.
-inline uint4 dimensions(const Invocation& invocation, const Descriptor& descriptor, uint32_t mip) {
+namespace texture_access {
+
+[[gnu::noinline, gnu::pure]] inline uint4 other_dimensions(const Invocation& invocation,
+                                                           const Descriptor& descriptor,
+                                                           uint32_t mip) {
   const auto clamped = [](uint64_t n) { return n > ~0u ? ~0u : static_cast<uint32_t>(n); };
   switch (descriptor.kind) {
     case DescriptorKind::kRawBuffer:
@@ -332,6 +339,21 @@ inline uint4 dimensions(const Invocation& invocation, const Descriptor& descript
     default:
       return {};
   }
+}
+
+}  // namespace texture_access
+
+// Textures: {width, height, depth or elements, mips} of the mip. Buffers: {elements or bytes,
+// stride, 0, 0}. A root descriptor has no size: the largest number stands for it.
+KAAMOS_INLINE uint4 dimensions(const Invocation& invocation, const Descriptor& descriptor,
+                               uint32_t mip) {
+  if (invocation.dispatch->direct_texels) {
+    const TextureView* view = texture_view(descriptor);
+    if (view != nullptr && view->dimension == TextureDimension::k2D && mip < view->mip_count) {
+      return {{view->mips[mip].width, view->mips[mip].height, view->slice_count, view->mip_count}};
+    }
+  }
+  return texture_access::other_dimensions(invocation, descriptor, mip);
 }
 
 }  // namespace kaamos::shader

@@ -237,6 +237,23 @@ template <class T, uint32_t N>
 KAAMOS_INLINE void fill_lanes(array<T, N>& out, const Lane<array<T, N>>& value) {
   for (uint32_t i = 0; i < N; ++i) fill_lanes(out.e[i], value.e[i]);
 }
+// Whether it is nothing but words of 32 bits in the order in which they lie in what a lane has.
+template <class W>
+constexpr bool is_words = false;
+template <class T>
+constexpr bool is_words<wide<T>> = simd::is_number<T> && sizeof(T) == 4;
+template <class T, int N>
+constexpr bool is_words<vec<T, N>> = is_words<T>;
+template <class T, int R, int C>
+constexpr bool is_words<mat<T, R, C>> = is_words<T>;
+template <class T, uint32_t N>
+constexpr bool is_words<array<T, N>> = is_words<T>;
+template <class W>
+requires requires {
+  W::words;
+}
+constexpr bool is_words<W> = W::words;
+
 template <class W>
 KAAMOS_INLINE W spread(const Lane<W>& value) {
   W out;

@@ -98,6 +98,37 @@ KAAMOS_INLINE void store_words(uint8_t* to, const wide<T>& words) {
   __builtin_memcpy(to, &words, sizeof(words));
 }
 
+// What each lane has, one after the other, to what all have.
+template <class W>
+KAAMOS_INLINE W from_rows(const Lane<W>* rows) {
+  constexpr uint32_t kBytes = sizeof(Lane<W>);
+  static_assert(is_words<W> && sizeof(W) == kLanes * kBytes && kBytes >= 16);
+  const auto* from = reinterpret_cast<const uint8_t*>(rows);
+  W out;
+  auto* to = reinterpret_cast<uint8_t*>(&out);
+  constexpr uint32_t kQuads = (kBytes + 15) / 16;
+  for (uint32_t quad = 0; quad < kQuads; ++quad) {
+    // The last four words may have been there before.
+    const uint32_t at = 16 * quad < kBytes - 16 ? 16 * quad : kBytes - 16;
+    for (int i = 0; i < kLanes; i += kRegisterBytes / 4) {
+      Floats r[4];
+      for (int k = 0; k < 4; ++k) {
+        const uint8_t* row = from + static_cast<uint32_t>(i + k) * kBytes + at;
+        __builtin_memcpy(&r[k], row, 16);
+#ifdef __AVX2__
+        __builtin_memcpy(reinterpret_cast<uint8_t*>(&r[k]) + 16, row + 4 * kBytes, 16);
+#endif
+      }
+      transpose(r);
+      for (int k = 0; k < 4; ++k) {
+        __builtin_memcpy(to + (at + 4 * static_cast<uint32_t>(k)) * kLanes + 4 * i, &r[k],
+                         sizeof(r[k]));
+      }
+    }
+  }
+  return out;
+}
+
 // Texels of 1, 2 or 4 components of T that lie side by side.
 template <class T>
 KAAMOS_INLINE wide<T> load_row(const uint8_t* from, wide<T>*) {
@@ -226,6 +257,30 @@ template <class V, class C>
 }
 
 }  // namespace simd
+
+// f(at) of each lane that takes part; zeros, or what others have, in the rest. Of what lanes read
+// from memory: often all read the same, which is read once then.
+template <class W, class I, class F>
+KAAMOS_INLINE W gather_at(const lanes& active, const wide<I>& at, const F& f) {
+  if constexpr (sizeof(Lane<W>) < 16) {
+    return gather_lanes<W>(active, [&](int lane) KAAMOS_INLINE_LAMBDA { return f(get(at, lane)); });
+  } else {
+    const uint32_t bits = bits_of(active);
+    if (bits == 0) return W{};
+    const I first = get(at, __builtin_ctz(bits));
+    if ((bits & ~bits_of(map<op::Equal>(at, spread<wide<I>>(first)))) == 0) {
+      return spread<W>(f(first));
+    }
+    if constexpr (is_words<W>) {
+      if (bits == (1u << kLanes) - 1) {
+        Lane<W> rows[kLanes];
+        for (int lane = 0; lane < kLanes; ++lane) rows[lane] = f(get(at, lane));
+        return simd::from_rows<W>(rows);
+      }
+    }
+    return gather_lanes<W>(active, [&](int lane) KAAMOS_INLINE_LAMBDA { return f(get(at, lane)); });
+  }
+}
 
 // Texels of mip 0 of a 2-D texture; V is what one lane reads. at() are the coordinates, `row` what
 // is known of them. Lanes that take no part may read what they would if they did.
