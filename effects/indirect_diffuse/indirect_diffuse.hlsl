@@ -15,20 +15,27 @@ struct IndirectConstants {
 };
 ConstantBuffer<IndirectConstants> constants : register(b0, space3);
 
-static const uint kModeDirect = 0;      // the volume at the surface
-static const uint kModeHitBlack = 1;    // rays sample the volume where they end; hits are black
-static const uint kModeNearField = 2;   // hits are shaded
+static const uint kModeDirect = 0;    // the volume at the surface
+static const uint kModeHitBlack = 1;  // rays sample the volume where they end; 2: hits are shaded too
 static const uint kIndirectPair = 4;    // and 5: the end's jitter
 
 struct IndirectPayload {
-  float3 radiance;
-  float distance;  // of the hit, metres; negative: none
+  float3 radiance;  // at first how far the ray's end is moved, cells
+  float distance;   // of the hit, metres; negative: none
 };
 
 float RayLength() { return Contain(constants.length, kLongestRay); }
 
+// What comes from where the ray ends, by the volume. [GDC 2018 talk: sampled in the miss shader]
+float3 RadianceFromEnd(float3 jitter) {
+  const float3 end = WorldRayOrigin() + WorldRayDirection() * RayLength() +
+                     jitter * volume_constants[0].cell;
+  return VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
+}
+
 [shader("miss")]
 void IndirectMiss(inout IndirectPayload payload) {
+  payload.radiance = RadianceFromEnd(payload.radiance);
   payload.distance = -1.0;
 }
 
@@ -41,36 +48,32 @@ void IndirectAnyHit(inout IndirectPayload payload, in BuiltInTriangleIntersectio
 
 [shader("closesthit")]
 void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const float3 jitter = payload.radiance;
+  payload.radiance = float3(0, 0, 0);
   payload.distance = RayTCurrent();
-  if (constants.mode != kModeNearField) return;
+  if (constants.mode == kModeHitBlack) return;
   const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
                      IndirectAtHit(surface, -WorldRayDirection());
+  // Close to the ray's end the volume takes over, so that no shell shows where rays end.
+  const float length = RayLength();
+  const float far = smoothstep(0.8 * length, length, RayTCurrent());
+  if (far > 0.0) payload.radiance = lerp(payload.radiance, RadianceFromEnd(jitter), far);
 }
 
 // What one direction brings, and in w how far its ray got.
 float4 Gather(float3 origin, float3 direction, float3 jitter) {
-  const float length = RayLength();
   RayDesc ray;
   ray.Origin = origin;
   ray.TMin = 0.0;
   ray.Direction = direction;
-  ray.TMax = length;
+  ray.TMax = RayLength();
   IndirectPayload payload;
-  payload.radiance = float3(0, 0, 0);
+  payload.radiance = jitter;
   payload.distance = -1.0;
   TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
-  const float3 end = origin + direction * length + jitter * volume_constants[0].cell;
-  if (payload.distance < 0.0) {
-    return float4(VolumeRadiance(end, direction, SkyTowards(direction)), length);
-  }
-  if (constants.mode == kModeHitBlack) return float4(0, 0, 0, payload.distance);
-  // Close to the ray's end the volume takes over, so that no shell shows where rays end.
-  const float far = smoothstep(0.8 * length, length, payload.distance);
-  if (far == 0.0) return float4(payload.radiance, payload.distance);
-  const float3 from_volume = VolumeRadiance(end, direction, SkyTowards(direction));
-  return float4(lerp(payload.radiance, from_volume, far), payload.distance);
+  return float4(payload.radiance, payload.distance < 0.0 ? ray.TMax : payload.distance);
 }
 
 float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
