@@ -37,7 +37,7 @@ void Composite(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-  const float3 base_color = LinearFromSrgb(g_base_color[pixel].rgb);
+  const float3 base_color = DecodeColor(g_base_color[pixel].rgb);
   const uint ao_samples = pass_constants.first_sample;
   const uint sun_samples = pass_constants.sample_count;
   const float open = ao_samples > 0 ? ambient_occlusion_sum[pixel] / float(ao_samples) : 1.0;
@@ -85,7 +85,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
   const float3 view = normalize(-g_position[pixel].xyz);
   const float roughness = g_material[pixel].x;
-  const Brdf brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
+  const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {
     sum += frame.sun_irradiance * sun_visibility[pixel].x *

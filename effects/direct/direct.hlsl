@@ -15,7 +15,7 @@ struct DirectConstants {
 ConstantBuffer<DirectConstants> constants : register(b0, space3);
 
 Brdf PixelBrdf(uint2 pixel) {
-  return MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, g_material[pixel].x);
+  return MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, g_material[pixel].x);
 }
 
 float3 PixelView(uint2 pixel) { return normalize(-g_position[pixel].xyz); }

@@ -43,11 +43,7 @@ Scene checkered_plane() {
   return scene;
 }
 
-// Mean and standard deviation of the base colour.
-struct Spread {
-  double mean = 0, deviation = 0;
-};
-Spread base_color(const Scene& scene, bool ray_cones) {
+FloatImage base_colors(const Scene& scene, bool ray_cones) {
   const rtapi::Device device = rtapi::CreateDevice().value();
   rtapi::CommandQueue queue = device.CreateCommandQueue().value();
   const Camera& camera = scene.cameras.front();
@@ -61,9 +57,16 @@ Spread base_color(const Scene& scene, bool ray_cones) {
   rtapi::CommandList list = device.CreateCommandList().value();
   gbuffer.dispatch(list, frame, {}, desc.height);
   queue.ExecuteAndWait(list).value();
-  const FloatImage picture = frame.read(device, queue, kBaseColor).value();
+  return frame.read(device, queue, kBaseColor).value();
+}
+
+// Mean and standard deviation of the base colour as it is stored.
+struct Spread {
+  double mean = 0, deviation = 0;
+};
+Spread spread_of(const FloatImage& picture) {
+  const double count = picture.width * picture.height;
   Spread out;
-  const double count = desc.width * desc.height;
   for (std::size_t i = 0; i < picture.values.size(); i += 4) out.mean += picture.values[i] / count;
   for (std::size_t i = 0; i < picture.values.size(); i += 4) {
     out.deviation += std::pow(picture.values[i] - out.mean, 2) / count;
@@ -74,10 +77,25 @@ Spread base_color(const Scene& scene, bool ray_cones) {
 
 TEST(Frame, RayConesChooseTheLevelOfTextures) {
   const Scene scene = checkered_plane();
-  const Spread cones = base_color(scene, true);
-  const Spread level_zero = base_color(scene, false);
+  const Spread cones = spread_of(base_colors(scene, true));
+  const Spread level_zero = spread_of(base_colors(scene, false));
   EXPECT_LT(cones.deviation, 0.02) << "many texels in a pixel are one colour";
   EXPECT_GT(level_zero.deviation, 0.1) << "level 0 picks a few of them";
+}
+
+// The nearest byte to a colour's square root. [effects/shaders/encoding.hlsli]
+TEST(Frame, BaseColorsAreStoredBySquareRoots) {
+  Scene scene = checkered_plane();
+  const glm::vec3 color(0.25f, 0.001f, 1.0f);
+  for (Material& material : scene.materials) {
+    material.constants.base_color = glm::vec4(color, 1);
+    material.constants.image[kBaseColorTexture] = -1;
+  }
+  const FloatImage picture = base_colors(scene, true);
+  for (std::uint32_t c = 0; c < 3; ++c) {
+    const float stored = picture.at(16, 16, c);
+    EXPECT_NEAR(stored, std::sqrt(color[static_cast<int>(c)]), 0.5001f / 255) << c;
+  }
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void GBufferClosestHit(inout SurfacePayload payload, in BuiltInTriangleIntersect
   g_view_z[pixel] = view_z;
   g_normal[pixel] = OctahedralEncode(surface.normal);
   g_shading_normal[pixel] = OctahedralEncode(surface.shading_normal);
-  g_base_color[pixel] = float4(SrgbFromLinear(saturate(surface.base_color)), 1.0);
+  g_base_color[pixel] = float4(EncodeColor(saturate(surface.base_color)), 1.0);
   g_emissive[pixel] = float4(surface.emissive, 0.0);
   g_material[pixel] = float4(surface.roughness, surface.metallic, 0.0, 0.0);
   g_ids[pixel] = uint2(InstanceID() + 1, PrimitiveIndex());

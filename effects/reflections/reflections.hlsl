@@ -87,7 +87,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   point.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   point.origin = position.xyz + point.normal * position.w;
   point.roughness = g_material[pixel].x;
-  point.brdf = MakeBrdf(LinearFromSrgb(g_base_color[pixel].rgb), g_material[pixel].y, point.roughness);
+  point.brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, point.roughness);
   point.cosine_view = max(dot(point.shading_normal, view), 1e-4);
   point.local_view = ToLocal(view, point.shading_normal);
   return point;

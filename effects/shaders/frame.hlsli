@@ -78,7 +78,7 @@ RWTexture2D<float> g_depth : register(u0);       // reversed-Z, infinite far: ne
 RWTexture2D<float> g_view_z : register(u1);      // metres along the camera's axis
 RWTexture2D<float2> g_normal : register(u2);     // geometric, octahedral, towards the camera
 RWTexture2D<float2> g_shading_normal : register(u3);
-RWTexture2D<float4> g_base_color : register(u4);  // sRGB-encoded
+RWTexture2D<float4> g_base_color : register(u4);  // EncodeColor
 RWTexture2D<float4> g_emissive : register(u5);
 RWTexture2D<float4> g_material : register(u6);    // roughness, metallic, 0, 0
 RWTexture2D<uint2> g_ids : register(u7);          // instance + 1, primitive; 0 nothing

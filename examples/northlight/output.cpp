@@ -97,6 +97,7 @@ ByteImage layer_picture(const std::string& name, const FloatImage& image,
   if (name == "depth" || name == "view_z") {
     return to_bytes(distance_picture(result.layers.at("view_z")), 1, 0, true);
   }
+  if (name == "base_color") return to_bytes(first_channels(image, 3), 1, 0, true);
   if (name == "emissive") return tonemap(first_channels(image, 3), 1.0f);
   if (name == "position") return to_bytes(first_channels(image, 3), 0.05f, 0.5f);
   return to_bytes(image.channels == 4 ? first_channels(image, 3) : image);

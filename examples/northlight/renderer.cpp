@@ -367,6 +367,10 @@ rtapi::Status Renderer::read_layers(FrameResult& result) {
     for (float& value : image->values) {
       value *= layer.scale;
     }
+    // As it is stored, by EncodeColor; alpha is 1. [effects/shaders/encoding.hlsli]
+    if (layer.texture == kBaseColor) {
+      for (float& value : image->values) value *= value;
+    }
     result.layers[layer.name] = std::move(*image);
   }
   if (effects_) {
