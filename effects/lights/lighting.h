@@ -14,9 +14,9 @@
 namespace kaamos::effects {
 
 // Mirrors hit_lighting.hlsli.
-inline constexpr std::uint32_t kClusterCells = 16;
+inline constexpr std::uint32_t kClusterCells = 32;
 inline constexpr std::uint32_t kClusterCount = kClusterCells * kClusterCells * kClusterCells;
-inline constexpr std::uint32_t kClusterCapacity = 128;
+inline constexpr std::uint32_t kClusterCapacity = 64;
 inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kShadowTile = 128;
 inline constexpr std::uint32_t kShadowTilesPerRow = 32;

@@ -10,6 +10,9 @@ float DistanceSquared(float3 low, float3 high, float3 p) {
   return dot(d, d);
 }
 
+// A map's cone ends at this cosine; the light's may be wider. [light_constants.cpp]
+static const float kWidestMap = 0.05;
+
 struct Sphere {
   float3 center;
   float radius;
@@ -21,8 +24,7 @@ Sphere ReachOf(LightConstants light) {
   Sphere reach;
   reach.center = light.position;
   reach.radius = light.range;
-  // A map's cone ends at a cosine of 0.05; the light's may be wider. [light_constants.cpp]
-  if (light.is_spot == 0 || light.cos_outer <= 0.05) return reach;
+  if (light.is_spot == 0 || light.cos_outer <= kWidestMap) return reach;
   const bool is_narrow = light.cos_outer > 0.70710678;
   const float along = is_narrow ? 0.5 / light.cos_outer : light.cos_outer;
   reach.center += light.direction * (along * light.range);
@@ -30,22 +32,38 @@ Sphere ReachOf(LightConstants light) {
   return reach;
 }
 
+// Whether a sphere lies beside a spot's cone: its middle is further from the cone's side than its
+// radius. `tip` and `axis` are in the sphere's space. What is no number is not beside.
+bool IsBesideCone(float3 tip, float3 axis, float cosine, float3 center, float radius) {
+  const float3 d = center - tip;
+  const float along = dot(d, axis);
+  const float across = sqrt(max(dot(d, d) - along * along, 0.0));
+  const float sine = sqrt(1.0 - cosine * cosine);
+  return across * cosine - along * sine > radius + 1e-3 * length(d);  // rounding: a little more
+}
+
 // One thread per cluster. Lights stand in ascending order, so that a sum over a cluster adds up in
 // the order of a sum over all.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BuildClusters(uint3 id : SV_DispatchThreadID) {
-  const uint cluster = id.y * 64 + id.x;
+  const uint cluster = id.y * 256 + id.x;
   const int3 cell = int3(cluster % kClusterCells, cluster / kClusterCells % kClusterCells,
                          cluster / (kClusterCells * kClusterCells));
   const float3 low = float3(ClusterLow(cell.x), ClusterLow(cell.y), ClusterLow(cell.z));
   const float3 high = float3(ClusterHigh(cell.x), ClusterHigh(cell.y), ClusterHigh(cell.z));
   uint count = 0;
   for (uint i = 0; i < frame.light_count; ++i) {
-    const Sphere reach = ReachOf(lights[i]);
+    const LightConstants light = lights[i];
+    const Sphere reach = ReachOf(light);
     // Rounding of positions and bounds: a little more.
     const float radius = reach.radius * 1.0001 + 1e-4 * length(reach.center);
     if (DistanceSquared(low, high, ClusterSpace(reach.center)) > radius * radius) continue;
+    if (light.is_spot != 0 && light.cos_outer > kWidestMap &&
+        IsBesideCone(ClusterSpace(light.position), ClusterSpace(light.direction), light.cos_outer,
+                     0.5 * (low + high), 0.5 * length(high - low))) {
+      continue;
+    }
     if (count < kClusterCapacity) cluster_lights[cluster * kClusterCapacity + count] = i;
     ++count;
   }

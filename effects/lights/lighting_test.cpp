@@ -120,8 +120,11 @@ std::uint32_t cluster_of(const FrameConstants& frame, const glm::vec3& position)
   std::uint32_t index = 0;
   for (int axis = 2; axis >= 0; --axis) {
     const float x = glm::dot(position, axes[axis]);
-    const int cell = std::min(static_cast<int>(std::log2(1 + std::abs(x) / 0.5f)),
-                              static_cast<int>(kClusterCells) / 2 - 1);
+    const float steps = 1 + std::abs(x) / 0.5f;
+    const int doublings = static_cast<int>(std::floor(std::log2(steps)));
+    const bool upper = steps >= 1.5f * std::exp2(static_cast<float>(doublings));
+    const int cell =
+        std::min(2 * doublings + (upper ? 1 : 0), static_cast<int>(kClusterCells) / 2 - 1);
     const int coordinate = static_cast<int>(kClusterCells) / 2 + (x < 0 ? -1 - cell : cell);
     index = index * kClusterCells + static_cast<std::uint32_t>(coordinate);
   }

@@ -16,8 +16,8 @@ RWTexture2D<float4> shadow_atlas : register(u16, space3);
 RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
 RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
 
-static const uint kClusterCells = 16;        // per axis
-static const uint kClusterCapacity = 128;    // lights of a cluster
+static const uint kClusterCells = 32;        // per axis
+static const uint kClusterCapacity = 64;     // lights of a cluster
 static const float kClusterInnerSize = 0.5;  // metres, of the cells about the camera
 // A cluster with more lights than it can hold: all lights of the scene are looked at, none is lost.
 static const uint kClusterOverflow = 0xFFFFFFFF;
@@ -28,17 +28,19 @@ static const float kNoOccluder = 1e30;
 static const float kShadowOffset = 1.5;      // texels, of a point along its normal
 static const float kShadowTolerance = 0.5;   // texels, behind an occluder that count as before it
 
-// Cells grow with the distance from the camera; the outermost reach to infinity, so that every point
-// lies in one, also behind the camera: rays hit what the camera does not see.
+// Cells grow with the distance from the camera, two for each doubling of 1 + distance / inner size; the
+// outermost reach to infinity, so that every point lies in one, also behind the camera: rays hit what
+// the camera does not see.
 int ClusterCoordinate(float x) {
-  // The exponent is the whole part of the logarithm to base 2.
-  const int doublings = int(asuint(1.0 + abs(x) / kClusterInnerSize) >> 23) - 127;
-  const int cell = min(doublings, int(kClusterCells) / 2 - 1);
+  // The exponent and the first bit behind it: twice the whole part of the logarithm to base 2, and
+  // which half it is.
+  const int halves = int(asuint(1.0 + abs(x) / kClusterInnerSize) >> 22) - 254;
+  const int cell = min(halves, int(kClusterCells) / 2 - 1);
   return int(kClusterCells) / 2 + (x < 0.0 ? -1 - cell : cell);
 }
 
 // The sides of a cell along an axis: coordinate c holds ClusterLow(c) <= x <= ClusterHigh(c).
-float ClusterDistance(int cells) { return (exp2(float(cells)) - 1.0) * kClusterInnerSize; }
+float ClusterDistance(int cells) { return (asfloat(uint(cells + 254) << 22) - 1.0) * kClusterInnerSize; }
 
 float ClusterLow(int coordinate) {
   const int half_cells = int(kClusterCells) / 2;
