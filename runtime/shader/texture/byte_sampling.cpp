@@ -2,6 +2,7 @@
 #include "runtime/shader/texture/byte_sampling.h"
 
 #include <algorithm>
+#include <array>
 
 #include "kaamos/shader/texture_view.h"
 #include "runtime/shader/texture/format_codec.h"
@@ -20,11 +21,18 @@ constexpr uint32_t kAllLinear = 0x15, kAnisotropic = 0x40;
 using Channels = float __attribute__((vector_size(16)));
 using Bytes4 = uint8_t __attribute__((vector_size(4)));
 
+// Instead of a division for each texel's alpha.
+constexpr std::array<float, 256> kUnormToFloat = [] {
+  std::array<float, 256> table{};
+  for (uint32_t i = 0; i < 256; ++i) table[i] = static_cast<float>(i) / 255.0f;
+  return table;
+}();
+
 template <bool Srgb>
 [[gnu::always_inline]] inline Channels byte_texel(const uint8_t* at) {
   if constexpr (Srgb) {
     return Channels{srgb_to_linear(at[0]), srgb_to_linear(at[1]), srgb_to_linear(at[2]),
-                    static_cast<float>(at[3]) / 255.0f};
+                    kUnormToFloat[at[3]]};
   } else {
     Bytes4 bytes;
     __builtin_memcpy(&bytes, at, sizeof(bytes));
