@@ -22,7 +22,7 @@ static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 
 struct ReflectionPayload {
   float3 radiance;
-  float distance;  // of the hit, metres; negative: none
+  float distance;  // of the hit, metres; negative: none; at first how wide the pixel's cone starts
 };
 
 [shader("miss")]
@@ -42,7 +42,9 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent() * frame.pixel_angle);
+  // The cone comes from the camera: a flat mirror shows what it shows as large as it is that far away.
+  const float cone_width = payload.distance + RayTCurrent() * frame.pixel_angle;
+  const Surface surface = LoadSurface(hit.barycentrics, cone_width);
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
                      IndirectAtHit(surface, -WorldRayDirection());
   payload.distance = RayTCurrent();
@@ -127,7 +129,7 @@ void ReflectionRayGen() {
     ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
     payload.radiance = float3(0, 0, 0);
-    payload.distance = -1.0;
+    payload.distance = length(point.origin) * frame.pixel_angle;
     TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);
     float3 sample = payload.radiance * weight / albedo;

@@ -155,6 +155,46 @@ TEST(Reflections, MirrorsInMirrorsAreNotBlack) {
   EXPECT_GT(hits, 3);
 }
 
+// A ball whose shining checks are smaller than a pixel far away, seen in a mirror beside it: they
+// are one grey there, since the pixel's cone comes from the camera and not from the mirror.
+TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(0.0f);
+  scene.sun.reset();
+  TextureImage image;
+  image.name = "checkers";
+  image.width = image.height = 64;
+  std::vector<std::uint8_t> texels;
+  for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+    const std::uint8_t value = (i + i / 64) % 2 == 0 ? 255 : 0;
+    texels.insert(texels.end(), {value, value, value, 255});
+  }
+  image.mips.push_back(std::move(texels));
+  generate_mips(image);
+  scene.images.push_back(std::move(image));
+  Material ball = scene.materials[0];
+  ball.constants.base_color = glm::vec4(0, 0, 0, 1);
+  ball.constants.emissive = glm::vec3(1);
+  ball.constants.image[kEmissiveTexture] = 0;
+  scene.materials[0].constants.base_color = glm::vec4(1);
+  scene.materials[0].constants.metallic = 1;
+  scene.materials[0].constants.roughness = 0;
+  scene.materials.push_back(ball);
+  Mesh& mesh = scene.meshes[scene.instances[1].mesh];
+  for (Geometry& geometry : mesh.geometries) geometry.material = 1;
+  for (Vertex& vertex : mesh.vertices) {  // 8 mm a texel
+    vertex.uv = glm::vec2(vertex.position.x, vertex.position.z) * 2.0f;
+  }
+  Camera& camera = scene.cameras.front();
+  camera.camera_to_world = look_at(glm::dvec3(41.5, 40, 0), glm::dvec3(1.5, 0, 0));
+  camera.vertical_fov = 0.01;  // 36 mm a pixel, at the mirror; from there to the ball 1 mm more
+  const Reflected result = reflect(scene, 1, {});
+  for (std::uint32_t i = 0; i < kSize; ++i) {
+    ASSERT_LT(result.sum.at(i, i, 3), 5) << "the ball must be hit";
+    EXPECT_NEAR(result.sum.at(i, i, 0), 0.5, 0.1) << i;
+  }
+}
+
 // The clamp takes energy and nothing else; the picture says how much.
 TEST(Reflections, TheFireflyLimitOnlyDarkens) {
   Scene scene = furnace(0.5, 0.5f);
