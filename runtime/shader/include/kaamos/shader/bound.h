@@ -100,7 +100,7 @@ inline void bind_table(const Invocation& invocation, const BindingSlot& slot, Bo
 // One of them; past the end, what reads as zeros.
 template <uint32_t Count, class I>
 KAAMOS_INLINE const BoundResource& bound_element(const BoundResource* elements, I index) {
-  static constexpr BoundResource nothing;
+  static constexpr BoundResource nothing{};
   const auto i = static_cast<uint32_t>(index);
   return i < Count ? elements[i] : nothing;
 }
