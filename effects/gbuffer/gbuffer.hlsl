@@ -93,8 +93,7 @@ float3 MotionOf(float3 position, float3 previous_position) {
 [shader("closesthit")]
 void GBufferClosestHit(inout SurfacePayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const uint2 pixel = FramePixel();
-  const float distance = RayTCurrent() * length(WorldRayDirection());
-  const Surface surface = LoadSurface(hit.barycentrics, distance * frame.pixel_angle);
+  const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
   const float view_z = RayTCurrent();
   g_depth[pixel] = min(frame.near_plane / view_z, 1.0);
   g_view_z[pixel] = view_z;

@@ -22,7 +22,7 @@ static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 
 struct ReflectionPayload {
   float3 radiance;
-  float distance;  // of the hit, metres; negative: none; at first how wide the pixel's cone starts
+  float distance;  // of the hit, metres; negative: none
 };
 
 [shader("miss")]
@@ -42,9 +42,7 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  // The cone comes from the camera: a flat mirror shows what it shows as large as it is that far away.
-  const float cone_width = payload.distance + RayTCurrent() * frame.pixel_angle;
-  const Surface surface = LoadSurface(hit.barycentrics, cone_width);
+  const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
                      IndirectAtHit(surface, -WorldRayDirection());
   payload.distance = RayTCurrent();
@@ -129,7 +127,7 @@ void ReflectionRayGen() {
     ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
     payload.radiance = float3(0, 0, 0);
-    payload.distance = length(point.origin) * frame.pixel_angle;
+    payload.distance = -1.0;
     TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);
     float3 sample = payload.radiance * weight / albedo;

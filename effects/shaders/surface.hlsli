@@ -51,6 +51,13 @@ float RayConeFootprint(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, 
   return uv_area / max(world_area, 1e-20) * (across * across);
 }
 
+// How wide a pixel's cone is at the hit, metres: of a ray from the camera, or of one that starts where
+// such a ray ended, since a flat mirror shows things as large as they are that far from the camera.
+float ConeWidth() {
+  const float way = length(WorldRayOrigin()) + RayTCurrent() * length(WorldRayDirection());
+  return way * frame.pixel_angle;
+}
+
 // `cone_width`: of the ray's cone at the hit, metres; 0 reads level 0. [Northlight deck: texture LOD]
 Surface LoadSurface(float2 barycentrics, float cone_width) {
   const HitConstants layout = hit_constants;

@@ -128,8 +128,6 @@ float BlendWeight(float alpha, float view_z) {
   return 1.0;
 }
 
-float ConeWidth() { return RayTCurrent() * length(WorldRayDirection()) * frame.pixel_angle; }
-
 [shader("anyhit")]
 void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   if (payload.kind == kMirrorRay) {
