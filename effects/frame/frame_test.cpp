@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "effects/gbuffer/gbuffer.h"
+#include "effects/scene/checkers_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 
 namespace kaamos::effects {
@@ -16,19 +17,7 @@ namespace {
 Scene checkered_plane() {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.instances.resize(1);
-  TextureImage image;
-  image.name = "checkers";
-  image.width = image.height = 64;
-  std::vector<std::uint8_t> texels;
-  for (std::uint32_t y = 0; y < 64; ++y) {
-    for (std::uint32_t x = 0; x < 64; ++x) {
-      const std::uint8_t value = (x + y) % 2 == 0 ? 255 : 0;
-      texels.insert(texels.end(), {value, value, value, 255});
-    }
-  }
-  image.mips.push_back(std::move(texels));
-  generate_mips(image);
-  scene.images.push_back(std::move(image));
+  scene.images.push_back(make_checkers());
   scene.samplers.resize(1);
   for (Material& material : scene.materials) {
     material.constants.base_color = glm::vec4(1);

@@ -80,8 +80,8 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
 }
 
 void Lighting::update(rtapi::CommandList& list, const Frame& frame) const {
-  constexpr std::uint32_t kColumns = 256;  // of the grid of threads, one for each cluster
-  clusters_.dispatch(list, frame, {}, PassArguments(views_), kColumns, kClusterCount / kColumns);
+  clusters_.dispatch(list, frame, {}, PassArguments(views_), kClusterCells,
+                     kClusterCount / kClusterCells);
   if (light_count_ == 0) return;
   const rtapi::TextureDesc& atlas = atlas_.GetDesc();
   shadow_maps_.dispatch_grid(list, frame, {}, static_cast<std::uint32_t>(atlas.Width), atlas.Height,

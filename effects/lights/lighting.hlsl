@@ -42,14 +42,13 @@ bool IsBesideCone(float3 tip, float3 axis, float cosine, float3 center, float ra
   return across * cosine - along * sine > radius + 1e-3 * length(d);  // rounding: a little more
 }
 
-// One thread per cluster. Lights stand in ascending order, so that a sum over a cluster adds up in
+// One thread per cluster: x, and behind each other y and z. Lights stand in ascending order, so that a sum over a cluster adds up in
 // the order of a sum over all.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BuildClusters(uint3 id : SV_DispatchThreadID) {
-  const uint cluster = id.y * 256 + id.x;
-  const int3 cell = int3(cluster % kClusterCells, cluster / kClusterCells % kClusterCells,
-                         cluster / (kClusterCells * kClusterCells));
+  const uint cluster = id.y * kClusterCells + id.x;
+  const int3 cell = int3(id.x, id.y % kClusterCells, id.y / kClusterCells);
   const float3 low = float3(ClusterLow(cell.x), ClusterLow(cell.y), ClusterLow(cell.z));
   const float3 high = float3(ClusterHigh(cell.x), ClusterHigh(cell.y), ClusterHigh(cell.z));
   uint count = 0;

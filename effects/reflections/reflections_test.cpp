@@ -10,6 +10,7 @@
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/lights/lighting.h"
+#include "effects/scene/checkers_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 
 namespace kaamos::effects {
@@ -161,17 +162,7 @@ TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(0.0f);
   scene.sun.reset();
-  TextureImage image;
-  image.name = "checkers";
-  image.width = image.height = 64;
-  std::vector<std::uint8_t> texels;
-  for (std::uint32_t i = 0; i < 64 * 64; ++i) {
-    const std::uint8_t value = (i + i / 64) % 2 == 0 ? 255 : 0;
-    texels.insert(texels.end(), {value, value, value, 255});
-  }
-  image.mips.push_back(std::move(texels));
-  generate_mips(image);
-  scene.images.push_back(std::move(image));
+  scene.images.push_back(make_checkers());
   Material ball = scene.materials[0];
   ball.constants.base_color = glm::vec4(0, 0, 0, 1);
   ball.constants.emissive = glm::vec3(1);
