@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers and sampling routines, value for value those of effects/shaders/sampling.hlsli, so
-// that a host-side test can hold a shader against them.
+// Random numbers and sampling routines of effects/shaders/sampling.hlsli, so that a host-side test
+// can hold a shader against them: value for value but for sine and cosine, which each backend has
+// its own of.
 #pragma once
 
 #include <cmath>

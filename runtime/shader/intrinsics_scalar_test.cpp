@@ -57,6 +57,35 @@ TEST(ShaderScalarIntrinsics, AgreeWithLongDouble) {
   }
 }
 
+void expect_waves(float x) {
+  expect_near_ulps(sin(x), std::sin(static_cast<long double>(x)), 2, "sin", static_cast<double>(x));
+  expect_near_ulps(cos(x), std::cos(static_cast<long double>(x)), 2, "cos", static_cast<double>(x));
+  expect_same(sin(-x), -sin(x), "sin of the opposite", static_cast<double>(x));
+  expect_same(cos(-x), cos(x), "cos of the opposite", static_cast<double>(x));
+}
+
+TEST(ShaderScalarIntrinsics, SineAndCosineKeepTheirDigitsBesideTheirZeros) {
+  // Some 2,000 floats of each octave, and those about every multiple of pi / 2.
+  const auto last = std::bit_cast<uint32_t>(op::kLargestAngle);
+  for (uint32_t bits = std::bit_cast<uint32_t>(0x1p-30f); bits <= last; bits += 4099) {
+    expect_waves(std::bit_cast<float>(bits));
+  }
+  for (int i = 1; i <= 325; ++i) {
+    const auto nearest = static_cast<float>(i * 1.57079632679489661923L);
+    for (int k = -3; k <= 3; ++k) {
+      expect_waves(
+          std::bit_cast<float>(std::bit_cast<uint32_t>(nearest) + static_cast<uint32_t>(k)));
+    }
+  }
+}
+
+TEST(ShaderScalarIntrinsics, SineAndCosineOfWhatIsLargeAreLibms) {
+  for (const float x : {std::nextafter(op::kLargestAngle, kInf), 1234.5f, 1e6f, 1e30f, kMaxFloat}) {
+    expect_same(sin(x), std::sin(x), "sin", static_cast<double>(x));
+    expect_same(cos(-x), std::cos(x), "cos", static_cast<double>(x));
+  }
+}
+
 TEST(ShaderScalarIntrinsics, RoundGoesToEven) {
   expect_same(round(0.5f), 0.0f, "round");
   expect_same(round(1.5f), 2.0f, "round");

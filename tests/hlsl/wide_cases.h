@@ -235,6 +235,21 @@ float odd(uint x) {
   put(id, 8, uint(int64_t(a * 1e6f) * 1000003 >> 7));
   put(id, 9, float(double(a) / double(b)));
 })"},
+    {"sines_of_all_sizes", R"(
+[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID) {
+  // Angles that are short of kLargestAngle (elementary.h) beside some that are not.
+  const uint x = mix(id.x);
+  float a = real(x) * exp2(float(x >> 8 & 31) - 12);
+  if (id.x % 13 == 5) a = asfloat(0xFF800000u);
+  if (id.x % 13 == 7) a = asfloat(0x7FC00000u);
+  float s, c;
+  sincos(a, s, c);
+  put(id, 0, isnan(s) ? 2.0f : s);
+  put(id, 1, isnan(c) ? 2.0f : c);
+  if (x & 1) put(id, 2, isnan(sin(a)) ? 2.0f : sin(-a));
+  put(id, 3, sin(real(x)));
+  put(id, 4, cos(real(x) * 60));
+})"},
     {"statics_of_each_thread", R"(
 static uint count = 3;
 static float2 last;

@@ -5,45 +5,10 @@
 #pragma once
 
 #include "kaamos/shader/convert.h"
+#include "kaamos/shader/elementary.h"
 #include "kaamos/shader/operators.h"
 
 namespace kaamos::shader {
-namespace op {
-
-// e^x within 1 ulp in the same steps for one number and for those of several threads, so that both
-// give the same bits: 2^k e^r with k an integer and r within ln(2) / 2, e^r by a polynomial.
-// F is float, or a vector of floats; `Bits` gives its bits as unsigned integers, `Floats` the
-// floats of such bits; `Every` says whether a condition holds for all.
-template <class F, class Bits, class Floats, class Choose, class Every>
-KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose,
-                            const Every& every) {
-  const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
-  const F k = shifted - 12582912.0f;
-  const F r = (x - k * 0.693359375f) - k * -2.12194440e-4f;
-  F p = r * 1.9875691500e-4f + 1.3981999507e-3f;
-  p = p * r + 8.3334519073e-3f;
-  p = p * r + 4.1665795894e-2f;
-  p = p * r + 1.6666665459e-1f;
-  p = p * r + 5.0000001201e-1f;
-  const F y = p * r * r + r + 1.0f;
-  F result = floats(bits(y) + (bits(shifted) << 23));
-  if (__builtin_expect(every(floats(bits(x) & 0x7FFFFFFFu) <= 87.3365402f), 1)) return result;
-  // What has no such exponent is replaced: more than the largest float, less than the least normal
-  // one (a denormal, which D3D flushes), and what is not a number.
-  result = choose(x > 88.7228317f, F{} + __builtin_inff(), result);
-  result = choose(x < -87.3365402f, F{}, result);
-  return choose(x == x, result, x);
-}
-KAAMOS_INLINE float exponential(float x) {
-  return exponential(
-      x, [](float f) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(uint32_t, f); },
-      [](uint32_t i) KAAMOS_INLINE_LAMBDA { return __builtin_bit_cast(float, i); },
-      [](bool c, float a, float b) KAAMOS_INLINE_LAMBDA { return c ? a : b; },
-      [](bool c) KAAMOS_INLINE_LAMBDA { return c; });
-}
-
-}  // namespace op
-
 // ---------------------------------------------------------------------------------------------
 // Functions of one floating-point argument: f32 and f64 are expressions in x.
 
@@ -64,7 +29,7 @@ KAAMOS_FLOAT_FUNCTION(acos, __builtin_acosf(x), __builtin_acos(x))
 KAAMOS_FLOAT_FUNCTION(asin, __builtin_asinf(x), __builtin_asin(x))
 KAAMOS_FLOAT_FUNCTION(atan, __builtin_atanf(x), __builtin_atan(x))
 KAAMOS_FLOAT_FUNCTION(ceil, __builtin_ceilf(x), __builtin_ceil(x))
-KAAMOS_FLOAT_FUNCTION(cos, __builtin_cosf(x), __builtin_cos(x))
+KAAMOS_FLOAT_FUNCTION(cos, cosine(x), __builtin_cos(x))
 KAAMOS_FLOAT_FUNCTION(cosh, __builtin_coshf(x), __builtin_cosh(x))
 KAAMOS_FLOAT_FUNCTION(degrees, x * 57.2957795130823209f, x * 57.2957795130823209)
 KAAMOS_FLOAT_FUNCTION(exp, exponential(x), __builtin_exp(x))
@@ -81,7 +46,7 @@ KAAMOS_FLOAT_FUNCTION(rsqrt, 1.0f / __builtin_sqrtf(x), 1.0 / __builtin_sqrt(x))
 // NaN gives 0.
 KAAMOS_FLOAT_FUNCTION(saturate, x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f,
                       x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0)
-KAAMOS_FLOAT_FUNCTION(sin, __builtin_sinf(x), __builtin_sin(x))
+KAAMOS_FLOAT_FUNCTION(sin, sine(x), __builtin_sin(x))
 KAAMOS_FLOAT_FUNCTION(sinh, __builtin_sinhf(x), __builtin_sinh(x))
 KAAMOS_FLOAT_FUNCTION(sqrt, __builtin_sqrtf(x), __builtin_sqrt(x))
 KAAMOS_FLOAT_FUNCTION(tan, __builtin_tanf(x), __builtin_tan(x))

@@ -107,6 +107,21 @@ KAAMOS_INLINE Floats exponential(Floats x) {
       [](Ints c, Floats a, Floats b) KAAMOS_INLINE_LAMBDA { return c ? a : b; },
       [](Ints c) KAAMOS_INLINE_LAMBDA { return sign_bits(c) == kEverySignBit; });
 }
+template <op::Wave W>
+KAAMOS_INLINE Floats wave(Floats x) {
+  return op::wave<W>(
+      x, [](Floats f) KAAMOS_INLINE_LAMBDA { return (Uints)f; },
+      [](Uints i) KAAMOS_INLINE_LAMBDA { return (Floats)i; },
+      [](Ints c) KAAMOS_INLINE_LAMBDA { return sign_bits(c) == kEverySignBit; },
+      [](Floats large, Floats result) KAAMOS_INLINE_LAMBDA {
+        for (size_t i = 0; i < sizeof(Floats) / sizeof(float); ++i) {
+          if (!(__builtin_fabsf(large[i]) <= op::kLargestAngle)) {
+            result[i] = op::wave_of_large<W>(large[i]);
+          }
+        }
+        return result;
+      });
+}
 template <class R>
 KAAMOS_INLINE R smaller(R x, R y) {
   if constexpr (std::is_same_v<R, Floats>) {
@@ -255,6 +270,7 @@ KAAMOS_WIDE_BINARY(Min, T, simd::is_number<T>, simd::smaller(x, y))
 KAAMOS_WIDE_BINARY(Max, T, simd::is_number<T>, simd::larger(x, y))
 KAAMOS_WIDE_BINARY(Step, T, (std::is_same_v<T, float>), (R)((y >= x) & 0x3F800000))
 KAAMOS_WIDE_UNARY(ceil_function, T, (std::is_same_v<T, float>), simd::round_up(x))
+KAAMOS_WIDE_UNARY(cos_function, T, (std::is_same_v<T, float>), simd::wave<op::Wave::kCosine>(x))
 KAAMOS_WIDE_UNARY(degrees_function, T, (std::is_same_v<T, float>), x * 57.2957795130823209f)
 KAAMOS_WIDE_UNARY(exp_function, T, (std::is_same_v<T, float>), simd::exponential(x))
 KAAMOS_WIDE_UNARY(floor_function, T, (std::is_same_v<T, float>), simd::round_down(x))
@@ -263,6 +279,7 @@ KAAMOS_WIDE_UNARY(rcp_function, T, (std::is_same_v<T, float>), 1.0f / x)
 KAAMOS_WIDE_UNARY(round_function, T, (std::is_same_v<T, float>), simd::round_to_even(x))
 KAAMOS_WIDE_UNARY(rsqrt_function, T, (std::is_same_v<T, float>), 1.0f / simd::square_root(x))
 KAAMOS_WIDE_UNARY(saturate_function, T, (std::is_same_v<T, float>), simd::saturated(x))
+KAAMOS_WIDE_UNARY(sin_function, T, (std::is_same_v<T, float>), simd::wave<op::Wave::kSine>(x))
 KAAMOS_WIDE_UNARY(sqrt_function, T, (std::is_same_v<T, float>), simd::square_root(x))
 KAAMOS_WIDE_UNARY(trunc_function, T, (std::is_same_v<T, float>), simd::truncate(x))
 KAAMOS_WIDE_UNARY(Frac, T, (std::is_same_v<T, float>), simd::fraction(x))
