@@ -98,14 +98,15 @@ KAAMOS_INLINE wide<To> by_register(const F& f, const wide<T>&... x) {
 
 template <class T>
 KAAMOS_INLINE T get(const wide<T>& x, int lane) {
+  using Stored = std::conditional_t<std::is_same_v<T, bool>, int32_t, T>;
+  Stored stored;
+  __builtin_memcpy(
+      &stored, reinterpret_cast<const uint8_t*>(&x) + static_cast<size_t>(lane) * sizeof(Stored),
+      sizeof(Stored));
   if constexpr (std::is_same_v<T, bool>) {
-    int32_t all[kLanes];
-    __builtin_memcpy(all, &x, sizeof(all));
-    return all[lane] != 0;
+    return stored != 0;
   } else {
-    T all[kLanes];
-    __builtin_memcpy(all, &x, sizeof(all));
-    return all[lane];
+    return stored;
   }
 }
 template <class T>
