@@ -238,8 +238,6 @@ TEST(ShaderSystemValues, ObjectSpaceFollowsTheTransform) {
   expect_components(object_to_world_4x3(invocation), {2, 0, 0, 0, 2, 0, 0, 0, 2, 10, 20, 30});
   expect_components(world_to_object_3x4(invocation),
                     {0.5, 0, 0, -5, 0, 0.5, 0, -10, 0, 0, 0.5, -15});
-  ray.world_to_object = nullptr;
-  expect_components(object_ray_origin(invocation), {0, 0, 0});
 }
 
 TEST(ShaderSystemValues, ThreadIdsCombineGroupAndThread) {

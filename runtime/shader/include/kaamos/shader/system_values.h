@@ -16,28 +16,31 @@ KAAMOS_INLINE uint3 dispatch_rays_dimensions(const Invocation& invocation) {
   return {{size[0], size[1], size[2]}};
 }
 
-// The rest is zero in stages without a ray, which the checker keeps from asking.
+// The rest: the checker keeps stages without a ray from asking, and miss shaders from asking for
+// transforms.
 KAAMOS_INLINE float3 world_ray_origin(const Invocation& invocation) {
-  if (invocation.ray == nullptr) return {};
   const float* v = invocation.ray->ray.origin;
   return {{v[0], v[1], v[2]}};
 }
 KAAMOS_INLINE float3 world_ray_direction(const Invocation& invocation) {
-  if (invocation.ray == nullptr) return {};
   const float* v = invocation.ray->ray.direction;
   return {{v[0], v[1], v[2]}};
 }
 
-KAAMOS_INLINE float3x4 load_transform(const float* rows) {
-  float3x4 m{};
-  if (rows != nullptr) __builtin_memcpy(&m, rows, sizeof(m));
+KAAMOS_INLINE float3x4 read_transform(const float* rows) {
+  float3x4 m;
+  __builtin_memcpy(&m, rows, sizeof(m));
   return m;
 }
+// Of a ray query's hit: zeros where there is none.
+KAAMOS_INLINE float3x4 load_transform(const float* rows) {
+  return rows != nullptr ? read_transform(rows) : float3x4{};
+}
 KAAMOS_INLINE float3x4 object_to_world_3x4(const Invocation& invocation) {
-  return load_transform(invocation.ray != nullptr ? invocation.ray->object_to_world : nullptr);
+  return read_transform(invocation.ray->object_to_world);
 }
 KAAMOS_INLINE float3x4 world_to_object_3x4(const Invocation& invocation) {
-  return load_transform(invocation.ray != nullptr ? invocation.ray->world_to_object : nullptr);
+  return read_transform(invocation.ray->world_to_object);
 }
 KAAMOS_INLINE float4x3 object_to_world_4x3(const Invocation& invocation) {
   return transpose(object_to_world_3x4(invocation));
