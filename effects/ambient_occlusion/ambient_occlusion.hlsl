@@ -19,6 +19,7 @@ void AmbientOcclusionRayGen() {
     ambient_occlusion_sum[pixel] += float(count);
     return;
   }
+  const float before = ambient_occlusion_sum[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
@@ -33,7 +34,7 @@ void AmbientOcclusionRayGen() {
       open += TraceVisibility(origin, direction, pass_constants.radius);
     }
   }
-  ambient_occlusion_sum[pixel] += open;
+  ambient_occlusion_sum[pixel] = before + open;
 }
 
 [shader("raygeneration")]

@@ -44,6 +44,7 @@ void ContactShadowRayGen() {
     contact[pixel] += float4(float(count), float(count), 0, 0);
     return;
   }
+  const float4 before = contact[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   float2 visible = float2(0, 0);
@@ -63,5 +64,5 @@ void ContactShadowRayGen() {
                                          end_fraction);
     }
   }
-  contact[pixel] += float4(visible, 0, 0);
+  contact[pixel] = before + float4(visible, 0, 0);
 }

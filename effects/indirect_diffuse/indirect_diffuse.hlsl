@@ -94,6 +94,7 @@ void IndirectRayGen() {
                                                          SkyTowards(shading_normal)), 0.0);
     return;
   }
+  const float4 before = indirect[pixel];  // asked for early: the rays cover the wait
   const float3 origin = position.xyz + normal * position.w;
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
   const uint pixel_seed = HashCombine(frame.seed, pixel.y * 65536 + pixel.x);
@@ -108,7 +109,7 @@ void IndirectRayGen() {
                                  UnitFloat(PcgHash(key + 2))) - 0.5;
     sum += Gather(origin, direction, jitter);
   }
-  indirect[pixel] += sum;
+  indirect[pixel] = before + sum;
 }
 
 [shader("raygeneration")]

@@ -103,6 +103,7 @@ float3 SampleHalfVector(ReflectionPoint point, float2 u) {
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
   if (g_ids[pixel].x == 0) return;
+  const float4 before = reflection[pixel];  // asked for early: the rays cover the wait
   const ReflectionPoint point = LoadReflectionPoint(pixel);
   const float3 albedo = SpecularAlbedo(point.brdf.f0, point.roughness, point.cosine_view);
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
@@ -137,7 +138,7 @@ void ReflectionRayGen() {
     }
     sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
   }
-  reflection[pixel] += sum;
+  reflection[pixel] = before + sum;
 }
 
 [shader("raygeneration")]

@@ -17,6 +17,7 @@ void SunShadowRayGen() {
     sun_visibility_sum[pixel] += float(count);
     return;
   }
+  const float before = sun_visibility_sum[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 origin = position.xyz + normal * position.w;
@@ -30,7 +31,7 @@ void SunShadowRayGen() {
       visible += TraceVisibility(origin, direction, kSunDistance);
     }
   }
-  sun_visibility_sum[pixel] += visible;
+  sun_visibility_sum[pixel] = before + visible;
 }
 
 [shader("raygeneration")]
