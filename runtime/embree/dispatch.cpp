@@ -10,6 +10,7 @@
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/services.h"
+#include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
 namespace {
@@ -42,6 +43,20 @@ struct Tile {
   uint32_t last[3];  // one past
 };
 
+// Asks for the texels of a row of invocations while the row above it runs: rows of a tile are too
+// short for a processor to foresee them. 3 % of northlight's frame.
+void fetch_row(const std::vector<Picture>& pictures, const Tile& tile, uint32_t y) {
+  constexpr uint64_t kLine = 64;
+  for (const Picture& picture : pictures) {
+    const uint8_t* row = picture.texels + uint64_t{y} * picture.row_pitch;
+    const uint8_t* end = row + uint64_t{tile.last[0]} * picture.texel_bytes;
+    for (const uint8_t* at = row + uint64_t{tile.first[0]} * picture.texel_bytes; at < end;
+         at += kLine) {
+      _mm_prefetch(reinterpret_cast<const char*>(at), _MM_HINT_T0);
+    }
+  }
+}
+
 void run_tile(void* argument) {
   const Tile& tile = *static_cast<const Tile*>(argument);
   const Shader& shader = tile.record->target->shader;
@@ -60,6 +75,7 @@ void run_tile(void* argument) {
     invocation.index[2] = z;
     for (uint32_t y = tile.first[1]; y < tile.last[1]; ++y) {
       invocation.index[1] = y;
+      if (y + 1 < tile.last[1]) fetch_row(worker.dispatch->pictures, tile, y + 1);
       if (row != nullptr) {
         invocation.index[0] = tile.first[0];
         row(invocation, tile.last[0] - tile.first[0]);
@@ -146,6 +162,20 @@ void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
       shader::bind(invocation, code.bindings, code.binding_count, place);
     }
     place += shader->slots.size();
+  }
+}
+
+// Of all that the shaders find bound.
+void find_pictures(DispatchState& dispatch) {
+  const uint32_t* size = dispatch.abi.dimensions;
+  for (const shader::BoundResource& bound : dispatch.bound_resources) {
+    if (bound.direct_format == 0 || bound.width != size[0] || bound.height != size[1]) continue;
+    const bool is_known =
+        std::any_of(dispatch.pictures.begin(), dispatch.pictures.end(),
+                    [&](const Picture& picture) { return picture.texels == bound.texels; });
+    if (is_known) continue;
+    dispatch.pictures.push_back(
+        {bound.texels, bound.row_pitch, shader::format_codec(bound.direct_format).bytes});
   }
 }
 
@@ -276,6 +306,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
     return end_dispatch(dispatch);
   }
   bind_shaders(pipeline, dispatch);
+  find_pictures(dispatch);
   dispatch.begun.store(true, std::memory_order_release);
   parallel_ranges(*environment.arena, grid.tile_count(), [&](uint64_t begin, uint64_t end) {
     run_tiles(dispatch, grid, read.record, begin, end);

@@ -14,6 +14,14 @@ namespace {
 
 constexpr size_t kKeptAfterEnd = 4096;  // views, of some 650 bytes
 
+// Long rows are an odd number of cache lines apart: texels above each other would else share a few
+// sets of the caches, all of them where a row is a power of two long.
+uint64_t row_pitch_of(uint64_t row_bytes) {
+  constexpr uint64_t kLine = 64, kLong = 1024;
+  if (row_bytes < kLong) return row_bytes;
+  return ((row_bytes + kLine - 1) / kLine | 1) * kLine;
+}
+
 void clear_texture(const shader::TextureView& view, const shader::Texel& value) {
   const shader::FormatCodec& codec = shader::format_codec(view.format);
   if (codec.encode == nullptr || !view.unordered_access) return;
@@ -66,7 +74,7 @@ Texture::Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool)
     const uint64_t width = std::max(desc.Width >> mip, 1u);
     const uint64_t height = std::max(desc.Height >> mip, 1u);
     const uint64_t depth = is_volume() ? std::max(desc.DepthOrArraySize >> mip, 1) : 1;
-    element_bytes_ += (width * height * depth * texel_bytes_ + 15) / 16 * 16;
+    element_bytes_ += (row_pitch_of(width * texel_bytes_) * height * depth + 63) / 64 * 64;
   }
 }
 
@@ -88,7 +96,7 @@ Texture::Subresource Texture::subresource(uint32_t mip, uint32_t array_element) 
   result.extent[0] = std::max(desc_.Width >> mip, 1u);
   result.extent[1] = std::max(desc_.Height >> mip, 1u);
   result.extent[2] = is_volume() ? std::max<uint32_t>(desc_.DepthOrArraySize >> mip, 1u) : 1;
-  result.row_pitch = uint64_t{result.extent[0]} * texel_bytes_;
+  result.row_pitch = row_pitch_of(uint64_t{result.extent[0]} * texel_bytes_);
   result.slice_pitch = result.row_pitch * result.extent[1];
   return result;
 }

@@ -83,6 +83,50 @@ TEST(Texture, ACopyFillsTheRightSubresource) {
   EXPECT_EQ(reinterpret_cast<uint32_t*>(back.dest.buffer->host())[64 + 6], 165u);
 }
 
+// Long rows do not follow each other at once in memory.
+TEST(Texture, LongRowsKeepTheirTexels) {
+  constexpr uint32_t kWidth = 1024, kHeight = 3, kPitch = 4 * kWidth;
+  Harness h;
+  runtime::TextureViewDesc whole;
+  whole.dimension = rtapi::SrvDimension::kTexture2DArray;
+  whole.mip_count = 2;
+  whole.slice_count = 2;
+  whole.unordered_access = true;
+  const ViewOf view = make(h, desc_of(kWidth, kHeight, 2, 2, rtapi::Format::kR32Uint), whole);
+  const auto source = h.buffer(kPitch * kHeight);
+  auto* words = reinterpret_cast<uint32_t*>(source->host());
+  for (uint32_t i = 0; i < kWidth * kHeight; ++i) words[i] = i;
+  runtime::CopyTextureCommand copy;
+  copy.source.buffer = source;
+  copy.source.row_pitch = kPitch;
+  copy.source.slice_pitch = kPitch * kHeight;
+  copy.dest.texture = view.texture;
+  copy.dest.array_element = 1;
+  copy.extent[0] = kWidth;
+  copy.extent[1] = kHeight;
+  copy.extent[2] = 1;
+  ASSERT_TRUE(h.execute(copy).ok());
+  for (int32_t y = 0; y < static_cast<int32_t>(kHeight); ++y) {
+    for (const int32_t x : {0, 511, 1023}) {
+      EXPECT_EQ(load(view, x, y, 1), static_cast<uint32_t>(y) * kWidth + static_cast<uint32_t>(x));
+      EXPECT_EQ(load(view, x, y, 0), 0u);
+    }
+  }
+  runtime::CopyTextureCommand back;
+  back.source = copy.dest;
+  back.dest = copy.source;
+  back.dest.buffer = h.buffer(kPitch * kHeight);
+  std::copy(std::begin(copy.extent), std::end(copy.extent), back.extent);
+  ASSERT_TRUE(h.execute(back).ok());
+  EXPECT_EQ(std::memcmp(back.dest.buffer->host(), source->host(), kPitch * kHeight), 0);
+  runtime::ClearUavCommand clear;
+  clear.view = view.descriptor;
+  clear.values[0] = 9;
+  ASSERT_TRUE(h.execute(clear).ok());
+  EXPECT_EQ(load(view, 1023, 2, 1), 9u);
+  EXPECT_EQ(load(view, 0, 0, 0), 9u);
+}
+
 TEST(Texture, AViewOfPartOfATextureCountsFromItsFirstMipAndSlice) {
   Harness h;
   runtime::TextureViewDesc all;

@@ -59,6 +59,14 @@ struct Removal {
   std::string message;
 };
 
+// A texture as large as the dispatch: each invocation mostly reads or writes the texel with its own
+// index.
+struct Picture {
+  const uint8_t* texels = nullptr;
+  uint32_t row_pitch = 0;
+  uint32_t texel_bytes = 0;
+};
+
 struct DispatchState {
   shader::Dispatch abi;
   RecordTable hit_table;
@@ -75,6 +83,7 @@ struct DispatchState {
   // What the shaders of a ray tracing pipeline find bound, by Shader::number.
   std::vector<shader::BoundResource> bound_resources;
   std::vector<const shader::BoundResource*> bound;
+  std::vector<Picture> pictures;
   // Checked mode; null without.
   const runtime::Context* context = nullptr;
   const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
