@@ -35,13 +35,29 @@ KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
 }
 }  // namespace memory
 
+// Whether `bytes` at byte `at` lie inside. One comparison: a window's length takes two more steps.
+KAAMOS_INLINE bool is_inside(const MemoryView& view, uint32_t at, uint64_t bytes) {
+  return __builtin_expect(view.bytes >= at + bytes, 1);
+}
+KAAMOS_INLINE bool is_inside(const WholeView&, uint32_t, uint64_t) {
+  return true;
+}
+
 template <class V, Layout L, bool RowMajor, class View>
 KAAMOS_INLINE V read(const View& view, uint32_t offset) {
-  return memory::read<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)));
+  const uint32_t at = memory::aligned_offset<V>(offset);
+  if (!is_inside(view, at, memory::Extent<V, L, RowMajor>::bytes)) {
+    return memory::read_partly<V, L, RowMajor>(memory::window(view, at));
+  }
+  return memory::read_all<V, L, RowMajor, false>(memory::window(WholeView{view.address}, at));
 }
 template <Layout L, bool RowMajor, class View, class V>
 KAAMOS_INLINE void write(const View& view, uint32_t offset, const V& value) {
-  memory::write<V, L, RowMajor>(memory::window(view, memory::aligned_offset<V>(offset)), value);
+  const uint32_t at = memory::aligned_offset<V>(offset);
+  if (!is_inside(view, at, memory::Extent<V, L, RowMajor>::bytes)) {
+    return memory::write_partly<V, L, RowMajor>(memory::window(view, at), value);
+  }
+  memory::write_all<V, L, RowMajor, false>(memory::window(WholeView{view.address}, at), value);
 }
 
 namespace memory {
@@ -65,9 +81,7 @@ template <class S, class View, class ReadMembers>
 KAAMOS_INLINE S read_struct(const View& view, uint32_t at, uint64_t bytes,
                             const ReadMembers& read_members) {
   if constexpr (std::is_same_v<View, MemoryView>) {
-    if (__builtin_expect(view.bytes < at + bytes, 0)) {
-      return memory::read_struct_partly<S>(view, at, read_members);
-    }
+    if (!is_inside(view, at, bytes)) return memory::read_struct_partly<S>(view, at, read_members);
   }
   return read_members(WholeView{view.address}, at);
 }
@@ -75,7 +89,7 @@ template <class S, class View, class WriteMembers>
 KAAMOS_INLINE void write_struct(const View& view, uint32_t at, uint64_t bytes, const S& value,
                                 const WriteMembers& write_members) {
   if constexpr (std::is_same_v<View, MemoryView>) {
-    if (__builtin_expect(view.bytes < at + bytes, 0)) {
+    if (!is_inside(view, at, bytes)) {
       return memory::write_struct_partly(view, at, value, write_members);
     }
   }
