@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "kaamos/shader/cpu_level.h"
 #include "kaamos/shader/texture_view.h"
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/shader/texture/level_of_detail.h"
@@ -106,8 +107,9 @@ template <bool Srgb, int Mip>
 }
 
 template <bool Srgb>
-Texel sample_mips_of_bytes(const TextureMip* mips, float weight, const SamplerState& sampler,
-                           const float* u) {
+[[gnu::always_inline]] inline Texel sample_mips_of_bytes(const TextureMip* mips, float weight,
+                                                         const SamplerState& sampler,
+                                                         const float* u) {
   const Taps taps = taps_of(sampler, u, mips[0], mips[weight != 0.0f ? 1 : 0]);
   Channels color = bytes_on_mip<Srgb, 0>(mips[0], taps);
   if (weight != 0.0f) color += weight * (bytes_on_mip<Srgb, 1>(mips[1], taps) - color);
@@ -126,9 +128,7 @@ bool has_no_border(uint32_t mode) {
          mode == static_cast<uint32_t>(AddressMode::kClamp);
 }
 
-}  // namespace
-
-bool sample_bytes(const SampleArguments& arguments, Texel& texel) {
+[[gnu::always_inline]] inline bool sample_here(const SampleArguments& arguments, Texel& texel) {
   const TextureView* view = texture_view(*arguments.texture);
   const SamplerState* sampler = sampler_state(*arguments.sampler);
   if (view == nullptr || sampler == nullptr) return false;
@@ -149,6 +149,22 @@ bool sample_bytes(const SampleArguments& arguments, Texel& texel) {
   texel = srgb ? sample_mips_of_bytes<true>(mips, weight, *sampler, arguments.coordinates)
                : sample_mips_of_bytes<false>(mips, weight, *sampler, arguments.coordinates);
   return true;
+}
+
+#if defined(__x86_64__)
+[[gnu::target("avx2")]] bool sample_by_avx2(const SampleArguments& arguments, Texel& texel) {
+  return sample_here(arguments, texel);
+}
+#endif
+
+}  // namespace
+
+bool sample_bytes(const SampleArguments& arguments, Texel& texel) {
+#if defined(__x86_64__)
+  static const bool has_avx2 = cpu_level() == CpuLevel::kAvx2;
+  if (has_avx2) return sample_by_avx2(arguments, texel);
+#endif
+  return sample_here(arguments, texel);
 }
 
 }  // namespace kaamos::shader
