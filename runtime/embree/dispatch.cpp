@@ -44,7 +44,7 @@ struct Tile {
 };
 
 // Asks for the texels of a row of invocations while the row above it runs: rows of a tile are too
-// short for a processor to foresee them. 3 % of northlight's frame.
+// short for a processor to foresee them. 3 % of frame/trace-shade.
 void fetch_row(const std::vector<Picture>& pictures, const Tile& tile, uint32_t y) {
   constexpr uint64_t kLine = 64;
   for (const Picture& picture : pictures) {
