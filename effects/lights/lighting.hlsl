@@ -42,8 +42,8 @@ bool IsBesideCone(float3 tip, float3 axis, float cosine, float3 center, float ra
   return across * cosine - along * sine > radius + 1e-3 * length(d);  // rounding: a little more
 }
 
-// One thread per cluster: x, and behind each other y and z. Lights stand in ascending order, so that a sum over a cluster adds up in
-// the order of a sum over all.
+// One thread per cluster: its x, then y and z one behind the other. Lights stand in ascending order, so
+// that a sum over a cluster adds up in the order of a sum over all.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BuildClusters(uint3 id : SV_DispatchThreadID) {

@@ -19,8 +19,8 @@ constexpr uint32_t kR8G8B8A8UnormSrgb = 29;
 // Filter numbers; anisotropic filters count as linear ones. [D3D12_ENCODE_BASIC_FILTER]
 constexpr uint32_t kAllLinear = 0x15, kAnisotropic = 0x40;
 
-using Channels = float __attribute__((vector_size(16)));
 using Floats4 = float __attribute__((vector_size(16)));
+using Channels = Floats4;
 using Ints4 = int32_t __attribute__((vector_size(16)));
 using Bytes4 = uint8_t __attribute__((vector_size(4)));
 
@@ -161,8 +161,7 @@ bool has_no_border(uint32_t mode) {
 
 bool sample_bytes(const SampleArguments& arguments, Texel& texel) {
 #if defined(__x86_64__)
-  static const bool has_avx2 = cpu_level() == CpuLevel::kAvx2;
-  if (has_avx2) return sample_by_avx2(arguments, texel);
+  if (cpu_level() == CpuLevel::kAvx2) return sample_by_avx2(arguments, texel);
 #endif
   return sample_here(arguments, texel);
 }

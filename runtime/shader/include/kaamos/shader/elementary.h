@@ -6,7 +6,7 @@
 // holds; `Every` says whether one holds for all.
 #pragma once
 
-#include "kaamos/shader/abi.h"
+#include "kaamos/shader/half.h"
 
 namespace kaamos::shader::op {
 
