@@ -3,20 +3,15 @@
 // what it emits itself, and the sky behind everything.
 #include "brdf.hlsli"
 #include "frame.hlsli"
-#include "sky.hlsli"
 
 static const float kPi = 3.14159265;
-
-float3 Sky(float3 direction) {
-  return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
-}
 
 // Mean radiance over the hemisphere about a normal, weighted by its cosine: the sky is a smooth
 // gradient, three directions are enough.
 float3 SkyAround(float3 normal) {
-  const float3 up = Sky(normal);
-  const float3 tilted = Sky(normalize(normal + float3(0.0, 0.8, 0.0)));
-  const float3 down = Sky(normalize(normal + float3(0.0, -0.8, 0.001)));
+  const float3 up = SkyTowards(normal);
+  const float3 tilted = SkyTowards(normalize(normal + float3(0.0, 0.8, 0.0)));
+  const float3 down = SkyTowards(normalize(normal + float3(0.0, -0.8, 0.001)));
   return (2.0 * up + tilted + down) * 0.25;
 }
 
@@ -33,7 +28,7 @@ void Composite(uint3 id : SV_DispatchThreadID) {
   const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
   if (g_ids[pixel].x == 0) {
     const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
-    radiance[pixel] = float4(Sky(normalize(direction)), 1.0);
+    radiance[pixel] = float4(SkyTowards(normalize(direction)), 1.0);
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
@@ -79,7 +74,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   const float2 ndc = (float2(pixel) + 0.5) / float2(width, height) * 2.0 - 1.0;
   if (g_ids[pixel].x == 0) {
     const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
-    radiance[pixel] = float4(Sky(normalize(direction)), 1.0);
+    radiance[pixel] = float4(SkyTowards(normalize(direction)), 1.0);
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);

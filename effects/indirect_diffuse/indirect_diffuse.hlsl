@@ -30,7 +30,7 @@ float RayLength() { return Contain(constants.length, kLongestRay); }
 float3 RadianceFromEnd(float3 jitter) {
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayLength() +
                      jitter * volume_constants[0].cell;
-  return VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
+  return VolumeRadiance(end, WorldRayDirection());
 }
 
 [shader("miss")]
@@ -90,8 +90,7 @@ void IndirectRayGen() {
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
-    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, shading_normal,
-                                                         SkyTowards(shading_normal)), 0.0);
+    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, shading_normal), 0.0);
     return;
   }
   const float4 before = indirect[pixel];  // asked for early: the rays cover the wait

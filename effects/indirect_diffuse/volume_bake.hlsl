@@ -4,7 +4,6 @@
 #include "hit_lighting.hlsli"
 #include "indirect_volume.hlsli"
 #include "sampling.hlsli"
-#include "sky.hlsli"
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
@@ -150,7 +149,7 @@ float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_fac
   for (uint bounce = 0; bounce <= constants.bounces; ++bounce) {
     const PathPayload hit = TracePath(origin, direction);
     if (hit.offset < 0.0) {
-      radiance += throughput * SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
+      radiance += throughput * SkyTowards(direction);
       break;
     }
     if (bounce == 0) back_face = hit.back_face != 0;

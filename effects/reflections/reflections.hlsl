@@ -29,7 +29,7 @@ struct ReflectionPayload {
 void ReflectionMiss(inout ReflectionPayload payload) {
   // Where the ray ends, not where it would have hit: the volume knows what comes from there on.
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-  payload.radiance = VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
+  payload.radiance = VolumeRadiance(end, WorldRayDirection());
   payload.distance = -1.0;
 }
 

@@ -9,6 +9,7 @@
 #include "geometry.hlsli"
 #include "lights.hlsli"
 #include "material.hlsli"
+#include "sky.hlsli"
 
 // World space here is relative to the camera: the camera stands at the origin.
 struct FrameConstants {
@@ -130,6 +131,11 @@ float3 Contain(float3 x, float largest) {
 // Dimension pairs of a pixel's samples: two effects never share one. [effects-spec B0.3]
 static const uint kAmbientOcclusionPair = 0;
 static const uint kSunPair = 1;
+
+// What a ray in that direction sees that leaves the scene.
+float3 SkyTowards(float3 direction) {
+  return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
+}
 
 // Registers of space3 are a pass's own. [effects/frame/pass_views.h]
 

@@ -10,14 +10,14 @@
 // where it mirrors, which is no picture, but keeps mirrors in mirrors from being black.
 float3 IndirectAtHit(Surface surface, float3 view) {
   float3 radiance = surface.base_color * (1.0 - surface.metallic) *
-                    VolumeIrradianceAt(surface.position, surface.normal, SkyTowards(surface.normal));
+                    VolumeIrradianceAt(surface.position, surface.normal);
   if (surface.metallic > 0.0) {
     // Its roughness is the one that lights see: never quite 0.
     const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
     const float3 mirrored = reflect(-view, surface.shading_normal);
     radiance += surface.metallic *
                 SpecularAlbedo(brdf.f0, sqrt(brdf.alpha), dot(surface.shading_normal, view)) *
-                VolumeRadianceAt(surface.position, surface.normal, mirrored, SkyTowards(mirrored));
+                VolumeRadianceAt(surface.position, surface.normal, mirrored);
   }
   return radiance;
 }

@@ -6,7 +6,6 @@
 #define KAAMOS_HIT_SHADING_HLSLI
 
 #include "hit_lighting.hlsli"
-#include "sky.hlsli"
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
@@ -27,10 +26,6 @@ float3 ShadeHit(Surface surface, float3 view, bool with_sun) {
   radiance += LocalLights(brdf, surface.position, surface.normal, surface.shading_normal, view);
   if (with_sun) radiance += SunAtHit(surface, brdf, view);
   return radiance;
-}
-
-float3 SkyTowards(float3 direction) {
-  return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
 }
 
 #endif

@@ -25,11 +25,12 @@ struct VolumeCell {
   uint4 green;
 };
 
-// Sums or means over cells: mean and slope of each colour.
+// Sums over cells: mean and slope of each colour.
 struct VolumeLight {
   float4 red;
   float4 green;
   float4 blue;
+  float weight;  // what the sums are to be divided by; 0: nothing is known here
 };
 
 StructuredBuffer<uint> volume_bricks : register(t0, space3);  // where a brick's cells start; kNoBrick
@@ -39,23 +40,31 @@ StructuredBuffer<VolumeConstants> volume_constants : register(t2, space3);
 static const uint kBrickCells = 8;  // along each axis
 static const uint kNoBrick = 0xFFFFFFFF;
 
-// The cell's index, or kNoBrick where nothing is stored.
-uint VolumeIndex(VolumeConstants volume, int3 cell) {
-  const uint3 at = uint3(cell);  // one that is less than zero lies outside as a large one does
-  if (any(at >= volume.bricks * kBrickCells)) return kNoBrick;
-  const uint3 brick = at / kBrickCells;
-  const uint start = volume_bricks[(brick.z * volume.bricks.y + brick.y) * volume.bricks.x + brick.x];
-  if (start == kNoBrick) return kNoBrick;
-  const uint3 inside = at % kBrickCells;
-  return start + (inside.z * kBrickCells + inside.y) * kBrickCells + inside.x;
+// Two neighbours along an axis: what they add to the number of their brick and to their place in it,
+// and how much they count. Outside the grid, where a cell below zero lies as a large one does, that
+// is nothing.
+struct CellPair {
+  uint2 brick;
+  uint2 place;
+  float2 share;
+};
+
+CellPair CellsAlong(int low, float part, uint bricks, uint brick_step, uint cell_step) {
+  const uint2 cell = uint2(low, low + 1);
+  const uint end = bricks * kBrickCells;
+  const uint2 inside = min(cell, end - 1);
+  CellPair pair;
+  pair.brick = inside / kBrickCells * brick_step;
+  pair.place = inside % kBrickCells * cell_step;
+  pair.share = float2(cell.x < end ? 1.0 - part : 0.0, cell.y < end ? part : 0.0);
+  return pair;
 }
 
-// Eight cells about a point, those in solids and those not stored left out. weight: how much of the
-// eight was there, and what the sums are to be divided by; 0: nothing is known here.
-VolumeLight SampleVolume(float3 position, out float weight) {
+// Eight cells about a point, those in solids and those not stored left out.
+VolumeLight SampleVolume(float3 position) {
   VolumeLight sum;
   sum.red = sum.green = sum.blue = float4(0, 0, 0, 0);
-  weight = 0.0;
+  sum.weight = 0.0;
   const VolumeConstants volume = volume_constants[0];
   if (volume.enabled == 0) return sum;
   const float3 at = (position - volume.origin) / volume.cell - 0.5;
@@ -63,58 +72,60 @@ VolumeLight SampleVolume(float3 position, out float weight) {
   if (any(abs(at) > 1e6)) return sum;
   const float3 corner = floor(at);
   const float3 part = at - corner;
-  // Mostly all eight lie in one brick, which is looked up once.
-  const int3 low = int3(corner);
-  const uint3 last = uint3(kBrickCells - 1, kBrickCells - 1, kBrickCells - 1);
-  const bool one_brick = all(low >= int3(0, 0, 0)) && all(uint3(low) % kBrickCells != last);
-  const uint first = one_brick ? VolumeIndex(volume, low) : 0;
-  if (first == kNoBrick) return sum;
+  const uint3 bricks = volume.bricks;
+  const CellPair x = CellsAlong(int(corner.x), part.x, bricks.x, 1, 1);
+  const CellPair y = CellsAlong(int(corner.y), part.y, bricks.y, bricks.x, kBrickCells);
+  const CellPair z = CellsAlong(int(corner.z), part.z, bricks.z, bricks.x * bricks.y,
+                                kBrickCells * kBrickCells);
   [unroll] for (uint i = 0; i < 8; ++i) {
-    const uint3 offset = uint3(i & 1, (i >> 1) & 1, i >> 2);
-    const uint index = one_brick ? first + (offset.z * kBrickCells + offset.y) * kBrickCells + offset.x
-                                 : VolumeIndex(volume, low + int3(offset));
-    if (index == kNoBrick) continue;
-    const VolumeCell cell = volume_cells[index];
+    const bool right = (i & 1) != 0;
+    const bool upper = (i & 2) != 0;
+    const bool far = (i & 4) != 0;
+    const uint start = volume_bricks[(right ? x.brick.y : x.brick.x) +
+                                     (upper ? y.brick.y : y.brick.x) + (far ? z.brick.y : z.brick.x)];
+    if (start == kNoBrick) continue;
+    const VolumeCell cell = volume_cells[start + (right ? x.place.y : x.place.x) +
+                                         (upper ? y.place.y : y.place.x) +
+                                         (far ? z.place.y : z.place.x)];
     if (int(cell.red.x) < 0) continue;
-    const float w = (offset.x == 1 ? part.x : 1.0 - part.x) * (offset.y == 1 ? part.y : 1.0 - part.y) *
-                    (offset.z == 1 ? part.z : 1.0 - part.z);
+    const float w = (right ? x.share.y : x.share.x) * (upper ? y.share.y : y.share.x) *
+                    (far ? z.share.y : z.share.x);
     sum.red += w * asfloat(cell.red & kUpper);
     sum.green += w * asfloat(cell.green & kUpper);
     sum.blue += w * asfloat(cell.red << 21 | (cell.green & ~kUpper) << 10);
-    weight += w;
+    sum.weight += w;
   }
   // Only weights that are more than rounding are worth dividing by.
-  if (weight < 1e-3) weight = 0.0;
+  if (sum.weight < 1e-3) sum.weight = 0.0;
   return sum;
 }
 
 // What is sent towards a direction, times `slope_scale` of what depends on it; the sky's where
 // nothing is stored.
-float3 VolumeTowards(float3 position, float3 direction, float slope_scale, float3 fallback) {
-  float weight;
-  const VolumeLight light = SampleVolume(position, weight);
-  if (weight == 0.0) return fallback;
+float3 VolumeTowards(float3 position, float3 direction, float slope_scale) {
+  const VolumeLight light = SampleVolume(position);
+  if (light.weight == 0.0) return SkyTowards(direction);
   const float4 terms = float4(1.0, direction * slope_scale);
-  return max(float3(dot(light.red, terms), dot(light.green, terms), dot(light.blue, terms)) / weight,
-             float3(0, 0, 0));
+  const float3 sum = float3(dot(light.red, terms), dot(light.green, terms), dot(light.blue, terms));
+  return max(sum / light.weight, float3(0, 0, 0));
 }
 
 // Radiance that arrives at a point from a direction.
-float3 VolumeRadiance(float3 position, float3 direction, float3 fallback) {
-  return VolumeTowards(position, direction, 1.0, fallback);
+float3 VolumeRadiance(float3 position, float3 direction) {
+  return VolumeTowards(position, direction, 1.0);
 }
 
 // Irradiance over pi on a surface: what a white diffuse surface sends back.
-float3 VolumeIrradiance(float3 position, float3 normal, float3 fallback) {
-  return VolumeTowards(position, normal, 2.0 / 3.0, fallback);
+float3 VolumeIrradiance(float3 position, float3 normal) {
+  return VolumeTowards(position, normal, 2.0 / 3.0);
 }
 
 // The same two of a surface: half a cell off it, so that the cells behind it count less.
-float3 VolumeIrradianceAt(float3 position, float3 normal, float3 fallback) {
-  return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), normal, fallback);
+float3 VolumeIrradianceAt(float3 position, float3 normal) {
+  return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), normal);
 }
-float3 VolumeRadianceAt(float3 position, float3 normal, float3 direction, float3 fallback) {
-  return VolumeRadiance(position + normal * (0.5 * volume_constants[0].cell), direction, fallback);
+float3 VolumeRadianceAt(float3 position, float3 normal, float3 direction) {
+  return VolumeRadiance(position + normal * (0.5 * volume_constants[0].cell), direction);
 }
 
 #endif

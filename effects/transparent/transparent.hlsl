@@ -95,8 +95,7 @@ void Remember(inout GlassPayload payload) {
 float3 LayerLight(Surface surface, Brdf brdf, float3 view, float sun_visibility) {
   float3 light = surface.emissive;
   light += LocalLights(brdf, surface.position, surface.normal, surface.shading_normal, view);
-  light += brdf.diffuse * VolumeIrradianceAt(surface.position, surface.normal,
-                                             SkyTowards(surface.normal));
+  light += brdf.diffuse * VolumeIrradianceAt(surface.position, surface.normal);
   if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     light += frame.sun_irradiance *
              EvaluateBrdf(brdf, surface.shading_normal, view, frame.direction_to_sun) *
@@ -162,7 +161,7 @@ void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectio
 void TransparentMiss(inout GlassPayload payload) {
   if (payload.kind == kMirrorRay) {
     const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-    payload.radiance = VolumeRadiance(end, WorldRayDirection(), SkyTowards(WorldRayDirection()));
+    payload.radiance = VolumeRadiance(end, WorldRayDirection());
   }
 }
 

@@ -228,6 +228,19 @@ void CppEmitter::look_up_once(const Function& function) {
   }
 }
 
+namespace {
+
+bool ends_in_its_only_return(const Function& function) {
+  if (function.body.empty() || function.body.back()->kind != StmtKind::kReturn) return false;
+  size_t returns = 0;
+  visit(
+      function.body, [](const Expr&) {},
+      [&](const Stmt& stmt) { returns += stmt.kind == StmtKind::kReturn; });
+  return returns == 1;
+}
+
+}  // namespace
+
 void CppEmitter::emit_function(const Function& function) {
   current_ = &function;
   local_names_.push();
@@ -242,8 +255,10 @@ void CppEmitter::emit_function(const Function& function) {
   resources_found_.clear();
   views_found_.clear();
   at(function.end_location);
-  // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
-  if (function.result->kind != TypeKind::kVoid) {
+  // Where HLSL code can fall off the end of a function, its result is undefined: zero here. Nothing
+  // behind an only return: it lets the C++ compiler build the variable that is returned in place.
+  // Functions with more returns are better off with it in registers until they end.
+  if (function.result->kind != TypeKind::kVoid && !ends_in_its_only_return(function)) {
     line("return " + type(function.result) + "{};");
     at(function.end_location);
   }

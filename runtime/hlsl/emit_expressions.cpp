@@ -110,6 +110,14 @@ std::string component_list(const std::vector<uint8_t>& components) {
   return out;
 }
 
+// A variable that is a vector, or such a field of one: nothing to evaluate.
+bool is_vector_in_place(const Expr& expr) {
+  if (expr.type->kind != TypeKind::kVector) return false;
+  const Expr* place = &expr;
+  while (place->kind == ExprKind::kField) place = place->operands[0];
+  return place->kind == ExprKind::kVariable;
+}
+
 bool all_scalar(const std::vector<const Expr*>& operands) {
   for (const Expr* operand : operands) {
     if (operand->type->kind != TypeKind::kScalar) {
@@ -444,6 +452,9 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kSelect:
       return call("ks::select", expr.operands);
     case ExprKind::kConditional:
+      if (is_vector_in_place(*expr.operands[1]) && is_vector_in_place(*expr.operands[2])) {
+        return call("ks::select", expr.operands);
+      }
       return "(" + value(expr.operands[0]) + " ? " + value(expr.operands[1]) + " : " +
              value(expr.operands[2]) + ")";
     case ExprKind::kLogicalAnd:

@@ -22,6 +22,17 @@ KAAMOS_CONSTEXPR Sum<T> widen(T x) {
 // a[0] * b[0] + a[1] * b[1] + ...
 template <class T, int N>
 KAAMOS_CONSTEXPR Sum<T> dot_sum(const vec<T, N>& a, const vec<T, N>& b) {
+  if constexpr (std::is_same_v<T, float> && N == 4) {
+    // The same products, said as one operation: from here gcc finds that what leads to float4s can
+    // be done on all four at once.
+    if (!std::is_constant_evaluated()) {
+      using Four = float __attribute__((vector_size(16)));
+      const Four left = {a.e[0], a.e[1], a.e[2], a.e[3]};
+      const Four right = {b.e[0], b.e[1], b.e[2], b.e[3]};
+      const Four products = left * right;
+      return ((products[0] + products[1]) + products[2]) + products[3];
+    }
+  }
   Sum<T> sum = Multiply::apply(widen(a.e[0]), widen(b.e[0]));
   unroll<N - 1>([&](int i) KAAMOS_INLINE_LAMBDA {
     sum = Add::apply(sum, Multiply::apply(widen(a.e[i + 1]), widen(b.e[i + 1])));

@@ -282,6 +282,13 @@ template <class V>
 KAAMOS_CONSTEXPR V select(bool condition, const V& a, const V& b) {
   return condition ? a : b;
 }
+// Component by component: choosing between two places and copying from there waits for both.
+template <class T, int N>
+KAAMOS_CONSTEXPR vec<T, N> select(bool condition, const vec<T, N>& a, const vec<T, N>& b) {
+  vec<T, N> result{};
+  unroll<N>([&](int i) KAAMOS_INLINE_LAMBDA { result.e[i] = condition ? a.e[i] : b.e[i]; });
+  return result;
+}
 template <class T, int N>
 KAAMOS_CONSTEXPR vec<T, N> select(const vec<bool, N>& condition, const vec<T, N>& a,
                                   const vec<T, N>& b) {
