@@ -78,13 +78,13 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-  const float3 view = normalize(-g_position[pixel].xyz);
   const float roughness = g_material[pixel].x;
   const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
+  const BrdfView view = MakeBrdfView(brdf, normal, normalize(-g_position[pixel].xyz));
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {
     sum += frame.sun_irradiance * sun_visibility[pixel].x *
-           EvaluateBrdf(brdf, normal, view, frame.direction_to_sun);
+           EvaluateBrdf(brdf, view, frame.direction_to_sun);
   }
   if ((compose.has & kHasLocalLights) != 0) sum += local_lights[pixel].rgb;
   if ((compose.has & kHasIndirect) != 0) {
@@ -94,7 +94,7 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
     sum += brdf.diffuse * SkyAround(normal) * open;
   }
   if ((compose.has & kHasReflections) != 0) {
-    sum += SpecularAlbedo(brdf.f0, roughness, max(dot(normal, view), 1e-4)) * reflection[pixel].rgb;
+    sum += SpecularAlbedo(brdf.f0, roughness, view.cosine) * reflection[pixel].rgb;
   }
   radiance[pixel] = float4(sum, 1.0);
 }

@@ -18,7 +18,10 @@ Brdf PixelBrdf(uint2 pixel) {
   return MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, g_material[pixel].x);
 }
 
-float3 PixelView(uint2 pixel) { return normalize(-g_position[pixel].xyz); }
+BrdfView PixelView(uint2 pixel, Brdf brdf) {
+  return MakeBrdfView(brdf, OctahedralDecode(g_shading_normal[pixel]),
+                      normalize(-g_position[pixel].xyz));
+}
 
 [shader("compute")]
 [numthreads(8, 8, 1)]
@@ -34,8 +37,7 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   const Brdf brdf = PixelBrdf(pixel);
   const float3 position = g_position[pixel].xyz;
   const float3 geometric_normal = OctahedralDecode(g_normal[pixel]);
-  const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-  const float3 view = PixelView(pixel);
+  const BrdfView view = PixelView(pixel, brdf);
   const ClusterRange range = ClusterLights(position);
 
   // Every light's shadow map is read once: a light stays out of the sum while it is the strongest of
@@ -46,7 +48,7 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   for (uint i = 0; i < range.count; ++i) {
     uint light = ClusterLight(range, i);
     const uint kind = lights[light].is_spot;
-    float3 radiance = LightRadiance(lights[light], brdf, position, normal, view);
+    float3 radiance = LightRadiance(lights[light], brdf, view, position);
     if (!(RadianceLuminance(radiance) > 0.0)) continue;
     if (RadianceLuminance(radiance) > RadianceLuminance(best_radiance[kind])) {
       const uint weaker = best[kind];
@@ -87,13 +89,12 @@ void AddStrongest(uint3 id : SV_DispatchThreadID) {
     const Brdf brdf = PixelBrdf(pixel);
     const float3 position = g_position[pixel].xyz;
     const float3 geometric_normal = OctahedralDecode(g_normal[pixel]);
-    const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-    const float3 view = PixelView(pixel);
+    const BrdfView view = PixelView(pixel, brdf);
     for (uint kind = 0; kind < 2; ++kind) {
       const uint light = strongest[pixel][kind];
       if (light == kNoLight) continue;
       sum += contact[pixel][kind] *
-             ShadowedLightRadiance(light, brdf, position, geometric_normal, normal, view);
+             ShadowedLightRadiance(light, brdf, view, position, geometric_normal);
     }
   }
   total[pixel] = float4(sum, 1.0);

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "effects/common/sampling.h"
 
 namespace kaamos::effects {
 
@@ -10,6 +14,10 @@ namespace {
 
 // More than a sun as a point has (3e27 cd). With it the square of a range is still a float.
 constexpr float kStrongestIntensity = 1e30f;
+
+// A light without a radius is taken for one that small against its range, so that it is not infinite
+// in its own place: the range is that of 1e-3 lux where a scene names none, so this is 1e11 lux.
+constexpr float kLeastRadius = 1e-7f;
 
 bool is_finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -43,6 +51,23 @@ void set_cone(LightConstants& out, const Light& light) {
   out.cos_outer = std::max(outer, 0.05f);  // flat maps do not reach a half space
 }
 
+// What follows from the rest and no shader should find out again at every point.
+void derive(LightConstants& light) {
+  light.over_range = 1.0f / light.range;
+  light.over_least_distance = 1.0f / std::max({light.radius, kLeastRadius * light.range,
+                                               std::numeric_limits<float>::min()});
+  if (light.is_spot == 0) {
+    // An octahedral map covers 4 pi with its texels; the mean is good to a factor of two.
+    light.map_texel = std::sqrt(4.0f * std::numbers::pi_v<float>) / kShadowTile;
+    return;
+  }
+  const float cosine = light.cos_outer;
+  const float tangent = std::max(std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)) / cosine, 1e-6f);
+  light.map_right = to_world({1, 0, 0}, light.direction) / tangent;
+  light.map_up = glm::cross(light.direction, light.map_right);
+  light.map_texel = 2.0f * tangent / kShadowTile;
+}
+
 }  // namespace
 
 std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3& origin) {
@@ -66,6 +91,7 @@ std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3
     out.spot_offset = 1.0f;
     if (light.type == LightType::kSpot) set_cone(out, light);
     if (!is_whole(out)) darken(out);
+    derive(out);
     lights.push_back(out);
   }
   return lights;

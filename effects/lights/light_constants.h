@@ -20,10 +20,18 @@ struct LightConstants {
   float spot_scale;     ///< cone falloff = saturate(cos * scale + offset)^2; 0 for a point light
   float spot_offset;    ///< 1 for a point light
   std::uint32_t is_spot;
-  float cos_outer;  ///< of a spot's cone, at least 0.05; its shadow map ends there
-  std::uint32_t padding;
+  float cos_outer;   ///< of a spot's cone, at least 0.05; its shadow map ends there
+  float over_range;  ///< 1 / range
+  /// A spot's shadow map: direction d stands at dot(d, axis) / dot(d, direction), from -1 to 1.
+  glm::vec3 map_right;
+  float over_least_distance;  ///< 1 / metres; a nearer point is lit as one that far away
+  glm::vec3 map_up;
+  float map_texel;  ///< radians that a texel of the shadow map covers
 };
-static_assert(sizeof(LightConstants) == 64);
+static_assert(sizeof(LightConstants) == 96);
+
+/// Texels, of the side of a light's shadow map.
+inline constexpr std::uint32_t kShadowTile = 128;
 
 /// Illuminance, in lux, that a light without a range of its own is cut off at.
 inline constexpr float kCutOffIlluminance = 1e-3f;

@@ -10,15 +10,15 @@
 #include "effects/frame/compute_pass.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/ray_pass.h"
+#include "effects/lights/light_constants.h"
 
 namespace kaamos::effects {
 
-// Mirrors hit_lighting.hlsli.
+// Mirrors hit_lighting.hlsli, as kShadowTile does.
 inline constexpr std::uint32_t kClusterCells = 32;
 inline constexpr std::uint32_t kClusterCount = kClusterCells * kClusterCells * kClusterCells;
 inline constexpr std::uint32_t kClusterCapacity = 64;
 inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
-inline constexpr std::uint32_t kShadowTile = 128;
 inline constexpr std::uint32_t kShadowTilesPerRow = 32;
 
 rtapi::Result<rtapi::ShaderLibrary> lighting_library();

@@ -79,7 +79,7 @@ static const float kLeastCosine = 0.02;
 
 [shader("miss")]
 void ShadowAtlasMiss(inout OccluderPayload payload) {
-  payload.occluder = float4(0, 0, 0, kNoOccluder);
+  payload.occluder = float4(0, 0, 0, 0);
 }
 
 [shader("anyhit")]
@@ -100,7 +100,7 @@ void ShadowAtlasClosestHit(inout OccluderPayload payload, in BuiltInTriangleInte
   const float3 direction = WorldRayDirection();
   const float cosine = dot(normal, direction);
   const bool faces = abs(cosine) > kLeastCosine;
-  payload.occluder = float4((faces ? normal / cosine : direction) / RayTCurrent(), RayTCurrent());
+  payload.occluder = float4(faces ? normal / cosine : direction, 1.0) / RayTCurrent();
 }
 
 [shader("raygeneration")]
@@ -117,7 +117,7 @@ void ShadowAtlasRayGen() {
   ray.TMin = min(light.radius, light.range);
   ray.TMax = light.range;
   OccluderPayload payload;
-  payload.occluder = float4(0, 0, 0, kNoOccluder);
+  payload.occluder = float4(0, 0, 0, 0);
   TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
   shadow_atlas[texel] = payload.occluder;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -208,6 +209,20 @@ rtapi::Status add_textures(const Device& device, CommandQueue& queue, const Scen
   return {};
 }
 
+std::vector<MaterialConstants> material_constants(const Scene& scene) {
+  std::vector<MaterialConstants> out;
+  for (const Material& material : scene.materials) {
+    MaterialConstants& constants = out.emplace_back(material.constants);
+    for (std::uint32_t slot = 0; slot < kTextureSlotCount; ++slot) {
+      if (constants.image[slot] == kNoTexture) continue;
+      const TextureImage& image = scene.images[static_cast<std::size_t>(constants.image[slot])];
+      constants.one_texel_level[slot] =
+          0.5f * std::log2(static_cast<float>(image.width) * static_cast<float>(image.height));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
@@ -221,10 +236,7 @@ rtapi::Result<GpuScene> upload_scene(const Device& device, CommandQueue& queue,
       return added.error();
     }
   }
-  std::vector<MaterialConstants> constants;
-  for (const Material& material : scene.materials) {
-    constants.push_back(material.constants);
-  }
+  const std::vector<MaterialConstants> constants = material_constants(scene);
   auto materials = CreateUploadBuffer(device, constants, "materials");
   if (!materials) return materials.error();
   out.materials = *materials;

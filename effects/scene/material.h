@@ -52,11 +52,15 @@ struct MaterialConstants {
   std::array<glm::vec4, kTextureSlotCount> uv_matrix{glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1),
                                                      glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1)};
   std::array<glm::vec2, kTextureSlotCount> uv_offset{};
+  /// Level of detail at which the image is one texel, log2(width * height) / 2, per TextureSlot.
+  /// upload_scene sets it.
+  std::array<float, kTextureSlotCount> one_texel_level{};
 };
-static_assert(sizeof(MaterialConstants) == 176);
+static_assert(sizeof(MaterialConstants) == 192);
 static_assert(offsetof(MaterialConstants, image) == 48);
 static_assert(offsetof(MaterialConstants, uv_matrix) == 80);
 static_assert(offsetof(MaterialConstants, uv_offset) == 144);
+static_assert(offsetof(MaterialConstants, one_texel_level) == 176);
 
 /// A material with its name, which the GPU does not see.
 struct Material {

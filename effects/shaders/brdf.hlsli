@@ -42,19 +42,41 @@ float GgxDensity(float alpha, float cosine_half) {
   return a2 / (kBrdfPi * d * d);
 }
 
-// Reflectance times cosine: what a surface with this normal sends towards `view` of irradiance 1
-// that arrives, on a surface that faces it, from `light`.
-float3 EvaluateBrdf(Brdf brdf, float3 normal, float3 view, float3 light) {
-  const float n_l = dot(normal, light);
-  const float n_v = max(dot(normal, view), 1e-4f);
+// cosine * (1 + 2 Lambda), without a division that fails at grazing angles.
+float GgxShadowing(float alpha, float cosine) {
+  const float a2 = alpha * alpha;
+  return sqrt(a2 + (1.0f - a2) * (cosine * cosine));
+}
+
+// Where a surface is seen from, and what of its reflectance all lights have in common.
+struct BrdfView {
+  float3 normal;
+  float3 direction;  // towards the eye
+  float cosine;      // with the normal, a little above 0 at least
+  float shadowing;   // GgxShadowing of that
+};
+
+BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
+  BrdfView view;
+  view.normal = normal;
+  view.direction = direction;
+  view.cosine = max(dot(normal, direction), 1e-4f);
+  view.shadowing = GgxShadowing(brdf.alpha, view.cosine);
+  return view;
+}
+
+// Reflectance times cosine: what a surface sends towards `view` of irradiance 1 that arrives, on a
+// surface that faces it, from `light`. GGX's density times Smith's visibility, whose divisor, 4 n_v
+// n_l (1 + Lambda(n_v) + Lambda(n_l)), is that of both directions' shadowing.
+float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
+  const float n_l = dot(view.normal, light);
   if (!(n_l > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
-  const float3 half_vector = normalize(view + light);
-  const float3 fresnel = FresnelSchlick(brdf.f0, dot(view, half_vector));
-  const float visibility =
-      1.0f / ((1.0f + GgxLambda(brdf.alpha, n_v) + GgxLambda(brdf.alpha, n_l)) * 4.0f * n_v * n_l);
-  const float3 specular =
-      fresnel * (GgxDensity(brdf.alpha, saturate(dot(normal, half_vector))) * visibility);
-  return (brdf.diffuse * (1.0f / kBrdfPi) + specular) * n_l;
+  const float3 half_vector = normalize(view.direction + light);
+  const float3 fresnel = FresnelSchlick(brdf.f0, dot(view.direction, half_vector));
+  const float both = n_l * view.shadowing + view.cosine * GgxShadowing(brdf.alpha, n_l);
+  const float specular =
+      GgxDensity(brdf.alpha, saturate(dot(view.normal, half_vector))) / (2.0f * both);
+  return (brdf.diffuse * (1.0f / kBrdfPi) + fresnel * specular) * n_l;
 }
 
 // A half vector with the density that GGX's facets have as seen from `view`, all about +Z.

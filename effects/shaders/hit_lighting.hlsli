@@ -11,7 +11,7 @@
 
 // effects/lights/lighting.h binds these for a pass, and holds the same numbers.
 // What a light sees through a texel: the plane that it met, all p from the light with dot(xyz, p) = 1,
-// and how far away that was, metres. Nothing: 0, 0, 0, kNoOccluder.
+// and 1 over how far away that was, metres. Nothing: 0.
 RWTexture2D<float4> shadow_atlas : register(u16, space3);
 RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
 RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
@@ -24,7 +24,6 @@ static const uint kClusterOverflow = 0xFFFFFFFF;
 
 static const uint kShadowTile = 128;         // texels, of a light's map
 static const uint kShadowTilesPerRow = 32;
-static const float kNoOccluder = 1e30;
 static const float kShadowOffset = 1.5;      // texels, of a point along its normal
 static const float kShadowTolerance = 0.5;   // texels, behind an occluder that count as before it
 
@@ -72,23 +71,14 @@ float RadianceLuminance(float3 radiance) {
   return dot(radiance, float3(0.2126, 0.7152, 0.0722));
 }
 
-// Some unit vector at right angles to `n`, the same for the same n. [Duff et al. 2017]
-float3 ToWorldAxis(float3 n) {
-  const float s = n.z >= 0.0 ? 1.0 : -1.0;
-  const float a = -1.0 / (s + n.z);
-  return float3(1.0 + s * n.x * n.x * a, s * n.x * n.y * a, -s * n.x);
-}
-
-// Where a direction from a light stands in its map, 0..1: spots see their cone, points everything.
-float2 ShadowMapUv(LightConstants light, float3 direction) {
+// Where a direction from a light, that long, stands in its map, 0..1: spots see their cone, points
+// everything.
+float2 ShadowMapUv(LightConstants light, float3 direction, float length) {
   if (light.is_spot == 0) {
     return OctahedralEncode(direction) * 0.5 + 0.5;
   }
-  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
-  const float3 x = ToWorldAxis(light.direction);
-  const float3 y = cross(light.direction, x);
-  const float along = max(dot(direction, light.direction), 1e-6);
-  return float2(dot(direction, x), dot(direction, y)) / (along * tangent) * 0.5 + 0.5;
+  const float along = max(dot(direction, light.direction), 1e-6 * length);
+  return float2(dot(direction, light.map_right), dot(direction, light.map_up)) * (0.5 / along) + 0.5;
 }
 
 // The direction of a point of a light's map: the inverse.
@@ -96,23 +86,13 @@ float3 ShadowMapDirection(LightConstants light, float2 uv) {
   if (light.is_spot == 0) {
     return OctahedralDecode(uv * 2.0 - 1.0);
   }
-  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
-  const float3 x = ToWorldAxis(light.direction);
-  const float3 y = cross(light.direction, x);
-  const float2 p = (uv * 2.0 - 1.0) * tangent;
-  return normalize(light.direction + p.x * x + p.y * y);
+  // The axes are as long as 1 over the cone's tangent.
+  const float2 p = (uv * 2.0 - 1.0) / dot(light.map_right, light.map_right);
+  return normalize(light.direction + p.x * light.map_right + p.y * light.map_up);
 }
 
 uint2 ShadowTileOrigin(uint light) {
   return uint2(light % kShadowTilesPerRow, light / kShadowTilesPerRow) * kShadowTile;
-}
-
-// Angle that a texel of a light's map covers, radians.
-float ShadowTexelAngle(LightConstants light) {
-  // An octahedral map covers 4 pi with its texels; the mean is good to a factor of two.
-  if (light.is_spot == 0) return sqrt(4.0 * kBrdfPi) / float(kShadowTile);
-  const float tangent = sqrt(max(0.0, 1.0 - light.cos_outer * light.cos_outer)) / light.cos_outer;
-  return 2.0 * tangent / float(kShadowTile);
 }
 
 // Whether a point, given from the light, lies behind what a texel saw. Planes are compared, not
@@ -120,7 +100,7 @@ float ShadowTexelAngle(LightConstants light) {
 // not, so that no wall shadows itself, nor another one in the corner that they share. A plane is
 // good for the surroundings of its texel only: within a factor of two of the distance.
 bool IsBehind(float4 occluder, float3 from_light, float receiver, float tolerance) {
-  const float ratio = receiver / occluder.w;
+  const float ratio = receiver * occluder.w;
   const float along = clamp(dot(occluder.xyz, from_light), 0.5 * ratio, 2.0 * ratio);
   return along * receiver > receiver + tolerance * along;
 }
@@ -128,12 +108,11 @@ bool IsBehind(float4 occluder, float3 from_light, float receiver, float toleranc
 // Visibility of a light by its map, four texels weighted. The point moves along its normal by a part
 // of what a texel covers there: round things lie behind the planes beside them. [effects-spec B2.1]
 float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3 normal) {
-  const float distance = length(position - light.position);
-  const float texel = distance * ShadowTexelAngle(light);
+  const float texel = length(position - light.position) * light.map_texel;
   const float3 from_light = position + normal * (kShadowOffset * texel) - light.position;
   const float receiver = length(from_light);
   if (!(receiver > 0.0)) return 1.0;
-  const float2 at = ShadowMapUv(light, from_light / receiver) * float(kShadowTile) - 0.5;
+  const float2 at = ShadowMapUv(light, from_light, receiver) * float(kShadowTile) - 0.5;
   const int2 corner = int2(floor(at));
   const float2 part = at - floor(at);
   const uint2 origin = ShadowTileOrigin(id);
@@ -150,16 +129,16 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
 }
 
 // What one light sends by a surface towards `view`, without shadow.
-float3 LightRadiance(LightConstants light, Brdf brdf, float3 position, float3 normal, float3 view) {
+float3 LightRadiance(LightConstants light, Brdf brdf, BrdfView view, float3 position) {
   const LightSample s = SampleLight(light, position);
   if (!any(s.irradiance > 0.0)) return float3(0, 0, 0);
-  return s.irradiance * EvaluateBrdf(brdf, normal, view, s.direction);
+  return s.irradiance * EvaluateBrdf(brdf, view, s.direction);
 }
 
-float3 ShadowedLightRadiance(uint id, Brdf brdf, float3 position, float3 geometric_normal,
-                             float3 normal, float3 view) {
+float3 ShadowedLightRadiance(uint id, Brdf brdf, BrdfView view, float3 position,
+                             float3 geometric_normal) {
   const LightConstants light = lights[id];
-  const float3 radiance = LightRadiance(light, brdf, position, normal, view);
+  const float3 radiance = LightRadiance(light, brdf, view, position);
   if (!(RadianceLuminance(radiance) > 0.0)) return float3(0, 0, 0);
   return radiance * ShadowMapVisibility(id, light, position, geometric_normal);
 }
@@ -188,12 +167,11 @@ uint ClusterLight(ClusterRange range, uint index) {
 }
 
 // All local lights at a point, with their shadow maps.
-float3 LocalLights(Brdf brdf, float3 position, float3 geometric_normal, float3 normal, float3 view) {
+float3 LocalLights(Brdf brdf, BrdfView view, float3 position, float3 geometric_normal) {
   const ClusterRange range = ClusterLights(position);
   float3 sum = float3(0, 0, 0);
   for (uint i = 0; i < range.count; ++i) {
-    sum += ShadowedLightRadiance(ClusterLight(range, i), brdf, position, geometric_normal, normal,
-                                 view);
+    sum += ShadowedLightRadiance(ClusterLight(range, i), brdf, view, position, geometric_normal);
   }
   return sum;
 }

@@ -10,20 +10,21 @@
 #include "visibility.hlsli"
 
 // The sun's light by a surface, shadowed by one ray to its middle.
-float3 SunAtHit(Surface surface, Brdf brdf, float3 view) {
+float3 SunAtHit(Surface surface, Brdf brdf, BrdfView view) {
   if (!(dot(surface.normal, frame.direction_to_sun) > 0.0)) return float3(0, 0, 0);
-  const float3 unshadowed = frame.sun_irradiance *
-                            EvaluateBrdf(brdf, surface.shading_normal, view, frame.direction_to_sun);
+  const float3 unshadowed =
+      frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun);
   if (!(RadianceLuminance(unshadowed) > 0.0)) return float3(0, 0, 0);
   return unshadowed * TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
                                       frame.direction_to_sun, kSunDistance);
 }
 
-// Radiance from a hit towards where the ray came from, without indirect light.
-float3 ShadeHit(Surface surface, float3 view, bool with_sun) {
+// Radiance from a hit in a direction, that where the ray came from, without indirect light.
+float3 ShadeHit(Surface surface, float3 direction, bool with_sun) {
   const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
+  const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 radiance = surface.emissive;
-  radiance += LocalLights(brdf, surface.position, surface.normal, surface.shading_normal, view);
+  radiance += LocalLights(brdf, view, surface.position, surface.normal);
   if (with_sun) radiance += SunAtHit(surface, brdf, view);
   return radiance;
 }

@@ -14,7 +14,12 @@ struct LightConstants {
   float spot_offset;
   uint is_spot;
   float cos_outer;  // of a spot's cone; its map ends there
-  uint padding;
+  float over_range;  // 1 / range
+  // A spot's map: a direction d stands at dot(d, axis) / dot(d, direction), from -1 to 1.
+  float3 map_right;
+  float over_least_distance;  // 1 / metres: nearer points are lit as one that near
+  float3 map_up;
+  float map_texel;  // radians that a texel of the map covers
 };
 
 struct LightSample {
@@ -23,10 +28,6 @@ struct LightSample {
   float3 irradiance;   // on a surface that faces the light
 };
 
-// A light without a radius is taken for one that small against its range, so that it is not infinite
-// in its own place: the range is that of 1e-3 lux where a scene names none, so this is 1e11 lux.
-static const float kLeastRadius = 1e-7f;
-
 // Inverse square law, cut off at the range smoothly. A point inside the light's sphere sees it from
 // its surface. [KHR_lights_punctual; effects-spec B1.3]
 LightSample SampleLight(LightConstants light, float3 position) {
@@ -34,18 +35,18 @@ LightSample SampleLight(LightConstants light, float3 position) {
   const float distance_squared = dot(to_light, to_light);
   LightSample result;
   result.distance = sqrt(distance_squared);
-  result.direction = distance_squared > 0.0f ? to_light / result.distance : -light.direction;
+  const float over_distance = 1.0f / result.distance;
+  result.direction = distance_squared > 0.0f ? to_light * over_distance : -light.direction;
   result.irradiance = float3(0.0f, 0.0f, 0.0f);
-  const float ratio = result.distance / light.range;
+  const float ratio = result.distance * light.over_range;
   const float ratio_squared = ratio * ratio;
   const float window = saturate(1.0f - ratio_squared * ratio_squared);
   const float cone =
       saturate(dot(-result.direction, light.direction) * light.spot_scale + light.spot_offset);
   // Most lights that are near a point do not reach it.
   if (!(window * cone > 0.0f)) return result;
-  const float least = max(light.radius, kLeastRadius * light.range);
-  result.irradiance =
-      light.intensity * (window * window * cone * cone / max(distance_squared, least * least));
+  const float root = window * cone * min(over_distance, light.over_least_distance);
+  result.irradiance = light.intensity * (root * root);
   return result;
 }
 

@@ -17,7 +17,7 @@ static const uint kMaterialAlphaTested = 8u;
 
 static const int kNoTexture = -1;
 
-// 176 bytes. Colours are linear.
+// 192 bytes. Colours are linear.
 struct MaterialConstants {
   float4 base_color;
   float3 emissive;
@@ -30,6 +30,7 @@ struct MaterialConstants {
   uint sampler_id[4];  // into the sampler array
   float4 uv_matrix[4];
   float2 uv_offset[4];
+  float one_texel_level[4];  // level of detail at which a texture is one texel
 };
 
 bool HasTexture(MaterialConstants material, uint slot) { return material.image[slot] >= 0; }

@@ -243,6 +243,7 @@ TEST(HlslMirror, MaterialLayout) {
   static_assert(offsetof(Shader, sampler_id) == offsetof(MaterialConstants, sampler));
   static_assert(offsetof(Shader, uv_matrix) == offsetof(MaterialConstants, uv_matrix));
   static_assert(offsetof(Shader, uv_offset) == offsetof(MaterialConstants, uv_offset));
+  static_assert(offsetof(Shader, one_texel_level) == offsetof(MaterialConstants, one_texel_level));
   EXPECT_EQ(hlsl::kBaseColorTexture, kBaseColorTexture);
   EXPECT_EQ(hlsl::kMetallicRoughnessTexture, kMetallicRoughnessTexture);
   EXPECT_EQ(hlsl::kNormalTexture, kNormalTexture);

@@ -21,34 +21,33 @@ struct Surface {
   bool back_face;  // the ray came from behind
 };
 
-// A texture of the material, or 1 where it has none. `footprint`: what the ray sees of it at once, as
-// a part of the whole texture's area; 0: a point.
-float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float footprint) {
+static const float kFinestLevel = -1e30;
+
+// A texture of the material, or 1 where it has none. `level`: of detail, against that at which the
+// texture is one texel; kFinestLevel: level 0.
+float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float level) {
   if (!HasTexture(material, slot)) {
     return float4(1, 1, 1, 1);
   }
   const uint image = material.image[slot];
   const uint sampler_id = material.sampler_id[slot];
-  uint width, height, mips;
-  textures[NonUniformResourceIndex(image)].GetDimensions(0, width, height, mips);
-  const float texels = footprint * float(width) * float(height);
-  float lod = 0.0;
-  if (texels > 1.0) lod = 0.5 * log2(texels);
   return textures[NonUniformResourceIndex(image)].SampleLevel(
-      samplers[NonUniformResourceIndex(sampler_id)], MaterialUv(material, slot, uv), lod);
+      samplers[NonUniformResourceIndex(sampler_id)], MaterialUv(material, slot, uv),
+      max(0.0, material.one_texel_level[slot] + level));
 }
 
-// The part of a texture's area that a cone sees which is `width` metres across at the hit, by how much
-// of the texture the triangle spreads over its own area. [Akenine-Moller et al. 2019, ray cones]
-float RayConeFootprint(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2,
+// The level of detail of every texture on a triangle for a cone that is `width` metres across at the
+// hit, against that at which the texture is one texel: half the logarithm of the part of its area that
+// the cone sees. [Akenine-Moller et al. 2019, ray cones]
+float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2,
                        float facing, float width) {
   const float3x3 to_world = (float3x3)ObjectToWorld3x4();
   const float world_area = length(cross(mul(to_world, p1 - p0), mul(to_world, p2 - p0)));
   const float2 a = uv1 - uv0;
   const float2 b = uv2 - uv0;
   const float uv_area = abs(a.x * b.y - a.y * b.x);
-  const float across = width / max(facing, 0.05);
-  return uv_area / max(world_area, 1e-20) * (across * across);
+  const float slant = max(facing, 0.05);
+  return 0.5 * log2(uv_area * (width * width) / (max(world_area, 1e-20) * (slant * slant)));
 }
 
 // How wide a pixel's cone is at the hit, metres: of a ray from the camera, or of one that starts where
@@ -78,15 +77,14 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   surface.normal = side * spawn.normal;
   surface.back_face = side < 0.0;
   float2 uv = float2(0, 0);
-  float footprint = 0.0;
+  float level = kFinestLevel;
   if (HasAnyTexture(material)) {
     const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.x);
     const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.y);
     const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.z);
     uv = Interpolate(uv0, uv1, uv2, barycentrics);
     if (cone_width > 0.0) {
-      footprint = RayConeFootprint(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)),
-                                   cone_width);
+      level = RayConeLevel(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)), cone_width);
     }
   }
 
@@ -96,7 +94,7 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
     const float4 tangent = LoadTangent(vertices, layout, corners, barycentrics);
     const float3 world_tangent = normalize(mul((float3x3)ObjectToWorld3x4(), tangent.xyz));
     shading_normal =
-        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, uv, footprint).xyz,
+        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, uv, level).xyz,
                            material.normal_scale, shading_normal, world_tangent, tangent.w);
   }
   shading_normal *= dot(shading_normal, spawn.normal) * side >= 0.0 ? 1.0 : -1.0;
@@ -104,12 +102,12 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   surface.shading_normal = dot(shading_normal, direction) < 0.0 ? shading_normal : surface.normal;
 
   const float4 base_color =
-      material.base_color * SampleMaterial(material, kBaseColorTexture, uv, footprint);
-  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, uv, footprint);
+      material.base_color * SampleMaterial(material, kBaseColorTexture, uv, level);
+  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, uv, level);
   surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
   surface.emissive =
-      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, uv, footprint).rgb,
+      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, uv, level).rgb,
               kLargestRadiance);
   surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
   surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);

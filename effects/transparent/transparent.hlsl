@@ -68,7 +68,7 @@ float GlassCoverage(float2 barycentrics) {
   float alpha = material.base_color.a;
   if (HasTexture(material, kBaseColorTexture)) {
     const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
-    alpha *= SampleMaterial(material, kBaseColorTexture, uv, 0.0).a;
+    alpha *= SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a;
   }
   return Coverage(alpha);
 }
@@ -92,13 +92,13 @@ void Remember(inout GlassPayload payload) {
 
 // Light that a layer sends to the camera without its mirror image, and how much of the sun reaches
 // it: known only where a ray may be traced.
-float3 LayerLight(Surface surface, Brdf brdf, float3 view, float sun_visibility) {
+float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibility) {
+  const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 light = surface.emissive;
-  light += LocalLights(brdf, surface.position, surface.normal, surface.shading_normal, view);
+  light += LocalLights(brdf, view, surface.position, surface.normal);
   light += brdf.diffuse * VolumeIrradianceAt(surface.position, surface.normal);
   if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
-    light += frame.sun_irradiance *
-             EvaluateBrdf(brdf, surface.shading_normal, view, frame.direction_to_sun) *
+    light += frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun) *
              sun_visibility;
   }
   return light;
