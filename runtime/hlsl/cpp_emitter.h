@@ -46,6 +46,8 @@ class CppEmitter {
   std::string memory_write(const ir::Type* type, ir::Layout layout, bool row_major,
                            const std::string& view, const std::string& offset,
                            const std::string& text);
+  static uint64_t bytes_in_place(const ir::Type* type, ir::Layout layout);
+  std::string read_function(const ir::Type* structure, ir::Layout layout);
   // Bytes of a value of the type as C++ stores it, near enough for stack sizes.
   uint32_t stack_bytes(const ir::Type* type) const;
 
@@ -96,6 +98,7 @@ class CppEmitter {
   void begin_statement(const ir::Stmt& stmt);
   const std::string& name_local(const ir::Variable* variable);  // where it is declared
   void declare(const ir::Stmt& stmt);
+  bool declare_in_place(const ir::Stmt& stmt);
   void assign(const ir::Expr* target, const std::string& value);
   void store(const ir::Stmt& stmt);
   std::string atomic_text(const ir::Stmt& stmt, const TextOf& text);

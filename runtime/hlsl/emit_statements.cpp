@@ -100,6 +100,34 @@ const std::string& CppEmitter::name_local(const Variable* variable) {
   return variable_names_[variable] = local_names_.declare(variable->name);
 }
 
+// A large constant that is read from memory which nothing writes stays there: most of it is never
+// asked for. A small one is better off in registers.
+constexpr uint64_t kLeastInPlace = 64;
+
+bool CppEmitter::declare_in_place(const Stmt& stmt) {
+  const Expr* from = stmt.value;
+  if (!stmt.variable->is_const || from == nullptr || module_.check_access) return false;
+  const bool element = from->kind == ExprKind::kLoadElement;
+  if (!element && from->kind != ExprKind::kLoad) return false;
+  const ResourceKind resource = from->operands[0]->type->resource;
+  const bool is_read_only =
+      resource == ResourceKind::kConstantBuffer || resource == ResourceKind::kStructuredBuffer;
+  if (!is_read_only || from->type->kind != TypeKind::kStruct ||
+      bytes_in_place(from->type, from->layout) < kLeastInPlace) {
+    return false;
+  }
+  const std::string view = buffer_view(*from->operands[0], element ? from->operands[1] : nullptr,
+                                       [this](const Expr* e) { return value(e); });
+  const std::string at = value(from->operands.back());
+  const std::string t = type(from->type);
+  const std::string copy = local_names_.declare(stmt.variable->name + "_copy");
+  line(t + " " + copy + ";");
+  line("const " + t + "& " + name_local(stmt.variable) + " = ks::struct_in_place<" +
+       read_function(from->type, from->layout) + "<ks::MemoryView>>(" + view + ", " + at + ", " +
+       copy + ");");
+  return true;
+}
+
 void CppEmitter::declare(const Stmt& stmt) {
   // The initialiser is printed before the name is declared: `float x = x` means the outer x.
   const std::string initial = stmt.value != nullptr ? " = " + value(stmt.value) : "{}";
@@ -108,6 +136,7 @@ void CppEmitter::declare(const Stmt& stmt) {
          (stmt.value != nullptr ? initial : " = " + type(stmt.variable->type) + "{}") + ";");
     return;
   }
+  if (declare_in_place(stmt)) return;
   line(type(stmt.variable->type) + " " + name_local(stmt.variable) + initial + ";");
 }
 

@@ -155,12 +155,43 @@ void CppEmitter::emit_structs() {
   }
 }
 
+// Bytes of a `t` that lies in memory as it does in C++, where nothing has an alignment above 4; else 0.
+uint64_t CppEmitter::bytes_in_place(const Type* t, Layout layout) {
+  switch (t->kind) {
+    case TypeKind::kScalar:
+    case TypeKind::kVector: {
+      const bool is_word = t->scalar == Scalar::kInt32 || t->scalar == Scalar::kUint32 ||
+                           t->scalar == Scalar::kFloat32;
+      return is_word ? uint64_t{4} * t->columns : 0;
+    }
+    case TypeKind::kArray: {
+      const uint64_t element = bytes_in_place(t->element, layout);
+      return element == array_stride(t->element, layout, false) ? element * t->count : 0;
+    }
+    case TypeKind::kStruct: {
+      const std::vector<uint32_t> offsets = field_offsets(*t->structure, layout);
+      uint64_t end = 0;
+      for (size_t i = 0; i < offsets.size(); ++i) {
+        const uint64_t bytes = bytes_in_place(t->structure->fields[i].type, layout);
+        if (bytes == 0 || offsets[i] != end) return 0;
+        end += bytes;
+      }
+      return end;
+    }
+    default:
+      return 0;
+  }
+}
+
+std::string CppEmitter::read_function(const Type* t, Layout layout) {
+  return "u::read_" + struct_names_[t->structure] + "_" + layout_suffix(layout);
+}
+
 // An expression that reads a `t` from memory view `view` at byte `offset`.
 std::string CppEmitter::memory_read(const Type* t, Layout layout, bool row_major,
                                     const std::string& view, const std::string& offset) {
   if (t->kind == TypeKind::kStruct) {
-    return "u::read_" + struct_names_[t->structure] + "_" + layout_suffix(layout) + "(" + view +
-           ", " + offset + ")";
+    return read_function(t, layout) + "(" + view + ", " + offset + ")";
   }
   if (t->kind == TypeKind::kArray && contains_struct(t)) {
     return "ks::read_array<" + type(t) + ">([&](uint32_t at) { return " +

@@ -85,6 +85,22 @@ KAAMOS_INLINE S read_struct(const View& view, uint32_t at, uint64_t bytes,
   }
   return read_members(WholeView{view.address}, at);
 }
+
+namespace memory {
+template <auto Read, class S>
+[[gnu::noinline, gnu::cold]] void copy_struct(const MemoryView& view, uint32_t at, S& copy) {
+  copy = Read(view, at);
+}
+}  // namespace memory
+
+// The same of one that lies in memory as S does: where it lies or, partly outside, in `copy`.
+template <auto Read, class S>
+KAAMOS_INLINE const S& struct_in_place(const MemoryView& view, uint32_t at, S& copy) {
+  if (is_inside(view, at, sizeof(S))) return *reinterpret_cast<const S*>(view.address + at);
+  memory::copy_struct<Read>(view, at, copy);
+  return copy;
+}
+
 template <class S, class View, class WriteMembers>
 KAAMOS_INLINE void write_struct(const View& view, uint32_t at, uint64_t bytes, const S& value,
                                 const WriteMembers& write_members) {
