@@ -65,6 +65,15 @@ rtapi::TraversalPrecision precision_of_environment() {
 
 }  // namespace
 
+::testing::AssertionResult is_distance(float t, float expected) {
+  const bool exact = precision_of_environment() == rtapi::TraversalPrecision::kExact;
+  const bool same = exact ? t == expected
+                          : ::testing::internal::FloatingPoint<float>(t).AlmostEquals(
+                                ::testing::internal::FloatingPoint<float>(expected));
+  if (same) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "t is " << t << ", not " << expected;
+}
+
 void closest_hit(shader::Invocation& invocation, void* data, const void* attributes) {
   auto& payload = *static_cast<Payload*>(data);
   end_ray(invocation, payload, End::kClosestHit);

@@ -4,6 +4,8 @@
 // the conformance tests run on, without a compiler and without rtapi's front.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -116,6 +118,11 @@ struct GeometryInput {
 
 inline constexpr auto kOpaque = rtapi::RaytracingGeometryFlags::kOpaque;
 inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
+
+// Whether a triangle's t is what it must be: in exact precision to the bit, else within 4 ulps.
+// Embree multiplies with a reciprocal, which only some CPUs (with AVX-512) have without an error
+// for powers of two.
+::testing::AssertionResult is_distance(float t, float expected);
 
 // A triangle that is hit at (0, 0, z) by a ray along +z; clockwise from -z, so a front face.
 GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);

@@ -2,11 +2,24 @@
 // Component-wise intrinsics; the twin of kaamos/shader/intrinsics_scalar.h. float16 is computed in
 // float. `precise` keeps a compiler from rearranging sums whose rounding errors are planned.
 
-//@ k_ceil,k_floor,k_sqrt,k_trunc floats any
+//@ k_ceil,k_floor,k_sqrt floats any
 $T $NAME($T x) { return $BASE(x); }
+//@ k_trunc f16 f32 any
+$T k_trunc($T x) { return trunc(x); }
 // Halves go to even.
-//@ k_round floats any
+//@ k_round f16 f32 any
 $T k_round($T x) { return roundEven(x); }
+// Of doubles, lavapipe without AVX-512 (Mesa 25.0, LLVM 15) only gets floor and ceil right.
+//@ k_trunc f64 each
+double k_trunc(double x) { return x < 0.0LF ? ceil(x) : floor(x); }
+//@ k_round f64 each
+double k_round(double x) {
+  double low = floor(x);
+  double part = x - low;
+  bool is_odd = low * 0.5LF != floor(low * 0.5LF);
+  double rounded = part > 0.5LF || (part == 0.5LF && is_odd) ? low + 1.0LF : low;
+  return rounded == 0.0LF ? x * 0.0LF : rounded;  // -0 of what is negative
+}
 //@ k_degrees f32 any
 $T k_degrees($T x) { return x * 57.2957795; }
 //@ k_radians f32 any
@@ -168,10 +181,14 @@ double k_frexp_exponent(double x) {
 }
 //@ k_frexp_mantissa,k_frexp_exponent f16 any
 $T $NAME($T x) { return $T($NAME($F(x))); }
-//@ k_modf_integer floats any
+//@ k_modf_integer f16 f32 any
 $T k_modf_integer($T x) { return trunc(x); }
-//@ k_modf_fraction floats any
+//@ k_modf_fraction f16 f32 any
 $T k_modf_fraction($T x) { return x - trunc(x); }
+//@ k_modf_integer f64 each
+double k_modf_integer(double x) { return k_trunc(x); }
+//@ k_modf_fraction f64 each
+double k_modf_fraction(double x) { return x - k_trunc(x); }
 //@ k_modf_integer ints any
 $T k_modf_integer($T x) { return x; }
 //@ k_modf_fraction ints any

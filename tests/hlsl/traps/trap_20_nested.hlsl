@@ -5,17 +5,17 @@
 // EXPECT u32 4 1
 // EXPECT u32 8 1
 // EXPECT u32 12 7
-// EXPECT f32 16 5
-// EXPECT f32 20 0.5
+// EXPECT f32 16 5 2
+// EXPECT f32 20 0.5 2
 // EXPECT f32 24 5
 // EXPECT u32 32 254
 // EXPECT u32 36 0
 // EXPECT u32 40 1
-// EXPECT f32 44 8
+// EXPECT f32 44 8 2
 // EXPECT u32 60 1
 // EXPECT u32 64 1
 // EXPECT u32 68 0
-// EXPECT f32 72 13
+// EXPECT f32 72 13 2
 // System values mean the shader's own ray also after it traced another, and a payload of bools
 // crosses every border.
 RaytracingAccelerationStructure scene : register(t0);
