@@ -15,8 +15,9 @@ namespace {
 // More than a sun as a point has (3e27 cd). With it the square of a range is still a float.
 constexpr float kStrongestIntensity = 1e30f;
 
-// A light without a radius is taken for one that small against its range, so that it is not infinite
-// in its own place: the range is that of 1e-3 lux where a scene names none, so this is 1e11 lux.
+// A light without a radius is taken for one that small against its range, so that it is not
+// infinite in its own place: the range is that of 1e-3 lux where a scene names none, so this is
+// 1e11 lux.
 constexpr float kLeastRadius = 1e-7f;
 
 bool is_finite(const glm::vec3& v) {
@@ -53,9 +54,9 @@ void set_cone(LightConstants& out, const Light& light) {
 
 // What follows from the rest and no shader should find out again at every point.
 void derive(LightConstants& light) {
-  light.over_range = 1.0f / light.range;
-  light.over_least_distance = 1.0f / std::max({light.radius, kLeastRadius * light.range,
-                                               std::numeric_limits<float>::min()});
+  constexpr float kLeast = std::numeric_limits<float>::min();  // 1 / that is a float
+  light.over_range = 1.0f / std::max(light.range, kLeast);
+  light.over_least_distance = 1.0f / std::max({light.radius, kLeastRadius * light.range, kLeast});
   if (light.is_spot == 0) {
     // An octahedral map covers 4 pi with its texels; the mean is good to a factor of two.
     light.map_texel = std::sqrt(4.0f * std::numbers::pi_v<float>) / kShadowTile;

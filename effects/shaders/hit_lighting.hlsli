@@ -71,13 +71,13 @@ float RadianceLuminance(float3 radiance) {
   return dot(radiance, float3(0.2126, 0.7152, 0.0722));
 }
 
-// Where a direction from a light, that long, stands in its map, 0..1: spots see their cone, points
+// Where a point at a distance from a light stands in its map, 0..1: spots see their cone, points
 // everything.
-float2 ShadowMapUv(LightConstants light, float3 direction, float length) {
+float2 ShadowMapUv(LightConstants light, float3 direction, float distance) {
   if (light.is_spot == 0) {
     return OctahedralEncode(direction) * 0.5 + 0.5;
   }
-  const float along = max(dot(direction, light.direction), 1e-6 * length);
+  const float along = max(dot(direction, light.direction), 1e-6 * distance);
   return float2(dot(direction, light.map_right), dot(direction, light.map_up)) * (0.5 / along) + 0.5;
 }
 
