@@ -140,6 +140,40 @@ bool reaches(const LightConstants& light, const glm::vec3& p) {
              0;
 }
 
+// What derive() adds is what the shaders would compute.
+TEST(LightConstants, HoldWhatFollowsFromTheRest) {
+  Scene scene;
+  Light light = point_light({1, 2, 3}, 8);
+  light.radius = 0.25f;
+  scene.lights.push_back(light);
+  light.type = LightType::kSpot;
+  light.radius = 0;
+  light.direction = glm::normalize(glm::vec3(1, -2, 0.5f));
+  light.outer_cone_angle = 0.6f;
+  scene.lights.push_back(light);
+  light.outer_cone_angle = 0;  // lights nothing, and divides by nothing
+  light.range = 1e-39f;
+  scene.lights.push_back(light);
+  const std::vector<LightConstants> lights = light_constants(scene, {0, 0, 0});
+  EXPECT_FLOAT_EQ(lights[0].over_range, 1 / 8.0f);
+  EXPECT_FLOAT_EQ(lights[0].over_least_distance, 4);
+  // Squares of texels of equal area, on the mean.
+  EXPECT_NEAR(lights[0].map_texel * lights[0].map_texel * kShadowTile * kShadowTile, 12.56637,
+              1e-4);
+  EXPECT_FLOAT_EQ(lights[1].over_least_distance, 1 / 8e-7f);
+  const float tangent = std::tan(0.6f);
+  EXPECT_NEAR(lights[1].map_texel * kShadowTile, 2 * tangent, 1e-6);
+  EXPECT_NEAR(glm::length(lights[1].map_right), 1 / tangent, 1e-6);
+  EXPECT_NEAR(glm::length(lights[1].map_up), 1 / tangent, 1e-6);
+  EXPECT_NEAR(glm::dot(lights[1].map_right, lights[1].map_up), 0, 1e-6);
+  EXPECT_NEAR(glm::dot(lights[1].map_right, lights[1].direction), 0, 1e-6);
+  for (const float derived : {lights[2].over_range, lights[2].over_least_distance,
+                              lights[2].map_right.x, lights[2].map_up.y, lights[2].map_texel}) {
+    EXPECT_TRUE(std::isfinite(derived)) << derived;
+  }
+  EXPECT_GT(lights[2].map_texel, 0);
+}
+
 // Points anywhere about the camera, behind it too: each light that reaches one, by its range and by
 // its cone, is in its list.
 TEST(Clusters, NoLightIsLost) {
