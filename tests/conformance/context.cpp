@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace kaamos::conformance {
 
@@ -105,6 +106,20 @@ DeviceDesc Target::device_desc() const {
   desc.Precision = precision;
   desc.Checked = checked;
   return desc;
+}
+
+bool Context::is_same(float found, float expected) const {
+  if (found == expected) return true;
+  if (target_.backend != "embree" || target_.precision == rtapi::TraversalPrecision::kExact) {
+    return false;
+  }
+  return std::abs(found - expected) <=
+         4 * std::numeric_limits<float>::epsilon() / 2 * std::abs(expected);
+}
+
+bool Context::is_same(const std::vector<float>& found, const std::vector<float>& expected) const {
+  return std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                    [this](float a, float b) { return is_same(a, b); });
 }
 
 void Context::close(const std::string& what, float found, float expected, float tolerance) {

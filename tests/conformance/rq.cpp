@@ -166,7 +166,8 @@ void abort_ends_the_search(Context& t) {
   const Asked committed = ask(t, structure, asking(kCommitTriangles | kAbort));
   t.equal("candidates", committed.triangles, 1u);
   t.equal("status", committed.status, kTriangle);
-  t.holds("t of the only candidate", committed.t == 5 || committed.t == 6 || committed.t == 7);
+  t.holds("t of the only candidate",
+          t.is_same(committed.t, 5) || t.is_same(committed.t, 6) || t.is_same(committed.t, 7));
   t.equal("Proceed() that gave TRUE", committed.proceeds, 0u);
   t.equal("status where nothing was committed", ask(t, structure, asking(kAbort)).status, kNothing);
 }
