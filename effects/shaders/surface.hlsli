@@ -39,8 +39,8 @@ float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float le
 // The level of detail of every texture on a triangle for a cone that is `width` metres across at the
 // hit, against that at which the texture is one texel: half the logarithm of the part of its area that
 // the cone sees. [Akenine-Moller et al. 2019, ray cones]
-float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2,
-                       float facing, float width) {
+float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2, float facing,
+                   float width) {
   const float3x3 to_world = (float3x3)ObjectToWorld3x4();
   const float world_area = length(cross(mul(to_world, p1 - p0), mul(to_world, p2 - p0)));
   const float2 a = uv1 - uv0;

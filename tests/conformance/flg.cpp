@@ -277,7 +277,7 @@ void first_hit_ends_the_search(Context& t) {
   ray.multiplier = 1;
   const Seen seen = program.trace(ray);
   t.equal("closest-hit shaders", seen.closest_hits, 1u);
-  t.equal("t of the geometry hit", seen.t, seen.geometry == 0 ? 5.0f : 10.0f);
+  t.distance("t of the geometry hit", seen.t, seen.geometry == 0 ? 5.0f : 10.0f);
 }
 
 void ignored_hits_do_not_end_it(Context& t) {

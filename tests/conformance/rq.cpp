@@ -92,7 +92,7 @@ void proceed_tells_of_candidates(Context& t) {
   const Asked opaque = ask(t, t.scene({triangle(5, 0, kOpaque)}), asking(0));
   t.equal("candidates of an opaque triangle", opaque.triangles, 0u);
   t.equal("its status", opaque.status, kTriangle);
-  t.equal("its t", opaque.t, 5.0f);
+  t.distance("its t", opaque.t, 5.0f);
   const Asked other = ask(t, t.scene({triangle(5, 0, kOnce)}), asking(0));
   t.equal("candidates of a triangle that is not opaque", other.triangles, 1u);
   t.equal("its status, not committed", other.status, kNothing);
@@ -108,7 +108,7 @@ void proceed_tells_of_candidates(Context& t) {
   // What lies behind a commit is no candidate any more.
   const Buffer mixed = t.scene({triangle(5, 0, kOpaque), triangle(9, 0, kOnce)});
   const Asked both = ask(t, mixed, asking(kCommitTriangles));
-  t.equal("t of the closest of both", both.t, 5.0f);
+  t.distance("t of the closest of both", both.t, 5.0f);
   t.holds("the far one is a candidate at most once", both.triangles <= 1);
   Ray short_ray = asking(kCommitTriangles);
   short_ray.t_max = 4;
@@ -166,8 +166,9 @@ void abort_ends_the_search(Context& t) {
   const Asked committed = ask(t, structure, asking(kCommitTriangles | kAbort));
   t.equal("candidates", committed.triangles, 1u);
   t.equal("status", committed.status, kTriangle);
-  t.holds("t of the only candidate",
-          t.is_same(committed.t, 5) || t.is_same(committed.t, 6) || t.is_same(committed.t, 7));
+  t.holds("t of the only candidate", t.is_distance(committed.t, 5) ||
+                                         t.is_distance(committed.t, 6) ||
+                                         t.is_distance(committed.t, 7));
   t.equal("Proceed() that gave TRUE", committed.proceeds, 0u);
   t.equal("status where nothing was committed", ask(t, structure, asking(kAbort)).status, kNothing);
 }
@@ -177,7 +178,7 @@ void commits_of_triangles(Context& t) {
   for (const uint32_t what : {uint32_t{kCommitTriangles}, kCommitTriangles | kTwice}) {
     const Asked found = ask(t, structure, asking(what));
     t.equal("status", found.status, kTriangle);
-    t.equal("t", found.t, 5.0f);
+    t.distance("t", found.t, 5.0f);
     t.equal("geometry", found.geometry, 1u);
   }
 }
@@ -313,7 +314,7 @@ void contribution_is_only_told(Context& t) {
   for (const uint32_t contribution : {0u, 77u, 0xFFFFFFu}) {
     const Asked found = ask(t, t.scene({triangle(5)}, contribution), asking(kCommitTriangles));
     t.equal("contribution", found.contribution, contribution);
-    t.equal("t", found.t, 5.0f);
+    t.distance("t", found.t, 5.0f);
   }
 }
 

@@ -89,7 +89,7 @@ void copies_share_one_state(Context& t) {
   const auto words = query.run_rays(t.scene({triangle(5, 0, kOnce)}), {Ray{}});
   t.equal("candidates by the first name", words[0], 1u);
   t.equal("status by the first name", words[1], kTriangle);
-  t.equal("t by the second name", at<float>(words, 8), 5.0f);
+  t.distance("t by the second name", at<float>(words, 8), 5.0f);
   t.equal("Proceed() by the second name", words[3], 0u);
   const std::string start =
       "RWByteAddressBuffer words : register(u0);\n"
@@ -108,8 +108,8 @@ void queries_in_every_stage(Context& t) {
       query.run_rays(t.scene({triangle(6, 0, kOnce), triangle(5, 0, kOnce), triangle(8, 20, kOnce),
                               triangle(9, 20, kOnce), triangle(10, 20, kOnce)}),
                      {asking(kCommitTriangles), asking(kCommitTriangles, 0, 20)});
-  t.equal("t of the first of two", at<Asked>(pair, 0).t, 5.0f);
-  t.equal("t of the second of two", at<Asked>(pair, 64).t, 8.0f);
+  t.distance("t of the first of two", at<Asked>(pair, 0).t, 5.0f);
+  t.distance("t of the second of two", at<Asked>(pair, 64).t, 8.0f);
 
   Program program(
       t, kaamos_shaders_query(),
@@ -128,7 +128,7 @@ void queries_in_every_stage(Context& t) {
   for (size_t i = 0; i < 5; ++i) {
     const Asked found = at<Asked>(words, 1024 + 64 * i);
     t.equal(std::string("status in the ") + stages[i] + " shader", found.status, kTriangle);
-    t.equal(std::string("t in the ") + stages[i] + " shader", found.t, 5.0f);
+    t.distance(std::string("t in the ") + stages[i] + " shader", found.t, 5.0f);
   }
   const Seen seen = at<Seen>(words, 0);
   t.equal("end of the trace around them", seen.end, kClosestHitRan);

@@ -318,7 +318,7 @@ void closest_hit_uses_the_committed_record(Context& t) {
                              triangle(4, 0, kNonOpaque)}),
                     ray);
   t.equal("record", seen.record, 1u);
-  t.equal("t", seen.t, 5.0f);
+  t.distance("t", seen.t, 5.0f);
 }
 
 void identifiers_never_alias(Context& t) {

@@ -202,8 +202,8 @@ void ray_t_current_by_stage(Context& t) {
   t.equal("in the intersection shader before any hit", seen[0].barycentrics[0], 1000.0f);
   t.equal("in the any-hit shader of a box", seen[0].any_t, 5.0f);
   t.equal("in the closest-hit shader of a box", seen[0].t, 5.0f);
-  t.equal("in the any-hit shader of a triangle", seen[1].any_t, 6.0f);
-  t.equal("in the closest-hit shader of a triangle", seen[1].t, 6.0f);
+  t.distance("in the any-hit shader of a triangle", seen[1].any_t, 6.0f);
+  t.distance("in the closest-hit shader of a triangle", seen[1].t, 6.0f);
   t.equal("in the miss shader", seen[2].t, kInfinity);
 }
 
@@ -319,7 +319,7 @@ void values_outlive_nested_traces(Context& t) {
   t.equal("InstanceIndex()", seen.instance_index, 1u);
   t.equal("InstanceID()", seen.instance_id, 60u);
   t.equal("HitKind()", seen.hit_kind, 254u);
-  t.equal("RayTCurrent()", seen.t, 5.0f);
+  t.distance("RayTCurrent()", seen.t, 5.0f);
   t.equal("record", seen.record, 0u);
 }
 

@@ -35,9 +35,9 @@ void directions_are_not_normalised(Context& t) {
   four.direction[2] = 4;
   quarter.direction[2] = 0.25f;
   const auto seen = program.trace({Ray{}, four, quarter});
-  t.equal("t of direction x 1", seen[0].t, 8.0f);
-  t.equal("t of direction x 4", seen[1].t, 2.0f);
-  t.equal("t of direction / 4", seen[2].t, 32.0f);
+  t.distance("t of direction x 1", seen[0].t, 8.0f);
+  t.distance("t of direction x 4", seen[1].t, 2.0f);
+  t.distance("t of direction / 4", seen[2].t, 32.0f);
 }
 
 void triangles_lie_strictly_between(Context& t) {
@@ -45,7 +45,7 @@ void triangles_lie_strictly_between(Context& t) {
   program.record("Plain");
   program.scene = t.scene({triangle(8)});
   const float met = program.trace(Ray{}).t;  // as the traversal rounds it
-  t.equal("t", met, 8.0f);
+  t.distance("t", met, 8.0f);
   const float below = std::nextafter(met, 0.0f), above = std::nextafter(met, 9.0f);
   t.equal("ends of TMin = t, TMax = t, TMin below t, TMax above t",
           ends_of(program.trace(
@@ -125,7 +125,7 @@ void degenerate_triangles_are_never_hit(Context& t) {
                        0.1f, 0.2f, 5, 0.1f, 0.2f, 5, 0.1f, 0.2f, 5,   // a point
                        -1,   0.2f, 5, 1,    0.2f, 5, -1,   0.2f, 5};  // a vertex twice
   t.equal("end", program.trace(t.scene({geometry})).end, kMissRan);
-  t.equal("t behind them", program.trace(t.scene({geometry, triangle(6)})).t, 6.0f);
+  t.distance("t behind them", program.trace(t.scene({geometry, triangle(6)})).t, 6.0f);
 }
 
 void degenerate_instances_are_legal(Context& t) {

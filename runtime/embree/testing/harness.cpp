@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 namespace kaamos::embree::testing {
@@ -66,11 +68,11 @@ rtapi::TraversalPrecision precision_of_environment() {
 }  // namespace
 
 ::testing::AssertionResult is_distance(float t, float expected) {
-  const bool exact = precision_of_environment() == rtapi::TraversalPrecision::kExact;
-  const bool same = exact ? t == expected
-                          : ::testing::internal::FloatingPoint<float>(t).AlmostEquals(
-                                ::testing::internal::FloatingPoint<float>(expected));
-  if (same) return ::testing::AssertionSuccess();
+  const bool rounds = precision_of_environment() != rtapi::TraversalPrecision::kExact &&
+                      !__builtin_cpu_supports("avx512vl");
+  // An ulp is between epsilon / 2 and epsilon of the number.
+  const float error = rounds ? std::numeric_limits<float>::epsilon() * std::abs(expected) : 0.0f;
+  if (std::abs(t - expected) <= error) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "t is " << t << ", not " << expected;
 }
 

@@ -119,9 +119,9 @@ struct GeometryInput {
 inline constexpr auto kOpaque = rtapi::RaytracingGeometryFlags::kOpaque;
 inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
 
-// Whether a triangle's t is what it must be: in exact precision to the bit, else within 4 ulps.
-// Embree multiplies with a reciprocal, which only some CPUs (with AVX-512) have without an error
-// for powers of two.
+// Whether a triangle's t, which must be a float, is that: to the bit, but where Embree multiplies
+// with a reciprocal that has an error (robust and fast precision, CPUs without AVX-512) within 2
+// ulps.
 ::testing::AssertionResult is_distance(float t, float expected);
 
 // A triangle that is hit at (0, 0, z) by a ray along +z; clockwise from -z, so a front face.

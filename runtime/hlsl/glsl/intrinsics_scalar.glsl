@@ -181,14 +181,10 @@ double k_frexp_exponent(double x) {
 }
 //@ k_frexp_mantissa,k_frexp_exponent f16 any
 $T $NAME($T x) { return $T($NAME($F(x))); }
-//@ k_modf_integer f16 f32 any
-$T k_modf_integer($T x) { return trunc(x); }
-//@ k_modf_fraction f16 f32 any
-$T k_modf_fraction($T x) { return x - trunc(x); }
-//@ k_modf_integer f64 each
-double k_modf_integer(double x) { return k_trunc(x); }
-//@ k_modf_fraction f64 each
-double k_modf_fraction(double x) { return x - k_trunc(x); }
+//@ k_modf_integer floats any
+$T k_modf_integer($T x) { return k_trunc(x); }
+//@ k_modf_fraction floats any
+$T k_modf_fraction($T x) { return x - k_trunc(x); }
 //@ k_modf_integer ints any
 $T k_modf_integer($T x) { return x; }
 //@ k_modf_fraction ints any

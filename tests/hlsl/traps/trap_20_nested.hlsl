@@ -17,7 +17,7 @@
 // EXPECT u32 68 0
 // EXPECT f32 72 13 2
 // System values mean the shader's own ray also after it traced another, and a payload of bools
-// crosses every border.
+// crosses every border. Distances and barycentrics are within Embree's reciprocal (2 ulps).
 RaytracingAccelerationStructure scene : register(t0);
 RWByteAddressBuffer results : register(u0);
 
