@@ -59,6 +59,12 @@ if(KAAMOS_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${KAAMOS_CCACHE}")
 endif()
 
+# Tests are half of what a build compiles, and run once: the release build optimises them lightly, which
+# takes a quarter less time.
+function(kaamos_compile_lightly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s])
 # One executable; every TEST in it is one ctest test, a process of its own, with the given labels.
 # They start through kaamos-isolate, which repeats a test on Vulkan that the driver crashed: one with
@@ -73,6 +79,7 @@ function(kaamos_add_test name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+  kaamos_compile_lightly(${name})
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   # What CMake starts a test through is called an emulator there.
