@@ -13,9 +13,10 @@ RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
 rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
 
 enum class IndirectMode : std::uint32_t {
-  kDirect,     ///< the volume, sampled at the surface; times ambient occlusion if one likes
-  kHitBlack,   ///< rays sample it where they end, what they hit is black
-  kNearField,  ///< what they hit is shaded
+  kDirect,           ///< the volume, sampled at the surface; times ambient occlusion if one likes
+  kHitBlack,         ///< rays sample it where they end, what they hit is black
+  kNearField,        ///< what they hit is lit, and sends its light everywhere alike
+  kNearFieldGlossy,  ///< what they hit is shaded by its material, as in reflections
 };
 
 /// Constants b0, space3.

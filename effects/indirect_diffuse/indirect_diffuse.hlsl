@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Indirect diffuse light of each pixel, in the four ways that the talk compares. [effects-spec B5.2 to
+// Indirect diffuse light of each pixel, in the ways that the talk compares. [effects-spec B5.2 to
 // B5.4]
 #include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
@@ -15,12 +15,16 @@ struct IndirectConstants {
 };
 ConstantBuffer<IndirectConstants> constants : register(b0, space3);
 
-static const uint kModeDirect = 0;    // the volume at the surface
-static const uint kModeHitBlack = 1;  // rays sample the volume where they end; 2: hits are shaded too
+// IndirectMode of indirect_diffuse.h
+static const uint kModeDirect = 0;
+static const uint kModeHitBlack = 1;
+static const uint kModeNearField = 2;
+static const uint kModeNearFieldGlossy = 3;
+
 static const uint kIndirectPair = 4;    // and 5: the end's jitter
 
 struct IndirectPayload {
-  float3 radiance;  // at first how far the ray's end is moved, cells
+  float3 radiance;  // at first the jitter that chooses a cell of the volume
   float distance;   // of the hit, metres; negative: none
 };
 
@@ -28,9 +32,8 @@ float RayLength() { return Contain(constants.length, kLongestRay); }
 
 // What comes from where the ray ends, by the volume. [GDC 2018 talk: sampled in the miss shader]
 float3 RadianceFromEnd(float3 jitter) {
-  const float3 end = WorldRayOrigin() + WorldRayDirection() * RayLength() +
-                     jitter * volume_constants[0].cell;
-  return VolumeRadiance(end, WorldRayDirection());
+  return VolumeRadiance(WorldRayOrigin() + WorldRayDirection() * RayLength(), jitter,
+                        WorldRayDirection());
 }
 
 [shader("miss")]
@@ -52,9 +55,15 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
   payload.radiance = float3(0, 0, 0);
   payload.distance = RayTCurrent();
   if (constants.mode == kModeHitBlack) return;
-  const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
-  payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     IndirectAtHit(surface, -WorldRayDirection());
+  if (constants.mode == kModeNearFieldGlossy) {
+    const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
+    payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
+                       IndirectAtHit(surface, jitter, -WorldRayDirection());
+  } else {
+    const MatteSurface surface = LoadMatteSurface(hit.barycentrics, RayTCurrent());
+    payload.radiance =
+        ShadeMatteHit(surface, constants.sun_at_hits != 0) + IndirectAtMatteHit(surface, jitter);
+  }
   // Close to the ray's end the volume takes over, so that no shell shows where rays end.
   const float length = RayLength();
   const float far = smoothstep(0.8 * length, length, RayTCurrent());
@@ -90,23 +99,19 @@ void IndirectRayGen() {
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
-    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, shading_normal), 0.0);
+    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
     return;
   }
   const float4 before = indirect[pixel];  // asked for early: the rays cover the wait
   const float3 origin = position.xyz + normal * position.w;
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
-  const uint pixel_seed = HashCombine(frame.seed, pixel.y * 65536 + pixel.x);
   float4 sum = float4(0, 0, 0, 0);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const uint index = pass_constants.first_sample + i;
     const float3 direction = IndirectDirection(tile, index, shading_normal);
     if (!(dot(direction, normal) > 0.0)) continue;
     // Half a cell to each side hides the cells' steps.
-    const uint key = HashCombine(pixel_seed, index * 8 + kIndirectPair + 1);
-    const float3 jitter = float3(UnitFloat(PcgHash(key)), UnitFloat(PcgHash(key + 1)),
-                                 UnitFloat(PcgHash(key + 2))) - 0.5;
-    sum += Gather(origin, direction, jitter);
+    sum += Gather(origin, direction, PixelJitter(pixel, index, kIndirectPair + 1, frame.seed));
   }
   indirect[pixel] = before + sum;
 }

@@ -19,9 +19,12 @@ struct ReflectionConstants {
 ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
 static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
+// From here on reflections are noise that is filtered, and one cell of the volume a ray adds little to
+// it; a mirror's picture would show it.
+static const float kNoisyRoughness = 0.2;
 
 struct ReflectionPayload {
-  float3 radiance;
+  float3 radiance;  // at first the jitter that chooses a cell of the volume
   float distance;  // of the hit, metres; negative: none
 };
 
@@ -29,7 +32,7 @@ struct ReflectionPayload {
 void ReflectionMiss(inout ReflectionPayload payload) {
   // Where the ray ends, not where it would have hit: the volume knows what comes from there on.
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-  payload.radiance = VolumeRadiance(end, WorldRayDirection());
+  payload.radiance = VolumeRadiance(end, payload.radiance, WorldRayDirection());
   payload.distance = -1.0;
 }
 
@@ -43,8 +46,9 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
+  const float3 jitter = payload.radiance;
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     IndirectAtHit(surface, -WorldRayDirection());
+                     IndirectAtHit(surface, jitter, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 
@@ -127,7 +131,10 @@ void ReflectionRayGen() {
     ray.Direction = direction;
     ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
-    payload.radiance = float3(0, 0, 0);
+    payload.radiance = kEveryCell;
+    if (point.roughness > kNoisyRoughness) {
+      payload.radiance = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
+    }
     payload.distance = -1.0;
     TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);

@@ -176,4 +176,19 @@ float3 LocalLights(Brdf brdf, BrdfView view, float3 position, float3 geometric_n
   return sum;
 }
 
+// What all local lights send onto a point of a surface, with their shadow maps: irradiance.
+float3 LocalIrradiance(float3 position, float3 normal) {
+  const ClusterRange range = ClusterLights(position);
+  float3 sum = float3(0, 0, 0);
+  for (uint i = 0; i < range.count; ++i) {
+    const uint id = ClusterLight(range, i);
+    const LightConstants light = lights[id];
+    const LightSample s = SampleLight(light, position);
+    const float3 irradiance = s.irradiance * dot(normal, s.direction);
+    if (!(RadianceLuminance(irradiance) > 0.0)) continue;
+    sum += irradiance * ShadowMapVisibility(id, light, position, normal);
+  }
+  return sum;
+}
+
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The one way in which every effect shades what its rays hit: emitted light, local lights with their
-// shadow maps, the sun by a ray of its own (no shadow map knows what the camera does not see), and
-// indirect light. [Northlight deck: unified material; effects-spec B4.10]
+// How every effect shades what its rays hit, by its material or as if it were matte: emitted light,
+// local lights with their shadow maps, the sun by a ray of its own (no shadow map knows what the
+// camera does not see), and indirect light. [Northlight deck: unified material; effects-spec B4.10]
 #ifndef KAAMOS_HIT_SHADING_HLSLI
 #define KAAMOS_HIT_SHADING_HLSLI
 
@@ -17,6 +17,17 @@ float3 SunAtHit(Surface surface, Brdf brdf, BrdfView view) {
   if (!(RadianceLuminance(unshadowed) > 0.0)) return float3(0, 0, 0);
   return unshadowed * TraceVisibility(SurfaceOrigin(surface, frame.direction_to_sun),
                                       frame.direction_to_sun, kSunDistance);
+}
+
+// Direct light that a hit sends everywhere alike: one bounce of diffuse light. [effects-spec B5.4]
+float3 ShadeMatteHit(MatteSurface surface, bool with_sun) {
+  float3 irradiance = LocalIrradiance(surface.position, surface.normal);
+  const float3 sun = frame.sun_irradiance * dot(surface.normal, frame.direction_to_sun);
+  if (with_sun && RadianceLuminance(sun) > 0.0) {
+    irradiance += sun * TraceVisibility(surface.position + surface.normal * surface.offset,
+                                        frame.direction_to_sun, kSunDistance);
+  }
+  return surface.emissive + surface.base_color * (irradiance * (1.0 / kBrdfPi));
 }
 
 // Radiance from a hit in a direction, that where the ray came from, without indirect light.

@@ -25,6 +25,10 @@ struct VolumeCell {
   uint4 green;
 };
 
+float4 CellRed(VolumeCell cell) { return asfloat(cell.red & kUpper); }
+float4 CellGreen(VolumeCell cell) { return asfloat(cell.green & kUpper); }
+float4 CellBlue(VolumeCell cell) { return asfloat(cell.red << 21 | (cell.green & ~kUpper) << 10); }
+
 // Sums over cells: mean and slope of each colour.
 struct VolumeLight {
   float4 red;
@@ -90,9 +94,9 @@ VolumeLight SampleVolume(float3 position) {
     if (int(cell.red.x) < 0) continue;
     const float w = (right ? x.share.y : x.share.x) * (upper ? y.share.y : y.share.x) *
                     (far ? z.share.y : z.share.x);
-    sum.red += w * asfloat(cell.red & kUpper);
-    sum.green += w * asfloat(cell.green & kUpper);
-    sum.blue += w * asfloat(cell.red << 21 | (cell.green & ~kUpper) << 10);
+    sum.red += w * CellRed(cell);
+    sum.green += w * CellGreen(cell);
+    sum.blue += w * CellBlue(cell);
     sum.weight += w;
   }
   // Only weights that are more than rounding are worth dividing by.
@@ -100,10 +104,45 @@ VolumeLight SampleVolume(float3 position) {
   return sum;
 }
 
+// The cell about a point alone; weight 0 if it is in a solid, not stored or outside.
+VolumeLight SampleVolumeCell(float3 position) {
+  VolumeLight light;
+  light.red = light.green = light.blue = float4(0, 0, 0, 0);
+  light.weight = 0.0;
+  const VolumeConstants volume = volume_constants[0];
+  if (volume.enabled == 0) return light;
+  const float3 at = floor((position - volume.origin) / volume.cell);
+  if (any(abs(at) > 1e6)) return light;
+  const uint3 cell = uint3(int3(at));  // below zero: a large one
+  if (any(cell >= volume.bricks * kBrickCells)) return light;
+  const uint3 brick = cell / kBrickCells;
+  const uint3 place = cell % kBrickCells;
+  const uint start =
+      volume_bricks[brick.x + volume.bricks.x * (brick.y + volume.bricks.y * brick.z)];
+  if (start == kNoBrick) return light;
+  const VolumeCell stored =
+      volume_cells[start + place.x + kBrickCells * (place.y + kBrickCells * place.z)];
+  if (int(stored.red.x) < 0) return light;
+  light.red = CellRed(stored);
+  light.green = CellGreen(stored);
+  light.blue = CellBlue(stored);
+  light.weight = 1.0;
+  return light;
+}
+
 // What is sent towards a direction, times `slope_scale` of what depends on it; the sky's where
-// nothing is stored.
-float3 VolumeTowards(float3 position, float3 direction, float slope_scale) {
-  const VolumeLight light = SampleVolume(position);
+// nothing is stored. `jitter`, evenly from -0.5 to 0.5 along each axis, chooses one cell as often as the
+// eight would weigh it; where it holds nothing all eight are read. On average over jitters that is
+// what all eight give, for a quarter of the work. [Pharr et al. 2024, stochastic texture filtering]
+static const float3 kEveryCell = float3(1, 1, 1);  // as a jitter: all eight, for what has no noise
+
+float3 VolumeTowards(float3 position, float3 jitter, float3 direction, float slope_scale) {
+  VolumeLight light;
+  light.weight = 0.0;
+  if (jitter.x < kEveryCell.x) {
+    light = SampleVolumeCell(position + jitter * volume_constants[0].cell);
+  }
+  if (light.weight == 0.0) light = SampleVolume(position);
   if (light.weight == 0.0) return SkyTowards(direction);
   const float4 terms = float4(1.0, direction * slope_scale);
   const float3 sum = float3(dot(light.red, terms), dot(light.green, terms), dot(light.blue, terms));
@@ -111,21 +150,21 @@ float3 VolumeTowards(float3 position, float3 direction, float slope_scale) {
 }
 
 // Radiance that arrives at a point from a direction.
-float3 VolumeRadiance(float3 position, float3 direction) {
-  return VolumeTowards(position, direction, 1.0);
+float3 VolumeRadiance(float3 position, float3 jitter, float3 direction) {
+  return VolumeTowards(position, jitter, direction, 1.0);
 }
 
 // Irradiance over pi on a surface: what a white diffuse surface sends back.
-float3 VolumeIrradiance(float3 position, float3 normal) {
-  return VolumeTowards(position, normal, 2.0 / 3.0);
+float3 VolumeIrradiance(float3 position, float3 jitter, float3 normal) {
+  return VolumeTowards(position, jitter, normal, 2.0 / 3.0);
 }
 
 // The same two of a surface: half a cell off it, so that the cells behind it count less.
-float3 VolumeIrradianceAt(float3 position, float3 normal) {
-  return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), normal);
+float3 VolumeIrradianceAt(float3 position, float3 jitter, float3 normal) {
+  return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), jitter, normal);
 }
-float3 VolumeRadianceAt(float3 position, float3 normal, float3 direction) {
-  return VolumeRadiance(position + normal * (0.5 * volume_constants[0].cell), direction);
+float3 VolumeRadianceAt(float3 position, float3 jitter, float3 normal, float3 direction) {
+  return VolumeRadiance(position + normal * (0.5 * volume_constants[0].cell), jitter, direction);
 }
 
 #endif

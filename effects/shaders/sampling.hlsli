@@ -76,6 +76,13 @@ float2 PixelSample(float2 tile_value, uint index, uint pair, uint seed) {
   return u - floor(u);
 }
 
+// Evenly from -0.5 to 0.5 along each axis, and independent from pixel to pixel.
+float3 PixelJitter(uint2 pixel, uint index, uint pair, uint seed) {
+  const uint key = HashCombine(HashCombine(seed, pixel.y * 65536u + pixel.x), index * 8u + pair);
+  return float3(UnitFloat(PcgHash(key)), UnitFloat(PcgHash(key + 1u)),
+                UnitFloat(PcgHash(key + 2u))) - 0.5f;
+}
+
 // Unit disk, area preserving. [effects-spec B0.4]
 float2 SampleDisk(float2 u) {
   const float r = sqrt(u.x);

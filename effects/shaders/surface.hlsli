@@ -57,60 +57,123 @@ float ConeWidth() {
   return way * frame.pixel_angle;
 }
 
+// The triangle that was hit, and the point on it. Everything is seen from the side that the ray comes
+// from.
+struct HitPoint {
+  uint3 corners;  // their numbers
+  float3 p0;      // their positions, object space
+  float3 p1;
+  float3 p2;
+  SpawnPoint spawn;  // `spawn.normal` has the side of the triangle
+  float3 direction;  // of the ray, unit
+  float side;        // 1: the ray came from the normal's side; -1: from behind
+};
+
+HitPoint LoadHitPoint(HitConstants layout, float2 barycentrics) {
+  HitPoint hit;
+  hit.corners = LoadTriangle(indices, layout.index_size_bytes, PrimitiveIndex());
+  hit.p0 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.x);
+  hit.p1 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.y);
+  hit.p2 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, hit.corners.z);
+  hit.spawn = MakeSpawnPoint(hit.p0, hit.p1, hit.p2, barycentrics, ObjectToWorld3x4(),
+                             WorldToObject3x4());
+  hit.direction = normalize(WorldRayDirection());
+  hit.side = dot(hit.direction, hit.spawn.normal) <= 0.0 ? 1.0 : -1.0;
+  return hit;
+}
+
+// Where textures are read at a hit, and at which level of detail.
+struct HitTexel {
+  float2 uv;
+  float level;
+};
+
 // `cone_width`: of the ray's cone at the hit, metres; 0 reads level 0. [Northlight deck: texture LOD]
+HitTexel LoadHitTexel(HitConstants layout, HitPoint hit, float2 barycentrics, float cone_width) {
+  const float2 uv0 =
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.x);
+  const float2 uv1 =
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.y);
+  const float2 uv2 =
+      LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.z);
+  HitTexel texel;
+  texel.uv = Interpolate(uv0, uv1, uv2, barycentrics);
+  texel.level = kFinestLevel;
+  if (cone_width > 0.0) {
+    texel.level = RayConeLevel(hit.p0, hit.p1, hit.p2, uv0, uv1, uv2,
+                               abs(dot(hit.direction, hit.spawn.normal)), cone_width);
+  }
+  return texel;
+}
+
+// `cone_width`: as above.
 Surface LoadSurface(float2 barycentrics, float cone_width) {
   const HitConstants layout = hit_constants;
   const MaterialConstants material = materials[layout.material_id];
-  const uint3 corners = LoadTriangle(indices, layout.index_size_bytes, PrimitiveIndex());
-  const float3 p0 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.x);
-  const float3 p1 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.y);
-  const float3 p2 = LoadVertexFloat3(vertices, layout.vertex_stride, 0, corners.z);
-  const SpawnPoint spawn =
-      MakeSpawnPoint(p0, p1, p2, barycentrics, ObjectToWorld3x4(), WorldToObject3x4());
-
-  // Everything is seen from the side that the ray comes from.
-  const float3 direction = normalize(WorldRayDirection());
-  const float side = dot(direction, spawn.normal) <= 0.0 ? 1.0 : -1.0;
+  const HitPoint hit = LoadHitPoint(layout, barycentrics);
   Surface surface;
-  surface.position = spawn.position;
-  surface.offset = spawn.offset;
-  surface.normal = side * spawn.normal;
-  surface.back_face = side < 0.0;
-  float2 uv = float2(0, 0);
-  float level = kFinestLevel;
-  if (HasAnyTexture(material)) {
-    const float2 uv0 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.x);
-    const float2 uv1 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.y);
-    const float2 uv2 = LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, corners.z);
-    uv = Interpolate(uv0, uv1, uv2, barycentrics);
-    if (cone_width > 0.0) {
-      level = RayConeLevel(p0, p1, p2, uv0, uv1, uv2, abs(dot(direction, spawn.normal)), cone_width);
-    }
-  }
+  surface.position = hit.spawn.position;
+  surface.offset = hit.spawn.offset;
+  surface.normal = hit.side * hit.spawn.normal;
+  surface.back_face = hit.side < 0.0;
+  HitTexel texel;
+  texel.uv = float2(0, 0);
+  texel.level = kFinestLevel;
+  if (HasAnyTexture(material)) texel = LoadHitTexel(layout, hit, barycentrics, cone_width);
 
   float3 shading_normal =
-      NormalToWorld(LoadNormal(vertices, layout, corners, barycentrics), WorldToObject3x4());
+      NormalToWorld(LoadNormal(vertices, layout, hit.corners, barycentrics), WorldToObject3x4());
   if (HasTexture(material, kNormalTexture)) {
-    const float4 tangent = LoadTangent(vertices, layout, corners, barycentrics);
+    const float4 tangent = LoadTangent(vertices, layout, hit.corners, barycentrics);
     const float3 world_tangent = normalize(mul((float3x3)ObjectToWorld3x4(), tangent.xyz));
     shading_normal =
-        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, uv, level).xyz,
+        ApplyNormalTexture(SampleMaterial(material, kNormalTexture, texel.uv, texel.level).xyz,
                            material.normal_scale, shading_normal, world_tangent, tangent.w);
   }
-  shading_normal *= dot(shading_normal, spawn.normal) * side >= 0.0 ? 1.0 : -1.0;
+  shading_normal *= dot(shading_normal, hit.spawn.normal) * hit.side >= 0.0 ? 1.0 : -1.0;
   // A shading normal that looks away from where the ray came from lights nothing that is seen.
-  surface.shading_normal = dot(shading_normal, direction) < 0.0 ? shading_normal : surface.normal;
+  surface.shading_normal = dot(shading_normal, hit.direction) < 0.0 ? shading_normal : surface.normal;
 
   const float4 base_color =
-      material.base_color * SampleMaterial(material, kBaseColorTexture, uv, level);
-  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, uv, level);
+      material.base_color * SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level);
+  const float4 metallic_roughness = SampleMaterial(material, kMetallicRoughnessTexture, texel.uv, texel.level);
   surface.base_color = Contain(base_color.rgb, 1.0);
   surface.opacity = base_color.a;
   surface.emissive =
-      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, uv, level).rgb,
+      Contain(material.emissive * SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb,
               kLargestRadiance);
   surface.roughness = Contain(material.roughness * metallic_roughness.g, 1.0);
   surface.metallic = Contain(material.metallic * metallic_roughness.b, 1.0);
+  return surface;
+}
+
+// What a diffuse ray's closest-hit shader knows of it: a colour, the same from everywhere. What metals
+// mirror they send everywhere alike, too.
+struct MatteSurface {
+  float3 position;  // as of Surface
+  float offset;
+  float3 normal;
+  float3 base_color;
+  float3 emissive;
+};
+
+MatteSurface LoadMatteSurface(float2 barycentrics, float cone_width) {
+  const HitConstants layout = hit_constants;
+  const MaterialConstants material = materials[layout.material_id];
+  const HitPoint hit = LoadHitPoint(layout, barycentrics);
+  MatteSurface surface;
+  surface.position = hit.spawn.position;
+  surface.offset = hit.spawn.offset;
+  surface.normal = hit.side * hit.spawn.normal;
+  surface.base_color = material.base_color.rgb;
+  surface.emissive = material.emissive;
+  if (HasTexture(material, kBaseColorTexture) || HasTexture(material, kEmissiveTexture)) {
+    const HitTexel texel = LoadHitTexel(layout, hit, barycentrics, cone_width);
+    surface.base_color *= SampleMaterial(material, kBaseColorTexture, texel.uv, texel.level).rgb;
+    surface.emissive *= SampleMaterial(material, kEmissiveTexture, texel.uv, texel.level).rgb;
+  }
+  surface.base_color = Contain(surface.base_color, 1.0);
+  surface.emissive = Contain(surface.emissive, kLargestRadiance);
   return surface;
 }
 

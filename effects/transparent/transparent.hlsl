@@ -96,7 +96,7 @@ float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibi
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 light = surface.emissive;
   light += LocalLights(brdf, view, surface.position, surface.normal);
-  light += brdf.diffuse * VolumeIrradianceAt(surface.position, surface.normal);
+  light += brdf.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
   if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     light += frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun) *
              sun_visibility;
@@ -161,7 +161,7 @@ void TransparentAnyHit(inout GlassPayload payload, in BuiltInTriangleIntersectio
 void TransparentMiss(inout GlassPayload payload) {
   if (payload.kind == kMirrorRay) {
     const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-    payload.radiance = VolumeRadiance(end, WorldRayDirection());
+    payload.radiance = VolumeRadiance(end, kEveryCell, WorldRayDirection());
   }
 }
 
@@ -198,7 +198,7 @@ float3 MirrorImage(Surface surface, float3 direction) {
 
 void ShadeMirrored(inout GlassPayload payload, Surface surface) {
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun != 0) +
-                     IndirectAtHit(surface, -WorldRayDirection());
+                     IndirectAtHit(surface, kEveryCell, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 

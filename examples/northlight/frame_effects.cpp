@@ -231,9 +231,10 @@ rtapi::Status FrameEffects::add_indirect() {
   if (const auto s = volume_.bind(indirect_views_); !s) return s;
   IndirectConstants constants;
   const std::string& mode = given_.options.gi_mode;
-  constants.mode = mode == "direct"      ? IndirectMode::kDirect
-                   : mode == "hit-black" ? IndirectMode::kHitBlack
-                                         : IndirectMode::kNearField;
+  constants.mode = mode == "direct"              ? IndirectMode::kDirect
+                   : mode == "hit-black"         ? IndirectMode::kHitBlack
+                   : mode == "near-field-glossy" ? IndirectMode::kNearFieldGlossy
+                                                 : IndirectMode::kNearField;
   steps_.push_back({indirect_diffuse_pass(given_.libraries->indirect_diffuse),
                     given_.options.gi_samples,
                     PassArguments(indirect_views_, constants),

@@ -98,7 +98,10 @@ MeasurePlan indirect_plan(const Options& options) {
   plan.needs = {.lights = true, .volume = true};
   Setting near_field{.effect = Effect::kGi};
   Setting whole = near_field;
+  whole.indirect.mode = IndirectMode::kNearFieldGlossy;
   whole.indirect.length = kNoEnd;
+  Setting glossy = near_field;
+  glossy.indirect.mode = IndirectMode::kNearFieldGlossy;
   plan.references = {
       {"gi", fmt::format("near-field rays of {} m", near_field.indirect.length), near_field, true},
       {"gi-whole", "rays that end at the first hit, which is lit", whole, true}};
@@ -115,6 +118,7 @@ MeasurePlan indirect_plan(const Options& options) {
   add_single(plan, modes, "the same x AO of 16 rays", occluded, 1, "gi-whole");
   add_single(plan, modes, "hit = black, 16 rays", hit_black, 16, "gi-whole");
   add_single(plan, modes, "near-field, 16 rays", near_field, 16, "gi-whole");
+  add_single(plan, modes, "near-field with glossy hits, 16 rays", glossy, 16, "gi-whole");
   add_single(plan, modes, "rays to the hit, 16", whole, 16, "gi-whole");
   return plan;
 }

@@ -235,9 +235,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));
   app.add_option("--gi-mode", options.gi_mode,
-                 "indirect light: direct (the volume at the surface), hit-black, near-field")
+                 "indirect light: direct (the volume at the surface), hit-black, near-field, "
+                 "near-field-glossy (hits mirror lights, too)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"direct", "hit-black", "near-field"}));
+      ->check(CLI::IsMember({"direct", "hit-black", "near-field", "near-field-glossy"}));
   app.add_option("--gi-samples", options.gi_samples, "indirect rays per pixel")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));

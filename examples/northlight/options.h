@@ -40,7 +40,7 @@ struct Options {
   }
   std::uint32_t contact_samples = 1;
   float contact_length = 1.0f;         // metres
-  std::string gi_mode = "near-field";  // direct, hit-black, near-field
+  std::string gi_mode = "near-field";  // direct, hit-black, near-field, near-field-glossy
   std::uint32_t gi_samples = 1;
   std::optional<float> gi_cell;  // metres; else by the size of the scene
   std::uint32_t gi_bake_samples = 256;
