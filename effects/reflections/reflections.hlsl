@@ -21,7 +21,7 @@ ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 // From here on reflections are noise that is filtered, and one cell of the volume a ray adds little to
 // it; a mirror's picture would show it.
-static const float kNoisyRoughness = 0.2;
+static const float kNoisyRoughness = 0.21;  // not one of 8 bits
 
 struct ReflectionPayload {
   float3 radiance;  // at first the jitter that chooses a cell of the volume
