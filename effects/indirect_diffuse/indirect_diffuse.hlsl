@@ -99,7 +99,8 @@ void IndirectRayGen() {
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
-    indirect[pixel] += count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
+    indirect[pixel] +=
+        count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
     return;
   }
   const float4 before = indirect[pixel];  // asked for early: the rays cover the wait

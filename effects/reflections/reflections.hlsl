@@ -20,8 +20,9 @@ ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
 static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 // From here on reflections are noise that is filtered, and one cell of the volume a ray adds little to
-// it; a mirror's picture would show it.
-static const float kNoisyRoughness = 0.21;  // not one of 8 bits
+// it; a mirror's picture would show it. Between two values of 8 bits (53.55 of 255), as g_material holds
+// them, so that rounding never decides.
+static const float kNoisyRoughness = 0.21;
 
 struct ReflectionPayload {
   float3 radiance;  // at first the jitter that chooses a cell of the volume
