@@ -122,11 +122,11 @@ void search(Worker& worker, RayQuery& query) {
     return;
   }
   if (search.any) {
-    shim::occluded(scene.scene(), state.query, &ray_hit.ray);
+    occlude(state, ray_hit.ray);
   } else {
     ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    shim::intersect(scene.scene(), state.query, &ray_hit);
+    intersect(state, ray_hit);
     if (first) take_embree_hit(state, ray_hit, search);
   }
   if (search.has_opaque) commit_opaque(query, scene, search.opaque);
@@ -215,8 +215,7 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
   query.next_left_out = kNone;
   const ObjectRay world = {_mm_setr_ps(ray.origin[0], ray.origin[1], ray.origin[2], 0),
                            _mm_setr_ps(ray.direction[0], ray.direction[1], ray.direction[2], 0)};
-  query.ended =
-      scene == nullptr || scene->scene() == nullptr || !is_valid(world, ray.t_min, ray.t_max);
+  query.ended = scene == nullptr || scene->empty() || !is_valid(world, ray.t_min, ray.t_max);
 }
 
 bool proceed(shader::Invocation& caller, RayQuery& query) {

@@ -121,7 +121,12 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
   level->pack_filter_ = context.pack_filter;
-  if (context.exact) level->add_exact_instances(instances, bounds);
+  if (context.exact) {
+    level->add_exact_instances(instances, bounds);
+  } else if (bounds.size() <= kMostInstanceBoxes) {
+    level->boxes_.set(bounds);
+    return level;
+  }
 
   rtcGetDeviceError(context.device);  // forgets what an earlier build left
   level->scene_ = rtcNewScene(context.device);

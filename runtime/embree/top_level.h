@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A top level: one Embree user geometry whose primitives are the instances. Against Embree's own
-// instances it costs the same to trace, less to build, does not abort on singular matrices, has
-// bounds with room for rounding, and lets each instance have its own flags. Numbers: README.md.
+// A top level: a list of boxes where there are few instances, else one Embree user geometry whose
+// primitives are the instances. Against Embree's own instances the latter costs the same to trace,
+// less to build, does not abort on singular matrices, has bounds with room for rounding, and lets
+// each instance have its own flags; the former costs less. Numbers: README.md.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <rtapi/result.h>
 
 #include "runtime/embree/bottom_level.h"
+#include "runtime/embree/instance_boxes.h"
 #include "runtime/embree/instance_node.h"
 #include "runtime/instances.h"
 
@@ -33,7 +35,10 @@ class TopLevel final : public runtime::TopLevelBase {
   TopLevel(const TopLevel&) = delete;
   TopLevel& operator=(const TopLevel&) = delete;
 
-  RTCScene scene() const { return scene_; }  // null: nothing can be hit
+  // Whether nothing can be hit. If something can there is either a list of boxes or a scene.
+  bool empty() const { return bottom_levels_.empty(); }
+  const InstanceBoxes& boxes() const { return boxes_; }
+  RTCScene scene() const { return scene_; }
   bool has_procedurals() const { return has_procedurals_; }
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
@@ -50,6 +55,7 @@ class TopLevel final : public runtime::TopLevelBase {
   void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
 
   RTCScene scene_ = nullptr;
+  InstanceBoxes boxes_;
   bool has_procedurals_ = false;
   bool exact_ = false;
   ExactFrame frame_;
@@ -61,7 +67,14 @@ class TopLevel final : public runtime::TopLevelBase {
       bottom_levels_;  // kept alive, each once
 };
 
-// Callbacks of the traversal. [traverse.cpp]
+struct RayState;
+
+// The traversal of the ray's top level, which is not empty, as rtcIntersect1 and rtcOccluded1 do
+// it. [traverse.cpp]
+void intersect(RayState& state, RTCRayHit& ray_hit);
+void occlude(RayState& state, RTCRay& ray);
+
+// Callbacks of a scene's traversal.
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments);
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments);
 

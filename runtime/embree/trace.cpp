@@ -79,16 +79,15 @@ void run_miss(Worker& worker, const shader::Invocation& caller, const TraceRayAr
 template <bool exact>
 void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
             RayState& state, RTCRayHit& ray_hit) {
-  const TopLevel& top_level = *state.top_level;
   if (asks_visibility(state)) {
     ++worker.counters.visibility_rays;
-    shim::occluded(top_level.scene(), state.query, &ray_hit.ray);
+    occlude(state, ray_hit.ray);
     if (ray_hit.ray.tfar >= 0) run_miss(worker, caller, arguments, state);
     return;
   }
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  shim::intersect(top_level.scene(), state.query, &ray_hit);
+  intersect(state, ray_hit);
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return run_miss(worker, caller, arguments, state);
   }
@@ -130,8 +129,7 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   const ObjectRay world = {without_fourth_lane(origin_t_min), without_fourth_lane(direction_t_max)};
   const float t_min = origin_t_min[3];
   const float t_max = direction_t_max[3];
-  if (top_level == nullptr || top_level->scene() == nullptr || !is_valid(world, t_min, t_max))
-      [[unlikely]] {
+  if (top_level == nullptr || top_level->empty() || !is_valid(world, t_min, t_max)) [[unlikely]] {
     return run_miss(worker, caller, arguments, state);
   }
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The instance level of a traversal: Embree calls one of these for each instance whose box a ray
-// meets. Decides by the instance's mask and flags what the ray sees of it, takes the ray to object
-// space, and traverses the bottom level with it.
+// The instance level of a traversal: each instance whose box a ray meets is visited, in a small top
+// level by a loop, else by callbacks of Embree. A visit decides by the instance's mask and flags
+// what the ray sees of it, takes the ray to object space, and traverses the bottom level with it.
+#include <bit>
+
 #include "runtime/embree/inline_query.h"
 
 namespace kaamos::embree {
@@ -58,27 +60,68 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed
   if (mixed && !hit_here()) ray.tfar = t_far;
 }
 
+// Both return whether the instance was hit.
+bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
+  RTCHit& hit = ray_hit.hit;
+  // Each instance is visited once, so that its index is new in the hit.
+  const auto hit_here = [&] { return hit.instID[0] == index; };
+  visit_instance(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
+                 [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
+  return hit_here();
+}
+
+bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
+  const auto hit_here = [&] { return ray.tfar < 0; };
+  visit_instance(state, index, ray, false, hit_here,
+                 [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
+  return hit_here();
+}
+
+// Takes the box that is entered first from those that are left, of which there are some.
+uint32_t take_first(const EnteredBoxes& entered, uint32_t& left) {
+  auto first = static_cast<uint32_t>(std::countr_zero(left));
+  for (uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
+    const auto other = static_cast<uint32_t>(std::countr_zero(others));
+    if (entered.entry[other] < entered.entry[first]) first = other;
+  }
+  left &= ~(1u << first);
+  return first;
+}
+
 }  // namespace
 
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
-  RayState& state = ray_state_of(arguments->context);
-  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  RTCHit& hit = ray_hit->hit;
-  const uint32_t index = arguments->primID;
-  // Each instance is visited once, so that its index is new in the hit.
-  const auto hit_here = [&] { return hit.instID[0] == index; };
-  visit_instance(state, index, ray_hit->ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
-                 [&](RTCScene scene) { shim::intersect(scene, state.query, ray_hit); });
-  shim::set_hit(arguments, hit_here());
+  const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
+                                 *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
+  shim::set_hit(arguments, hit);
 }
 
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
-  RayState& state = ray_state_of(arguments->context);
-  auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
-  const auto hit_here = [&] { return ray->tfar < 0; };
-  visit_instance(state, arguments->primID, *ray, false, hit_here,
-                 [&](RTCScene scene) { shim::occluded(scene, state.query, ray); });
-  shim::set_hit(arguments, hit_here());
+  const bool hit = occlude_one(ray_state_of(arguments->context), arguments->primID,
+                               *reinterpret_cast<RTCRay*>(arguments->ray));
+  shim::set_hit(arguments, hit);
+}
+
+void intersect(RayState& state, RTCRayHit& ray_hit) {
+  const TopLevel& top_level = *state.top_level;
+  if (top_level.boxes().empty()) return shim::intersect(top_level.scene(), state.query, &ray_hit);
+  EnteredBoxes entered;
+  top_level.boxes().enter(ray_hit.ray, entered);
+  for (uint32_t left = entered.boxes; left != 0;) {
+    const uint32_t index = take_first(entered, left);
+    if (entered.entry[index] > ray_hit.ray.tfar) return;  // as the others are
+    intersect_one(state, index, ray_hit);
+  }
+}
+
+void occlude(RayState& state, RTCRay& ray) {
+  const TopLevel& top_level = *state.top_level;
+  if (top_level.boxes().empty()) return shim::occluded(top_level.scene(), state.query, &ray);
+  EnteredBoxes entered;
+  top_level.boxes().enter(ray, entered);
+  for (uint32_t left = entered.boxes; left != 0;) {
+    if (occlude_one(state, take_first(entered, left), ray)) return;
+  }
 }
 
 }  // namespace kaamos::embree

@@ -54,7 +54,7 @@ void OwnTopLevel::closest(tbb::task_arena& arena, const RayGrid& grid,
       begin_ray(grid.rays[index], state, hit.ray);
       hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
       hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      shim::intersect(top_level_->scene(), state.query, &hit);
+      embree::intersect(state, hit);
       const bool missed = hit.hit.geomID == RTC_INVALID_GEOMETRY_ID;
       results[index] = {missed ? -1.0f : hit.ray.tfar, missed ? ~0u : hit.hit.primID};
     };
@@ -67,7 +67,7 @@ void OwnTopLevel::visible(tbb::task_arena& arena, const RayGrid& grid,
     return [this, &grid, &results, state = make_state(*top_level_)](uint32_t index) mutable {
       RTCRay ray;
       begin_ray(grid.rays[index], state, ray);
-      shim::occluded(top_level_->scene(), state.query, &ray);
+      embree::occlude(state, ray);
       results[index] = ray.tfar >= 0 ? 1 : 0;
     };
   });

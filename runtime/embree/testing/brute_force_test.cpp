@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/embree/instance_boxes.h"
 #include "runtime/embree/testing/harness.h"
 
 namespace kaamos::embree::testing {
@@ -107,9 +108,10 @@ Reference trace_reference(const Scene& scene, const shader::RayDesc& ray) {
   return reference;
 }
 
-Scene random_scene(Random& random) {
+// 360 triangles in as many instances as that.
+Scene random_scene(Random& random, uint32_t instances) {
   Scene scene;
-  for (int i = 0; i < 60; ++i) {
+  for (uint32_t i = 0; i < 360 / instances; ++i) {
     const float center[3] = {random.symmetric(), random.symmetric(), random.symmetric()};
     for (int corner = 0; corner < 3; ++corner) {
       scene.vertices.push_back({center[0] + 0.6f * random.symmetric(),
@@ -117,7 +119,7 @@ Scene random_scene(Random& random) {
                                 center[2] + 0.6f * random.symmetric()});
     }
   }
-  for (int i = 0; i < 6; ++i) {
+  for (uint32_t i = 0; i < instances; ++i) {
     auto instance = instance_of(0);
     for (int row = 0; row < 3; ++row) {
       for (int column = 0; column < 4; ++column) {
@@ -129,10 +131,11 @@ Scene random_scene(Random& random) {
   return scene;
 }
 
-void compare(rtapi::RaytracingGeometryFlags flags, shader::AnyHitFn any_hit, uint64_t seed) {
+void compare(rtapi::RaytracingGeometryFlags flags, shader::AnyHitFn any_hit, uint64_t seed,
+             uint32_t instances) {
   Harness h(2);
   Random random(seed);
-  Scene scene = random_scene(random);
+  Scene scene = random_scene(random, instances);
   GeometryInput input;
   input.vertices = scene.vertices;
   input.flags = flags;
@@ -172,14 +175,21 @@ void compare(rtapi::RaytracingGeometryFlags flags, shader::AnyHitFn any_hit, uin
 }
 
 TEST(Trv11, ClosestHitsAreThoseOfTheReference) {
-  compare(kOpaque, nullptr, 1);
-  compare(kOpaque, nullptr, 2);
+  compare(kOpaque, nullptr, 1, 6);
+  compare(kOpaque, nullptr, 2, 6);
+}
+TEST(Trv11, ClosestHitsInAsManyInstancesAsAListOfBoxesHolds) {
+  compare(kOpaque, nullptr, 5, kMostInstanceBoxes);
+}
+TEST(Trv11, ClosestHitsInMoreInstances) {
+  compare(kOpaque, nullptr, 6, kMostInstanceBoxes + 1);
 }
 TEST(Trv11, AcceptedAnyHitsEndAtTheSameHit) {
-  compare(kNonOpaque, any_hit_accept, 3);
+  compare(kNonOpaque, any_hit_accept, 3, 6);
 }
 TEST(Trv15, IgnoredHitsAreAllThereIs) {
-  compare(kNonOpaque, any_hit_ignore, 4);
+  compare(kNonOpaque, any_hit_ignore, 4, 6);
+  compare(kNonOpaque, any_hit_ignore, 7, kMostInstanceBoxes + 1);
 }
 
 TEST(Trv66, DegenerateTrianglesMayBecomeValidByAnUpdate) {
