@@ -95,7 +95,13 @@ struct ExactState {
   bool hit_opaque;  // no any-hit shader was asked
 };
 
-// Callbacks. [exact_traverse.cpp]
+struct RayState;
+
+// The traversal of a top level that is a list of boxes. [exact_traverse.cpp]
+void intersect_exactly(RayState& state, RTCRayHit& ray_hit);
+void occlude_exactly(RayState& state, RTCRay& ray);
+
+// Callbacks.
 void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments);
 void intersect_exact_pack(const RTCIntersectFunctionNArguments* arguments);
 void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments);

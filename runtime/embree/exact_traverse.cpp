@@ -192,6 +192,22 @@ void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed
   ray.tfar = hit ? state.exact->in_top_level.far_of(state.committed_t) : t_far;
 }
 
+// As those of traverse.cpp.
+bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
+  RTCHit& hit = ray_hit.hit;
+  const auto hit_here = [&] { return hit.instID[0] == index; };
+  visit_instance(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
+                 [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
+  return hit_here();
+}
+
+bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
+  const auto hit_here = [&] { return ray.tfar < 0; };
+  visit_instance(state, index, ray, false, hit_here,
+                 [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
+  return hit_here();
+}
+
 }  // namespace
 
 void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments) {
@@ -238,24 +254,25 @@ void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments) {
-  RayState& state = ray_state_of(arguments->context);
-  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  RTCHit& hit = ray_hit->hit;
-  const uint32_t index = arguments->primID;
-  // Each instance is visited once, so that its index is new in the hit.
-  const auto hit_here = [&] { return hit.instID[0] == index; };
-  visit_instance(state, index, ray_hit->ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
-                 [&](RTCScene scene) { shim::intersect(scene, state.query, ray_hit); });
-  shim::set_hit(arguments, hit_here());
+  const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
+                                 *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
+  shim::set_hit(arguments, hit);
 }
 
 void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments) {
-  RayState& state = ray_state_of(arguments->context);
-  auto* ray = reinterpret_cast<RTCRay*>(arguments->ray);
-  const auto hit_here = [&] { return ray->tfar < 0; };
-  visit_instance(state, arguments->primID, *ray, false, hit_here,
-                 [&](RTCScene scene) { shim::occluded(scene, state.query, ray); });
-  shim::set_hit(arguments, hit_here());
+  const bool hit = occlude_one(ray_state_of(arguments->context), arguments->primID,
+                               *reinterpret_cast<RTCRay*>(arguments->ray));
+  shim::set_hit(arguments, hit);
+}
+
+void intersect_exactly(RayState& state, RTCRayHit& ray_hit) {
+  state.top_level->boxes().for_each_entered(
+      ray_hit.ray, [&](uint32_t index) { intersect_one(state, index, ray_hit); });
+}
+
+void occlude_exactly(RayState& state, RTCRay& ray) {
+  state.top_level->boxes().for_each_entered(
+      ray, [&](uint32_t index) { occlude_one(state, index, ray); });
 }
 
 }  // namespace kaamos::embree

@@ -7,6 +7,7 @@
 
 #include <immintrin.h>
 
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
@@ -21,6 +22,17 @@ inline constexpr uint32_t kMostInstanceBoxes = 32;
 
 // The boxes that a ray enters.
 struct EnteredBoxes {
+  // Takes out the one that is entered first, of those with the same entry the first. There is one.
+  uint32_t take_first() {
+    auto first = static_cast<uint32_t>(std::countr_zero(boxes));
+    for (uint32_t others = boxes & (boxes - 1); others != 0; others &= others - 1) {
+      const auto other = static_cast<uint32_t>(std::countr_zero(others));
+      if (entry[other] < entry[first]) first = other;
+    }
+    boxes &= ~(1u << first);
+    return first;
+  }
+
   uint32_t boxes;                               // a bit each
   alignas(16) float entry[kMostInstanceBoxes];  // where; of others undefined
 };
@@ -44,6 +56,19 @@ class InstanceBoxes {
   }
 
   bool empty() const { return fours_.empty(); }
+
+  // Calls visit(number of a box) for each that the ray enters, the one that it enters first first,
+  // as long as it gets there: a visit may shorten the ray.
+  template <typename Visit>
+  void for_each_entered(const RTCRay& ray, Visit visit) const {
+    EnteredBoxes entered;
+    enter(ray, entered);
+    while (entered.boxes != 0) {
+      const uint32_t box = entered.take_first();
+      if (entered.entry[box] > ray.tfar) return;  // as all others are
+      visit(box);
+    }
+  }
 
   // Closed boxes and the closed interval from tnear, 0 or more, to tfar; `ray` is aligned to 16
   // bytes. No box that the ray enters is left out for rounding.

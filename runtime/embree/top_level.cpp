@@ -121,9 +121,8 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
   level->pack_filter_ = context.pack_filter;
-  if (context.exact) {
-    level->add_exact_instances(instances, bounds);
-  } else if (bounds.size() <= kMostInstanceBoxes) {
+  if (context.exact) level->add_exact_instances(instances, bounds);
+  if (bounds.size() <= kMostInstanceBoxes) {
     level->boxes_.set(bounds);
     return level;
   }

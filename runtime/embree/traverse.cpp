@@ -3,8 +3,6 @@
 // The instance level of a traversal: each instance whose box a ray meets is visited, in a small top
 // level by a loop, else by callbacks of Embree. A visit decides by the instance's mask and flags
 // what the ray sees of it, takes the ray to object space, and traverses the bottom level with it.
-#include <bit>
-
 #include "runtime/embree/inline_query.h"
 
 namespace kaamos::embree {
@@ -77,17 +75,6 @@ bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
   return hit_here();
 }
 
-// Takes the box that is entered first from those that are left, of which there are some.
-uint32_t take_first(const EnteredBoxes& entered, uint32_t& left) {
-  auto first = static_cast<uint32_t>(std::countr_zero(left));
-  for (uint32_t others = left & (left - 1); others != 0; others &= others - 1) {
-    const auto other = static_cast<uint32_t>(std::countr_zero(others));
-    if (entered.entry[other] < entered.entry[first]) first = other;
-  }
-  left &= ~(1u << first);
-  return first;
-}
-
 }  // namespace
 
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
@@ -105,23 +92,16 @@ void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
 void intersect(RayState& state, RTCRayHit& ray_hit) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::intersect(top_level.scene(), state.query, &ray_hit);
-  EnteredBoxes entered;
-  top_level.boxes().enter(ray_hit.ray, entered);
-  for (uint32_t left = entered.boxes; left != 0;) {
-    const uint32_t index = take_first(entered, left);
-    if (entered.entry[index] > ray_hit.ray.tfar) return;  // as the others are
-    intersect_one(state, index, ray_hit);
-  }
+  if (top_level.exact_frame() != nullptr) return intersect_exactly(state, ray_hit);
+  top_level.boxes().for_each_entered(ray_hit.ray,
+                                     [&](uint32_t index) { intersect_one(state, index, ray_hit); });
 }
 
 void occlude(RayState& state, RTCRay& ray) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::occluded(top_level.scene(), state.query, &ray);
-  EnteredBoxes entered;
-  top_level.boxes().enter(ray, entered);
-  for (uint32_t left = entered.boxes; left != 0;) {
-    if (occlude_one(state, take_first(entered, left), ray)) return;
-  }
+  if (top_level.exact_frame() != nullptr) return occlude_exactly(state, ray);
+  top_level.boxes().for_each_entered(ray, [&](uint32_t index) { occlude_one(state, index, ray); });
 }
 
 }  // namespace kaamos::embree
