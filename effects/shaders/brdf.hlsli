@@ -30,19 +30,13 @@ float3 FresnelSchlick(float3 f0, float cosine) {
   return f0 + (float3(1.0f, 1.0f, 1.0f) - f0) * (m2 * m2 * m);
 }
 
-// Smith's Lambda for GGX.
-float GgxLambda(float alpha, float cosine) {
-  const float c2 = max(cosine * cosine, 1e-8f);
-  return 0.5f * (-1.0f + sqrt(1.0f + alpha * alpha * max(0.0f, 1.0f - c2) / c2));
-}
-
 float GgxDensity(float alpha, float cosine_half) {
   const float a2 = alpha * alpha;
   const float d = cosine_half * cosine_half * (a2 - 1.0f) + 1.0f;
   return a2 / (kBrdfPi * d * d);
 }
 
-// cosine * (1 + 2 Lambda), without a division that fails at grazing angles.
+// cosine * (1 + 2 Lambda), Lambda as of Smith, without a division that fails at grazing angles.
 float GgxShadowing(float alpha, float cosine) {
   const float a2 = alpha * alpha;
   return sqrt(a2 + (1.0f - a2) * (cosine * cosine));
@@ -90,13 +84,15 @@ float3 SampleGgxHalfVector(float2 u, float3 view, float alpha) {
   return normalize(float3(alpha * h.x, alpha * h.y, max(h.z, 0.0f)));
 }
 
-// Reflectance over density of a direction that was mirrored at such a half vector: F G2 / G1. At
-// most 1. Zero under the surface: that light is lost, not drawn anew. [effects-spec B0.4]
+// Reflectance over density of a direction that was mirrored at such a half vector: F G2 / G1, which is
+// F (1 + Lambda(n_v)) / (1 + Lambda(n_v) + Lambda(n_l)). At most 1. Zero under the surface: that light
+// is lost, not drawn anew. [effects-spec B0.4]
 float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float cosine_half_view) {
   if (!(cosine_light > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
-  const float view = GgxLambda(brdf.alpha, cosine_view);
-  const float light = GgxLambda(brdf.alpha, cosine_light);
-  return FresnelSchlick(brdf.f0, cosine_half_view) * ((1.0f + view) / (1.0f + view + light));
+  const float view = GgxShadowing(brdf.alpha, cosine_view);
+  const float light = GgxShadowing(brdf.alpha, cosine_light);
+  return FresnelSchlick(brdf.f0, cosine_half_view) *
+         (cosine_light * (view + cosine_view) / (cosine_light * view + cosine_view * light));
 }
 
 // Reflectance of the specular part under light from everywhere, about: what a signal is divided by
