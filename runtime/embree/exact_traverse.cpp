@@ -9,6 +9,7 @@
 #include "runtime/embree/any_hit.h"
 #include "runtime/embree/exact.h"
 #include "runtime/embree/inline_query.h"
+#include "runtime/embree/instance_level.h"
 #include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
@@ -160,53 +161,40 @@ bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCR
   return true;
 }
 
-// As visit_instance of traverse.cpp.
-template <typename HitHere, typename Trace>
-void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
-                    Trace trace) {
-  if (state.ended) return;
-  const InstanceNode& node = state.top_level->nodes()[index];
-  if ((node.mask & state.inclusion_mask) == 0) return;
-  const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
-  if (classes == 0) return;
+struct Visit {
+  template <typename HitHere, typename Trace>
+  void operator()(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
+                  Trace trace) const {
+    if (state.ended) return;
+    const InstanceNode& node = state.top_level->nodes()[index];
+    if ((node.mask & state.inclusion_mask) == 0) return;
+    const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
+    if (classes == 0) return;
 
-  const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
-  const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
-  const float t_far = ray.tfar;
-  const bool entered = node.procedural
-                           ? enter_boxes(state, node, committed, ray)
-                           : enter_triangles(state, state.top_level->exact_instance(index), ray);
-  if (entered) {
-    ray.mask = classes;
-    state.instance = &node;
-    shim::set_instance(state.query, index);
-    trace(node.scene);
-    ray.mask = kAllClasses;
-    shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
+    const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
+    const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
+    const float t_far = ray.tfar;
+    const bool entered = node.procedural
+                             ? enter_boxes(state, node, committed, ray)
+                             : enter_triangles(state, state.top_level->exact_instance(index), ray);
+    if (entered) {
+      ray.mask = classes;
+      state.instance = &node;
+      shim::set_instance(state.query, index);
+      trace(node.scene);
+      ray.mask = kAllClasses;
+      shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
+    }
+    _mm_store_ps(&ray.org_x, origin);
+    _mm_store_ps(&ray.dir_x, direction);
+    if (entered && ray.tfar < 0) return;  // the search is over
+    const bool hit = entered && hit_here();
+    if (hit && node.procedural) state.exact->hit_opaque = false;
+    ray.tfar = hit ? state.exact->in_top_level.far_of(state.committed_t) : t_far;
   }
-  _mm_store_ps(&ray.org_x, origin);
-  _mm_store_ps(&ray.dir_x, direction);
-  if (entered && ray.tfar < 0) return;  // the search is over
-  const bool hit = entered && hit_here();
-  if (hit && node.procedural) state.exact->hit_opaque = false;
-  ray.tfar = hit ? state.exact->in_top_level.far_of(state.committed_t) : t_far;
-}
+};
 
-// As those of traverse.cpp.
-bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
-  RTCHit& hit = ray_hit.hit;
-  const auto hit_here = [&] { return hit.instID[0] == index; };
-  visit_instance(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
-                 [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
-  return hit_here();
-}
-
-bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
-  const auto hit_here = [&] { return ray.tfar < 0; };
-  visit_instance(state, index, ray, false, hit_here,
-                 [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
-  return hit_here();
-}
+using Instances = InstanceLevel<Visit>;
 
 }  // namespace
 
@@ -254,25 +242,19 @@ void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments) {
-  const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
-                                 *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
-  shim::set_hit(arguments, hit);
+  Instances::intersect(arguments);
 }
 
 void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments) {
-  const bool hit = occlude_one(ray_state_of(arguments->context), arguments->primID,
-                               *reinterpret_cast<RTCRay*>(arguments->ray));
-  shim::set_hit(arguments, hit);
+  Instances::occlude(arguments);
 }
 
 void intersect_exactly(RayState& state, RTCRayHit& ray_hit) {
-  state.top_level->boxes().for_each_entered(
-      ray_hit.ray, [&](uint32_t index) { intersect_one(state, index, ray_hit); });
+  Instances::intersect(state, ray_hit);
 }
 
 void occlude_exactly(RayState& state, RTCRay& ray) {
-  state.top_level->boxes().for_each_entered(
-      ray, [&](uint32_t index) { occlude_one(state, index, ray); });
+  Instances::occlude(state, ray);
 }
 
 }  // namespace kaamos::embree

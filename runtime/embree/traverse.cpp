@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The instance level of a traversal: each instance whose box a ray meets is visited, in a small top
-// level by a loop, else by callbacks of Embree. A visit decides by the instance's mask and flags
-// what the ray sees of it, takes the ray to object space, and traverses the bottom level with it.
+// What a traversal does at an instance, in robust and fast precision: decides by the instance's mask
+// and flags what the ray sees of it, takes the ray to object space, and traverses the bottom level
+// with it. In exact precision exact_traverse.cpp does.
 #include "runtime/embree/inline_query.h"
+#include "runtime/embree/instance_level.h"
 
 namespace kaamos::embree {
 namespace {
@@ -21,87 +22,68 @@ void select_filter(RayState& state, const InstanceNode& node) {
   shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
 }
 
-// `committed` says whether there was a hit before, `hit_here` whether this instance was hit.
-template <typename HitHere, typename Trace>
-void visit_instance(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
-                    Trace trace) {
-  if (state.ended) return;
-  const InstanceNode& node = state.top_level->nodes()[index];
-  if ((node.mask & state.inclusion_mask) == 0) return;
-  const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
-  if (classes == 0) return;
+struct Visit {
+  template <typename HitHere, typename Trace>
+  void operator()(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
+                  Trace trace) const {
+    if (state.ended) return;
+    const InstanceNode& node = state.top_level->nodes()[index];
+    if ((node.mask & state.inclusion_mask) == 0) return;
+    const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
+    if (classes == 0) return;
 
-  const __m128 world_origin = _mm_load_ps(&ray.org_x);     // w: tnear
-  const __m128 world_direction = _mm_load_ps(&ray.dir_x);  // w: time
-  const ObjectRay object = to_object_space(node, world_origin, world_direction);
-  if (!is_traceable(object)) return;
-  // In a top level with procedural instances Embree's ray has the closed interval. Triangles must
-  // see the open one, which also ends just before a hit that is there [DXR: Ray extents].
-  const float t_far = ray.tfar;
-  const bool mixed = state.top_level->has_procedurals();
-  const float t_near = mixed && node.procedural ? state.t_min : state.t_near;
-  if (mixed && !node.procedural) ray.tfar = committed ? next_below(t_far) : state.t_far;
-  // Whole stores: Embree loads origin and tnear at once, and would wait for two partial ones.
-  _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, t_near));
-  _mm_store_ps(&ray.dir_x, object.direction);
-  ray.mask = classes;
-  state.instance = &node;
-  shim::set_instance(state.query, index);
-  select_filter(state, node);
+    const __m128 world_origin = _mm_load_ps(&ray.org_x);     // w: tnear
+    const __m128 world_direction = _mm_load_ps(&ray.dir_x);  // w: time
+    const ObjectRay object = to_object_space(node, world_origin, world_direction);
+    if (!is_traceable(object)) return;
+    // In a top level with procedural instances Embree's ray has the closed interval. Triangles must
+    // see the open one, which also ends just before a hit that is there [DXR: Ray extents].
+    const float t_far = ray.tfar;
+    const bool mixed = state.top_level->has_procedurals();
+    const float t_near = mixed && node.procedural ? state.t_min : state.t_near;
+    if (mixed && !node.procedural) ray.tfar = committed ? next_below(t_far) : state.t_far;
+    // Whole stores: Embree loads origin and tnear at once, and would wait for two partial ones.
+    _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, t_near));
+    _mm_store_ps(&ray.dir_x, object.direction);
+    ray.mask = classes;
+    state.instance = &node;
+    shim::set_instance(state.query, index);
+    select_filter(state, node);
 
-  trace(node.scene);
+    trace(node.scene);
 
-  _mm_store_ps(&ray.org_x, world_origin);
-  _mm_store_ps(&ray.dir_x, world_direction);
-  ray.mask = kAllClasses;
-  shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
-  if (mixed && !hit_here()) ray.tfar = t_far;
-}
+    _mm_store_ps(&ray.org_x, world_origin);
+    _mm_store_ps(&ray.dir_x, world_direction);
+    ray.mask = kAllClasses;
+    shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
+    if (mixed && !hit_here()) ray.tfar = t_far;
+  }
+};
 
-// Both return whether the instance was hit.
-bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
-  RTCHit& hit = ray_hit.hit;
-  // Each instance is visited once, so that its index is new in the hit.
-  const auto hit_here = [&] { return hit.instID[0] == index; };
-  visit_instance(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
-                 [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
-  return hit_here();
-}
-
-bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
-  const auto hit_here = [&] { return ray.tfar < 0; };
-  visit_instance(state, index, ray, false, hit_here,
-                 [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
-  return hit_here();
-}
+using Instances = InstanceLevel<Visit>;
 
 }  // namespace
 
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments) {
-  const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
-                                 *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
-  shim::set_hit(arguments, hit);
+  Instances::intersect(arguments);
 }
 
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
-  const bool hit = occlude_one(ray_state_of(arguments->context), arguments->primID,
-                               *reinterpret_cast<RTCRay*>(arguments->ray));
-  shim::set_hit(arguments, hit);
+  Instances::occlude(arguments);
 }
 
 void intersect(RayState& state, RTCRayHit& ray_hit) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::intersect(top_level.scene(), state.query, &ray_hit);
   if (top_level.exact_frame() != nullptr) return intersect_exactly(state, ray_hit);
-  top_level.boxes().for_each_entered(ray_hit.ray,
-                                     [&](uint32_t index) { intersect_one(state, index, ray_hit); });
+  Instances::intersect(state, ray_hit);
 }
 
 void occlude(RayState& state, RTCRay& ray) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::occluded(top_level.scene(), state.query, &ray);
   if (top_level.exact_frame() != nullptr) return occlude_exactly(state, ray);
-  top_level.boxes().for_each_entered(ray, [&](uint32_t index) { occlude_one(state, index, ray); });
+  Instances::occlude(state, ray);
 }
 
 }  // namespace kaamos::embree

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// The instance level of a traversal, of every precision: the instances of a list of boxes in the
+// order in which the ray enters them, or those of a tree, one for each callback of Embree. What a
+// precision does at an instance is its Visit:
+//   visit(state, index, ray, committed, hit_here, trace)
+// takes `ray` to the instance's space, calls trace(bottom level) and takes it back. `committed`:
+// there was a hit before; hit_here(): this instance was hit.
+#pragma once
+
+#include "runtime/embree/ray_state.h"
+
+namespace kaamos::embree {
+
+template <typename Visit>
+struct InstanceLevel {
+  // Of a top level that is a list of boxes.
+  static void intersect(RayState& state, RTCRayHit& ray_hit) {
+    state.top_level->boxes().for_each_entered(
+        ray_hit.ray, [&](uint32_t index) { intersect_one(state, index, ray_hit); });
+  }
+  static void occlude(RayState& state, RTCRay& ray) {
+    state.top_level->boxes().for_each_entered(
+        ray, [&](uint32_t index) { occlude_one(state, index, ray); });
+  }
+
+  // Of one that is a scene.
+  static void intersect(const RTCIntersectFunctionNArguments* arguments) {
+    const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
+                                   *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
+    shim::set_hit(arguments, hit);
+  }
+  static void occlude(const RTCOccludedFunctionNArguments* arguments) {
+    const bool hit = occlude_one(ray_state_of(arguments->context), arguments->primID,
+                                 *reinterpret_cast<RTCRay*>(arguments->ray));
+    shim::set_hit(arguments, hit);
+  }
+
+ private:
+  static bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
+    RTCHit& hit = ray_hit.hit;
+    // Each instance is visited once, so that its index is new in the hit.
+    const auto hit_here = [&] { return hit.instID[0] == index; };
+    Visit()(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
+            [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
+    return hit_here();
+  }
+  static bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
+    const auto hit_here = [&] { return ray.tfar < 0; };
+    Visit()(state, index, ray, false, hit_here,
+            [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
+    return hit_here();
+  }
+};
+
+}  // namespace kaamos::embree
