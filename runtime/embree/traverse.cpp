@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a traversal does at an instance, in robust and fast precision: decides by the instance's mask
-// and flags what the ray sees of it, takes the ray to object space, and traverses the bottom level
-// with it. In exact precision exact_traverse.cpp does.
+// What a traversal does at an instance, in robust and fast precision: decides by the instance's
+// mask and flags what the ray sees of it, takes the ray to object space, and traverses the bottom
+// level with it. In exact precision exact_traverse.cpp does.
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 
