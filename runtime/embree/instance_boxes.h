@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The instances of a small top level as a list of boxes instead of a tree: a ray is held against
-// all of them, four at a time, and goes to those that it enters without a callback between.
-// Numbers: README.md.
+// all of them, four at a time, and goes to those that it enters without a callback between; rays
+// that are traced together are held against them one after the other. Numbers: README.md.
 #pragma once
 
 #include <immintrin.h>
@@ -14,65 +14,74 @@
 #include <span>
 #include <vector>
 
+#include "kaamos/shader/abi.h"
 #include "runtime/embree/embree_shim.h"
 
 namespace kaamos::embree {
 
 inline constexpr uint32_t kMostInstanceBoxes = 32;
 
-// The boxes that a ray enters.
-struct EnteredBoxes {
-  // Takes out the one that is entered first, of those with the same entry the first. There is one.
-  uint32_t take_first() {
+// The boxes that a ray enters: a bit each.
+using EnteredBoxes = uint32_t;
+
+// Where it enters them; `stride` floats from box to box. Of others undefined.
+template <uint32_t stride>
+struct BoxEntries {
+  float operator[](uint32_t box) const { return first[box * stride]; }
+  const float* first;
+};
+
+// Calls visit(number of a box) for each of them, the one that is entered first first, of those with
+// the same entry the first, as long as the ray gets there: a visit may shorten it.
+template <uint32_t stride, typename Visit>
+void visit_entered(EnteredBoxes boxes, BoxEntries<stride> entry, const RTCRay& ray, Visit visit) {
+  while (boxes != 0) {
     auto first = static_cast<uint32_t>(std::countr_zero(boxes));
-    for (uint32_t others = boxes & (boxes - 1); others != 0; others &= others - 1) {
+    for (EnteredBoxes others = boxes & (boxes - 1); others != 0; others &= others - 1) {
       const auto other = static_cast<uint32_t>(std::countr_zero(others));
       if (entry[other] < entry[first]) first = other;
     }
-    boxes &= ~(1u << first);
-    return first;
+    boxes &= ~(EnteredBoxes{1} << first);
+    if (entry[first] > ray.tfar) return;  // as all others are
+    visit(first);
   }
-
-  uint32_t boxes;                               // a bit each
-  alignas(16) float entry[kMostInstanceBoxes];  // where; of others undefined
-};
+}
 
 class InstanceBoxes {
  public:
   // At most kMostInstanceBoxes. Those with lower above upper are never entered.
   void set(std::span<const RTCBounds> bounds) {
     fours_.assign((bounds.size() + 3) / 4, Four{});
+    boxes_.resize(bounds.size());
+    all_ = 0;
     for (size_t i = 0; i < bounds.size(); ++i) {
       const RTCBounds& b = bounds[i];
       const float lower[3] = {b.lower_x, b.lower_y, b.lower_z};
       const float upper[3] = {b.upper_x, b.upper_y, b.upper_z};
       const bool is_empty = !(b.lower_x <= b.upper_x);
+      if (!is_empty) all_ |= 1u << i;
       for (int axis = 0; axis < 3; ++axis) {
-        fours_[i / 4].sides[axis][0][i % 4] = lower[axis] - (is_empty ? 0 : room_of(lower[axis]));
-        fours_[i / 4].sides[axis][1][i % 4] = upper[axis] + (is_empty ? 0 : room_of(upper[axis]));
+        float* sides = boxes_[i].sides[axis];
+        sides[0] = lower[axis] - (is_empty ? 0 : room_of(lower[axis]));
+        sides[1] = upper[axis] + (is_empty ? 0 : room_of(upper[axis]));
+        for (int side = 0; side < 2; ++side) fours_[i / 4].sides[axis][side][i % 4] = sides[side];
       }
     }
-    all_ = static_cast<uint32_t>((uint64_t{1} << bounds.size()) - 1);
   }
 
   bool empty() const { return fours_.empty(); }
 
-  // Calls visit(number of a box) for each that the ray enters, the one that it enters first first,
-  // as long as it gets there: a visit may shorten the ray.
+  // visit_entered of those that the ray enters.
   template <typename Visit>
   void for_each_entered(const RTCRay& ray, Visit visit) const {
-    EnteredBoxes entered;
-    enter(ray, entered);
-    while (entered.boxes != 0) {
-      const uint32_t box = entered.take_first();
-      if (entered.entry[box] > ray.tfar) return;  // as all others are
-      visit(box);
-    }
+    alignas(16) float entry[kMostInstanceBoxes];
+    const EnteredBoxes boxes = enter(ray, entry);
+    visit_entered(boxes, BoxEntries<1>{entry}, ray, visit);
   }
 
-  // Closed boxes and the closed interval from tnear, 0 or more, to tfar; `ray` is aligned to 16
-  // bytes. No box that the ray enters is left out for rounding.
-  void enter(const RTCRay& ray, EnteredBoxes& entered) const {
+  // Closed boxes and the closed interval from tnear, 0 or more, to tfar; `ray` and `entry` are
+  // aligned to 16 bytes. No box that the ray enters is left out for rounding.
+  EnteredBoxes enter(const RTCRay& ray, float* entry) const {
     const __m128 origin = _mm_load_ps(&ray.org_x);  // w: tnear
     const __m128 slope = reciprocal(_mm_load_ps(&ray.dir_x));
     const int backwards = _mm_movemask_ps(slope);
@@ -87,13 +96,12 @@ class InstanceBoxes {
     const __m128 slope_z = _mm_shuffle_ps(slope, slope, _MM_SHUFFLE(2, 2, 2, 2));
     const __m128 t_near = _mm_shuffle_ps(origin, origin, _MM_SHUFFLE(3, 3, 3, 3));
     const __m128 t_far = _mm_set1_ps(ray.tfar);
-    // Difference, reciprocal and product are each off by half an ulp at most: 3 * 2^-24 in all.
-    const __m128 sooner = _mm_set1_ps(1 - 2 * FLT_EPSILON);
-    const __m128 later = _mm_set1_ps(1 + 2 * FLT_EPSILON);
+    const __m128 sooner = _mm_set1_ps(kSooner);
+    const __m128 later = _mm_set1_ps(kLater);
     const auto t_of = [](const float* side, __m128 from, __m128 over) {
       return _mm_mul_ps(_mm_sub_ps(_mm_load_ps(side), from), over);
     };
-    entered.boxes = 0;
+    EnteredBoxes entered = 0;
     uint32_t first = 0;
     for (const Four& four : fours_) {
       const __m128 in_x = t_of(four.sides[0][near_x], origin_x, slope_x);
@@ -106,12 +114,24 @@ class InstanceBoxes {
           _mm_mul_ps(_mm_max_ps(_mm_max_ps(in_x, in_y), _mm_max_ps(in_z, t_near)), sooner);
       const __m128 out =
           _mm_mul_ps(_mm_min_ps(_mm_min_ps(out_x, out_y), _mm_min_ps(out_z, t_far)), later);
-      _mm_store_ps(entered.entry + first, in);
-      entered.boxes |= static_cast<uint32_t>(_mm_movemask_ps(_mm_cmple_ps(in, out))) << first;
+      _mm_store_ps(entry + first, in);
+      entered |= static_cast<uint32_t>(_mm_movemask_ps(_mm_cmple_ps(in, out))) << first;
       first += 4;
     }
-    entered.boxes &= all_;
+    return entered & all_;
   }
+
+  // What holding rays against them one after the other needs [lane_rays.cpp]: the sides of all
+  // boxes, and which can be entered.
+  struct Box {
+    float sides[3][2];  // by axis; lower, upper
+  };
+  const std::vector<Box>& boxes() const { return boxes_; }
+  EnteredBoxes all() const { return all_; }
+
+  // Difference, reciprocal and product are each off by half an ulp at most: 3 * 2^-24 in all.
+  static constexpr float kSooner = 1 - 2 * FLT_EPSILON;
+  static constexpr float kLater = 1 + 2 * FLT_EPSILON;
 
  private:
   struct alignas(16) Four {
@@ -131,7 +151,8 @@ class InstanceBoxes {
   }
 
   std::vector<Four> fours_;
-  uint32_t all_ = 0;
+  std::vector<Box> boxes_;
+  EnteredBoxes all_ = 0;
 };
 
 }  // namespace kaamos::embree

@@ -23,6 +23,17 @@ struct InstanceLevel {
     state.top_level->boxes().for_each_entered(
         ray, [&](uint32_t index) { occlude_one(state, index, ray); });
   }
+  // Of one where it is known which the ray enters.
+  template <uint32_t stride>
+  static void intersect(RayState& state, RTCRayHit& ray_hit, EnteredBoxes boxes,
+                        BoxEntries<stride> entry) {
+    visit_entered(boxes, entry, ray_hit.ray,
+                  [&](uint32_t index) { intersect_one(state, index, ray_hit); });
+  }
+  template <uint32_t stride>
+  static void occlude(RayState& state, RTCRay& ray, EnteredBoxes boxes, BoxEntries<stride> entry) {
+    visit_entered(boxes, entry, ray, [&](uint32_t index) { occlude_one(state, index, ray); });
+  }
 
   // Of one that is a scene.
   static void intersect(const RTCIntersectFunctionNArguments* arguments) {

@@ -59,9 +59,10 @@ inline const TopLevel* find_top_level(Worker& worker, uint64_t address) {
   return look_up_top_level(worker, address);
 }
 
-// `flags`: with the pipeline's, which a RayQuery does not have.
-inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mask,
-                         const TopLevel* top_level, float t_min, float t_max) {
+// What the rays of several lanes have in common. `flags`: with the pipeline's, which a RayQuery
+// does not have.
+inline void begin_searches(RayState& state, uint32_t flags, uint32_t inclusion_mask,
+                           const TopLevel* top_level) {
   shim::init(state.query);
   state.top_level = top_level;
   state.ray_flags = flags;
@@ -70,14 +71,24 @@ inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mas
   state.opacity = (flags & kRayForceOpaque) != 0      ? OpacityOverride::kOpaque
                   : (flags & kRayForceNonOpaque) != 0 ? OpacityOverride::kNonOpaque
                                                       : OpacityOverride::kNone;
-  state.ended = false;
   state.search = nullptr;
+}
+
+// And what each of them has anew. `t_near`, `t_far`: as of RayState.
+inline void begin_search(RayState& state, float t_min, float t_max, float t_near, float t_far) {
+  state.ended = false;
   // A negative TMin is undefined in DXR; here it is 0.
   state.t_min = t_min > 0 ? t_min : 0.0f;
   state.t_max = t_max;
-  state.t_near = next_above(state.t_min);
-  state.t_far = next_below(state.t_max);
+  state.t_near = t_near;
+  state.t_far = t_far;
   state.committed_t = std::numeric_limits<float>::infinity();
+}
+
+inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mask,
+                         const TopLevel* top_level, float t_min, float t_max) {
+  begin_searches(state, flags, inclusion_mask, top_level);
+  begin_search(state, t_min, t_max, next_above(t_min > 0 ? t_min : 0.0f), next_below(t_max));
 }
 
 inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {

@@ -46,6 +46,15 @@ void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArgum
   trace_ray(invocation, arguments, payload, origin_t_min, direction_t_max);
 }
 
+// One after the other, so that what their shaders trace is heard in its place.
+void heard_trace_rays(shader::Invocation& invocation, const shader::TraceRayArguments& arguments,
+                      void* payloads, const shader::LaneRays& rays, uint32_t lanes) {
+  trace_each(invocation, arguments, payloads, rays, lanes,
+             [&](int, void* payload, shader::RayLanes origin, shader::RayLanes direction) {
+               heard_trace_ray(invocation, arguments, payload, origin, direction);
+             });
+}
+
 constexpr size_t kMostReached = 1024;
 
 void reached(shader::Invocation& invocation, const shader::ReachedCall& call) {
@@ -72,6 +81,7 @@ void reached(shader::Invocation& invocation, const shader::ReachedCall& call) {
 shader::Services make_services() {
   shader::Services table = {};
   table.trace_ray = trace_ray;
+  table.trace_rays = trace_rays;
   table.report_hit = report_hit;
   table.call_shader = call_shader;
   table.begin_query = begin_query;
@@ -92,6 +102,7 @@ const shader::Services& services() {
   static const shader::Services heard = [] {
     shader::Services out = make_services();
     out.trace_ray = heard_trace_ray;
+    out.trace_rays = heard_trace_rays;
     return out;
   }();
   return heard;

@@ -67,12 +67,16 @@ class TopLevel final : public runtime::TopLevelBase {
       bottom_levels_;  // kept alive, each once
 };
 
+struct LaneSearches;
 struct RayState;
 
 // The traversal of the ray's top level, which is not empty, as rtcIntersect1 and rtcOccluded1 do
 // it. [traverse.cpp]
 void intersect(RayState& state, RTCRayHit& ray_hit);
 void occlude(RayState& state, RTCRay& ray);
+// Of a list of boxes, in robust or fast precision, of which it is known which ones the ray enters.
+void intersect(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane);
+void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);
 
 // Callbacks of a scene's traversal.
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments);

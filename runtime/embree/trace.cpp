@@ -4,6 +4,7 @@
 #include "runtime/embree/trace.h"
 
 #include "runtime/embree/fault.h"
+#include "runtime/embree/lane_rays.h"
 #include "runtime/embree/ray_setup.h"
 
 namespace kaamos::embree {
@@ -75,19 +76,34 @@ void run_miss(Worker& worker, const shader::Invocation& caller, const TraceRayAr
   shader.as<shader::MissFn>()(invocation, state.payload);
 }
 
+// From a ray's top level on, and from what is known of its boxes on.
+struct WholeTraversal {
+  void intersect(RayState& state, RTCRayHit& ray_hit) const { embree::intersect(state, ray_hit); }
+  void occlude(RayState& state, RTCRay& ray) const { embree::occlude(state, ray); }
+};
+struct LaneTraversal {
+  void intersect(RayState& state, RTCRayHit& ray_hit) const {
+    embree::intersect(state, ray_hit, lanes, lane);
+  }
+  void occlude(RayState& state, RTCRay& ray) const { embree::occlude(state, ray, lanes, lane); }
+
+  const LaneSearches& lanes;
+  int lane;
+};
+
 // Traverses, and runs the shader of what was found.
-template <bool exact>
+template <bool exact, typename Traversal>
 void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
-            RayState& state, RTCRayHit& ray_hit) {
+            RayState& state, RTCRayHit& ray_hit, Traversal traversal) {
   if (asks_visibility(state)) {
     ++worker.counters.visibility_rays;
-    occlude(state, ray_hit.ray);
+    traversal.occlude(state, ray_hit.ray);
     if (ray_hit.ray.tfar >= 0) run_miss(worker, caller, arguments, state);
     return;
   }
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   ray_hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  intersect(state, ray_hit);
+  traversal.intersect(state, ray_hit);
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
     return run_miss(worker, caller, arguments, state);
   }
@@ -102,7 +118,53 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
   ExactState exact;
   if (!begin_exact_ray(state, exact, ray_hit.ray))
     return run_miss(worker, caller, arguments, state);
-  search<true>(worker, caller, arguments, state, ray_hit);
+  search<true>(worker, caller, arguments, state, ray_hit, WholeTraversal());
+}
+
+void check_depth(Worker& worker, const shader::Invocation& caller) {
+  check_stack(worker);
+  // Ray generation is depth 0; at the declared depth TraceRay removes the device.
+  // [DXR: Ray recursion limit]
+  if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
+    remove_device(worker, shader::RemovalReason::kRecursionDepth);
+  }
+}
+
+// Fewer are not worth to be held against all boxes together.
+bool are_three(uint32_t lanes) {
+  const uint32_t others = lanes & (lanes - 1);
+  return (others & (others - 1)) != 0;
+}
+
+// The rest of trace_rays, of rays that can share what they ask of `top_level`.
+void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayArguments& arguments,
+                    void* payloads, const shader::LaneRays& rays, uint32_t lanes,
+                    const TopLevel& top_level) {
+  check_depth(worker, caller);
+  LaneSearches searches;
+  search_lanes(rays, top_level.boxes(), searches);
+  RayState state;
+  state.worker = &worker;
+  state.arguments = &arguments;
+  state.caller = &caller;
+  state.values.ray_flags = arguments.ray_flags & kAllRayFlags;
+  begin_searches(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
+                 arguments.instance_inclusion_mask, &top_level);
+  trace_each(
+      caller, arguments, payloads, rays, lanes,
+      [&](int lane, void* payload, shader::RayLanes origin, shader::RayLanes direction) {
+        state.payload = payload;
+        _mm_store_ps(state.values.ray.origin, origin);
+        _mm_store_ps(state.values.ray.direction, direction);
+        if ((searches.valid >> lane & 1) == 0) [[unlikely]] {
+          return run_miss(worker, caller, arguments, state);
+        }
+        begin_search(state, origin[3], direction[3], searches.t_near[lane], searches.t_far[lane]);
+        RTCRayHit ray_hit;
+        begin_embree_ray(state, {without_fourth_lane(origin), without_fourth_lane(direction)},
+                         ray_hit.ray);
+        search<false>(worker, caller, arguments, state, ray_hit, LaneTraversal{searches, lane});
+      });
 }
 
 }  // namespace
@@ -110,12 +172,7 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
 void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, void* payload,
                shader::RayLanes origin_t_min, shader::RayLanes direction_t_max) {
   Worker& worker = worker_of(caller);
-  check_stack(worker);
-  // Ray generation is depth 0; at the declared depth TraceRay removes the device.
-  // [DXR: Ray recursion limit]
-  if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
-    remove_device(worker, shader::RemovalReason::kRecursionDepth);
-  }
+  check_depth(worker, caller);
   ++worker.counters.rays;
   RayState state;
   state.worker = &worker;
@@ -139,7 +196,27 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   }
   RTCRayHit ray_hit;
   begin_embree_ray(state, world, ray_hit.ray);
-  search<false>(worker, caller, arguments, state, ray_hit);
+  search<false>(worker, caller, arguments, state, ray_hit, WholeTraversal());
+}
+
+void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, void* payloads,
+                const shader::LaneRays& rays, uint32_t lanes) {
+  Worker& worker = worker_of(caller);
+  const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
+  const bool together = caller.depth == 0 && are_three(lanes) && top_level != nullptr &&
+                        !top_level->boxes().empty() && top_level->exact_frame() == nullptr &&
+                        !top_level->has_procedurals();
+  if (together) {
+    // Not on this stack, which a fault would leave without letting it go.
+    if (worker.shared_top_level.get() != top_level) {
+      worker.shared_top_level = worker.cached_top_level;
+    }
+    return trace_together(worker, caller, arguments, payloads, rays, lanes, *top_level);
+  }
+  trace_each(caller, arguments, payloads, rays, lanes,
+             [&](int, void* payload, shader::RayLanes origin, shader::RayLanes direction) {
+               trace_ray(caller, arguments, payload, origin, direction);
+             });
 }
 
 }  // namespace kaamos::embree

@@ -5,6 +5,7 @@
 // level with it. In exact precision exact_traverse.cpp does.
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
+#include "runtime/embree/lane_rays.h"
 
 namespace kaamos::embree {
 namespace {
@@ -84,6 +85,14 @@ void occlude(RayState& state, RTCRay& ray) {
   if (top_level.boxes().empty()) return shim::occluded(top_level.scene(), state.query, &ray);
   if (top_level.exact_frame() != nullptr) return occlude_exactly(state, ray);
   Instances::occlude(state, ray);
+}
+
+void intersect(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane) {
+  Instances::intersect(state, ray_hit, lanes.entered[lane], lanes.entries_of(lane));
+}
+
+void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane) {
+  Instances::occlude(state, ray, lanes.entered[lane], lanes.entries_of(lane));
 }
 
 }  // namespace kaamos::embree

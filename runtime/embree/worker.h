@@ -122,6 +122,8 @@ struct alignas(64) Worker {
   uint32_t fault_index[3] = {0, 0, 0};
   Counters counters;
   uint64_t reached_hashes[64] = {};  // of late, by the low bits of the hash
+  // Of rays that are traced together: their shaders may trace another one meanwhile.
+  std::shared_ptr<const TopLevel> shared_top_level;
 };
 
 inline Worker& worker_of(const shader::Invocation& invocation) {

@@ -455,6 +455,7 @@ std::string CppEmitter::run() {
   WideEmitter wide(*this);
   for (const EntryPoint& entry : module_.entry_points) wide.plan(entry);
   if (wide.any()) line("#include <kaamos/shader/wide_memory.h>");
+  if (wide.any()) line("#include <kaamos/shader/wide_stage.h>");
   line("namespace {");
   // A namespace of its own lets several units stand in one file.
   line("namespace unit_" + options_.entry_point + " {");

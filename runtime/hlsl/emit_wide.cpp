@@ -4,9 +4,6 @@
 #include "runtime/hlsl/wide_emitter.h"
 
 #include <algorithm>
-#include <unordered_set>
-
-#include "runtime/hlsl/ir_visit.h"
 
 namespace kaamos::hlsl {
 
@@ -31,31 +28,6 @@ std::string WideEmitter::type(const Type* t) {
   }
 }
 
-namespace {
-
-// Operations on numbers that are written in a function and in what it calls.
-uint32_t count_arithmetic(const Function& function, std::unordered_set<const Function*>& seen) {
-  if (!seen.insert(&function).second) return 0;
-  uint32_t count = 0;
-  visit(
-      function.body,
-      [&](const Expr& expr) {
-        count += expr.kind == ExprKind::kUnary || expr.kind == ExprKind::kBinary ||
-                 expr.kind == ExprKind::kIntrinsic;
-      },
-      [&](const Stmt& stmt) {
-        if (stmt.kind == StmtKind::kCall) count += count_arithmetic(*stmt.function, seen);
-      });
-  return count;
-}
-
-// A ray generation shader that does little but trace is slower wide, as rays and payloads are taken
-// apart and put together for each lane: those of kaamos-bench's dispatch/same-tlas/{primary,ao}
-// come to 0.82 of the baseline instead of 0.90 and 0.89.
-constexpr uint32_t kFewOperations = 40;
-
-}  // namespace
-
 void WideEmitter::plan(const EntryPoint& entry) {
   const WideFunction* function = nullptr;
   const uint64_t threads =
@@ -65,13 +37,9 @@ void WideEmitter::plan(const EntryPoint& entry) {
   if ((compute || entry.stage == kStageRayGeneration) && !out_.module_.check_access &&
       out_.options_.wide != WideThreads::kNever) {
     const bool where_faster = out_.options_.wide == WideThreads::kWhereFaster;
-    std::unordered_set<const Function*> seen;
     // One thread of eight is slower so than by itself.
     if (where_faster && compute && threads < 8) {
       reason = "its groups have fewer than 8 threads";
-    } else if (where_faster && !compute &&
-               count_arithmetic(*entry.function, seen) < kFewOperations) {
-      reason = "it has few operations";
     } else {
       function = plan_.add(entry, reason);
     }

@@ -2,6 +2,8 @@
 //
 // Statements under masks. A jump takes lanes out of the mask that it stands under; masks of what
 // stands around join what is left. A scope whose mask has become empty is left.
+#include <algorithm>
+
 #include "runtime/hlsl/ir_visit.h"
 #include "runtime/hlsl/wide_emitter.h"
 
@@ -202,11 +204,20 @@ void WideEmitter::atomic(const Stmt& stmt) {
   close("});");
 }
 
-// One after the other: what a ray meets is another shader for each.
+// Where all rays are traced alike the backend gets them at once, else one after the other.
 void WideEmitter::trace_ray(const Stmt& stmt) {
+  const std::string payload = out_.variable(stmt.place->variable);
+  const Expr* ray = stmt.operands.back();
+  if (std::none_of(stmt.operands.begin(), stmt.operands.end() - 1,
+                   [this](const Expr* operand) { return is_varying(operand); })) {
+    std::string text = "ks::trace_rays(ctx.invocation, ctx.first_x, " + mask_;
+    for (const Expr* operand : stmt.operands) {
+      text += ", " + (operand == ray ? value(operand) : out_.value(operand));
+    }
+    return line(text + ", " + payload + ");");
+  }
   LaneOperands operands;
   for (const Expr* operand : stmt.operands) add_operand(operands, operand);
-  const std::string payload = out_.variable(stmt.place->variable);
   open("ks::each_lane(" + mask_ + ", [&" + operands.captures +
        "](int lane_number) KAAMOS_INLINE_LAMBDA {");
   line("ctx.set_invocation(lane_number);");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -129,6 +130,53 @@ void trace_job(shader::Invocation& invocation) {
   trace_ray(invocation, job.rays[i], &job.payloads[i]);
 }
 
+void trace_jobs(shader::Invocation& invocation, uint32_t count) {
+  Job job;
+  std::memcpy(&job, invocation.dispatch->root_arguments, sizeof(job));
+  const uint32_t first_x = invocation.index[0];
+  const uint64_t row = uint64_t{invocation.dispatch->dimensions[0]} * invocation.index[1];
+  for (uint32_t begin = first_x; begin < first_x + count; begin += shader::kLanes) {
+    uint32_t left = 0;  // a bit each
+    for (uint32_t lane = 0; lane < shader::kLanes; ++lane) {
+      const uint64_t x = uint64_t{begin} + lane;
+      if (x < first_x + count && row + x < job.count) left |= 1u << lane;
+    }
+    const Ray* rays = job.rays + row + begin;
+    while (left != 0) {
+      const Ray& first = rays[std::countr_zero(left)];
+      shader::LaneRays lane_rays;
+      // What other lanes hold is of no concern.
+      std::memset(&lane_rays, 0xFF, sizeof(lane_rays));
+      Payload payloads[shader::kLanes];
+      uint32_t alike = 0;
+      for (int lane = 0; lane < shader::kLanes; ++lane) {
+        const bool takes_part =
+            (left >> lane & 1) != 0 &&
+            std::memcmp(static_cast<const shader::TraceRayArguments*>(&first),
+                        static_cast<const shader::TraceRayArguments*>(&rays[lane]),
+                        sizeof(shader::TraceRayArguments)) == 0;
+        if (!takes_part) continue;
+        alike |= 1u << lane;
+        payloads[lane] = job.payloads[row + begin + static_cast<uint32_t>(lane)];
+        for (int axis = 0; axis < 3; ++axis) {
+          lane_rays.origin[axis][lane] = rays[lane].ray.origin[axis];
+          lane_rays.direction[axis][lane] = rays[lane].ray.direction[axis];
+        }
+        lane_rays.t_min[lane] = rays[lane].ray.t_min;
+        lane_rays.t_max[lane] = rays[lane].ray.t_max;
+      }
+      invocation.index[0] = begin;
+      invocation.dispatch->services->trace_rays(invocation, first, payloads, lane_rays, alike);
+      for (int lane = 0; lane < shader::kLanes; ++lane) {
+        if ((alike >> lane & 1) != 0) {
+          job.payloads[row + begin + static_cast<uint32_t>(lane)] = payloads[lane];
+        }
+      }
+      left &= ~alike;
+    }
+  }
+}
+
 PipelineBuilder::PipelineBuilder(uint32_t max_recursion_depth)
     : pipeline_(std::make_shared<runtime::LinkedPipeline>()) {
   pipeline_->max_recursion_depth = max_recursion_depth;
@@ -137,13 +185,15 @@ PipelineBuilder::PipelineBuilder(uint32_t max_recursion_depth)
 }
 
 const runtime::LinkedShader* PipelineBuilder::add_shader(shader::Stage stage, shader::AnyFn entry,
-                                                         uint64_t stack_bytes) {
+                                                         uint64_t stack_bytes,
+                                                         shader::RayGenerationRowFn row) {
   if (entry == nullptr) return nullptr;
   auto code = std::make_shared<shader::ExportDesc>();
   *code = {};
   code->name = code->mangled_name = "hand-written";
   code->stage = stage;
   code->entry = entry;
+  code->row = row;
   code->flags = shader::kExportReadsHitKind;
   auto linked = std::make_unique<runtime::LinkedShader>();
   linked->name = "shader" + std::to_string(pipeline_->shaders.size());
@@ -170,7 +220,9 @@ rtapi::ShaderIdentifier PipelineBuilder::add_record(runtime::LinkedRecord record
 rtapi::ShaderIdentifier PipelineBuilder::ray_generation(shader::RayGenerationFn entry) {
   runtime::LinkedRecord record;
   record.kind = runtime::RecordKind::kRayGeneration;
-  record.shader = add_shader(shader::Stage::kRayGeneration, erase(entry));
+  const shader::RayGenerationRowFn row =
+      entry == trace_job && std::getenv("KAAMOS_TEST_ROWS") != nullptr ? trace_jobs : nullptr;
+  record.shader = add_shader(shader::Stage::kRayGeneration, erase(entry), 0, row);
   return add_record(std::move(record));
 }
 

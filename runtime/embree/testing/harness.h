@@ -83,7 +83,8 @@ class PipelineBuilder {
 
  private:
   const runtime::LinkedShader* add_shader(shader::Stage stage, shader::AnyFn entry,
-                                          uint64_t stack_bytes = 0);
+                                          uint64_t stack_bytes = 0,
+                                          shader::RayGenerationRowFn row = nullptr);
   rtapi::ShaderIdentifier add_record(runtime::LinkedRecord record);
   std::shared_ptr<runtime::LinkedPipeline> pipeline_;
 };
@@ -206,7 +207,10 @@ class Harness {
   uint64_t pipeline_stack_bytes_ = 0;
 };
 
-// Ray generation of Harness::trace.
+// Ray generation of Harness::trace. With KAAMOS_TEST_ROWS set the pipelines of PipelineBuilder run
+// it by trace_jobs.
 void trace_job(shader::Invocation& invocation);
+// The same by rows: rays that are traced alike together, by Services::trace_rays.
+void trace_jobs(shader::Invocation& invocation, uint32_t count);
 
 }  // namespace kaamos::embree::testing

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Changes with every change of a struct below. A library of another version is refused when loaded.
-inline constexpr uint32_t kAbiVersion = 10;
+inline constexpr uint32_t kAbiVersion = 11;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -196,6 +196,25 @@ inline RayLanes direction_t_max(const RayDesc& ray) {
   return RayLanes{ray.direction[0], ray.direction[1], ray.direction[2], ray.t_max};
 }
 
+// Invocations of a row that run at once [wide.h]: lane i is the one i further along x than lane 0.
+inline constexpr int kLanes = 8;
+
+// Their rays beside each other.
+struct LaneRays {
+  float origin[3][kLanes];
+  float t_min[kLanes];
+  float direction[3][kLanes];
+  float t_max[kLanes];
+};
+inline RayLanes origin_t_min(const LaneRays& rays, int lane) {
+  return RayLanes{rays.origin[0][lane], rays.origin[1][lane], rays.origin[2][lane],
+                  rays.t_min[lane]};
+}
+inline RayLanes direction_t_max(const LaneRays& rays, int lane) {
+  return RayLanes{rays.direction[0][lane], rays.direction[1][lane], rays.direction[2][lane],
+                  rays.t_max[lane]};
+}
+
 // Texel data is four 32-bit values: float, int32_t or uint32_t after the view's format class.
 struct Texel {
   uint32_t bits[4];
@@ -348,6 +367,10 @@ static_assert(sizeof(ReachedCall) == 24);
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
                     RayLanes direction_t_max);
+  // The same for the lanes whose bits are set, in their order. Invocation::index is that of lane 0
+  // and is left behind as any. `payloads`: kLanes of TraceRayArguments::payload_bytes.
+  void (*trace_rays)(Invocation&, const TraceRayArguments&, void* payloads, const LaneRays&,
+                     uint32_t lanes);
   ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
                                 uint32_t attribute_bytes);
   void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);

@@ -9,14 +9,11 @@
 
 namespace kaamos::shader {
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
-template <class Ray, class Payload>
-inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
-                      uint32_t ray_flags, uint32_t instance_inclusion_mask,
-                      uint32_t ray_contribution_to_hit_group_index,
-                      uint32_t multiplier_for_geometry_contribution, uint32_t miss_shader_index,
-                      const Ray& ray, Payload& payload) {
-  static_assert(sizeof(Ray) == sizeof(RayDesc));
+inline TraceRayArguments trace_ray_arguments(const Descriptor& acceleration_structure,
+                                             uint32_t ray_flags, uint32_t instance_inclusion_mask,
+                                             uint32_t ray_contribution_to_hit_group_index,
+                                             uint32_t multiplier_for_geometry_contribution,
+                                             uint32_t miss_shader_index, uint32_t payload_bytes) {
   TraceRayArguments arguments;
   const bool usable = acceleration_structure.kind == DescriptorKind::kAccelerationStructure;
   arguments.acceleration_structure = usable ? acceleration_structure.address : 0;
@@ -25,7 +22,22 @@ inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_str
   arguments.ray_contribution_to_hit_group_index = ray_contribution_to_hit_group_index & 0xFu;
   arguments.multiplier_for_geometry_contribution = multiplier_for_geometry_contribution & 0xFu;
   arguments.miss_shader_index = miss_shader_index & 0xFFFFu;
-  arguments.payload_bytes = sizeof(Payload);
+  arguments.payload_bytes = payload_bytes;
+  return arguments;
+}
+
+// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
+template <class Ray, class Payload>
+inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
+                      uint32_t ray_flags, uint32_t instance_inclusion_mask,
+                      uint32_t ray_contribution_to_hit_group_index,
+                      uint32_t multiplier_for_geometry_contribution, uint32_t miss_shader_index,
+                      const Ray& ray, Payload& payload) {
+  static_assert(sizeof(Ray) == sizeof(RayDesc));
+  const TraceRayArguments arguments =
+      trace_ray_arguments(acceleration_structure, ray_flags, instance_inclusion_mask,
+                          ray_contribution_to_hit_group_index, multiplier_for_geometry_contribution,
+                          miss_shader_index, sizeof(Payload));
   const auto& [origin, t_min, direction, t_max] = ray;
   const RayLanes origin_t_min = {origin[0], origin[1], origin[2], t_min};
   const RayLanes direction_t_max = {direction[0], direction[1], direction[2], t_max};

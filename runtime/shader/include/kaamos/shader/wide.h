@@ -9,13 +9,12 @@
 // for: longer ones come apart badly.
 #pragma once
 
+#include "kaamos/shader/abi.h"
 #include "kaamos/shader/convert.h"
 #include "kaamos/shader/intrinsics_geometry.h"
 #include "kaamos/shader/vector.h"
 
 namespace kaamos::shader {
-
-inline constexpr int kLanes = 8;
 
 namespace simd {
 
