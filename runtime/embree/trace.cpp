@@ -153,6 +153,7 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
   trace_each(
       caller, arguments, payloads, rays, lanes,
       [&](int lane, void* payload, shader::RayLanes origin, shader::RayLanes direction) {
+        ++worker.counters.rays;
         state.payload = payload;
         _mm_store_ps(state.values.ray.origin, origin);
         _mm_store_ps(state.values.ray.direction, direction);
