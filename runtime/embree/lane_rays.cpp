@@ -16,6 +16,7 @@ template <typename Floats>
 [[gnu::always_inline]] inline void search_here(const shader::LaneRays& rays,
                                                const InstanceBoxes& boxes, LaneSearches& out) {
   using Bits = decltype(Floats{} < Floats{});
+  using Words [[gnu::vector_size(sizeof(Floats))]] = uint32_t;
   constexpr int kStep = sizeof(Floats) / sizeof(float);
   const Bits sign_bit = Bits{} + INT32_MIN;
   const Floats smallest = Floats{} + FLT_MIN;
@@ -49,7 +50,7 @@ template <typename Floats>
     std::memcpy(out.t_far + lane, &t_far, sizeof(Bits));
 
     Bits entered = {};
-    Bits bit = Bits{} + 1;
+    Words bit = Words{} + 1;
     float* entry = out.entry[0] + lane;
     for (const InstanceBoxes::Box& box : boxes.boxes()) {
       Floats in = t_min;
@@ -67,7 +68,7 @@ template <typename Floats>
       leave *= InstanceBoxes::kLater;
       std::memcpy(entry, &in, sizeof(Floats));
       entry += shader::kLanes;
-      entered |= (in <= leave) & bit;
+      entered |= (in <= leave) & reinterpret_cast<Bits>(bit);
       bit += bit;
     }
     entered &= static_cast<int32_t>(boxes.all());
