@@ -163,14 +163,9 @@ bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCR
 
 struct Visit {
   template <typename HitHere, typename Trace>
-  void operator()(RayState& state, uint32_t index, RTCRay& ray, bool committed, HitHere hit_here,
-                  Trace trace) const {
-    if (state.ended) return;
+  void operator()(RayState& state, uint32_t index, uint32_t classes, RTCRay& ray, bool committed,
+                  HitHere hit_here, Trace trace) const {
     const InstanceNode& node = state.top_level->nodes()[index];
-    if ((node.mask & state.inclusion_mask) == 0) return;
-    const uint32_t classes = state.classes[static_cast<uint32_t>(node.opacity)];
-    if (classes == 0) return;
-
     const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
     const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
     const float t_far = ray.tfar;

@@ -3,9 +3,10 @@
 // The instance level of a traversal, of every precision: the instances of a list of boxes in the
 // order in which the ray enters them, or those of a tree, one for each callback of Embree. What a
 // precision does at an instance is its Visit:
-//   visit(state, index, ray, committed, hit_here, trace)
-// takes `ray` to the instance's space, calls trace(bottom level) and takes it back. `committed`:
-// there was a hit before; hit_here(): this instance was hit.
+//   visit(state, index, classes, ray, committed, hit_here, trace)
+// takes `ray` to the instance's space, calls trace(bottom level) and takes it back. `classes`: of
+// GeometryClass, which the ray sees of it; `committed`: there was a hit before; hit_here(): this
+// instance was hit.
 #pragma once
 
 #include "runtime/embree/ray_state.h"
@@ -48,18 +49,29 @@ struct InstanceLevel {
   }
 
  private:
+  // 0: the instance is not visited.
+  static uint32_t seen_classes(const RayState& state, uint32_t index) {
+    const InstanceNode& node = state.top_level->nodes()[index];
+    if (state.ended || (node.mask & state.inclusion_mask) == 0) return 0;
+    return state.classes[static_cast<uint32_t>(node.opacity)];
+  }
+
   static bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
     RTCHit& hit = ray_hit.hit;
     // Each instance is visited once, so that its index is new in the hit.
     const auto hit_here = [&] { return hit.instID[0] == index; };
-    Visit()(state, index, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
-            [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
+    if (const uint32_t classes = seen_classes(state, index)) {
+      Visit()(state, index, classes, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,
+              [&](RTCScene scene) { shim::intersect(scene, state.query, &ray_hit); });
+    }
     return hit_here();
   }
   static bool occlude_one(RayState& state, uint32_t index, RTCRay& ray) {
     const auto hit_here = [&] { return ray.tfar < 0; };
-    Visit()(state, index, ray, false, hit_here,
-            [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
+    if (const uint32_t classes = seen_classes(state, index)) {
+      Visit()(state, index, classes, ray, false, hit_here,
+              [&](RTCScene scene) { shim::occluded(scene, state.query, &ray); });
+    }
     return hit_here();
   }
 };

@@ -43,9 +43,10 @@ template <typename Floats>
                                              (reinterpret_cast<Bits>(direction) & sign_bit));
     }
     t_min = t_min > 0 ? t_min : Floats{};
-    const Bits above = reinterpret_cast<Bits>(t_min < smallest ? Floats{} : t_min);
-    const Bits t_near = t_min < smallest ? reinterpret_cast<Bits>(smallest) : above + 1;
-    const Bits t_far = t_max <= smallest ? Bits{} : reinterpret_cast<Bits>(t_max) - 1;
+    const auto above = reinterpret_cast<Bits>(reinterpret_cast<Words>(t_min) + 1);
+    const auto below = reinterpret_cast<Bits>(reinterpret_cast<Words>(t_max) - 1);
+    const Bits t_near = t_min < smallest ? reinterpret_cast<Bits>(smallest) : above;
+    const Bits t_far = t_max <= smallest ? Bits{} : below;
     std::memcpy(out.t_near + lane, &t_near, sizeof(Bits));
     std::memcpy(out.t_far + lane, &t_far, sizeof(Bits));
 

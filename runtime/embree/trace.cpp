@@ -208,7 +208,7 @@ void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, 
                         !top_level->boxes().empty() && top_level->exact_frame() == nullptr &&
                         !top_level->has_procedurals();
   if (together) {
-    // Not on this stack, which a fault would leave without letting it go.
+    // Not on this stack, which a fault would leave without letting it go; so only at one depth.
     if (worker.shared_top_level.get() != top_level) {
       worker.shared_top_level = worker.cached_top_level;
     }

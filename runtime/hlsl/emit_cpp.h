@@ -17,7 +17,7 @@ namespace kaamos::hlsl {
 // Compute and ray generation shaders that run several threads at once. [wide_plan.h]
 enum class WideThreads : uint8_t {
   kNever,
-  kWhereFaster,  // groups have as many threads, ray generation has something to compute
+  kWhereFaster,  // ray generation, and groups of as many threads
   kAlways,       // for tests: wherever it is possible
 };
 
