@@ -14,12 +14,12 @@ float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
 void AmbientOcclusionRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
+  const float before = SumBefore(ambient_occlusion_sum, pixel);
   // The sky is open, and so is everything as far as nothing. [effects-spec E.2]
   if (g_ids[pixel].x == 0 || !(pass_constants.radius > 0.0)) {
-    ambient_occlusion_sum[pixel] += float(count);
+    ambient_occlusion_sum[pixel] = before + float(count);
     return;
   }
-  const float before = ambient_occlusion_sum[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);

@@ -40,11 +40,11 @@ float ContactVisibility(LightConstants light, float3 position, float3 normal, fl
 void ContactShadowRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
+  const float4 before = SumBefore(contact, pixel);
   if (g_ids[pixel].x == 0) {
-    contact[pixel] += float4(float(count), float(count), 0, 0);
+    contact[pixel] = before + float4(float(count), float(count), 0, 0);
     return;
   }
-  const float4 before = contact[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   float2 visible = float2(0, 0);

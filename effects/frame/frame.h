@@ -56,6 +56,7 @@ struct PassConstants {
   std::uint32_t first_row = 0;
   std::uint32_t sorted = 0;      ///< 1: in the order that a RaySorter made
   std::uint32_t pixel_step = 1;  ///< 2: rays at even pixels of even rows only
+  std::uint32_t accumulate = 1;  ///< 0: pictures of sums begin anew, whatever stands in them
 };
 
 /// Pictures of a frame in the order of their registers u0, u1, ...

@@ -56,7 +56,7 @@ float2 PictureUv(float3 position, float3 right, float over_right, float3 up, flo
   view_z = dot(position, forward);
   // right and up are as long as half the picture at distance 1.
   const float2 ndc = float2(dot(position, right) * (over_right * over_right),
-                            dot(position, up) * (over_up * over_up)) / view_z;
+                            dot(position, up) * (over_up * over_up)) * (1.0 / view_z);
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 

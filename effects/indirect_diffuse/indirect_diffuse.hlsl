@@ -93,17 +93,20 @@ float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
 [shader("raygeneration")]
 void IndirectRayGen() {
   const uint2 pixel = FramePixel();
-  if (g_ids[pixel].x == 0) return;
+  const float4 before = SumBefore(indirect, pixel);
+  if (g_ids[pixel].x == 0) {
+    indirect[pixel] = before;
+    return;
+  }
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 shading_normal = OctahedralDecode(g_shading_normal[pixel]);
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
-    indirect[pixel] +=
-        count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
+    indirect[pixel] =
+        before + count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
     return;
   }
-  const float4 before = indirect[pixel];  // asked for early: the rays cover the wait
   const float3 origin = position.xyz + normal * position.w;
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kIndirectPair, frame.seed)];
   float4 sum = float4(0, 0, 0, 0);

@@ -32,8 +32,9 @@ struct VolumeConstants {
   float cell;
   glm::uvec3 bricks;
   std::uint32_t enabled;
+  float over_cell;
 };
-static_assert(sizeof(VolumeConstants) == 32);
+static_assert(sizeof(VolumeConstants) == 36);
 
 constexpr std::uint32_t kGridWidth = 1024;
 constexpr double kStepSeconds = 0.25;
@@ -142,7 +143,7 @@ rtapi::Result<GpuVolume> GpuVolume::create(const rtapi::Device& device,
                                            const IndirectVolume& volume, const glm::dvec3& origin) {
   GpuVolume out;
   VolumeConstants constants = {glm::vec3(volume.origin - origin), volume.cell, volume.bricks,
-                               volume.cells.empty() ? 0u : 1u};
+                               volume.cells.empty() ? 0u : 1u, 1.0f / volume.cell};
   // Views of nothing need one element too.
   std::vector<std::uint32_t> starts = volume.brick_starts;
   if (starts.empty()) starts.push_back(kNoBrick);

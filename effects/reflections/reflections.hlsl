@@ -107,8 +107,11 @@ float3 SampleHalfVector(ReflectionPoint point, float2 u) {
 [shader("raygeneration")]
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
-  if (g_ids[pixel].x == 0) return;
-  const float4 before = reflection[pixel];  // asked for early: the rays cover the wait
+  const float4 before = SumBefore(reflection, pixel);
+  if (g_ids[pixel].x == 0) {
+    reflection[pixel] = before;
+    return;
+  }
   const ReflectionPoint point = LoadReflectionPoint(pixel);
   const float3 albedo = SpecularAlbedo(point.brdf.f0, point.roughness, point.cosine_view);
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];

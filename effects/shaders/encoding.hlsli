@@ -6,7 +6,7 @@
 // Unit vectors as two numbers in [-1, 1]. [Cigolle et al. 2014, A Survey of Efficient
 // Representations for Independent Unit Vectors]
 float2 OctahedralEncode(float3 n) {
-  const float3 p = n / (abs(n.x) + abs(n.y) + abs(n.z));
+  const float3 p = n * (1.0f / (abs(n.x) + abs(n.y) + abs(n.z)));
   if (p.z >= 0.0f) return p.xy;
   return float2((1.0f - abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
                 (1.0f - abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f));

@@ -50,6 +50,7 @@ struct PassConstants {
   uint first_row;     // of the picture: a dispatch takes a band of rows
   uint sorted;        // 1: the pixels are taken in the order of ray_order
   uint pixel_step;    // 2: rays at even pixels of even rows only, and rows count those
+  uint accumulate;    // 0: pictures of sums begin anew, whatever stands in them
 };
 
 // Where an instance was one frame ago. [effects/scene/gpu_scene.h]
@@ -146,6 +147,16 @@ uint2 FramePixel() {
   if (pass_constants.sorted == 0) return place * pass_constants.pixel_step;
   const uint pixel = ray_order[place.y * DispatchRaysDimensions().x + place.x];
   return uint2(pixel & 0xFFFFu, pixel >> 16);
+}
+
+// What a pass adds its samples to. Asked for before the rays, which cover the wait.
+float SumBefore(RWTexture2D<float> sums, uint2 pixel) {
+  if (pass_constants.accumulate == 0) return 0.0;
+  return sums[pixel];
+}
+float4 SumBefore(RWTexture2D<float4> sums, uint2 pixel) {
+  if (pass_constants.accumulate == 0) return float4(0, 0, 0, 0);
+  return sums[pixel];
 }
 
 #endif

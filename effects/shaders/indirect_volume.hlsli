@@ -8,10 +8,11 @@
 
 // effects/indirect_diffuse/volume.h holds the same layouts, and binds all three to a pass.
 struct VolumeConstants {
-  float3 origin;  // of cell (0, 0, 0)'s corner, relative to the camera
-  float cell;     // metres
-  uint3 bricks;   // of the grid, along each axis
-  uint enabled;   // 0: there is no volume
+  float3 origin;    // of cell (0, 0, 0)'s corner, relative to the camera
+  float cell;       // metres
+  uint3 bricks;     // of the grid, along each axis
+  uint enabled;     // 0: there is no volume
+  float over_cell;  // 1 / cell
 };
 
 // Radiance towards a unit direction d, by colour: mean + slope.x d.x + slope.y d.y + slope.z d.z.
@@ -71,7 +72,7 @@ VolumeLight SampleVolume(float3 position) {
   sum.weight = 0.0;
   const VolumeConstants volume = volume_constants[0];
   if (volume.enabled == 0) return sum;
-  const float3 at = (position - volume.origin) / volume.cell - 0.5;
+  const float3 at = (position - volume.origin) * volume.over_cell - 0.5;
   // Far away the conversion to integers would overflow.
   if (any(abs(at) > 1e6)) return sum;
   const float3 corner = floor(at);
@@ -111,7 +112,7 @@ VolumeLight SampleVolumeCell(float3 position) {
   light.weight = 0.0;
   const VolumeConstants volume = volume_constants[0];
   if (volume.enabled == 0) return light;
-  const float3 at = floor((position - volume.origin) / volume.cell);
+  const float3 at = floor((position - volume.origin) * volume.over_cell);
   if (any(abs(at) > 1e6)) return light;
   const uint3 cell = uint3(int3(at));  // below zero: a large one
   if (any(cell >= volume.bricks * kBrickCells)) return light;

@@ -13,11 +13,11 @@ float3 SunDirection(float2 tile, uint index) {
 void SunShadowRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
+  const float before = SumBefore(sun_visibility_sum, pixel);
   if (g_ids[pixel].x == 0) {
-    sun_visibility_sum[pixel] += float(count);
+    sun_visibility_sum[pixel] = before + float(count);
     return;
   }
-  const float before = sun_visibility_sum[pixel];  // asked for early: the rays cover the wait
   const float4 position = g_position[pixel];
   const float3 normal = OctahedralDecode(g_normal[pixel]);
   const float3 origin = position.xyz + normal * position.w;

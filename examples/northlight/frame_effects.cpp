@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
-#include <tuple>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/frame/picture.h"
@@ -342,21 +341,10 @@ std::vector<FrameEffects::SignalPictures> FrameEffects::signals() const {
   return out;
 }
 
-void FrameEffects::begin_frame(rtapi::CommandList& list, const glm::dvec3& origin, bool cut) {
+void FrameEffects::begin_frame(const glm::dvec3& origin, bool cut) {
   volume_.set_origin(origin);
-  const std::tuple<const char*, const PassViews*, std::uint32_t> sums[] = {
-      {"contact", &contact_views_, 1},
-      {"indirect", &indirect_views_, 0},
-      {"reflection", &reflection_views_, 0}};
-  for (SignalFilter& filter : filters_) {
-    if (cut) filter.denoiser.reset();
-  }
-  for (const auto& signal : signals_) {
-    for (const auto& [name, views, u] : sums) {
-      if (signal->name == name) views->clear(list, u, signal->sum);
-    }
-  }
-  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  if (!cut) return;
+  for (SignalFilter& filter : filters_) filter.denoiser.reset();
 }
 
 void FrameEffects::light(rtapi::CommandList& list, const Frame& frame) const {

@@ -69,9 +69,9 @@ class FrameEffects {
                        const std::function<void(double)>& bake_progress,
                        const std::atomic<bool>& stop);
 
-  // Goes on to a frame whose camera stands at `origin`: sums are empty again. `cut`: it has nothing
-  // to do with the frame before.
-  void begin_frame(rtapi::CommandList& list, const glm::dvec3& origin, bool cut);
+  // Goes on to a frame whose camera stands at `origin`. `cut`: it has nothing to do with the frame
+  // before.
+  void begin_frame(const glm::dvec3& origin, bool cut);
   // Lights' lists and maps and the main lighting: behind the G-buffer.
   void light(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
   const std::vector<RayStep>& steps() const { return steps_; }

@@ -207,6 +207,7 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
     constants.sample_count = std::min(kSamplesPerDispatch, samples - sample);
     constants.radius = options_.ao_radius;
     constants.pixel_step = step;
+    constants.accumulate = sample > 0 ? 1 : 0;
     // The order is one of all pixels.
     if (pass.keys && step == 1) {
       if (const auto sorted = sort_rays(pass, constants, order_ms); !sorted) return sorted;
@@ -307,13 +308,7 @@ rtapi::Status Renderer::run_composite(FrameResult& result) {
 
 rtapi::Status Renderer::render_frame(const Progress& progress, const std::atomic<bool>& stop,
                                      FrameResult& result) {
-  auto list = device_.CreateCommandList();
-  if (!list) return list.error();
-  frame_.clear(*list, kAmbientOcclusionSum);
-  frame_.clear(*list, kSunVisibilitySum);
-  list->ResourceBarrier(rtapi::ResourceBarrier::Uav());
-  if (effects_) effects_->begin_frame(*list, moment_.camera.position(), moment_.cut);
-  if (const auto done = queue_.ExecuteAndWait(*list); !done) return done;
+  if (effects_) effects_->begin_frame(moment_.camera.position(), moment_.cut);
   for (const Pass& pass : passes_) {
     if (const auto done = run_pass(pass, progress, stop, result); !done) return done;
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fixtures.h"
 
+#include "frame_run.h"
+
 #if KAAMOS_HAS_VULKAN
 #include "hand_vulkan.h"
 #else
@@ -10,6 +12,12 @@ class HandVulkan {};
 #endif
 
 namespace kaamos::bench {
+namespace {
+
+constexpr uint32_t kFrameWidth = 1280, kFrameHeight = 720;
+constexpr uint32_t kQuickFrameWidth = 96, kQuickFrameHeight = 54;
+
+}  // namespace
 
 Fixtures::Fixtures(const Options& options)
     : options_(options), arena_(static_cast<int>(options.threads)) {}
@@ -77,6 +85,15 @@ DxrScene& Fixtures::checked_scene() {
                                           rtapi::TraversalPrecision::kRobust, 0.0f, true);
   }
   return *checked_;
+}
+
+FrameRun& Fixtures::frame_run() {
+  if (!frame_) {
+    frame_ =
+        std::make_unique<FrameRun>(options_.quick ? kQuickFrameWidth : kFrameWidth,
+                                   options_.quick ? kQuickFrameHeight : kFrameHeight, threads());
+  }
+  return *frame_;
 }
 
 DxrScene& Fixtures::vulkan_scene() {

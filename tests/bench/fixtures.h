@@ -17,6 +17,7 @@
 
 namespace kaamos::bench {
 
+class FrameRun;
 class HandVulkan;
 
 class Fixtures {
@@ -37,6 +38,7 @@ class Fixtures {
   DxrScene& scene_of(rtapi::TraversalPrecision precision, float distance = 0);
   DxrScene& checked_scene();  // on a checked device, everything opaque
   const OwnTopLevel& own_top_level();
+  FrameRun& frame_run();
   DxrScene& vulkan_scene();  // everything opaque
   bool has_vulkan_scene() const { return vulkan_ != nullptr; }
   HandVulkan& hand_vulkan();
@@ -55,6 +57,7 @@ class Fixtures {
   Distant distant_[3];
   std::unique_ptr<DxrScene> checked_;
   std::unique_ptr<OwnTopLevel> own_;
+  std::unique_ptr<FrameRun> frame_;
   std::unique_ptr<DxrScene> vulkan_;
   std::unique_ptr<HandVulkan> hand_;
   std::vector<SurfacePoint> points_;

@@ -18,24 +18,17 @@
 namespace kaamos::bench {
 namespace {
 
-constexpr uint32_t kWidth = 1280, kHeight = 720;
-constexpr uint32_t kQuickWidth = 96, kQuickHeight = 54;
-
-std::unique_ptr<FrameRun> make_run(Fixtures& fixtures) {
-  const bool quick = fixtures.options().quick;
-  return std::make_unique<FrameRun>(quick ? kQuickWidth : kWidth, quick ? kQuickHeight : kHeight,
-                                    fixtures.threads());
-}
-
 // The frame's rays and a raw Embree scene for them.
 struct Rays {
   std::vector<FrameRay> rays;
   SceneData data;
   EmbreeScene scene;
 
-  explicit Rays(FrameRun& run) : data(run.scene_at_camera()), scene(data, true) {
+  // Of the whole frame, or of a part of it.
+  explicit Rays(FrameRun& run, const std::string& part = "")
+      : data(run.scene_at_camera()), scene(data, true) {
     run.trace_and_shade();  // shadow maps and history as in any later frame
-    rays = run.record(hits_);
+    rays = run.record(hits_, part);
   }
   void trace(Fixtures& fixtures) const {
     const auto found = static_cast<double>(scene.trace(fixtures.arena(), rays));
@@ -51,18 +44,18 @@ struct Rays {
 };
 
 Line compare_frame(const char* name, Fixtures& fixtures, const Measure& measure, bool whole) {
-  const std::unique_ptr<FrameRun> run = make_run(fixtures);
-  const Rays rays(*run);
+  FrameRun& run = fixtures.frame_run();
+  const Rays rays(run);
   // As in the middle of a sequence: filters have their history.
   for (uint32_t frame = 0; whole && frame < effects::kFramesOfHistory; ++frame) {
-    run->trace_and_shade();
-    run->denoise_and_compose();
+    run.trace_and_shade();
+    run.denoise_and_compose();
   }
   const Pairs times = time_pairs(
       measure,
       [&] {
-        run->trace_and_shade();
-        if (whole) run->denoise_and_compose();
+        run.trace_and_shade();
+        if (whole) run.denoise_and_compose();
       },
       [&] { rays.trace(fixtures); });
   return {name, times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", false};
@@ -70,6 +63,14 @@ Line compare_frame(const char* name, Fixtures& fixtures, const Measure& measure,
 
 Line trace_shade(Fixtures& fixtures, const Measure& measure) {
   return compare_frame("frame/trace-shade", fixtures, measure, false);
+}
+
+Line trace_shade_part(const std::string& part, Fixtures& fixtures, const Measure& measure) {
+  FrameRun& run = fixtures.frame_run();
+  const Rays rays(run, part);
+  const Pairs times = time_pairs(
+      measure, [&] { run.trace_and_shade(part); }, [&] { rays.trace(fixtures); });
+  return {"frame/part/" + part, times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", false};
 }
 
 Line all(Fixtures& fixtures, const Measure& measure) {
@@ -97,20 +98,17 @@ void check_same(const effects::FloatImage& ours, const std::vector<Float4>& base
 constexpr int kFrames = 2;
 
 Line svgf(Fixtures& fixtures, const Measure& measure) {
-  const std::unique_ptr<FrameRun> run = make_run(fixtures);
-  run->trace_and_shade();
-  const SvgfInput input = svgf_input(run->device(), run->queue(), run->frame(),
-                                     run->frame().texture(effects::kAmbientOcclusionSum));
+  FrameRun& run = fixtures.frame_run();
+  run.trace_and_shade();
+  const SvgfInput input = svgf_input(run.device(), run.queue(), run.frame(),
+                                     run.frame().texture(effects::kAmbientOcclusionSum));
   const rtapi::Texture signal =
-      run->frame()
-          .create_picture(run->device(), "signal", rtapi::Format::kR32G32B32A32Float)
-          .value();
-  rtapi::UploadTexture(run->device(), run->queue(), signal, 0,
-                       std::as_bytes(std::span(input.signal)))
+      run.frame().create_picture(run.device(), "signal", rtapi::Format::kR32G32B32A32Float).value();
+  rtapi::UploadTexture(run.device(), run.queue(), signal, 0, std::as_bytes(std::span(input.signal)))
       .value();
   const effects::DenoiseDesc desc = effects::default_denoise(effects::DenoiseMethod::kSvgf);
   effects::Denoiser denoiser =
-      effects::Denoiser::create(run->device(), run->frame(), effects::denoise_libraries().value(),
+      effects::Denoiser::create(run.device(), run.frame(), effects::denoise_libraries().value(),
                                 "bench", signal, desc)
           .value();
   ScalarSvgf scalar(input.width, input.height, desc);
@@ -118,15 +116,15 @@ Line svgf(Fixtures& fixtures, const Measure& measure) {
       measure,
       [&] {
         denoiser.reset();
-        rtapi::CommandList list = run->device().CreateCommandList().value();
-        for (int i = 0; i < kFrames; ++i) denoiser.dispatch(list, run->frame());
-        run->queue().ExecuteAndWait(list).value();
+        rtapi::CommandList list = run.device().CreateCommandList().value();
+        for (int i = 0; i < kFrames; ++i) denoiser.dispatch(list, run.frame());
+        run.queue().ExecuteAndWait(list).value();
       },
       [&] {
         scalar.reset();
         for (int i = 0; i < kFrames; ++i) scalar.run(fixtures.arena(), input);
       });
-  check_same(effects::read_picture(run->device(), run->queue(), denoiser.result()).value(),
+  check_same(effects::read_picture(run.device(), run.queue(), denoiser.result()).value(),
              scalar.result());
   return {"frame/svgf", times.ratio, 1e3 * times.ours / kFrames, 1e3 * times.baseline / kFrames,
           "ms",         false};
@@ -135,7 +133,14 @@ Line svgf(Fixtures& fixtures, const Measure& measure) {
 }  // namespace
 
 std::vector<Case> frame_cases() {
-  return {{"frame/svgf", svgf}, {"frame/trace-shade", trace_shade}, {"frame/all", all}};
+  std::vector<Case> cases = {
+      {"frame/svgf", svgf}, {"frame/trace-shade", trace_shade}, {"frame/all", all}};
+  for (const std::string part : kFrameParts) {
+    cases.push_back({"frame/part/" + part, [part](Fixtures& fixtures, const Measure& measure) {
+                       return trace_shade_part(part, fixtures, measure);
+                     }});
+  }
+  return cases;
 }
 
 }  // namespace kaamos::bench

@@ -70,31 +70,41 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
       .create(
           device_, queue_, frame_, gpu_, scene_, options, libraries_, [](double) {}, never)
       .value();
-  add(effects::gbuffer_pass(libraries_.gbuffer), {});
-  add(effects::ambient_occlusion_pass(libraries_.ambient_occlusion), {});
-  add(effects::sun_shadow_pass(libraries_.sun_shadow), {});
-  for (const northlight::RayStep& step : effects_.steps()) add(step.desc, step.arguments);
+  parts_.push_back(ray_pass(effects::gbuffer_pass(libraries_.gbuffer), {}));
+  parts_.push_back([this](rtapi::CommandList& list, const effects::PassConstants&) {
+    effects_.light(list, frame_);
+  });
+  parts_.push_back(ray_pass(effects::ambient_occlusion_pass(libraries_.ambient_occlusion), {}));
+  parts_.push_back(ray_pass(effects::sun_shadow_pass(libraries_.sun_shadow), {}));
+  for (const northlight::RayStep& step : effects_.steps()) {
+    parts_.push_back(ray_pass(step.desc, step.arguments));
+  }
+  if (parts_.size() != kFrameParts.size()) {
+    throw std::runtime_error("the lounge's frame has " + std::to_string(parts_.size()) +
+                             " parts, kFrameParts names " + std::to_string(kFrameParts.size()));
+  }
 }
 
-void FrameRun::add(const effects::RayPassDesc& desc, const effects::PassArguments& arguments) {
-  passes_.push_back({effects::RayPass::create(device_, frame_, gpu_, desc).value(), arguments});
+FrameRun::Record FrameRun::ray_pass(const effects::RayPassDesc& desc,
+                                    const effects::PassArguments& arguments) {
+  return [this, arguments, pass = effects::RayPass::create(device_, frame_, gpu_, desc).value()](
+             rtapi::CommandList& list, const effects::PassConstants& constants) {
+    pass.dispatch(list, frame_, constants, frame_.height(), arguments);
+  };
 }
 
-void FrameRun::trace_and_shade() {
+void FrameRun::trace_and_shade(const std::string& part) {
   rtapi::CommandList list = device_.CreateCommandList().value();
-  frame_.clear(list, effects::kAmbientOcclusionSum);
-  frame_.clear(list, effects::kSunVisibilitySum);
-  effects_.begin_frame(list, scene_.cameras.front().position(), false);
-  list.ResourceBarrier(rtapi::ResourceBarrier::Uav());
+  effects_.begin_frame(scene_.cameras.front().position(), false);
   effects::PassConstants constants;
   // Other samples in each frame, as in a sequence: noise that stands still would be no noise to
   // the filters.
   constants.first_sample = frames_++;
   constants.sample_count = 1;
   constants.radius = 4;
-  for (size_t i = 0; i < passes_.size(); ++i) {
-    passes_[i].pass.dispatch(list, frame_, constants, frame_.height(), passes_[i].arguments);
-    if (i == 0) effects_.light(list, frame_);  // reads the G-buffer, the others read it
+  constants.accumulate = 0;
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    if (part.empty() || part == kFrameParts[i]) parts_[i](list, constants);
   }
   queue_.ExecuteAndWait(list).value();
 }
@@ -106,12 +116,12 @@ void FrameRun::denoise_and_compose() {
   queue_.ExecuteAndWait(list).value();
 }
 
-std::vector<FrameRay> FrameRun::record(uint64_t& hits) {
+std::vector<FrameRay> FrameRun::record(uint64_t& hits, const std::string& part) {
   heard.clear();
   ++recording;
   device_.ResetStatistics();
   embree::set_ray_listener(hear);
-  trace_and_shade();
+  trace_and_shade(part);
   embree::set_ray_listener(nullptr);
   std::vector<FrameRay> rays;
   for (const auto& list : heard) rays.insert(rays.end(), list->begin(), list->end());

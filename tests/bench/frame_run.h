@@ -4,7 +4,9 @@
 // traces.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,18 +17,24 @@
 
 namespace kaamos::bench {
 
+// The parts of trace and shade in their order; "lights": their lists and shadow maps, and what they
+// send to each pixel.
+constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
+                                    "contact", "gi",     "reflections"};
+
 class FrameRun {
  public:
   // One ray a pixel for each effect, and what their hits need more.
   FrameRun(uint32_t width, uint32_t height, uint32_t threads);
 
-  // The G-buffer, lights with their shadow maps, every ray tracing pass.
-  void trace_and_shade();
+  // Every part; or one, which reads what the others wrote the last time.
+  void trace_and_shade(const std::string& part = "");
   // Denoises every signal and puts the frame together.
   void denoise_and_compose();
 
-  // One frame's rays, in the order in which each thread traced them; `hits`: what they hit.
-  std::vector<FrameRay> record(uint64_t& hits);
+  // The rays of one frame, or of a part of it, in the order in which each thread traced them;
+  // `hits`: what they hit.
+  std::vector<FrameRay> record(uint64_t& hits, const std::string& part = "");
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }
@@ -36,11 +44,8 @@ class FrameRun {
   SceneData scene_at_camera() const;
 
  private:
-  struct Pass {
-    effects::RayPass pass;
-    effects::PassArguments arguments;
-  };
-  void add(const effects::RayPassDesc& desc, const effects::PassArguments& arguments);
+  using Record = std::function<void(rtapi::CommandList&, const effects::PassConstants&)>;
+  Record ray_pass(const effects::RayPassDesc& desc, const effects::PassArguments& arguments);
 
   effects::Scene scene_;
   rtapi::Device device_;
@@ -49,8 +54,8 @@ class FrameRun {
   effects::Frame frame_;
   northlight::ShaderLibraries libraries_;
   northlight::FrameEffects effects_;
-  std::vector<Pass> passes_;
-  uint32_t frames_ = 0;  // that were traced
+  std::vector<Record> parts_;  // as kFrameParts
+  uint32_t frames_ = 0;        // that were traced
 };
 
 }  // namespace kaamos::bench
