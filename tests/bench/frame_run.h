@@ -19,8 +19,8 @@ namespace kaamos::bench {
 
 // The parts of trace and shade in their order; "lights": their lists and shadow maps, and what they
 // send to each pixel.
-constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
-                                    "contact", "gi",     "reflections"};
+inline constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
+                                           "contact", "gi",     "reflections"};
 
 class FrameRun {
  public:
