@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The checker's inner state; check.h is what others include. One class, whose parts stand in one
-// file per noun: check_types, check_declarations, check_templates, check_overloads, check_bindings,
+// The checker's inner state; check.h is what others include. It is one class, split into one file
+// per noun: check_types, check_declarations, check_templates, check_overloads, check_bindings,
 // check_entry_points, check_subobjects, lower_conversions, lower_places, lower_expressions,
 // lower_calls, lower_intrinsics, lower_resources, lower_statements, lower_module.
 #pragma once
@@ -30,7 +30,7 @@ namespace kaamos::hlsl {
 
 struct PayloadLeaf;
 
-// [name] among them, written in any case; null where there is none.
+// Finds the attribute with that name, ignoring case; null if there is none.
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
 
 using CheckId = DiagnosticId;
@@ -58,11 +58,11 @@ class Checker {
   Symbol* find_in_scope(Scope* scope, std::string_view name, bool check_order);
   Symbol* find_member(StructInfo* structure, std::string_view name);
   Symbol* find(Scope* scope, std::string_view name);
-  // Reports what is missing unless `quiet`.
+  // Reports what is missing, unless `quiet`.
   Symbol* resolve_name(const QualifiedName& name, Scope* scope, bool quiet);
   Scope* scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope);
   std::string similar_name(std::string_view text, Scope* scope, bool with_outer);
-  // With a note of what may be meant.
+  // Adds a note that suggests what may have been meant.
   void report_unknown(CheckId id, SourceLocation location,
                       const std::vector<std::string>& arguments, std::string_view text,
                       Scope* scope, bool with_outer);
@@ -116,7 +116,7 @@ class Checker {
   FunctionInfo* instantiate_function(FunctionInfo* function,
                                      std::span<const TemplateArgument> written, Scope* use_scope,
                                      const std::vector<Value>& arguments);
-  // Empty where an argument is missing or of the wrong kind.
+  // Returns false if an argument is missing or of the wrong kind.
   bool bind_arguments(std::span<const TemplateParameter> parameters,
                       std::span<const TemplateArgument> written, Scope* use_scope,
                       TemplateValues& values);
@@ -145,12 +145,12 @@ class Checker {
   ConversionRank rank(const Value& value, const Type* to);
   ConversionRank rank(const Type* from, const Type* to);
   Scalar common_scalar(Scalar a, Scalar b);
-  // Explicit: what a cast may do beyond an implicit conversion.
+  // An explicit conversion also allows what only a cast may do.
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,
                           bool is_explicit = false);
   const ir::Expr* convert_numeric(const ir::Expr* expr, const Type* from, const Type* to);
   bool convertible_numeric(const Type* from, const Type* to, bool is_explicit);
-  // Literal types to what they stand for.
+  // Replaces literal types by their default types.
   Value settle(Value value);
   const Type* settled(const Type* type);
   struct Piece {
@@ -197,7 +197,8 @@ class Checker {
   void emit(const ir::Stmt* statement);
   const ir::Variable* temporary(const ir::Expr* value, size_t* position = nullptr);
   ir::Variable* empty_temporary(const ir::Type* type);
-  // Simple enough to be repeated; else read from a temporary.
+  // Returns the value itself if it is cheap enough to repeat, else a read of a temporary that holds
+  // it.
   const ir::Expr* repeatable(const ir::Expr* value);
   void assign(const ir::Variable* variable, const ir::Expr* value);
 
@@ -225,7 +226,8 @@ class Checker {
   Value lower_construct(const Type* type, std::span<const Expr* const> arguments,
                         SourceLocation location);
   Value lower_sizeof(const SizeofExpr* expr);
-  // Of operands of one numeric shape; null where there is none (reported).
+  // The common type of operands of one numeric shape; reports an error and returns null if there is
+  // none.
   const Type* common_type(const Type* a, const Type* b, SourceLocation location, bool& truncates);
   std::optional<Value> overloaded_operator(std::string_view name, const Value& left,
                                            std::vector<Value> arguments, SourceLocation location);
@@ -355,7 +357,7 @@ class Checker {
   void collect_structs_of(const ir::Expr* expression);
   void warn_skipped();
 
-  // Swaps what a body is lowered into; restores it when it goes.
+  // Swaps the state that a body is lowered into, and restores it when it goes out of scope.
   struct BodyScope;
 
   const CheckOptions& options_;
@@ -364,9 +366,9 @@ class Checker {
   std::unique_ptr<ir::Module> module_;
   TypeTable types_;
   IrBuilder build_;
-  size_t error_count_ = 0;  // those of muted attempts too
+  size_t error_count_ = 0;  // includes those in muted attempts
   bool has_errors_ = false;
-  int muted_ = 0;  // inside: messages are dropped, since failing is no error
+  int muted_ = 0;  // above 0 while something is tried that may fail: messages are dropped
 
   std::deque<Scope> scopes_;
   std::deque<Symbol> symbols_;
@@ -376,7 +378,7 @@ class Checker {
   std::deque<EnumInfo> enums_;
   std::deque<StructTemplate> struct_templates_;
   std::deque<BindingInfo> bindings_;
-  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // of kBinding
+  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // for kBinding
   std::deque<std::string> names_;
   std::unordered_map<const Decl*, const Type*> declared_types_;
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
@@ -398,41 +400,41 @@ class Checker {
   ir::Block* block_ = nullptr;
   Scope* scope_ = nullptr;
   const ir::Variable* this_variable_ = nullptr;
-  uint32_t visible_ = ~0u;  // symbols of a later sequence are not declared yet
+  uint32_t visible_ = ~0u;  // symbols with a later sequence are not declared yet
   uint64_t effects_ = 0;
   int loop_depth_ = 0;
   int switch_depth_ = 0;
   int depth_ = 0;           // of nested expressions and statements
-  int function_depth_ = 0;  // of functions lowered on the way to others
+  int function_depth_ = 0;  // nested lowerings of functions
   int template_depth_ = 0;
   bool result_unused_ = false;
-  // What the last kCall gives its result to, until a variable of the source takes its place.
+  // The variable that receives the last kCall's result, until a variable of the source replaces it.
   ir::Variable* call_result_ = nullptr;
 
-  std::vector<FunctionInfo*> all_functions_;      // in declaration order, no templates
+  std::vector<FunctionInfo*> all_functions_;      // in declaration order, without templates
   std::vector<FunctionInfo*> lowered_functions_;  // callees before callers
   std::vector<std::pair<FunctionInfo*, size_t>> entries_;
   std::set<const ir::Struct*> collected_structs_;
   std::set<const ir::Expr*> collected_exprs_;
-  // An entry point made around one of the source.
+  // An entry point that is generated around a function of the source.
   struct Wrapper {
     ir::Function* function;
     FunctionInfo* wrapped;
     uint32_t stage;
   };
   std::vector<Wrapper> wrappers_;
-  std::vector<const FunctionInfo*> library_functions_;  // of Module::library_functions
+  std::vector<const FunctionInfo*> library_functions_;  // for Module::library_functions
   std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
-  // Where the source names a field of a payload struct, and passes one to TraceRay.
+  // Where the source names a field of a payload struct, and where it passes one to TraceRay.
   std::unordered_map<const ir::Expr*, SourceLocation> payload_accesses_;
   std::unordered_map<const ir::Stmt*, TracePayload> trace_payloads_;
   std::set<std::string> mangled_names_;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
   std::set<std::pair<uint32_t, uint32_t>> reported_uses_;
-  // Of the entry point that mark_reachable walks.
+  // Bindings of the entry point that mark_reachable walks.
   std::set<BindingInfo*> entry_bindings_;
   std::vector<VariableInfo*> entry_globals_;
-  ir::Block no_block_;  // for what is lowered outside any body
+  ir::Block no_block_;  // takes what is lowered outside any body
 };
 
 struct Checker::BodyScope {
