@@ -41,7 +41,7 @@ struct CheckOptions {
   // Whether payload access qualifiers take effect. [-enable-payload-qualifiers,
   // -disable-payload-qualifiers]
   bool payload_qualifiers = false;
-  bool strict = false;  // non-standard leniencies are errors
+  bool strict = false;  // what DXC refuses is an error, not a warning
 };
 
 // Returns null after an error, which is then in the engine.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Matrices: structs of rows, with functions generated from those on vectors when first used. The
-// order of sums is that of <kaamos/shader/intrinsics_geometry.h>.
+// Matrices are structs of rows, whose functions are generated from those on vectors when first
+// used. Sums are in the order of <kaamos/shader/intrinsics_geometry.h>.
 #include "runtime/hlsl/glsl_emitter.h"
 
 namespace kaamos::hlsl {
@@ -18,7 +18,7 @@ std::string row(const std::string& matrix, int index) {
   return matrix + ".r[" + std::to_string(index) + "]";
 }
 
-// One component of a row, which is a scalar where the matrix has one column.
+// One component of a row; the row is a scalar if the matrix has one column.
 std::string at(const std::string& matrix, const Type* type, int r, int c) {
   return row(matrix, r) + (type->columns == 1 ? "" : "." + glsl::component(c));
 }
