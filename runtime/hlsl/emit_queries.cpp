@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery: its methods, and the values that it has.
+// RayQuery: its methods and values.
 #include "runtime/hlsl/check_access.h"
 #include "runtime/hlsl/cpp_emitter.h"
 #include "runtime/hlsl/trace_calls.h"

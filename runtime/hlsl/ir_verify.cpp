@@ -296,7 +296,7 @@ class Verifier {
     }
   }
 
-  // A place is a chain of selections that ends in a variable that can be written to.
+  // A place is a chain of selections that ends in a writable variable.
   void place(const Expr* of) {
     expr(of);
     for (const Expr* at = of; at; at = at->operands.empty() ? nullptr : at->operands[0]) {

@@ -38,8 +38,8 @@ class Lexer {
  public:
   Lexer(SourceManager& sources, SourceManager::FileIndex file, IdentifierTable& identifiers,
         DiagnosticEngine* diagnostics);
-  // For a text without a location, such as a macro body; a zero byte must follow it. The tokens
-  // have no location.
+  // For a text without a location, such as the result of `##`; a zero byte must follow it. The
+  // tokens have no location.
   Lexer(SourceManager& sources, std::string_view text, IdentifierTable& identifiers);
 
   // Names (including keywords) get kind kIdentifier; numbers get kNumber and their text. After the

@@ -19,7 +19,7 @@
 namespace kaamos::runtime {
 namespace {
 
-// The IR of the library's source with checks; null with `error`.
+// The IR of the library's source with checks; null and `error` on failure.
 std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
                                                        std::string& error) {
   if (library.source == nullptr) {
@@ -61,7 +61,7 @@ rtapi::ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::M
                            bool spirv, bool debug, std::string& error) {
   hlsl::BuildOptions options;
   options.spirv = spirv;
-  // A Vulkan device runs the SPIR-V; the native code beside it only has to be there.
+  // A Vulkan device runs the SPIR-V; the native code next to it only has to exist.
   options.optimisation = debug   ? hlsl::Optimisation::kDebug
                          : spirv ? hlsl::Optimisation::kNone
                                  : hlsl::Optimisation::kFull;
@@ -104,8 +104,8 @@ CheckedLibrary make(const rtapi::ShaderLibrary& library, bool spirv) {
   return out;
 }
 
-// Programs load the same library again and again, and each time it would be compiled as far as the
-// key of the cache on the disk. So many variants live on when nobody uses them.
+// Programs load the same library again and again, and each time it would have to be compiled up to
+// the point where the disk cache's key is known. That many variants are kept even when unused.
 constexpr size_t kMostKept = 32;
 
 struct Known {
@@ -123,7 +123,7 @@ struct KnownVariants {
 CheckedLibrary checked_variant(const rtapi::ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
   if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
-  // Never taken down: at exit others may still run what it holds.
+  // Never destroyed: at exit, other threads may still be running what it holds.
   static KnownVariants& known = *new KnownVariants;
   const std::lock_guard lock(known.mutex);
   const std::string_view source(reinterpret_cast<const char*>(desc.source),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each mistake: which message, at which line and column; and that one mistake gives one message.
+// Which message each mistake gives, at which line and column; and that one mistake gives one
+// message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ struct Mistake {
   const char* name;
   const char* text;
   const char* expected;  // positions()
-  const char* message;   // A part of the first message.
+  const char* message;   // Part of the first message.
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -26,7 +27,7 @@ TEST_P(ParseError, IsReportedWhereItIs) {
   EXPECT_EQ(positions(parsed), GetParam().expected) << parsed.messages();
   ASSERT_FALSE(parsed.diagnostics.diagnostics().empty());
   EXPECT_THAT(parsed.diagnostics.diagnostics()[0].message, testing::HasSubstr(GetParam().message));
-  // What is left of the tree can be walked.
+  // The rest of the tree can be walked.
   dump(*parsed.unit);
 }
 
@@ -102,7 +103,7 @@ constexpr Mistake kMistakes[] = {
      "expected ';' after the declaration of 'a', found '2'"},
     {"Declaration", "3;", "KA2203 1:1", "expected a declaration, found '3'"},
 
-    // ---- Something is too much, or at the wrong place
+    // ---- Something is superfluous or in the wrong place
     {"BraceTooMuch", "void f() { } }\nfloat a;", "KA2211 1:14", "'}' has no opening '{'"},
     {"ElseWithoutIf", "void f() { a; else b; }", "KA2212 1:15", "'else' without 'if'"},
     {"CaseOutsideSwitch", "void f() { case 1: a; }", "KA2213 1:12", "'case' outside of a switch"},
@@ -145,7 +146,7 @@ constexpr Mistake kMistakes[] = {
     {"AccessSpecifiers", "class C { public: int a; private: int b; };", "KA2241 1:11\nKA2241 1:26",
      "access specifier 'public' is ignored: all members are public"},
 
-    // ---- What HLSL does not have
+    // ---- Not in HLSL
     {"Pointer", "void f(float* a) { }", "KA2220 1:13", "HLSL has no pointers"},
     {"PointerVariable", "void f() { int *a = 0; }", "KA2220 1:16", "HLSL has no pointers"},
     {"PointerCast", "float a = (float*)b;", "KA2220 1:17", "HLSL has no pointers"},
@@ -304,8 +305,8 @@ TEST(ParseLimit, ElseIfChainsMayBeLong) {
             "KA2209 1027:1");
 }
 
-// Chains inside chains, and expressions inside template arguments, count together: what walks the
-// tree must not run out of its stack.
+// Chains inside chains, and expressions inside template arguments, are counted together, so that
+// code that walks the tree does not run out of stack.
 TEST(ParseLimit, LimitsHoldForTheWholePath) {
   std::string chains = "void f() {";
   for (int level = 0; level < 20; ++level) chains += repeated("if (a) b; else ", 100) + "{";
@@ -335,7 +336,7 @@ TEST(ParseSuggestion, ForMisspeltTypesAndThoseOfGlsl) {
   EXPECT_EQ(note("Quaternion"), "");
 }
 
-// Texts that lead a careless parser into the end of its stack or into quadratic time.
+// Texts that would make a careless parser overflow its stack or take quadratic time.
 TEST(ParseLimit, HostileTextsEndSoon) {
   const char* openings[] = {
       "(",
