@@ -13,8 +13,7 @@ namespace {
 
 struct LayoutCase {
   const char* name;
-  // members of a constant buffer, each of which is read
-  const char* members;
+  const char* members;                                    // of a constant buffer; all are read
   std::vector<std::pair<const char*, uint32_t>> offsets;  // byte offset of each
   uint32_t size;
 };

@@ -80,7 +80,7 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   settings.spirv = options.Spirv;
   const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
   if (!object.error.empty()) {
-    // What the SPIR-V failed by has an id of its own.
+    // An error from the SPIR-V has an id of its own.
     const bool has_id = object.error.starts_with("KA");
     out.Status = has_id ? Error{object.error.substr(0, 6), ErrorCode::kFailed, object.error}
                         : error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);

@@ -91,7 +91,7 @@ const std::vector<Option>& options() {
       {"-enable-16bit-types", false, flag(&Arguments::native_16bit), ""},
       {"-enable-payload-qualifiers", false,
        [](Arguments& a, const std::string&) {
-         // The other one wins, wherever it stands.
+         // -disable-payload-qualifiers wins, wherever it appears.
          a.payload_qualifiers = a.payload_qualifiers.value_or(true);
          return true;
        },
@@ -135,7 +135,7 @@ const std::vector<Option>& options() {
   return table;
 }
 
-// The option of a word; "-Ifolder" and "-DNAME" carry their value with them.
+// The option for a word; "-Ifolder" and "-DNAME" have their value attached.
 const Option* find_option(const std::string& word, std::string& attached) {
   for (const Option& option : options()) {
     if (word == option.name) return &option;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kaamos-hlsl as it is called from a shell: exit status, what it prints, what it writes.
+// kaamos-hlsl as called from a shell: its exit status, what it prints and what it writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
