@@ -63,7 +63,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   out.push_back(decl);
   if (accept(Kind::kSemicolon)) return;
   if (!at(Kind::kLeftBrace)) {
-    expect(Kind::kLeftBrace, "'{' or ';' after the head of the function");
+    expect(Kind::kLeftBrace, "'{' or ';' after the function's parameters");
     return;
   }
   const Token* outer = std::exchange(function_token_, name_token);

@@ -96,7 +96,7 @@ bool Preprocessor::has_include(const Token& keyword) {
   if (!is_left_paren_next()) {
     Token found = next_unexpanded();
     diagnostics_.report(DiagnosticId::kConditionTokenExpected, found.location,
-                        {"'(' behind __has_include", describe(found)});
+                        {"'(' after __has_include", describe(found)});
     return false;
   }
   next_unexpanded();
@@ -105,7 +105,7 @@ bool Preprocessor::has_include(const Token& keyword) {
   Token close = next_unexpanded();
   if (!close.is(TokenKind::kRightParen)) {
     diagnostics_.report(DiagnosticId::kConditionTokenExpected, close.location,
-                        {"')' behind __has_include", describe(close)});
+                        {"')' after __has_include", describe(close)});
   }
   std::string searched;
   std::string error;

@@ -128,7 +128,7 @@ class Planner {
       case StmtKind::kCall:
         return inlined(stmt, out);
       default:
-        return fail("a barrier, or a way out of a loop with barriers, stands in a switch");
+        return fail("a barrier, or a way out of a loop with barriers, is in a switch");
     }
   }
 
