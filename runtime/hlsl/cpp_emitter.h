@@ -53,7 +53,7 @@ class CppEmitter {
 
   // emit_expressions.cpp
   std::string value(const ir::Expr* expr);
-  std::string place(const ir::Expr* expr);  // an lvalue, which may stand left of "="
+  std::string place(const ir::Expr* expr);  // an lvalue, valid to the left of "="
   std::string literal(const ir::Expr& expr);
   std::string scalar_literal(ir::Scalar scalar, uint64_t bits);
   std::string construct(const ir::Expr& expr);
@@ -87,7 +87,7 @@ class CppEmitter {
   std::string sample_text(const ir::Expr& expr, const TextOf& text);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
   std::string variable(const ir::Variable* variable);
-  // Texel coordinates as the ABI wants them: {x, y, z or array element, mip}.
+  // Texel coordinates in the form that the ABI takes: {x, y, z or array element, mip}.
   std::string texel_coordinates(const ir::Type* resource, const ir::Expr* coordinates,
                                 const ir::Expr* mip, const ir::Expr* offset);
   std::string texel_coordinates_text(const ir::Type* resource, const std::string& coordinates,

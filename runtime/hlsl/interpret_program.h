@@ -43,7 +43,8 @@ struct Frame {
   std::byte* result = nullptr;  // where `return` puts the value; null: unused, or already there
 };
 
-// Returns the value, which stays valid until the next statement and may lie in a variable.
+// Returns the value, which stays valid until the next statement and may be a variable's own
+// storage.
 using Evaluate = const std::byte* (*)(const Node& node, Frame& frame);
 // Returns where a value can be written to, or null if that is out of range and the write is
 // dropped.

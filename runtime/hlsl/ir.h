@@ -98,7 +98,7 @@ struct Type {
 struct Field {
   std::string name;
   const Type* type = nullptr;
-  bool row_major = false;   // for a matrix, or an array of them, when it lies in memory
+  bool row_major = false;   // for a matrix, or an array of them, in memory
   int32_t packoffset = -1;  // cbuffer members: byte offset given by packoffset; -1: none
 };
 
