@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace rtapi::detail {
 

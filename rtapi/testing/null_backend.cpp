@@ -110,7 +110,7 @@ const runtime::BackendFactory kFactory = {"null", Enumerate, Create};
 }  // namespace
 
 Device CreateNullDevice(DeviceDesc desc) {
-  runtime::register_backend(&kFactory);
+  rtapi::detail::register_backend(&kFactory);
   g_log = NullLog();
   desc.Backend = "null";
   return CreateDevice(desc).value();

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "runtime/build_inputs.h"
 #include "runtime/checks/names.h"
+#include "runtime/structures/build_inputs.h"
 
 namespace kaamos::checks {
 namespace {

@@ -9,9 +9,9 @@
 #include <kaamos/shader/abi.h>
 #include <rtapi/raytracing.h>
 
-#include "runtime/address_map.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/checks/report.h"
-#include "runtime/linked_pipeline.h"
 
 namespace kaamos::checks {
 

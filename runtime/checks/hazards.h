@@ -11,9 +11,9 @@
 #include <map>
 #include <string>
 
-#include "runtime/address_map.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/commands.h"
 #include "runtime/checks/report.h"
-#include "runtime/commands.h"
 
 namespace kaamos::checks {
 

@@ -10,7 +10,7 @@
 #include <mutex>
 #include <string>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::checks {
 

@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
-#include "runtime/indirect.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::checks {
 namespace {

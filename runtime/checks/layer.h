@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/build_checks.h"
 #include "runtime/checks/hazards.h"
 #include "runtime/checks/identifiers.h"
@@ -22,9 +22,10 @@ namespace kaamos::checks {
 
 class Layer : public runtime::CommandObserver {
  public:
-  Layer(runtime::AddressMap& addresses, Reporter& reporter)
+  Layer(runtime::AddressMap& addresses, Reporter& reporter, SameDefinition same_definition)
       : addresses_(addresses),
         reporter_(reporter),
+        same_definition_(same_definition),
         structures_(addresses),
         hazards_(addresses, reporter),
         textures_(reporter) {}
@@ -87,10 +88,13 @@ class Layer : public runtime::CommandObserver {
 
   // What a proof depended on: while it is the same, a table that was proven stays proven.
   uint64_t proof_key(const runtime::DispatchRaysCommand& command) const;
-  ProofInputs inputs() const { return {addresses_, structures_, identifiers_, reporter_}; }
+  ProofInputs inputs() const {
+    return {addresses_, structures_, identifiers_, reporter_, same_definition_};
+  }
 
   runtime::AddressMap& addresses_;
   Reporter& reporter_;
+  SameDefinition same_definition_;
   Structures structures_;
   Hazards hazards_;
   TextureStates textures_;

@@ -8,8 +8,8 @@
 
 #include <rtapi/raytracing.h>
 
-#include "runtime/address_map.h"
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::checks {
 

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "runtime/address_map.h"
-#include "runtime/commands.h"
-#include "runtime/structure_map.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/commands.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::checks {
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "rtapi/src/root_signature_impl.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
 #include "runtime/checks/record_advice.h"
@@ -308,7 +307,7 @@ void Proof::enter(const LinkedShader* shader, const uint8_t* record, uint64_t by
   if (shader == nullptr || !entered_.insert({shader, record}).second) return;
   const auto& wanted = shader->global_root_signature;
   const auto& bound = command_.state.root_signature;
-  if (wanted && !(bound && rtapi::detail::SameDefinition(wanted, bound)) &&
+  if (wanted && !(bound && inputs_.same_definition(wanted, bound)) &&
       other_root_signature_.insert(shader).second) {
     report(Id::kRootSignatureReached,
            where + " runs " + shader_name(*shader) + reason +

@@ -13,18 +13,22 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/identifiers.h"
 #include "runtime/checks/report.h"
 #include "runtime/checks/structures.h"
 
 namespace kaamos::checks {
 
+// Whether two root signatures have the same parameters, samplers and flags; rtapi knows.
+using SameDefinition = bool (*)(const rtapi::RootSignature&, const rtapi::RootSignature&);
+
 struct ProofInputs {
   const runtime::AddressMap& addresses;
   const Structures& structures;
   const Identifiers& identifiers;
   Reporter& reporter;
+  SameDefinition same_definition;
 };
 
 // A buffer, texture or structure that a reached shader can read or write.

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/hazards.h"
 #include "runtime/checks/names.h"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "runtime/backend/commands.h"
 #include "runtime/checks/report.h"
-#include "runtime/commands.h"
 
 namespace kaamos::checks {
 

@@ -6,9 +6,9 @@
 
 #include "runtime/embree/device.h"
 #include "runtime/embree/parallel.h"
-#include "runtime/instances.h"
-#include "runtime/structure_commands.h"
-#include "runtime/structure_copies.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 
 namespace kaamos::embree {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/commands.h"
+#include "runtime/backend/commands.h"
 
 namespace kaamos::embree {
 

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "runtime/embree/testing/harness.h"
-#include "runtime/instances.h"
-#include "runtime/serialized_structure.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::embree {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "runtime/build_inputs.h"
 #include "runtime/embree/instance_node.h"
 #include "runtime/embree/parallel.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
 namespace {

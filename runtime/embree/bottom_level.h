@@ -13,7 +13,7 @@
 
 #include "runtime/embree/embree_shim.h"
 #include "runtime/embree/exact.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::embree {
 

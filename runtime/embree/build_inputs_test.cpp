@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/build_inputs.h"
+#include "runtime/structures/build_inputs.h"
 
 #include <gtest/gtest.h>
 

@@ -12,11 +12,11 @@
 #include <optional>
 #include <string>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
 

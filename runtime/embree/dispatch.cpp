@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"

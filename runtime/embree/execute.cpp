@@ -8,10 +8,10 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/backend/indirect.h"
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/device.h"
 #include "runtime/embree/texture.h"
-#include "runtime/indirect.h"
 
 namespace kaamos::embree {
 namespace {

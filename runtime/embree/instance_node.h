@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "runtime/embree/embree_shim.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::embree {
 

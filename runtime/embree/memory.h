@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <memory>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/top_level.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::embree {
 

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <mutex>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/code_findings.h"
 #include "runtime/embree/compute.h"
 #include "runtime/embree/fault.h"

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/clear_view.h"
+#include "runtime/backend/clear_view.h"
 #include "runtime/embree/memory.h"
 #include "runtime/shader/texture/texel_access.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kaamos/shader/texture_view.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace kaamos::embree {
 

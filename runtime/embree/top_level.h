@@ -17,7 +17,7 @@
 #include "runtime/embree/bottom_level.h"
 #include "runtime/embree/instance_boxes.h"
 #include "runtime/embree/instance_node.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::embree {
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "kaamos/shader/bound.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::runtime {

@@ -17,10 +17,10 @@
 #include "kaamos/shader/abi.h"
 #include "kaamos/shader/bound.h"
 #include "kaamos/shader/texture_view.h"
-#include "runtime/address_map.h"
-#include "runtime/backend.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/explain/scene.h"
-#include "runtime/linked_pipeline.h"
 
 namespace kaamos::explain {
 

@@ -6,7 +6,7 @@
 #include "kaamos/shader/ray_query.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 

@@ -8,7 +8,7 @@
 #include "runtime/explain/guard.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 

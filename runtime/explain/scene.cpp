@@ -5,8 +5,8 @@
 #include <cstring>
 #include <tuple>
 
-#include "runtime/build_inputs.h"
-#include "runtime/instances.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 namespace {

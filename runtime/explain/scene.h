@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "kaamos/shader/abi.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/explain/bvh.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::explain {
 

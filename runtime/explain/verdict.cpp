@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 namespace {

@@ -6,10 +6,10 @@
 #include <cstring>
 #include <utility>
 
-#include "runtime/build_inputs.h"
-#include "runtime/instances.h"
-#include "runtime/structure_commands.h"
-#include "runtime/structure_copies.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 #include "runtime/vulkan/instance_table.h"
 #include "runtime/vulkan/top_level.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/memory.h"
 

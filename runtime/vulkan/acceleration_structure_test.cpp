@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "runtime/serialized_structure.h"
+#include "runtime/structures/serialized_structure.h"
 #include "runtime/vulkan/testing/ray_caster.h"
 
 namespace kaamos::vulkan {

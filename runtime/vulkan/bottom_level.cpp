@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "runtime/build_inputs.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/structure_commands.h"
 #include "runtime/vulkan/primitive_list.h"
 
 namespace kaamos::vulkan {

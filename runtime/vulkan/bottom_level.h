@@ -11,7 +11,7 @@
 #include <rtapi/raytracing.h>
 #include <rtapi/result.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/vulkan_structure.h"
 
 namespace kaamos::vulkan {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::vulkan {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/code_findings.h"
 #include "runtime/vulkan/dispatch.h"
 

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <string>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/dispatch.h"
 #include "runtime/vulkan/memory.h"

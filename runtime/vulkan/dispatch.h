@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kaamos/shader/spirv_interface.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/dispatch_split.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <variant>
 
-#include "runtime/indirect.h"
+#include "runtime/backend/indirect.h"
 #include "runtime/vulkan/device.h"
 
 namespace kaamos::vulkan {

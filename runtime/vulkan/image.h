@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/descriptor_set.h"
 
 namespace kaamos::vulkan {

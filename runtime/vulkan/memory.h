@@ -9,7 +9,7 @@
 #include <memory>
 #include <shared_mutex>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {

@@ -10,7 +10,7 @@
 
 #include <rtapi/raytracing.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/sort.h"
 #include "runtime/vulkan/workarounds.h"
 

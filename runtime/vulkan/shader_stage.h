@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::vulkan {
 

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/descriptor_set.h"
 #include "runtime/vulkan/gpu.h"
 #include "runtime/vulkan/shader_table.h"

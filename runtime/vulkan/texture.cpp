@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/clear_view.h"
+#include "runtime/backend/clear_view.h"
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/vulkan/image.h"
 #include "runtime/vulkan/memory.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/descriptor_set.h"
 

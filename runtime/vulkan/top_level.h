@@ -11,7 +11,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 #include "runtime/vulkan/bottom_level.h"
 #include "runtime/vulkan/instance_table.h"
 

@@ -11,7 +11,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {

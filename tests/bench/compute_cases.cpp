@@ -9,11 +9,11 @@
 #include <stdexcept>
 
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/interpret/interpret.h"
 #include "temporary_folder.h"
 
 namespace kaamos::bench {

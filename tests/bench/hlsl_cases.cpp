@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "fixtures.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/preprocess.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/front/preprocess.h"
 #include "temporary_folder.h"
 
 namespace kaamos::bench {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/checked_library.h"
+#include "rtapi/src/checked_library.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::checks {
@@ -505,7 +505,7 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
 TEST(CheckedLibrary, ALibraryThatIsLoadedAgainIsNotCompiledAgain) {
   const auto variant = [] {
     const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_code()).value();
-    return runtime::checked_variant(library, false).library.impl().get();
+    return rtapi::detail::checked_variant(library, false).library.impl().get();
   };
   const auto* first = variant();
   EXPECT_EQ(variant(), first);

@@ -2,8 +2,8 @@
 // Values for printers_test.sh to print; the debugger stops in Stop.
 #include <kaamos/shader/prelude.h>
 
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/embree/shader_record.h"
-#include "runtime/linked_pipeline.h"
 
 namespace ks = kaamos::shader;
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/interpret/interpret.h"
 
 namespace kaamos::test {
 namespace {

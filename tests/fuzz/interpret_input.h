@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "runtime/hlsl/ir.h"
+#include "runtime/hlsl/ir/ir.h"
 
 namespace kaamos::test {
 

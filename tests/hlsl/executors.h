@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/frontend.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/frontend.h"
 
 namespace kaamos::test {
 

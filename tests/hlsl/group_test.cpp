@@ -10,9 +10,9 @@
 
 #include "executors.h"
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/split_groups.h"
+#include "runtime/hlsl/analysis/split_groups.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/host_compiler.h"
 
 namespace kaamos::test {
 namespace {

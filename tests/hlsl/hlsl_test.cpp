@@ -21,8 +21,8 @@
 #include "executors.h"
 #include "expectations.h"
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/host_compiler.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::test {

@@ -9,7 +9,7 @@
 
 #include "executors.h"
 #include "fixtures.h"
-#include "runtime/hlsl/wide_plan.h"
+#include "runtime/hlsl/analysis/wide_plan.h"
 #include "wide_cases.h"
 
 namespace kaamos::test {

@@ -46,11 +46,11 @@ int main(int argc, char** argv) {
   }
   for (int i = 1; i < argc; ++i) {
     const auto file = kaamos::effects::read_exr(argv[i]);
-    if (!file) {
-      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().message.c_str());
+    if (!file.ok()) {
+      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().c_str());
       return 1;
     }
-    for (const kaamos::effects::ExrLayer& layer : file->layers) {
+    for (const kaamos::effects::ExrLayer& layer : file.value().layers) {
       std::printf("%016" PRIx64 " %s\n", hash_layer(layer.image),
                   layer.name.empty() ? "(picture)" : layer.name.c_str());
     }

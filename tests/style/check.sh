@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice, layers.
 set -euo pipefail
 rule=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 cd "$2"
 
 # Inputs of tests (testdata) break rules on purpose, and a line more would move the lines they expect.
@@ -166,8 +167,17 @@ check_used() {
   done
 }
 
+# No arrow upward: includes and CMake's links go only where layers.txt says. Tests include what they like.
+check_layers() {
+  {
+    list_files -name '*.cpp' -o -name '*.h' -o -name '*.inc' |
+      grep -E '^(rtapi|runtime|effects|examples)/' | grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$'
+    list_files -name CMakeLists.txt | grep -E '^(rtapi|runtime|effects|examples)/'
+  } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
+}
+
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told | twice) ;;
+  spdx | paths | marks | readme | length | listed | used | told | twice | layers) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

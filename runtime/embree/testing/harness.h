@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace kaamos::embree::testing {
 

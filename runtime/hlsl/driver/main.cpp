@@ -8,16 +8,16 @@
 #include <memory>
 #include <system_error>
 
-#include "runtime/hlsl/build_library.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/arguments.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/emit_glsl.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/ir_dump.h"
-#include "runtime/hlsl/reflect.h"
-#include "runtime/hlsl/spirv.h"
+#include "runtime/hlsl/driver/build_library.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/driver/reflect.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/glsl/emit_glsl.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/ir/dump.h"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
-#include "runtime/structure_map.h"
+#include "runtime/backend/backend.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/testing/vulkan_device.h"
 
