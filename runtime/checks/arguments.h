@@ -11,7 +11,7 @@
 
 namespace kaamos::checks {
 
-// Where the arguments of a shader stand.
+// Where to find the arguments of a shader.
 struct Arguments {
   const uint8_t* global = nullptr;                // kRootArgumentBytes
   const uint8_t* local = nullptr;                 // null: no record

@@ -31,8 +31,8 @@ struct PackOffer {
     return (state.ray_flags & culled_by) != 0;
   }
 
-  // Of opaque triangles at the same t, the first by instance, geometry and primitive is the hit, in
-  // whatever order the traversal finds them. A triangle that an any-hit shader accepted stays,
+  // Among opaque triangles at the same t, the first by instance, geometry and primitive is the hit,
+  // in whatever order the traversal finds them. A triangle that an any-hit shader accepted stays,
   // because one that is found after it is outside the open interval. [DXR: Ray extents]
   bool wins_tie(bool opaque) const {
     const ExactState& exact = *state.exact;

@@ -3,9 +3,8 @@
 // The triangle test of TraversalPrecision::kExact. A vertex is projected along the ray by a
 // function of nothing but the vertex and the ray, so triangles that share the vertex agree on where
 // it is. The rest is exact: on which side of an edge the ray passes, and, if it passes through the
-// edge or a vertex, on which side it would pass if moved by an infinitely small (e, e * e). Of the
-// triangles around a shared edge or vertex, exactly one is hit. [DXR: Watertightness; Top-left
-// rule]
+// edge or a vertex, on which side it would pass if moved by an infinitely small (e, e * e). Exactly
+// one of the triangles around a shared edge or vertex is hit. [DXR: Watertightness; Top-left rule]
 //
 // Needs IEEE arithmetic without contraction of products: compile whatever includes this with
 // -ffp-contract=off. Results are then the same on every processor.

@@ -127,7 +127,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     return level;
   }
 
-  rtcGetDeviceError(context.device);  // forgets what an earlier build left
+  rtcGetDeviceError(context.device);  // clears an earlier build's error
   level->scene_ = rtcNewScene(context.device);
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
   if (level->scene_ != nullptr && geometry != nullptr) {

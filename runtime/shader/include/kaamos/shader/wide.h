@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The values of several threads of a shader side by side: wide<T> holds a T for each of
-// kLanes threads, vec<wide<T>, N> a vector for each, and so on for matrices, arrays and structs.
-// What the prelude does to components (map()) it does to these lane by lane, with the very results
-// of the scalar code; wide_operators.h has the operations that registers do at once.
+// The values of several threads of a shader side by side: wide<T> holds a T for each of kLanes
+// threads, vec<wide<T>, N> a vector for each, and so on for matrices, arrays and structs. What the
+// prelude does to components (map()) it does to these lane by lane, with exactly the results of the
+// scalar code; wide_operators.h has the operations that work on whole registers.
 //
-// Vectors of a compiler are as long as a register of the instruction set that the unit is compiled
-// for: longer ones come apart badly.
+// Compiler vectors are as long as a register of the instruction set that the unit is compiled for;
+// compilers split longer ones badly.
 #pragma once
 
 #include "kaamos/shader/abi.h"
