@@ -2,7 +2,7 @@
 # kaamos_add_shader_library: HLSL compiled with the program. Part of the installed package too.
 include_guard()
 
-# What emitted code needs to mean the same on every compiler; runtime/hlsl/host_compiler.cpp has the
+# What emitted code needs to mean the same on every compiler; runtime/hlsl/driver/host_compiler.cpp has the
 # same list for libraries that are compiled at run time.
 set(KAAMOS_SHADER_COMPILE_OPTIONS
   -w -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti

@@ -2,8 +2,8 @@
 #include "rtapi/src/backends.h"
 
 //
-// The list of backends. It names those of this build itself: static initialisers of a static
-// library would be dropped by the linker unless something else of it were used.
+// The list of backends. It names those of this build itself, because the linker would drop a static
+// initialiser in a static library if nothing else in its file were used.
 #include <algorithm>
 #include <cstring>
 #include <mutex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which GPU virtual addresses are alive, and how their buffers are called. rtapi keeps it; a
-// backend looks up what it is about to read or write while it executes.
+// Which GPU virtual addresses are alive, and what their buffers are called. rtapi maintains it;
+// while it executes, a backend looks up what it is about to read or write.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,13 @@ struct Allocation {
   uint64_t size_bytes = 0;
   rtapi::HeapType heap = rtapi::HeapType::kDefault;
   rtapi::ResourceFlags flags = rtapi::ResourceFlags::kNone;
-  bool acceleration_structure = false;  // created in that state
-  std::string name;                     // "" without a name
-  uint8_t* host = nullptr;              // where the host sees it; null: at `address`
+  bool acceleration_structure = false;  // created in the acceleration structure state
+  std::string name;                     // "" if unnamed
+  uint8_t* host = nullptr;              // where the host sees it; null: at `address` itself
 };
 
-// In the key of a view in AddressMap::ranges() while its texture is in a state that forbids its
-// use. [kaamos/shader/checked.h]
+// Set in a view's key in AddressMap::ranges() while its texture is in a state that forbids its use.
+// [kaamos/shader/checked.h]
 constexpr uint64_t kWrongView = uint64_t{1} << 61;
 
 class AddressMap {
@@ -53,10 +53,10 @@ class AddressMap {
     }
   }
 
-  // Grows with every allocation that comes or goes.
+  // Grows with every allocation that is added or removed.
   uint64_t version() const { return version_; }
 
-  // The allocation that holds the byte at `address`.
+  // The allocation that contains the byte at `address`.
   std::optional<Allocation> find(uint64_t address) const {
     std::shared_lock lock(mutex_);
     const Allocation* a = locate(address);
@@ -78,13 +78,13 @@ class AddressMap {
     for (const auto& [address, allocation] : allocations_) out.push_back(allocation);
     return out;
   }
-  // A view of a texture: lives as long as that. `key`: shader::view_key.
+  // Adds a view of a texture; it lives as long as the texture. `key`: shader::view_key.
   void insert_view(uint64_t key, std::weak_ptr<const void> texture) {
     std::unique_lock lock(mutex_);
     views_[key] = std::move(texture);
   }
-  // Views whose textures are in a state that forbids their use, each with the words for it. Those
-  // given before are forgotten.
+  // Sets the views whose textures are in a state that forbids their use, each with the words to
+  // report it. Replaces the views set before.
   void set_wrong_views(std::map<uint64_t, std::string> wrong) {
     std::unique_lock lock(mutex_);
     wrong_views_ = std::move(wrong);
@@ -94,7 +94,7 @@ class AddressMap {
     const auto it = wrong_views_.find(key);
     return it == wrong_views_.end() ? std::string() : it->second;
   }
-  // The places of allocations and live views only, by rising address.
+  // Only the ranges of allocations and live views, sorted by address.
   std::vector<shader::AddressRange> ranges() const {
     std::shared_lock lock(mutex_);
     std::vector<shader::AddressRange> out;
@@ -109,7 +109,8 @@ class AddressMap {
     std::inplace_merge(out.begin(), out.begin() + middle, out.end(), by_address);
     return out;
   }
-  // Where the host sees the byte at `address`; addresses of no allocation are taken as the host's.
+  // Where the host sees the byte at `address`. An address outside every allocation is taken for a
+  // host address.
   uint8_t* host(uint64_t address) const {
     std::shared_lock lock(mutex_);
     const Allocation* a = locate(address);

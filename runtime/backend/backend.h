@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The seam between rtapi and what executes. rtapi/src checks descriptions, links state objects,
+// The seam between rtapi and what executes. rtapi/src checks descriptions, links state objects, and
 // lays out root arguments and records; a backend owns memory, views, acceleration structures and
-// execution. It gets checked input only, except for what stands in GPU memory.
+// execution. Its input has been checked, except for what is in GPU memory.
 #pragma once
 
 #include <cstdint>
@@ -30,34 +30,34 @@ namespace kaamos::runtime {
 
 struct AccelerationStructure;
 
-// Linear memory. Zero at first; freed with the object.
+// Linear memory, zero at first; freed with the object.
 class BackendBuffer {
  public:
   virtual ~BackendBuffer() = default;
   virtual uint64_t address() const = 0;     // GPU virtual address, a multiple of 64 KiB
-  virtual uint64_t size_bytes() const = 0;  // as asked for
+  virtual uint64_t size_bytes() const = 0;  // as requested
   // Host pointer; null if the host cannot reach it (default heaps of a discrete GPU). Upload and
   // readback buffers and descriptor heaps always have one.
   virtual uint8_t* host() const = 0;
 };
 
-// A texture's memory. Its views end with it: a descriptor that is left over reads as null, and does
-// not crash.
+// A texture's memory. Its views end with it: a descriptor left over reads as null and does not
+// crash.
 class BackendTexture {
  public:
   virtual ~BackendTexture() = default;
 };
 
-// A ray tracing or compute pipeline as the backend prepared it.
+// A ray tracing or compute pipeline, as the backend has prepared it.
 class BackendPipeline {
  public:
   virtual ~BackendPipeline() = default;
 };
 
-// A checked view of a texture; every member is resolved (no "rest of").
+// A checked view of a texture. Every member is resolved: none means "the rest".
 struct TextureViewDesc {
   rtapi::Format format = rtapi::Format::kUnknown;  // never typeless
-  // Unordered access views have the same numbers; never kBuffer or an acceleration structure.
+  // Unordered access views use the same values; never kBuffer or an acceleration structure.
   rtapi::SrvDimension dimension = rtapi::SrvDimension::kTexture2D;
   bool unordered_access = false;
   uint32_t first_mip = 0;
@@ -77,19 +77,19 @@ class BackendDevice {
 
   virtual const rtapi::DeviceInfo& info() const = 0;
 
-  // Resources. Errors: out of memory.
+  // Resources. Error: out of memory.
   virtual rtapi::Result<std::shared_ptr<BackendBuffer>> create_buffer(
       const rtapi::BufferDesc& desc) = 0;
-  // MipLevels is resolved.
+  // MipLevels must be resolved.
   virtual rtapi::Result<std::shared_ptr<BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) = 0;
-  // What goes into Descriptor::address. Lives as long as the texture; equal descs may share one.
+  // What goes into Descriptor::address. Lives as long as the texture; views with equal descs may
+  // share one.
   virtual rtapi::Result<uint64_t> create_texture_view(BackendTexture& texture,
                                                       const TextureViewDesc& desc) = 0;
-  // The same for samplers; they live as long as the device, and equal ones are one.
+  // The same for samplers; they live as long as the device, and equal ones are shared.
   virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
-  // The backend's number for a format that typed buffers, textures or their views need; false: not
-  // supported.
+  // Whether typed buffers, textures and their views can have this format.
   virtual bool supports_format(rtapi::Format format, bool unordered_access) const = 0;
 
   // Pipelines
@@ -98,20 +98,20 @@ class BackendDevice {
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_compute_pipeline(
       std::shared_ptr<const LinkedCompute> pipeline) = 0;
 
-  // Acceleration structures. `geometries` is empty for a top level, `instance_count` 0 for a bottom
-  // level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.
+  // Acceleration structures. `geometries` is empty for a top level, `instance_count` is 0 for a
+  // bottom level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.
   virtual rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       rtapi::RaytracingAccelerationStructureType type,
       rtapi::RaytracingAccelerationStructureBuildFlags flags,
       std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const = 0;
 
   // Runs the commands in order and returns when all are done. Called by one thread at a time. An
-  // error removes the device; what is wrong with the contents of GPU memory but does no harm goes
-  // to Context::message instead.
+  // error removes the device; harmless faults in the contents of GPU memory go to Context::message
+  // instead.
   virtual rtapi::Status execute(std::span<const Command> commands) = 0;
 
   // The acceleration structure at exactly this address, with what it was built from
-  // (structure_map.h); null where there is none. Not while a list executes.
+  // (structure_map.h); null if there is none. Not to be called while a list executes.
   virtual std::shared_ptr<const AccelerationStructure> find_structure(uint64_t) const {
     return nullptr;
   }
@@ -120,36 +120,36 @@ class BackendDevice {
   virtual void reset_statistics() {}
 };
 
-// A call of a checked shader whose arguments are no constants.
+// A call in a checked shader whose arguments are not constants.
 struct ReachedFrom {
   const LinkedShader* shader = nullptr;
   shader::ReachedCall call;
 };
 
-// Tables that a dispatch was asked for records of which there are none, by RecordKind.
+// Which tables, by RecordKind, a dispatch needed a record from that was missing.
 struct MissingRecords {
   bool past_the_end[4] = {};
-  // Without an identifier of that kind of this pipeline, and not NULL.
+  // The record had no identifier of that kind from this pipeline, and was not NULL.
   bool unknown[4] = {};
 };
 
-// Checked mode's layer, told of each command by the backend that executes it: what a command reads
-// from GPU memory is only then what it will read.
+// Checked mode's layer. The backend notifies it of each command as it executes, since only then is
+// GPU memory as the command will read it.
 class CommandObserver {
  public:
   virtual ~CommandObserver() = default;
-  // `label` says which command of the list it is: "DispatchRays, command 3 in \"shadows\"". All
-  // work before is done, if needs_memory().
+  // `label` says which command of the list it is: "DispatchRays, command 3 in \"shadows\"". If
+  // needs_memory(), all earlier work is done.
   virtual void before(const Command& command, const std::string& label) = 0;
   virtual void after(const Command& command, bool succeeded) = 0;
-  // Between the two: what a dispatch reached that was not known before it ran. Each different call
-  // once, as far as there was room.
+  // Called between the two with what a dispatch reached that was unknown before it ran: each
+  // different call once, as far as there was room.
   virtual void reached(const Command& command, std::span<const ReachedFrom> calls) {
     (void)command;
     (void)calls;
   }
-  // Of each DispatchRays that ran, after reached(): where a backend cannot tell the tables apart,
-  // it names all that may be meant.
+  // Called for each DispatchRays that ran, after reached(). A backend that cannot tell the tables
+  // apart names all that it could have been.
   virtual void missed(const Command& command, const MissingRecords& records) {
     (void)command;
     (void)records;
@@ -163,17 +163,17 @@ class CommandObserver {
   }
 };
 
-// What a backend gets from rtapi; all of it outlives the backend.
+// What a backend gets from rtapi. All of it outlives the backend.
 struct Context {
   const AddressMap* addresses = nullptr;
-  std::function<void(const rtapi::Message&)> message;  // never empty; any thread
+  std::function<void(const rtapi::Message&)> message;  // never empty; may be called from any thread
   // Both null unless DeviceDesc::Checked.
   CommandObserver* observer = nullptr;
   checks::Reporter* reporter = nullptr;
 };
 
 struct BackendFactory {
-  const char* name;  // what DeviceDesc::Backend says
+  const char* name;  // the value of DeviceDesc::Backend that selects it
   std::vector<rtapi::DeviceInfo> (*enumerate)();
   rtapi::Result<std::unique_ptr<BackendDevice>> (*create)(const rtapi::DeviceDesc&, const Context&);
 };

@@ -10,7 +10,7 @@
 namespace kaamos::runtime {
 namespace {
 
-// Bits of a UINT clear in a normalized format: each channel takes the low bits of its value.
+// UINT clear of a normalized format: each channel takes the low bits of its value.
 shader::Texel raw_channels(const shader::FormatCodec& codec, rtapi::FormatInfo info,
                            const uint32_t values[4]) {
   shader::Texel texel = {};

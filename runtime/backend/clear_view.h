@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What ClearUnorderedAccessViewUint and -Float write. [D3D12]
+// What ClearUnorderedAccessViewUint and ClearUnorderedAccessViewFloat write. [D3D12]
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace kaamos::runtime {
 
-// The value as a typed store of HLSL gives it. Integers for a normalized format are bits: each
-// channel takes the low ones of its value.
+// Converts the value as a typed store in HLSL would. For a normalized format integers are bit
+// patterns: each channel takes the low bits of its value.
 shader::Texel clear_texel(rtapi::Format format, bool is_float, const uint32_t values[4]);
 
-// Writes every element of a view of a buffer whose address is as the host sees it.
+// Writes every element of a buffer view. The view's address must be a host address.
 void clear_buffer_view(const shader::Descriptor& view, bool is_float, const uint32_t values[4]);
 
 }  // namespace kaamos::runtime

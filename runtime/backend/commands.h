@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A recorded command list: plain structures in order. What the host gave was checked and copied
-// when it was recorded; whatever stands in GPU memory (tables, instance records, build inputs,
+// A recorded command list: plain structures in order. Whatever the host passed was checked and
+// copied when it was recorded; whatever is in GPU memory (tables, instance records, build inputs,
 // descriptors) is read when the command executes. References to objects keep them alive until then.
 #pragma once
 
@@ -25,29 +25,30 @@ class BackendPipeline;
 struct LinkedPipeline;
 struct LinkedCompute;
 
-// 64 DWORDs of arguments take at most 64 * 8 bytes here, as tables are 8-byte handles. Always whole
-// and zero where nothing was set, so that a shader of another root signature reads no wild memory.
+// 64 DWORDs of arguments take at most 64 * 8 bytes here, because tables are 8-byte handles. Always
+// full size, with zeros where nothing was set, so that a shader with a different root signature
+// reads no wild memory.
 inline constexpr uint32_t kRootArgumentBytes = 512;
 struct alignas(16) RootArguments {
   std::array<uint8_t, kRootArgumentBytes> bytes = {};
 };
 
-// What DispatchRays and Dispatch share. Snapshots are shared by dispatches between which nothing
-// was set.
+// What DispatchRays and Dispatch share. Dispatches share a snapshot if nothing was set between
+// them.
 struct DispatchState {
   std::shared_ptr<const RootArguments> root_arguments;  // never null
   // The heaps set on the list; [begin, end) of shader::Dispatch. Null: none set.
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
-  rtapi::RootSignature root_signature;  // the one set; may be empty
+  rtapi::RootSignature root_signature;  // the one that was set; may be empty
 };
 
 struct DispatchRaysCommand {
   std::shared_ptr<BackendPipeline> pipeline;
   DispatchState state;
   rtapi::DispatchRaysDesc desc;
-  uint64_t pipeline_stack_bytes = 0;  // at record time [DXR: SetPipelineStackSize]
-  std::shared_ptr<const LinkedPipeline> linked = nullptr;  // what `pipeline` was made of
+  uint64_t pipeline_stack_bytes = 0;  // as it was at record time [DXR: SetPipelineStackSize]
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;  // what `pipeline` was made from
 };
 
 struct DispatchCommand {
@@ -57,48 +58,48 @@ struct DispatchCommand {
   std::shared_ptr<const LinkedCompute> linked = nullptr;
 };
 
-// Where a command signature's arguments stand and go: offsets in bytes, in a command of the
-// argument buffer and in RootArguments.
+// Where the arguments of a command signature come from and go to: byte offsets in a command of the
+// argument buffer, and in RootArguments.
 struct IndirectArgument {
   uint32_t source_offset = 0;
   uint32_t dest_offset = 0;
   uint32_t size_bytes = 0;
   uint32_t root_parameter = 0;  // for messages
-  uint32_t view_alignment = 0;  // of addresses; 0: constants
+  uint32_t view_alignment = 0;  // for addresses; 0: constants
 };
 struct IndirectLayout {
   std::vector<IndirectArgument> root_arguments;
   bool dispatch_rays = false;    // a DispatchRaysDesc, else three group counts
-  uint32_t dispatch_offset = 0;  // of them in a command
-  uint32_t packed_bytes = 0;     // of all arguments of a command
+  uint32_t dispatch_offset = 0;  // of the dispatch arguments in a command
+  uint32_t packed_bytes = 0;     // all arguments of a command together
   uint32_t stride_bytes = 0;
 };
 
-// Dispatches whose arguments are read when the command executes: runtime/indirect.h makes plain
-// dispatches of it. max_count commands lie inside `arguments`, a count inside `count`.
+// Dispatches whose arguments are read when the command executes; runtime/backend/indirect.h turns it into
+// plain dispatches. `arguments` has room for max_count commands, and `count` for a count.
 struct ExecuteIndirectCommand {
   std::shared_ptr<const IndirectLayout> layout;
   uint32_t max_count = 0;
   std::shared_ptr<BackendBuffer> arguments;
   uint64_t arguments_offset = 0;
-  std::shared_ptr<BackendBuffer> count;  // null: max_count of them
+  std::shared_ptr<BackendBuffer> count;  // null: exactly max_count
   uint64_t count_offset = 0;
   std::shared_ptr<BackendPipeline> pipeline;
   DispatchState state;
-  uint64_t pipeline_stack_bytes = 0;                              // of ray tracing pipelines
-  std::shared_ptr<const LinkedPipeline> linked = nullptr;         // of ray tracing pipelines
-  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // of compute pipelines
+  uint64_t pipeline_stack_bytes = 0;                              // for ray tracing pipelines
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;         // for ray tracing pipelines
+  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // for compute pipelines
 };
 
 struct BuildCommand {
   uint64_t dest = 0;
-  uint64_t source = 0;  // 0 unless flags hold kPerformUpdate
+  uint64_t source = 0;  // 0 unless flags contain kPerformUpdate
   uint64_t scratch = 0;
   rtapi::RaytracingAccelerationStructureType type =
       rtapi::RaytracingAccelerationStructureType::kTopLevel;
   rtapi::RaytracingAccelerationStructureBuildFlags flags =
       rtapi::RaytracingAccelerationStructureBuildFlags::kNone;
-  std::vector<rtapi::RaytracingGeometryDesc> geometries;  // bottom level, of one type
+  std::vector<rtapi::RaytracingGeometryDesc> geometries;  // bottom level; all of one type
   uint32_t instance_count = 0;                            // top level
   rtapi::ElementsLayout instance_layout = rtapi::ElementsLayout::kArray;
   uint64_t instance_descs = 0;
@@ -131,24 +132,24 @@ struct TextureCopyPlace {
   uint32_t mip = 0;
   uint32_t array_element = 0;
   std::shared_ptr<BackendBuffer> buffer;
-  uint64_t offset = 0;             // bytes to texel (0,0,0) of the footprint
+  uint64_t offset = 0;             // bytes up to texel (0,0,0) of the footprint
   uint32_t row_pitch = 0;          // bytes
   uint64_t slice_pitch = 0;        // bytes
-  uint32_t origin[3] = {0, 0, 0};  // texels: first one of the copy
+  uint32_t origin[3] = {0, 0, 0};  // in texels: where the copy begins
 };
 
-// `extent` texels from one place to another; not both are buffers. Inside both, formats of equal
-// texel size: checked.
+// Copies `extent` texels from one place to another; at most one of them is a buffer. Checked: the
+// copy is inside both, and the formats have texels of equal size.
 struct CopyTextureCommand {
   TextureCopyPlace dest;
   TextureCopyPlace source;
   uint32_t extent[3] = {0, 0, 0};
-  bool any_state = false;  // by a helper that takes resources in any state
+  bool any_state = false;  // from a helper that takes resources in any state
 };
 
 // Writes every element of an unordered access view: a typed, raw or structured buffer, or a
-// texture. The values are cut to the format as HLSL's typed stores do; raw and structured: DWORD
-// values[0].
+// texture. Values are converted to the format as in HLSL's typed stores; raw and structured buffers
+// take the DWORD values[0].
 struct ClearUavCommand {
   shader::Descriptor view;
   bool is_float = false;
@@ -157,7 +158,7 @@ struct ClearUavCommand {
 };
 
 // Orders everything before it against everything after it. A backend that runs commands one after
-// another has nothing to do.
+// another need not do anything.
 struct BarrierCommand {
   enum class Kind : uint8_t { kUav, kTransition } kind = Kind::kUav;
   std::shared_ptr<BackendBuffer> buffer;  // both null: all resources

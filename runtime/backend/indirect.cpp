@@ -48,7 +48,7 @@ rtapi::Error Reader::problem(uint32_t index, const std::string& text) const {
                  "; its arguments start at " + describe_address(addresses_, address) + ")");
 }
 
-// Never more than the application said there are. [D3D12: ExecuteIndirect]
+// Clamped to the number of commands that the application gave. [D3D12: ExecuteIndirect]
 uint32_t Reader::count() const {
   if (command_.count == nullptr) return command_.max_count;
   uint32_t count;
@@ -56,7 +56,8 @@ uint32_t Reader::count() const {
   return std::min(count, command_.max_count);
 }
 
-// Then nothing else of the command counts: a shader that drops a dispatch may write zeros alone.
+// If so, the rest of the command does not matter: a shader that drops a dispatch may write only
+// zeros.
 bool Reader::launches_nothing(uint32_t index) const {
   const uint8_t* source = arguments(index) + layout_.dispatch_offset;
   if (layout_.dispatch_rays) source += offsetof(rtapi::DispatchRaysDesc, Width);

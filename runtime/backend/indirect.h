@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// ExecuteIndirect as plain dispatches: the arguments are read and checked here, for every backend
-// alike. [DXR: D3D12_INDIRECT_ARGUMENT_TYPE]
+// Turns ExecuteIndirect into plain dispatches: reads and checks the arguments, the same way for
+// every backend. [DXR: D3D12_INDIRECT_ARGUMENT_TYPE]
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace kaamos::runtime {
 // Runs a DispatchRaysCommand or DispatchCommand; `index` counts within the ExecuteIndirect.
 using RunIndirect = std::function<rtapi::Status(const Command& dispatch, uint32_t index)>;
 
-// Everything that may write the buffers is done. Runs the commands in order, without those of a
-// zero dimension. Error KA0898, which removes the device: arguments that break a rule. `label`
-// names the command.
+// Runs the commands in order, skipping those with a zero dimension. Everything that may write the
+// buffers must be done. Error KA0898, which removes the device: arguments that break a rule.
+// `label` names the command.
 rtapi::Status execute_indirect(const AddressMap& addresses, const ExecuteIndirectCommand& command,
                                const std::string& label, const RunIndirect& run);
 

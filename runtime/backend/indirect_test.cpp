@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// On a device whose addresses are not those of the host.
+// Runs on a device whose addresses are not host addresses.
 #include "runtime/backend/indirect.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ class Indirect : public ::testing::Test {
                               return result_;
                             });
   }
-  // The message of the third command's error.
+  // The message of the error that the third command causes.
   std::string refusal_of(uint64_t view, const rtapi::DispatchRaysDesc& desc) {
     set(2, 0, view, desc);
     const rtapi::Status status = run();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What linking makes of state objects and compute pipelines: everything a backend needs in order to
-// run them, with names resolved, root arguments assigned and sizes checked. Immutable.
+// What linking makes of state objects and compute pipelines: everything a backend needs to run
+// them, with names resolved, root arguments assigned and sizes checked. Immutable.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@
 
 namespace kaamos::runtime {
 
-// One export of a library as one state object uses it.
+// One export of a library, as one state object uses it.
 struct LinkedShader {
   std::string name;  // in the state object
   shader::Stage stage = shader::Stage::kLibrary;
   const shader::ExportDesc* code = nullptr;
   const shader::LibraryDesc* library = nullptr;
-  // One per binding of the library, for Invocation::slots; kUnbound where the export does not
-  // reach.
+  // One per binding of the library, for Invocation::slots; kUnbound for bindings that the export
+  // does not use.
   std::vector<shader::BindingSlot> slots;
-  uint32_t local_argument_bytes = 0;  // a record is at least 32 bytes longer
+  uint32_t local_argument_bytes = 0;  // a record is at least 32 bytes larger
   uint64_t stack_bytes = 0;
-  // Keep code and static samplers alive; each may be empty.
+  // Keep the code and the static samplers alive; each may be empty.
   rtapi::ShaderLibrary library_owner;
   rtapi::RootSignature global_root_signature;
   rtapi::RootSignature local_root_signature;
@@ -37,7 +37,7 @@ struct LinkedShader {
 
 enum class RecordKind : uint8_t { kRayGeneration, kMiss, kCallable, kHitGroup };
 
-// What an identifier names. Shaders that are absent are null.
+// What an identifier stands for. Absent shaders are null.
 struct LinkedRecord {
   rtapi::ShaderIdentifier identifier = {};
   std::string name;
@@ -48,12 +48,12 @@ struct LinkedRecord {
   const LinkedShader* closest_hit = nullptr;
   const LinkedShader* intersection = nullptr;
   uint32_t local_argument_bytes = 0;
-  // Of the export itself: a hit group without shaders has one too. May be empty.
+  // The export's own: a hit group without shaders has one too. May be empty.
   rtapi::RootSignature local_root_signature;
 };
 
-// Bytes 0..3 of an identifier: its index, never 0. The rest makes it unique in the process, so that
-// bytes that are no identifier of this pipeline are found out by the compare.
+// Bytes 0..3 of an identifier are its index, never 0. The rest makes it unique in the process, so
+// that comparing all of it exposes bytes that are not an identifier of this pipeline.
 class IdentifierTable {
  public:
   void insert(const LinkedRecord* record) {
@@ -66,8 +66,8 @@ class IdentifierTable {
     if (index - first_ >= records_.size()) records_.resize(index - first_ + 1);
     records_[index - first_] = record;
   }
-  // Null for the NULL identifier, and for bytes that name nothing in this pipeline. `identifier`
-  // points to 32 readable bytes, aligned to 4.
+  // Null for the NULL identifier, and for bytes that are not an identifier of this pipeline.
+  // `identifier` points to 32 readable bytes, aligned to 4.
   const LinkedRecord* find(const uint8_t* identifier) const {
     uint32_t slot = index_of(identifier) - first_;
     if (slot >= records_.size()) return nullptr;
@@ -91,8 +91,8 @@ inline bool is_null_identifier(const uint8_t* identifier) {
   return std::memcmp(identifier, kZero, 32) == 0;
 }
 
-// A ray tracing pipeline (never a collection). Pointers inside point into the same object, or into
-// objects that it keeps alive.
+// A ray tracing pipeline (never a collection). Pointers inside it point into the same object, or
+// into objects that it keeps alive.
 struct LinkedPipeline {
   std::string name;
   uint32_t max_payload_bytes = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What shaders of checked libraries found, in words. The backends hand over a CheckReport and where
-// it came from.
+// Puts into words what the shaders of checked libraries found. The backends hand over a CheckReport
+// and where it came from.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct CodePlace {
   const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
 };
 
-// `count`: of how many invocations this one stands for.
+// `count`: how many invocations this one stands for.
 void report_finding(Reporter& reporter, const runtime::AddressMap& addresses,
                     const CodePlace& place, const shader::CheckReport& report, uint64_t count = 1);
 

@@ -23,7 +23,7 @@ const MessageEntry& entry_of(Id id) {
                            [](const MessageEntry& e, Id wanted) { return e.id < wanted; });
 }
 
-// So many different findings of one command are kept apart; of the rest only the number.
+// How many different findings of one command are kept apart; the rest are only counted.
 constexpr size_t kMostKept = 256;
 
 }  // namespace

@@ -50,7 +50,8 @@ rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& co
   return {};
 }
 
-// Runs `build` on the device's threads; what Embree took is the structure's size.
+// Runs `build` on the device's threads and records the memory that Embree took as the structure's
+// size.
 template <typename Build>
 rtapi::Status measured(Device& device, AccelerationStructure& result, Build&& build) {
   const int64_t before = device.embree_bytes();

@@ -92,7 +92,7 @@ TEST(As29, WritingOverItsBytesEndsAStructure) {
   EXPECT_EQ(h.trace(ray_along_z(scene)).end, End::kMiss);
   ASSERT_EQ(h.messages.size(), 1u);
   EXPECT_EQ(h.messages[0].Id, "KA0894");
-  // A top level keeps what it refers to, so that nothing dangles.
+  // A top level keeps alive what it refers to, so nothing dangles.
   const uint64_t other = h.top_level({instance_of(level)});
   std::memset(reinterpret_cast<void*>(level), 0, 16);
   EXPECT_EQ(h.trace(ray_along_z(other)).end, End::kClosestHit);
@@ -137,7 +137,7 @@ TEST(As55, AnUpdateElsewhereLeavesTheSourceAsItWas) {
   command.dest = h.buffer(1 << 16)->address();
   command.flags = Flags::kAllowUpdate | Flags::kPerformUpdate;
   indexed = triangle_at(6);
-  indexed.indices = {2, 2, 2};  // an update does not read indices anew
+  indexed.indices = {2, 2, 2};  // an update does not read the indices again
   command.geometries = {h.geometry(indexed)};
   ASSERT_TRUE(h.execute(command).ok());
   EXPECT_TRUE(is_distance(depth_of(h, command.source), 3.0f));
@@ -261,7 +261,8 @@ TEST(As43And44And71And72, ClonesAndCompaction) {
   EXPECT_EQ(info_of(h, copy.dest, InfoType::kCurrentSize), compacted);
   EXPECT_TRUE(is_distance(depth_of(h, copy.dest), 3.0f));
 
-  // Updated in place, the source moves and the copy stays; then the copy outlives the source.
+  // After an update in place the source has moved and the copy has not; then the copy outlives the
+  // source.
   for (auto& v : many.vertices) v.z += 10;
   command.geometries = {h.geometry(many)};
   command.flags = command.flags | Flags::kPerformUpdate;
@@ -389,7 +390,7 @@ TEST(As73, TooSmallADestinationIsAnError) {
   }
 }
 
-// What passes the checks of the form is built, whatever its numbers are; the rest is an error.
+// Whatever passes the format checks gets built, whatever its numbers are; the rest is an error.
 TEST(As74, SealedDamageIsAnErrorOrBuilds) {
   Harness h;
   h.use_standard_pipeline();

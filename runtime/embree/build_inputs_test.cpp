@@ -144,7 +144,7 @@ TEST(As13, AStrideOfZeroIsOneBoxForAll) {
   Harness h;
   h.use_standard_pipeline(nullptr, testing::report_all);
   testing::report_log() = {};
-  testing::report_log().reports = {{500, 1, {}}};  // past TMax: all boxes are visited
+  testing::report_log().reports = {{500, 1, {}}};  // past TMax, so that all boxes are visited
   auto command = h.bottom_level_command({testing::box_at(3)});
   command.geometries[0].AABBs.AABBCount = 4;
   command.geometries[0].AABBs.AABBs.StrideInBytes = 0;

@@ -13,8 +13,8 @@
 namespace kaamos::embree {
 namespace {
 
-// simd256: Embree chooses four-wide trees on this kind of processor, where eight-wide ones trace 8
-// to 33 % faster. Ignored where the processor has no AVX.
+// simd256: on this kind of processor Embree would choose four-wide trees, but eight-wide ones trace
+// 8 to 33 % faster. Ignored on processors without AVX.
 constexpr char kEmbreeConfig[] = "frequency_level=simd256";
 
 std::string processor_name() {
@@ -78,7 +78,7 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
   std::unique_ptr<Device> device(new Device(desc, context));
   std::string config = kEmbreeConfig;
   if (const char* more = std::getenv("KAAMOS_EMBREE_CONFIG")) config += std::string(",") + more;
-  // A machine without AVX, acted: packs are then filtered as there.
+  // isa=sse simulates a machine without AVX, so use the pack filter of such a machine as well.
   device->pack_filter_ =
       config.find("isa=sse") == std::string::npos ? fastest_pack_filter() : filter_pack_sse2;
   device->embree_ = rtcNewDevice(config.c_str());
@@ -93,7 +93,8 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
 }
 
 Device::~Device() {
-  // Structures hold scenes of the device; buffers may outlive it, but not what stands in them.
+  // Structures hold scenes of the Embree device. Buffers may outlive it, but the structures in them
+  // may not.
   memory_->evict(0, UINT64_MAX);
   if (embree_ != nullptr) {
     rtcSetDeviceMemoryMonitorFunction(embree_, nullptr, nullptr);

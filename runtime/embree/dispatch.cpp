@@ -15,7 +15,8 @@
 namespace kaamos::embree {
 namespace {
 
-// 16 x 16 cells keep the rays of a tile close together; flat grids get tiles of the same count.
+// 16 x 16 cells keep the rays of a tile close together; flat grids get tiles with the same number
+// of cells.
 constexpr uint32_t kTileEdge = 16;
 constexpr uint32_t kTileCells = kTileEdge * kTileEdge;
 
@@ -43,8 +44,8 @@ struct Tile {
   uint32_t last[3];  // one past
 };
 
-// Asks for the texels of a row of invocations while the row above it runs: rows of a tile are too
-// short for a processor to foresee them. 3 % of frame/trace-shade.
+// Prefetches the texels of a row of invocations while the row above it runs: the rows of a tile are
+// too short for the processor to predict them. Saves 3 % of frame/trace-shade.
 void fetch_row(const std::vector<Picture>& pictures, const Tile& tile, uint32_t y) {
   constexpr uint64_t kLine = 64;
   for (const Picture& picture : pictures) {
@@ -108,7 +109,7 @@ void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& re
   end_worker(worker);
 }
 
-// The one record of the ray generation table: no stride, no index. [DXR: Shader tables]
+// The only record of the ray generation table: no stride, no index. [DXR: Shader tables]
 ShaderRecord ray_generation_record(const RaytracingPipeline& pipeline,
                                    const rtapi::GpuVirtualAddressRange& range,
                                    RecordProblems* problems) {
@@ -146,7 +147,7 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
   }
 }
 
-// Looks up what every shader of the pipeline finds bound.
+// Looks up what every shader of the pipeline has bound.
 void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
   size_t count = 0;
   for (const auto* shader : pipeline.shaders()) count += shader->slots.size();
@@ -165,7 +166,7 @@ void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
   }
 }
 
-// Of all that the shaders find bound.
+// Finds them among everything that the shaders have bound.
 void find_pictures(DispatchState& dispatch) {
   const uint32_t* size = dispatch.abi.dimensions;
   for (const shader::BoundResource& bound : dispatch.bound_resources) {
@@ -288,7 +289,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
   dispatch.label = label.c_str();
 
-  // The tables may lie anywhere: even the first read of one is guarded.
+  // The tables may be anywhere, so even the first read of one is guarded.
   RecordRead read = {&pipeline,
                      &desc.RayGenerationShaderRecord,
                      &dispatch.ray_generation_problems,

@@ -14,7 +14,7 @@ using testing::Payload;
 using testing::PipelineBuilder;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // its checks come before the fault, or grow every frame
+constexpr bool kSanitized = true;  // their checks come before the fault, or enlarge frames
 #else
 constexpr bool kSanitized = false;
 #endif
@@ -94,7 +94,7 @@ TEST(Fault, EndlessCallShaderIsAStackOverflow) {
   });
   const auto callable = builder.callable([](shader::Invocation& invocation, void* data) {
     invocation.dispatch->services->call_shader(invocation, 0, data, 4);
-    // The caller's frame must stay: not a tail call.
+    // The caller's frame must stay, so this is not a tail call.
     *static_cast<volatile uint32_t*>(data) = 1;
   });
   h.set_pipeline(builder, ray_generation);

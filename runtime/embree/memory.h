@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory of buffers, and which acceleration structures stand where in it. A GPU virtual address is
-// the host address.
+// The memory of buffers, and which acceleration structures are where in it. A GPU virtual address
+// is the host address.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@ namespace kaamos::embree {
 
 class Memory : public runtime::StructureMap {
  public:
-  // Zeroed, a multiple of 64 KiB; null without memory. Large blocks cost nothing until touched.
+  // Zeroed, at a multiple of 64 KiB; null if out of memory. Large blocks cost nothing until
+  // touched.
   static uint8_t* allocate(uint64_t size_bytes);
   static void release(uint8_t* block, uint64_t size_bytes);
 
-  // The top level at exactly this address, if its bytes are untouched.
+  // The top level at exactly this address, if its header is intact.
   std::shared_ptr<const TopLevel> find_top_level(uint64_t address) const;
 };
 

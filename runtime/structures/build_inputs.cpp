@@ -37,7 +37,7 @@ T load(const uint8_t* address) {
   return value;
 }
 
-// One vertex of a format; z stays 0 for two components. [DXR: vertex formats]
+// Reads one vertex of a format; z stays 0 for two components. [DXR: vertex formats]
 using DecodeVertex = void (*)(const uint8_t* in, float out[3]);
 
 template <int kComponents>
@@ -50,7 +50,7 @@ void decode_half(const uint8_t* in, float out[3]) {
 }
 template <typename T, int kComponents>
 void decode_norm(const uint8_t* in, float out[3]) {
-  // The most negative SNORM is -1 as well. [D3D11.3 3.2.3.1]
+  // The most negative SNORM value is -1, too. [D3D11.3 3.2.3.1]
   constexpr float kScale = static_cast<float>(std::numeric_limits<T>::max());
   for (int i = 0; i < kComponents; ++i) {
     out[i] = std::max(static_cast<float>(load<T>(in + sizeof(T) * i)) / kScale, -1.0f);
@@ -63,7 +63,7 @@ void decode_unorm10(const uint8_t* in, float out[3]) {
 
 struct VertexFormat {
   DecodeVertex decode = nullptr;
-  uint32_t bytes = 0;  // read of each vertex: the fourth component never is
+  uint32_t bytes = 0;  // bytes read per vertex: a fourth component is never read
 };
 
 VertexFormat vertex_format(Format format) {
@@ -125,7 +125,7 @@ rtapi::Status check_range(uint32_t geometry, const char* what, uint64_t address,
   return bytes <= available ? rtapi::Status{} : outside(geometry, what, address, bytes, available);
 }
 
-// Bytes from the first element to the end of the last; saturated.
+// Bytes from the start of the first element to the end of the last; saturates.
 uint64_t span_bytes(uint64_t count, uint64_t stride, uint64_t element) {
   if (count == 0) return 0;
   if (stride != 0 && count - 1 > (UINT64_MAX / 2) / stride) return UINT64_MAX;

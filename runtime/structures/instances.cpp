@@ -53,7 +53,7 @@ constexpr char kMissing[] =
     "no bottom level stands at its address; it is inactive. Was it built, and not overwritten or "
     "freed since?";
 
-// Why an instance is inactive; null: it is active, or plainly inactive.
+// Why an instance is inactive; null if it is active, or inactive on purpose.
 const char* activate(const StructureMap& structures, Instance& instance) {
   if (instance.desc.AccelerationStructure == 0) return nullptr;
   const auto structure = structures.find(instance.desc.AccelerationStructure);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Instance records as a top level build reads them from GPU memory, and which of them can be hit.
+// Instance records as a top-level build reads them from GPU memory, and which of them can be hit.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace kaamos::runtime {
 
-// Coordinates whose square still fits into a float: traversals take no larger ones.
+// The largest coordinate whose square still fits into a float: traversals take none larger.
 inline constexpr float kLargestCoordinate = 1.8e18f;
 
 // D3D12_RAYTRACING_INSTANCE_FLAGS
@@ -28,24 +28,25 @@ enum InstanceFlags : uint32_t {
 
 struct Instance {
   rtapi::RaytracingInstanceDesc desc;
-  // Null: never hit, but it keeps its index.
+  // Null: never hit, but still counted in InstanceIndex.
   std::shared_ptr<BottomLevelBase> bottom_level;
-  float world_to_object[12] = {};  // 3x4, row-major; of active ones
-  Bounds bounds;                   // in world space; of active ones
+  float world_to_object[12] = {};  // 3x4, row-major; only if active
+  Bounds bounds;                   // in world space; only if active
 };
 
-// The instances of a build in the order of the input: the position is InstanceIndex. Instances
-// without a bottom level, with a singular or non-finite matrix, or of an empty bottom level are
-// inactive; those that are not plainly so get a message KA0797. Error KA0796: records outside the
-// living allocations.
+// The instances of a build in input order, so that the position is InstanceIndex. An instance is
+// inactive if it has no bottom level or an empty one, or if its matrix is singular or not finite;
+// unless that was clearly intended, message KA0797 says so. Error KA0796: records outside the live
+// allocations.
 rtapi::Result<std::vector<Instance>> read_instances(const StructureEnvironment& environment,
                                                     const BuildCommand& command);
 
-// Deserialization of a top level may come before that of its bottom levels: those are inactive
-// without a message then.
+// A top level may be deserialized before its bottom levels; those that are missing then make the
+// instance inactive without a message.
 enum class InstanceNotes { kAll, kMissingMayCome };
 
-// The same from records that were read already; `top_level` is the address for messages.
+// The same from records that have already been read; `top_level` is the address to give in
+// messages.
 std::vector<Instance> activate_instances(const StructureEnvironment& environment,
                                          uint64_t top_level,
                                          std::span<const rtapi::RaytracingInstanceDesc> descs,
@@ -55,13 +56,13 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
 std::shared_ptr<const std::vector<rtapi::RaytracingInstanceDesc>> records_of(
     std::span<const Instance> instances);
 
-// world_to_object of a 3x4 row-major matrix, inverted in double; false if singular, or if it or the
-// inverse is not finite in float.
+// Computes world_to_object from a 3x4 row-major matrix, inverting in double; false if it is
+// singular, or if it or its inverse is not finite in float.
 bool invert_transform(const float matrix[12], float inverse[12]);
 
-// World bounds of an object-space box. Widened by the rounding of the ray transform: a ray that
+// World bounds of an object-space box, widened by the rounding of the ray transform: a ray that
 // touches the geometry in object space must not miss the box in world space. False if the box
-// leaves the range of coordinates.
+// exceeds the range of coordinates.
 bool world_bounds(const float matrix[12], const Bounds& object, Bounds& world);
 
 }  // namespace kaamos::runtime

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// By what a device knows serialized acceleration structures that it can read. One for all backends:
-// they share the form. [runtime/serialized_structure.h]
+// How a device recognizes serialized acceleration structures that it can read. All backends share
+// the format, so they share the identifier. [runtime/structures/serialized_structure.h]
 #pragma once
 
 #include <cstring>
@@ -10,7 +10,7 @@
 
 namespace kaamos::runtime {
 
-// Goes up with every change of the form.
+// Must go up with every change of the format.
 inline constexpr uint32_t kSerializedVersion = 1;
 
 inline rtapi::SerializedDataDriverMatchingIdentifier serialized_identifier() {

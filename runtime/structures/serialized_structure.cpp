@@ -38,7 +38,7 @@ uint64_t padded(uint64_t bytes) {
   return (bytes + 7) / 8 * 8;
 }
 
-// Values that the shape alone decides: damaged counts cannot disagree with each other.
+// Counts that follow from the shape alone, so that damaged counts cannot contradict each other.
 struct ArrayCounts {
   uint64_t floats = 0;
   uint64_t indices = 0;
@@ -89,7 +89,7 @@ class Writer {
 uint64_t checksum_of(std::span<const uint8_t> bytes, const Header& header, uint64_t payload) {
   uint64_t sum = 0xCBF29CE484222325;
   const auto add = [&sum](uint64_t word) {
-    // A bijection of each word: a change of one alone is always seen.
+    // A bijection of each word, so that a change of a single word is always detected.
     sum = (sum ^ word) * 0x9E3779B97F4A7C15;
     sum ^= sum >> 32;
   };
@@ -104,7 +104,7 @@ uint64_t checksum_of(std::span<const uint8_t> bytes, const Header& header, uint6
   return sum;
 }
 
-// Different addresses in the order in which instances first name them.
+// The different addresses, in the order in which the instances first use them.
 std::vector<uint64_t> bottom_levels_of(const AccelerationStructure& structure,
                                        std::unordered_map<uint64_t, uint64_t>& places) {
   std::vector<uint64_t> addresses;
@@ -139,7 +139,7 @@ rtapi::RaytracingGeometryFlags flags_of(const GeometryShape& shape) {
   return flags;
 }
 
-// A desc of the arrays as they lie one after another from `address` on.
+// A desc of the arrays that follow each other from `address` on.
 rtapi::RaytracingGeometryDesc desc_of(const GeometryShape& shape, uint64_t address) {
   const ArrayCounts counts = counts_of(shape);
   rtapi::RaytracingGeometryDesc desc;
@@ -161,7 +161,7 @@ rtapi::RaytracingGeometryDesc desc_of(const GeometryShape& shape, uint64_t addre
   return desc;
 }
 
-// Takes the bytes apart; every read is held against their end.
+// Parses the bytes; every read is checked against their end.
 class Parser {
  public:
   explicit Parser(std::span<const uint8_t> bytes) : bytes_(bytes) {}

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Acceleration structures as bytes: to be kept and read back, by any backend, and for tools.
+// Acceleration structures as bytes: to be stored and read back by any backend, and to be decoded
+// for tools.
 //
-// The serialized form holds what a build read, decoded, and not the tree: reading it is a build.
-// After D3D12's header and the addresses of bottom levels comes a checksum over everything but the
-// header's identifier and those addresses, which the application may replace; then records of
-// geometries with their arrays, or of instances. Little-endian, in units of 4 bytes.
+// The serialized form contains what a build read, decoded, and not the tree: reading it is a build.
+// D3D12's header and the addresses of the bottom levels come first. Then comes a checksum over
+// everything but the header's identifier and those addresses, which the application may replace;
+// then records of geometries with their arrays, or of instances. Little-endian, in units of 4
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +22,8 @@
 namespace kaamos::runtime {
 
 struct SerializedSize {
-  uint64_t bytes = 0;     // with header and addresses
-  uint64_t pointers = 0;  // different bottom levels of a top level; 0 of a bottom level
+  uint64_t bytes = 0;     // including header and addresses
+  uint64_t pointers = 0;  // number of different bottom levels of a top level; 0 for a bottom level
 };
 SerializedSize serialized_size(const AccelerationStructure& structure);
 // `out` has serialized_size() bytes.
@@ -33,23 +35,24 @@ struct SerializedStructure {
       rtapi::RaytracingAccelerationStructureType::kTopLevel;
   BuildFlags flags = BuildFlags::kNone;
   uint64_t size_bytes = 0;  // DeserializedSizeInBytes
-  // Top level, with the addresses after the header.
+  // Top level. Bottom levels are at the addresses from the list after the header.
   std::vector<rtapi::RaytracingInstanceDesc> instances;
-  // Bottom level: three floats a vertex, 32-bit indices or none, at the host's addresses inside the
-  // bytes given; and what the geometries were first, for updates.
+  // Bottom level: three floats per vertex, 32-bit indices or none, at host addresses inside the
+  // given bytes; and the shapes that the geometries were first built with, for updates.
   std::vector<rtapi::RaytracingGeometryDesc> geometries;
   std::vector<GeometryShape> shapes;
 };
 
-// `bytes` begin with the header, may go on past the end, lie at a multiple of 8, and outlive the
-// result. Error KA0789: of another driver or version, cut off, or damaged; the message says where.
+// `bytes` begin with the header, may be longer than the structure, are aligned to 8, and must
+// outlive the result. Error KA0789: from another driver or version, truncated, or damaged; the
+// message says where.
 rtapi::Result<SerializedStructure> parse_serialized(std::span<const uint8_t> bytes);
 
-// The checksum of what parse_serialized would read, written into it: tests damage what lies behind.
+// Writes the checksum that parse_serialized expects, so that tests can damage what it covers.
 void seal_serialized(std::span<uint8_t> bytes);
 
-// kVisualizationDecodeForTools at `address`: addresses in the descs follow it. `out` has
-// decoded_size() bytes.
+// Writes what kVisualizationDecodeForTools gives. Addresses in the descs assume that `out` goes to
+// `address`. `out` has decoded_size() bytes.
 uint64_t decoded_size(const AccelerationStructure& structure);
 void decode_for_tools(const AccelerationStructure& structure, uint64_t address,
                       std::span<uint8_t> out);

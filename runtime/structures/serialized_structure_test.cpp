@@ -177,8 +177,8 @@ TEST(SerializedStructure, MessagesSayWhatIsWrong) {
   EXPECT_NE(message(bytes).find("checksum"), std::string::npos);
 }
 
-// With a checksum that fits, what lies behind it must hold out alone: whatever is accepted names
-// only bytes of its own, which the sanitizers watch.
+// Once the checksum fits, the data behind it must withstand damage on its own: whatever is accepted
+// refers only to bytes of its own, which the sanitizers watch.
 TEST(SerializedStructure, SealedDamageNamesNoOtherBytes) {
   std::mt19937 random(5);
   uint32_t accepted = 0;
@@ -220,7 +220,7 @@ TEST(SerializedStructure, SealedDamageNamesNoOtherBytes) {
   EXPECT_GT(refused, 1000u);
 }
 
-// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]: descs in the original order.
+// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]: descs come in the original order.
 TEST(DecodedStructure, DescsNameTheirArrays) {
   const auto structure = triangles();
   std::vector<uint8_t> bytes(decoded_size(structure));

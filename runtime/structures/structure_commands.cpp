@@ -23,8 +23,8 @@ uint64_t round_up(uint64_t bytes) {
   return (bytes + 255) / 256 * 256;
 }
 
-// Embree's bytes for one triangle, measured on a million of them, and rounded up: SAH trees take
-// 67, Morton ones 94, dynamic ones 102; then 12 bytes for its indices. Lavapipe's tree takes 104.
+// Embree's bytes per triangle, measured on a million of them and rounded up: SAH trees take 67,
+// Morton ones 94, dynamic ones 102; plus 12 bytes for its indices. Lavapipe's tree takes 104.
 uint64_t triangle_bytes(BuildFlags flags) {
   if (HasAny(flags, BuildFlags::kPreferFastBuild | BuildFlags::kAllowUpdate)) return 128;
   return HasAny(flags, BuildFlags::kMinimizeMemory) ? 72 : 96;
@@ -38,7 +38,7 @@ rtapi::Error build_error(const char* id, const std::string& what) {
   return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
 }
 
-// The structure to update, or why it cannot be.
+// The structure to update, or why it cannot be updated.
 rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     const StructureEnvironment& environment, const BuildCommand& command) {
   const AddressMap& addresses = *environment.context.addresses;
@@ -56,7 +56,7 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
                        "ALLOW_UPDATE, " +
                            at(addresses, command.source) + ".");
   }
-  // Of bottom levels check_update says it.
+  // For bottom levels check_update reports it.
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
   if (command.type == Type::kTopLevel &&
       (command.flags & ~kMayDiffer) != (source->flags & ~kMayDiffer)) {
@@ -111,7 +111,7 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
   return {};
 }
 
-// Copies of inputs are as large as the application asks for.
+// Copies of inputs are as large as the application wants, so running out of memory is its error.
 rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure* source,
                       AccelerationStructure& structure) {
   try {
@@ -189,7 +189,8 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   structure.host = addresses.host(command.dest);
   structure.flags = command.flags & ~BuildFlags::kPerformUpdate;
   structure.instance_count = command.instance_count;
-  // An update takes the memory of its source, compacted or not. [DXR: BUILD_FLAGS PERFORM_UPDATE]
+  // An update uses as much memory as its source, compacted or not. [DXR: BUILD_FLAGS
+  // PERFORM_UPDATE]
   structure.size_bytes =
       source != nullptr
           ? source->size_bytes

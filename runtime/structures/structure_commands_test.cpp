@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// On a device whose addresses are not those of the host: every byte must be found through the map.
+// Runs on a device whose addresses are not host addresses: every byte must be found through the
+// map.
 #include "runtime/structures/structure_commands.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST_F(FarDevice, HeadersAndInfosAreWrittenWhereTheHostSeesThem) {
   copy.source = command.dest;
   copy.dest = kAddress + 2048;
   ASSERT_TRUE(copy_structure(environment(), copy, {}));
-  bytes_[1024] ^= 1;  // ends the first, not the second
+  bytes_[1024] ^= 1;  // ends the first structure, not the second
   EXPECT_EQ(map_.find(kAddress + 1024), nullptr);
   EXPECT_NE(map_.find(kAddress + 2048), nullptr);
   map_.evict(kAddress + 2048 + 100, 1);

@@ -30,7 +30,7 @@ rtapi::Error out_of_memory(const std::string& what) {
           "KA0990 out of memory: " + what + " could not be allocated."};
 }
 
-// Bytes of the host for serialize and tools.
+// The host bytes to write for serialization and tools.
 rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment,
                                          const CopyAccelerationStructureCommand& command,
                                          uint64_t bytes, const char* what, const char* info_type) {
@@ -76,7 +76,8 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
                           const CopyAccelerationStructureCommand& command,
                           const RebuildLevel& rebuild) {
   const AddressMap& addresses = *environment.context.addresses;
-  // A copy, as shaders of another queue may write meanwhile; and no larger than what is said.
+  // Works on a copy, since shaders of another queue may be writing; and copies no more than the
+  // header says.
   uint64_t size = sizeof(rtapi::SerializedRaytracingAccelerationStructureHeader);
   const uint64_t available = addresses.bytes_from(command.source);
   if (available >= size) {
@@ -154,7 +155,7 @@ rtapi::Status copy(const StructureEnvironment& environment,
     }
     result.size_bytes = source->compacted_bytes;
   }
-  // The source is as long as the copy, or longer.
+  // The source is at least as long as the copy.
   const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
   if (overlap(command.dest, command.source, clear)) {
     return copy_error("KA0796", "copy of the acceleration structure " +
@@ -162,8 +163,8 @@ rtapi::Status copy(const StructureEnvironment& environment,
                                     describe_address(addresses, command.dest) +
                                     ": they overlap. Copy into other memory.");
   }
-  // Both refer to the same immutable tree; an update in place of one of them makes a tree of its
-  // own first.
+  // Both refer to the same immutable tree; updating one of them in place first makes it a tree of
+  // its own.
   return place(environment, std::move(result));
 }
 

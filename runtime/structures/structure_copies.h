@@ -16,10 +16,11 @@
 
 namespace kaamos::runtime {
 
-// How a backend builds what was deserialized. Both set compacted_bytes as a BuildLevel does.
+// How a backend builds what was deserialized. Both functions set compacted_bytes as a BuildLevel
+// does.
 struct RebuildLevel {
-  // `geometries` have addresses of the host, all valid. The level takes `shapes` for its own, so
-  // that updates are held against the first build's formats.
+  // `geometries` have host addresses, all valid. The level adopts `shapes`, so that updates are
+  // checked against the formats of the first build.
   std::function<rtapi::Status(std::span<const rtapi::RaytracingGeometryDesc> geometries,
                               std::span<const GeometryShape> shapes, AccelerationStructure& result)>
       bottom_level;
@@ -28,15 +29,16 @@ struct RebuildLevel {
       top_level;
 };
 
-// Errors: KA0796 no acceleration structure at the source, or compaction without its flag; KA0795:
-// destination too small; KA0789: serialized data that cannot be read, with parse_serialized.
+// Errors: KA0796: no acceleration structure at the source, or compaction without its flag; KA0795:
+// destination too small; KA0789: serialized data that cannot be read, from parse_serialized.
 rtapi::Status copy_structure(const StructureEnvironment& environment,
                              const CopyAccelerationStructureCommand& command,
                              const RebuildLevel& rebuild);
 
-// Before a dispatch: builds deserialized top levels again whose bottom levels came after them, in
-// whatever order. [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE] What is still missing is
-// inactive, with a message KA0797 once.
+// To be called before a dispatch: rebuilds deserialized top levels whose bottom levels were
+// deserialized after them, since any order is allowed. [DXR:
+// D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE] What is still missing stays inactive and is
+// reported once, as KA0797.
 rtapi::Status complete_top_levels(const StructureEnvironment& environment,
                                   const RebuildLevel& rebuild);
 

@@ -83,7 +83,7 @@ std::shared_ptr<const AccelerationStructure> StructureMap::find(uint64_t address
     if (it == structures_.end()) return nullptr;
     placed = it->second;
   }
-  // Outside the lock: memory that the application freed meanwhile faults here.
+  // Not under the lock, because memory that the application has freed meanwhile faults here.
   return has_header(*placed.structure, placed.id) ? placed.structure : nullptr;
 }
 

@@ -15,9 +15,9 @@ static_assert(static_cast<uint32_t>(BindlessArray::kStorageImages) ==
               shader::spirv::kStorageImageBinding);
 static_assert(static_cast<uint32_t>(BindlessArray::kSamplers) == shader::spirv::kSamplerBinding);
 
-// Plenty for a scene, and some MiB in drivers that keep the whole array in memory.
+// Plenty for a scene; takes a few MiB in drivers that keep the whole array in memory.
 constexpr uint32_t kImages = 65536;
-constexpr uint32_t kSamplers = 4000;  // D3D12 has 2048 in a heap
+constexpr uint32_t kSamplers = 4000;  // a D3D12 heap has 2048
 
 constexpr VkDescriptorType kTypes[3] = {
     VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLER};

@@ -96,7 +96,7 @@ void main() {
   const auto c = made.buffer(256);
   for (uint32_t i = 0; i < 64; ++i) words_of(a)[i] = i;
   const std::vector<runtime::Command> commands = {
-      copy(b, 0, a, 0, 256),     copy(a, 0, c, 0, 128),  // not before it was read
+      copy(b, 0, a, 0, 256),     copy(a, 0, c, 0, 128),  // not before it has been read
       runtime::BarrierCommand{}, dispatch(*pipeline, {b->address(), c->address()}),
       copy(b, 4, b, 0, 252),  // overlaps
       copy(a, 0, c, 128, 128),   copy(c, 0, c, 0, 0),

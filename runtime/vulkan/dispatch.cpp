@@ -15,22 +15,23 @@ namespace {
 using shader::spirv::DispatchBlock;
 using shader::spirv::DispatchStatus;
 
-constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks lie at multiples of 64
+constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks are at multiples of 64
 static_assert(sizeof(DispatchBlock) <= kBlockBytes);
 constexpr uint64_t kStatusBytes = 128;
 static_assert(sizeof(DispatchStatus) <= kStatusBytes);
 
-// The application's tables, where they are in the driver's form, and how many records each has.
+// One of the application's tables, where its copy in the driver's form goes, and how many records
+// it has.
 struct Table {
   const char* name;
   runtime::RecordKind kind;
   ApplicationTable source;
   uint64_t offset = 0;   // in the buffer
-  uint64_t records = 0;  // written: those of the application, and null records behind them
+  uint64_t records = 0;  // records written: the application's, followed by null records
 
-  // With a stride of 0 every index is the first record.
+  // With a stride of 0 every index means the first record.
   bool repeats() const { return source.count() == 1 && source.stride_bytes == 0; }
-  // What the shader compares its index with; at this index stands a null record.
+  // What the shader compares its index with; the record at this index is a null record.
   uint32_t limit() const {
     return repeats() ? UINT32_MAX
                      : static_cast<uint32_t>(std::min<uint64_t>(source.count(), UINT32_MAX));
@@ -74,7 +75,7 @@ class RaysDispatch {
   const std::string& label_;
   TableLayout layout_;
   Table tables_[kTableCount];
-  uint64_t bytes_ = 0;  // of everything in the buffer
+  uint64_t bytes_ = 0;  // size of everything in the buffer
   const GpuBuffer* buffer_ = nullptr;
   DispatchResult result_;
 };
@@ -98,7 +99,7 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
 rtapi::Status RaysDispatch::find_tables() {
   const rtapi::DispatchRaysDesc& desc = command_.desc;
   const auto& ray_generation = desc.RayGenerationShaderRecord;
-  // One record, of any size; it has no stride. [DXR: Shader tables]
+  // A single record, of any size, without a stride. [DXR: Shader tables]
   auto s = find_table(kRayGeneration, "ray generation", runtime::RecordKind::kRayGeneration,
                       ray_generation.StartAddress,
                       std::max<uint64_t>(ray_generation.SizeInBytes, kIdentifierBytes), 0);
@@ -114,8 +115,8 @@ rtapi::Status RaysDispatch::find_tables() {
   return s;
 }
 
-// Vulkan has no stack of the application's choosing. What the ray generation shader takes is known
-// before anything runs; deeper calls end at kMaxCallableDepth.
+// In Vulkan the application cannot choose the stack size. What the ray generation shader takes is
+// known before anything runs; deeper calls end at kMaxCallableDepth.
 rtapi::Status RaysDispatch::check_stack() const {
   const uint8_t* identifier = tables_[kRayGeneration].source.host;
   const auto* record = pipeline_.linked().identifiers.find(identifier);
@@ -130,8 +131,8 @@ rtapi::Status RaysDispatch::check_stack() const {
                           std::to_string(command_.pipeline_stack_bytes) + " (" + label_ + ")."};
 }
 
-// A driver reads the hit record of an index that it computes itself: null records must stand up to
-// the largest there can be. Miss and callable indices are compared by the shader.
+// A driver computes the index of the hit record itself, so there must be null records up to the
+// largest index that is possible. For miss and callable indices the shader checks the range.
 rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record) {
   const auto& properties = gpu_.properties().ray_tracing;
   layout_ = {properties.shaderGroupHandleSize, properties.shaderGroupHandleAlignment,
@@ -144,7 +145,7 @@ rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record
       table.records = std::max(table.records, max_hit_record + 1);
     }
     table.offset = layout_.aligned(offset);
-    // Drivers compute offsets in tables with 32 bits.
+    // Drivers compute offsets in tables in 32 bits.
     if (table.records > UINT32_MAX / stride) {
       return rtapi::Error{"KA0956", rtapi::ErrorCode::kUnsupported,
                           "KA0956 the " + std::string(table.name) + " table needs " +
@@ -204,7 +205,7 @@ VkStridedDeviceAddressRegionKHR RaysDispatch::region(TableIndex index) const {
 }
 
 rtapi::Status RaysDispatch::execute() {
-  // Tables and arguments may be the work of commands before.
+  // Earlier commands may write the tables and arguments.
   if (auto s = environment_.stream->flush(); !s) return s;
   if (auto s = find_tables(); !s) return s;
   const auto& desc = command_.desc;
@@ -277,7 +278,7 @@ rtapi::Error fault_at(uint64_t address, const std::string& label) {
                           number + kWhoseAddress + " (" + label + ")."};
 }
 
-// Why a shader removed the device, if it did.
+// Whether a shader removed the device, and why.
 rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
                         const std::string& label) {
   DispatchStatus status;

@@ -70,9 +70,9 @@ rtapi::DeviceInfo info_of(const GpuProperties& properties) {
   return info;
 }
 
-// lavapipe filters textures of 8 bits with 8 bits unless this option of its code generator says
-// otherwise. It reads it when its first device starts, so it is set for that time only, in which no
-// other thread should look at the environment.
+// lavapipe filters 8-bit textures in 8 bits unless this option of its code generator is set. It
+// reads the option when its first device starts, so it is set only during that time, in which no
+// other thread should read the environment.
 class FilterOption {
  public:
   explicit FilterOption(bool wanted) {
@@ -241,7 +241,7 @@ rtapi::Status Gpu::run(const std::function<void(VkCommandBuffer)>& record,
 }
 
 rtapi::Status Gpu::submit(VkCommandBuffer commands, VkFence fence, const std::string& what) {
-  // What shaders and copies wrote is for the host, which reads it when the fence is signalled.
+  // The host reads what shaders and copies wrote once the fence is signalled.
   VkMemoryBarrier to_host = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
   to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;

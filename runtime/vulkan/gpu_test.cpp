@@ -100,7 +100,7 @@ TEST(Gpu, ALostDeviceSaysWhatRan) {
   EXPECT_NE(lost.message.find(gpu->info().Name), std::string::npos);
 }
 
-// In a process of its own, whose loader is shown no driver.
+// In a process of its own, whose loader finds no driver.
 TEST(Gpu, WithoutADriverThePackageIsNamed) {
   char path[4096] = {};
   ASSERT_GT(readlink("/proc/self/exe", path, sizeof(path) - 1), 0);
@@ -113,7 +113,7 @@ TEST(Gpu, WithoutADriverThePackageIsNamed) {
   std::string text;
   char line[512];
   while (fgets(line, sizeof(line), pipe) != nullptr) text += line;
-  EXPECT_EQ(pclose(pipe), 0);  // skipped
+  EXPECT_EQ(pclose(pipe), 0);  // the child skips its test
   EXPECT_NE(text.find("KA0950"), std::string::npos) << text;
   EXPECT_NE(text.find("mesa-vulkan-drivers"), std::string::npos) << text;
 }
@@ -123,7 +123,7 @@ TEST(Gpu, DevicesComeAndGo) {
     KAAMOS_NEED_GPU(gpu);
     auto buffer = gpu->create_buffer(64, "left over");
     ASSERT_TRUE(buffer);
-    gpu.reset();  // the buffer keeps the device
+    gpu.reset();  // the buffer keeps the device alive
     (*buffer)->host()[0] = 1;
   }
 }

@@ -139,7 +139,7 @@ VkImageCreateInfo Image::create_info() const {
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   if (wants_storage(desc_)) info.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
-  // Views of typeless textures have formats of their own, some of which cannot be storage images.
+  // Views of typeless textures have their own formats, some of which cannot be storage images.
   if (typeless()) {
     info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
   }
@@ -296,7 +296,7 @@ rtapi::Result<VkImageView> Image::create_view(const TextureViewDesc& desc) const
         swizzle_of(desc.swizzle[0], format.channels), swizzle_of(desc.swizzle[1], format.channels),
         swizzle_of(desc.swizzle[2], format.channels), swizzle_of(desc.swizzle[3], format.channels)};
     if (desc.min_lod > 0 && gpu_->features().image_view_min_lod) {
-      // Vulkan counts from the image's first mip.
+      // Vulkan counts from the first mip of the image.
       min_lod.minLod = std::min(desc.min_lod, static_cast<float>(desc.mip_count - 1)) +
                        static_cast<float>(desc.first_mip);
       min_lod.pNext = info.pNext;

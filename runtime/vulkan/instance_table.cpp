@@ -48,7 +48,7 @@ rtapi::Result<InstanceTable::Range> InstanceTable::add(std::span<const InstanceE
   return Range(shared_from_this(), first, count);
 }
 
-// To at least `entries` more, at the end.
+// Grows by at least `entries` entries, at the end.
 rtapi::Status InstanceTable::grow(uint32_t entries) {
   if (entries > kLargestCapacity - capacity_) {
     return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,

@@ -61,7 +61,7 @@ TEST(InstanceTable, WhatIsFreedIsUsedAgain) {
     for (uint32_t j = 0; j < 10; ++j) ranges.push_back(*table->add(entries_of(100, j)));
     std::swap(ranges[i % 10], ranges[(7 * i) % 10]);
   }
-  EXPECT_EQ(table->address(), address);  // it never had to grow
+  EXPECT_EQ(table->address(), address);  // the table never had to grow
 }
 
 TEST(InstanceTable, MoreThanItsIndexHasBitsIsAnError) {

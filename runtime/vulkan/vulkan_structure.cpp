@@ -12,7 +12,8 @@ namespace {
 using rtapi::HasAny;
 using runtime::BuildFlags;
 
-// Updates are builds here, and a compacted copy shares the original's memory: no flags for those.
+// Updates are builds here, and a compacted copy shares the original's memory, so neither needs a
+// flag.
 VkBuildAccelerationStructureFlagsKHR build_flags(BuildFlags flags) {
   VkBuildAccelerationStructureFlagsKHR result = 0;
   if (HasAny(flags, BuildFlags::kPreferFastTrace)) {

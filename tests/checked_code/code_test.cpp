@@ -493,11 +493,10 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
   box_hit_ = "BoxHitOther";
   run("TraceBox");
   ASSERT_EQ(told_before_.size(), 1u);
-  EXPECT_EQ(
-      told_before_[0],
-      "KA0412 attributes of another type: hit group \"Boxes\": the attributes of intersection "
-      "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
-      "other scalars. All shaders of a hit group must use one type.");
+  EXPECT_EQ(told_before_[0],
+            "KA0412 attribute type mismatch: hit group \"Boxes\": the attributes of intersection "
+            "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
+            "other scalars. All shaders of a hit group must use one type.");
 }
 
 // Libraries as they may come from elsewhere: without their source, to a machine without a compiler.
