@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Denoising of the signals of a frame: filters in space, accumulation over time, and SVGF, which is
-// both. A signal is a picture of the frame's size, R32G32B32A32_FLOAT, of light without the
-// surface's own colour; a scalar signal is three equal channels. [effects-spec B6]
+// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
+// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
+// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
 #pragma once
 
 #include <rtapi/rtapi.h>
