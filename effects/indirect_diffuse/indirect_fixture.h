@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tests of indirect light share.
+// Shared by the tests of indirect light.
 #pragma once
 
 #include <atomic>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sparse volume of indirect light: cells of 25 cm in bricks of 8 x 8 x 8, stored where there is
-// geometry, baked by a path tracer that is a DXR program like every effect. [effects-spec B5.1]
+// geometry, and baked by a path tracer that is a DXR program like every effect. [effects-spec B5.1]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The order in which a dispatch takes the pixels of a frame: by direction or origin of their rays.
-// A permutation: the picture stays the same, bit for bit. [effects-spec A21, B1.5]
+// The order in which a dispatch takes the pixels of a frame: by the direction or origin of their
+// rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21, B1.5]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a scene in motion, rendered frame by frame as a program would do it.
+// For tests: renders a moving scene frame by frame, as a program would.
 #pragma once
 
 #include <rtapi/upload.h>

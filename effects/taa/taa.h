@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Temporal antialiasing of the frame's radiance: each frame looks through another point of its
-// pixels, and what the frames before it saw is carried along with the surfaces. [effects-spec B7.1]
+// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
+// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
