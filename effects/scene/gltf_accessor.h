@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Typed reads of a glTF file's buffers. Every read is checked against the size of its buffer view
-// and buffer before a byte is touched, because files are input and input may be broken.
+// Typed reads from the buffers of a glTF file. Files may be broken, so every read is checked
+// against the size of its buffer view and buffer before a byte is touched.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stages of the glTF loader. Only gltf_*.cpp include this.
+// The stages of the glTF loader; only gltf_*.cpp include it.
 #pragma once
 
 #include <tiny_gltf.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshes of the lounge. Only lounge*.cpp include this.
+// The meshes of the lounge; only lounge*.cpp include it.
 #pragma once
 
 #include <cstdint>
