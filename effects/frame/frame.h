@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures and the global root table that all effects of one frame share.
+// The pictures and the global root table that all effects of a frame share.
 #pragma once
 
 #include <rtapi/rtapi.h>
