@@ -43,7 +43,7 @@ class PassViews {
   rtapi::Device device_;
   rtapi::DescriptorHeap heap_;
   std::uint32_t first_ = 0;
-  std::array<std::uint64_t, kPassViews> bytes_{};  // by view
+  std::array<std::uint64_t, kPassViews> bytes_{};  // per view
 };
 
 /// Arguments of one dispatch that only its pass knows.

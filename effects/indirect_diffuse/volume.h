@@ -90,7 +90,7 @@ class GpuVolume {
   void set_origin(const glm::dvec3& origin);
 
  private:
-  glm::dvec3 corner_{0.0};  // of the volume, in the world
+  glm::dvec3 corner_{0.0};  // the volume's corner, in world space
   rtapi::Buffer brick_starts_, cells_, constants_;
 };
 

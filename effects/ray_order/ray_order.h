@@ -37,9 +37,9 @@ class RaySorter {
   rtapi::Buffer order_;
   rtapi::Buffer between_;  // after the first of two passes
   ComputePass pass_;
-  PassViews once_;    // to order_
-  PassViews first_;   // to between_
-  PassViews second_;  // between_ to order_
+  PassViews once_;    // writes to order_
+  PassViews first_;   // writes to between_
+  PassViews second_;  // reads between_, writes to order_
 };
 
 }  // namespace kaamos::effects

@@ -52,7 +52,7 @@ class TemporalAntialiasing {
   TaaConstants constants_;
   ComputePass pass_;
   std::array<rtapi::Texture, 2> pictures_, surfaces_;
-  std::array<PassViews, 2> views_;  // by the picture that is written
+  std::array<PassViews, 2> views_;  // indexed by the picture that is written
   std::uint32_t written_ = 0;
   std::uint32_t frames_ = 0;  // since the last cut
 };
