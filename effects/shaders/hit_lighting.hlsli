@@ -10,8 +10,8 @@
 #include "frame.hlsli"
 
 // effects/lights/lighting.h binds these for a pass and holds the same numbers. A texel of the atlas
-// stores the plane that the light hit there, as the points p relative to the light with dot(xyz, p)
-// = 1, and in w 1 / distance of the hit in 1/metres. It is 0 if nothing was hit.
+// stores the plane that the light sees there: all p, relative to the light, with dot(xyz, p) = 1.
+// w is 1 / distance of the hit, in 1/metres. All are 0 if nothing was hit.
 RWTexture2D<float4> shadow_atlas : register(u16, space3);
 RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
 RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
