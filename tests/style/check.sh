@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, indexed, length, listed, used, told, twice.
 set -euo pipefail
 rule=$1
 cd "$2"
@@ -81,6 +81,25 @@ check_readme() {
         echo "$folder/README.md:$lines: is longer than a page (60 lines)"
       fi
     done
+}
+
+# The README of a folder whose sub-folders are rooms of their own has a row (a line of a table or of a list) for each
+# of them that begins with its name, `name/`, and no row for a folder that is gone. Two may share a row.
+check_indexed() {
+  local folder readme rows name line
+  for folder in tests effects runtime examples; do
+    [[ -d $folder ]] || continue
+    readme=$folder/README.md
+    rows=$(grep -nE '^[|*-] ' "$readme" 2>/dev/null |
+      sed -nE 's/^([0-9]+):[|*-] +(\[?`[A-Za-z0-9_.-]+\/`[^|:]*).*/\1 \2/p' |
+      while read -r line text; do grep -oE '`[A-Za-z0-9_.-]+/`' <<<"$text" | tr -d '`/' | sed "s/^/$line /"; done) || true
+    list_files -path "./$folder/*/*" | cut -d/ -f2 | LC_ALL=C sort -u | while read -r name; do
+      grep -qE "^[0-9]+ ${name//./[.]}\$" <<<"$rows" || echo "$readme:1: has no row for $name/"
+    done
+    while read -r line name; do
+      [[ -z $name || -d $folder/$name ]] || echo "$readme:$line: lists $name/, which does not exist"
+    done <<<"$rows"
+  done
 }
 
 # Past 500 lines, ask what second noun lives in the file. A warning, so it never fails.
@@ -167,7 +186,7 @@ check_used() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told | twice) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
