@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Configures and builds a preset; turns the usual failures into sentences.
+# Configures and builds a preset, and explains the usual failures.
 
 cmake_minimum=3.25  # as in CMakeLists.txt
 
@@ -14,7 +14,7 @@ require_tools() {
   version_at_least "$version" "$cmake_minimum" ||
     die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
       "Debian 12 brings 3.25 as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
-  # CXX may hold options after the name.
+  # CXX may hold options after the compiler's name.
   if [[ -n ${CXX:-} ]]; then
     command -v "${CXX%% *}" >/dev/null ||
       die "CXX names a compiler that is not there: \"$CXX\"." "Unset CXX to use the system's, or correct it."
@@ -23,7 +23,8 @@ require_tools() {
   fi
 }
 
-# All cores, but no more compilers at once than memory holds (a large file takes about 1 GiB).
+# Uses all cores, but starts no more compilers than fit into memory (a large file takes about 1
+# GiB).
 choose_jobs() {
   local cores memory
   cores=$(nproc 2>/dev/null || echo 2)
@@ -35,7 +36,7 @@ choose_jobs() {
   fi
 }
 
-# A failure on a full disk looks like a failure of anything; say it first.
+# A full disk can look like any other failure, so check for it first.
 die_build() {
   local free
   free=$(free_mib "$root/build")
