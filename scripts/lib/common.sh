@@ -44,7 +44,7 @@ open_log() {
     return 0
   fi
   die "cannot write into \"$root/build\": $reason." \
-    "The build and its results stand beside the sources, in build/ and out/. Use a checkout that" \
+    "The build and its results go beside the sources, into build/ and out/. Use a checkout that" \
     "$(id -un 2>/dev/null || id -u) may write, or copy this one to a folder that you own."
 }
 
@@ -53,7 +53,7 @@ free_mib() { df -Pm "$1" 2>/dev/null | awk 'NR == 2 { print $4 }'; }
 die_disk_full() {
   log=/dev/null
   die "the disk that holds \"$root/build\" is full ($(free_mib "$root") MiB free)." \
-    "A build needs about 3 GB. Make room, then run $program again: it goes on where it stopped."
+    "A build needs about 3 GB. Make room, then run $program again: it continues where it stopped."
 }
 
 # require_space: checks early, because compilers report a full disk in a dozen odd ways.
@@ -72,7 +72,7 @@ lock_build() {
   command -v flock >/dev/null || return 0
   exec 8>"$root/build/.lock"
   if ! flock -n 8; then
-    say "Another scripts/test or scripts/demo works in this checkout; waiting for it."
+    say "Another scripts/test or scripts/demo is running in this checkout; waiting for it."
     flock 8
   fi
 }
@@ -155,4 +155,4 @@ duration() {
   if (($1 < 60)); then printf '%d s' "$1"; else printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); fi
 }
 
-trap 'printf "\n%s: interrupted; run it again to go on from here.\n" "$program" >&2; exit 130' INT TERM
+trap 'printf "\n%s: interrupted; run it again to continue from here.\n" "$program" >&2; exit 130' INT TERM

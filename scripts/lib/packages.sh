@@ -70,13 +70,13 @@ choose_root() {
     as_root=(env)
   elif ! command -v sudo >/dev/null; then
     die "packages are missing, and installing them takes root: $(id -un) is not root and there is no sudo." \
-      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
+      "Have someone with root access run this, then run $program again:" "${lines[@]/#/  }"
   elif sudo -n true 2>/dev/null; then
     as_root=(sudo -n env)
   elif [[ -t 0 && -t 2 ]]; then
     say "sudo installs them and may ask for your password; nothing else runs as root."
-    sudo -v || die "sudo did not let $(id -un) in." \
-      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
+    sudo -v || die "sudo refused $(id -un)." \
+      "Have someone with root access run this, then run $program again:" "${lines[@]/#/  }"
     as_root=(sudo env)
   else
     die "packages are missing, and sudo wants a password but has no terminal to ask for it." \
@@ -109,7 +109,7 @@ explain_apt() {
       die "apt-get does not know some of these packages on $(system_name):" \
         "$(grep -oE "Unable to locate package .*|Package '.*' has no installation candidate" <<<"$said" |
           sort -u | paste -sd ';')" \
-        "Debian 12 has them all. On another system install what stands for them, by the role above," \
+        "Debian 12 has them all. On another system, install their counterparts by the roles listed above," \
         "and run $program --no-install." ;;
   esac
   die "apt-get failed. What it said is in \"$log\"; its last lines:" "$(tail -n 3 "$log")"
@@ -121,7 +121,7 @@ explain_foreign() {
   say "This is $(system_name): $program installs packages only with apt (Debian and its relatives)."
   say "These are needed, under Debian's names:"
   print_roles "$(list_packages "$@")"
-  say "Going on with what is installed."
+  say "Continuing with what is installed."
 }
 
 # candidate PACKAGE: the version that apt-get install would bring; empty if there is none.
@@ -163,7 +163,7 @@ install_new_enough() {
     apt install --no-install-recommends -t bookworm-backports "$package" || explain_apt "$start"
   else
     say "note: $package $wanted or newer is needed; apt on $(system_name) has ${known:-none}." \
-      "Going on without it: install it from elsewhere for what runs on Vulkan."
+      "Continuing without it: to run on Vulkan, install it from elsewhere."
   fi
 }
 
@@ -200,6 +200,6 @@ install_packages() {
     [[ $name != *'>='* ]] || install_new_enough "${name%>=*}" "${name#*>=}"
   done
   missing=$(missing_packages "$@" | grep -v '^[^[:space:]]*>=' || true)
-  [[ -z $missing ]] || die "apt-get ended well but these packages are still missing:" "$missing"
+  [[ -z $missing ]] || die "apt-get succeeded, but these packages are still missing:" "$missing"
   say "    installed."
 }
