@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-conformance: holds a machine and its drivers against DXR's rules.
+// kaamos-conformance: tests a machine and its drivers against DXR's rules.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@ using namespace kaamos::conformance;
 
 bool g_summary_only = false;
 
-// A line that stays while tests run, for one who waits at a terminal; elsewhere nothing.
+// Shows a status line at a terminal while tests run; prints nothing elsewhere.
 void show(const std::string& line) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal && g_summary_only) std::cerr << "\r\033[K" << line << std::flush;
@@ -47,7 +47,7 @@ void list_rules(const std::string& filter) {
   }
 }
 
-// Without a precision Embree's two that keep most rules.
+// Without --precision, the two Embree precisions that keep the most rules.
 std::vector<Target> targets_of(const std::string& backend, const std::string& precision,
                                bool checked) {
   using rtapi::TraversalPrecision;
@@ -64,7 +64,7 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   return out;
 }
 
-// What was asked for and cannot be; empty: nothing.
+// What is wrong with the request; empty if nothing is.
 std::string misuse(const std::string& backend, const std::string& precision,
                    const std::string& filter) {
   if (backend == "vulkan" && !precision.empty()) {

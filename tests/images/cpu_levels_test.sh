@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# cpu_levels_test.sh NORTHLIGHT AVX2_OBJECT...: shader libraries for AVX2 give the bits of those for any
-# x86-64, $KAAMOS_CPU_LEVEL chooses between them, and no function of theirs can get into code that
-# runs on every processor.
+# cpu_levels_test.sh NORTHLIGHT AVX2_OBJECT...: shader libraries for AVX2 give the same bits as
+# those for any x86-64, $KAAMOS_CPU_LEVEL chooses between them, and none of their functions can end
+# up in code that runs on every processor.
 set -u
 northlight=$1
 shift
@@ -15,7 +15,7 @@ fail() {
   failures=$((failures + 1))
 }
 
-# The linker keeps one of several weak definitions, whichever object it comes from.
+# The linker keeps one of several weak definitions, from whichever object.
 for object in "$@"; do
   weak=$(nm --defined-only "$object" | grep -E ' [VvWwu] ') &&
     fail "$object has definitions that others may be replaced by: $weak"

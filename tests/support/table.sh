@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# table.sh SUPPORT_TEST README [--write]: runs the tests of the calls on every backend, makes a table of
-# what they gave, and compares it with the one in README, or (--write) puts it there. Ends with 77 where
-# there is no Vulkan device.
+# table.sh SUPPORT_TEST README [--write]: runs the support tests on every backend, makes a table of
+# their results, and compares it with the one in README, or writes it there (--write). Exits with 77
+# where there is no Vulkan device.
 set -euo pipefail
 support_test=$1
 readme=$2
