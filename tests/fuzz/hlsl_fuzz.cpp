@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Feeds damaged HLSL to the compiler, which must neither crash, hang, nor eat memory. Inputs are
-// compiled in a child process; the parent watches it, and when it dies writes down what it ate.
+// Feeds damaged HLSL to the compiler, which must not crash, hang or exhaust memory. A child process
+// compiles the inputs; the parent watches it and records the input that killed it.
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -29,11 +29,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr double kMaxCpuSeconds = 60;  // for one input; everything takes ten times as long
+constexpr double kMaxCpuSeconds = 60;  // for one input, when everything takes ten times as long
 #else
 constexpr double kMaxCpuSeconds = 5;
 #endif
-constexpr uint64_t kMaxMegabytes = 3000;  // with what a sanitizer needs
+constexpr uint64_t kMaxMegabytes = 3000;  // including what a sanitizer needs
 constexpr int kMaxFindings = 20;
 constexpr size_t kTextBytes = 8u << 20;
 
@@ -57,14 +57,14 @@ struct Arguments {
   std::vector<std::string> folders;
 };
 
-// What the child tells the parent, also when it dies.
+// What the child tells the parent; readable even after the child has died.
 struct Shared {
-  std::atomic<uint64_t> number;    // of the input in work
+  std::atomic<uint64_t> number;    // of the current input
   std::atomic<uint64_t> finished;  // inputs done by all children
   std::atomic<uint64_t> bytes;
   char text[kTextBytes];
   char path[4096];
-  char broken[65536];  // promise that was broken; empty where the child died of something else
+  char broken[65536];  // the guarantee that was broken; empty if the child died of something else
 };
 
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
@@ -104,7 +104,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
   return out;
 }
 
-// The inputs of a run: mutations until the time is over, or files as they are.
+// The inputs of a run: mutations until time is up, or the given files as they are.
 class Inputs {
  public:
   explicit Inputs(const Arguments& arguments)
@@ -132,7 +132,7 @@ class Inputs {
     text << file.rdbuf();
     return {files_[number].string(), text.str()};
   }
-  // All options of a file of its own, one mutation's options by its number.
+  // A replayed file is tried with all options, a mutation with those that its number picks.
   uint64_t choices() const { return arguments_.replay.empty() ? 1 : 64; }
 
  private:
@@ -183,7 +183,7 @@ uint64_t resident_megabytes(pid_t process) {
   return resident * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) >> 20;
 }
 
-// Waits for the child's end. Empty: it finished all inputs; else what happened.
+// Waits for the child to end. Empty: it finished all inputs; otherwise says what happened.
 std::string watch(pid_t process, Shared& shared) {
   uint64_t done = shared.finished;
   double began = cpu_seconds(process);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-parity: traces the rays of a set on two backends and says what differs; with --ray, all
-// that is known of that one.
+// kaamos-parity: traces a set of rays on two backends and reports the differences; with --ray,
+// prints everything known about that ray.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
