@@ -30,7 +30,7 @@ std::string cache_folder(const Options& options) {
   return options.out + "/measure-cache";
 }
 
-// What one run of a setting told.
+// The results of one run of a setting.
 struct Record {
   std::vector<double> ms;
   double traced = 0;
@@ -128,7 +128,7 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
                                                   options.measure_reference, target->own_rmse)));
     targets.emplace(reference.name, std::move(*target));
   }
-  // One run of all before the first that counts: pipelines and caches are warm then.
+  // One uncounted run of everything first, which warms up pipelines and caches.
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
     if (const auto s = stage.set_seed(options.seed + repeat); !s) return s.error();

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSamples = 65536;
 constexpr std::uint32_t kMaxFrames = 100000;
-constexpr std::uint32_t kMaxSide = 16384;  // of a texture [D3D12: resource limits]
+constexpr std::uint32_t kMaxSide = 16384;  // limit of a texture [D3D12: resource limits]
 
 std::string parse_size(const std::string& text, Options& options) {
   unsigned width = 0;
@@ -71,7 +71,7 @@ std::string parse_effects(const std::string& text, Options& options) {
              "and all, as in ao,sun";
     }
   }
-  options.local = options.local || options.contact;  // it shades what local lights light
+  options.local = options.local || options.contact;  // contact shadows need local lights
   return {};
 }
 
@@ -126,15 +126,15 @@ void add_sequence(CLI::App& app, Options& options) {
   app.add_flag("--taa", options.taa, "antialiasing over the frames of a sequence")->needs(frames);
 }
 
-// What shows one frame only, or renders anew for ever; what looks for a pixel at its place in a
-// dispatch.
+// Options that show a single frame or render forever exclude --frames; options that look for a
+// pixel at its place in a dispatch exclude --sort-rays.
 std::string conflict(const Options& options) {
   if (!options.sort_rays.empty() &&
       (options.explain || options.pixel || !options.heatmap.empty())) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
   }
-  // Each is printed or written instead of all else.
+  // Each of these prints or writes something instead of everything else.
   std::string instead;
   for (const auto& [name, chosen] : {std::pair("--pixel", options.pixel.has_value()),
                                      std::pair("--tables", !options.tables.empty()),
@@ -352,7 +352,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   }
   if (options.claims) {
     if (app.count("--size") == 0) std::tie(options.width, options.height) = std::pair(320u, 180u);
-    // What a cell holds does not change what reading it costs.
+    // The time does not depend on what the cells hold.
     if (app.count("--gi-bake-samples") == 0) options.gi_bake_samples = 16;
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;
