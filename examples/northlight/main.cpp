@@ -103,7 +103,7 @@ int report(const rtapi::Error& error, const Options& options) {
   if (error.id.empty()) {
     std::fprintf(stderr, "\n");
     say_error("interrupted: nothing was written, earlier results in " + options.out +
-              " are as they were");
+              " are unchanged");
     return kInterrupted;
   }
   say_error(error.message);

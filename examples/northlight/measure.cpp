@@ -63,8 +63,8 @@ rtapi::Result<Target> make_target(Stage& stage, const MeasurePlan& plan,
     target->mask = *mask;
     if (std::find(mask->begin(), mask->end(), 1) == mask->end()) {
       return failure(
-          "no pixel shows glass: choose another scene, as glass-stack, or make glass of "
-          "a material, as in --material NAME:alpha=0.3,roughness=0");
+          "no pixel shows glass: choose another scene, such as glass-stack, or turn a "
+          "material into glass, as in --material NAME:alpha=0.3,roughness=0");
     }
   } else {
     target = make_reference(stage, reference.setting, options.measure_reference, reference.name,
@@ -213,7 +213,7 @@ std::string as_text(const MeasuredTable& table) {
         row.label, row.rays, row.traced, row.ms, row.ms_min, e.rmse, e.relative_mse, e.psnr, e.ssim,
         e.flip, e.energy_ratio, e.bias_squared, e.variance);
     if (row.flicker >= 0) out += fmt::format("  flicker {:.4f}", row.flicker);
-    if (e.not_finite > 0) out += fmt::format("  {} values are no numbers", e.not_finite);
+    if (e.not_finite > 0) out += fmt::format("  {} values are not finite", e.not_finite);
     out += "\n";
   }
   return out;

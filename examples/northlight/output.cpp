@@ -280,7 +280,7 @@ std::string describe(const Renderer& renderer, const FrameResult& result) {
                        pass.bytes == 0 ? "" : fmt::format("{:.1f}", mebibytes(pass.bytes)));
   }
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
-  if (!result.left_out.empty()) out += "what that saves: --measure-left-out\n";
+  if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;
 }
 

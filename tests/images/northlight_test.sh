@@ -40,7 +40,7 @@ expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'not in range' --denoise-passes 9
 expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12
-expect_error 2 'outside of the picture' --size 64x36 --pixel 64,3
+expect_error 2 'outside the picture' --size 64x36 --pixel 64,3
 expect_error 2 '--measure: fog not in .*svgf' --measure fog
 expect_error 2 'not in range' --measure ao --repeats 0
 expect_error 2 'not in range' --measure svgf --seeds 1
@@ -56,7 +56,7 @@ printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
 expect_error 2 'not in {direction,origin}' --sort-rays length
 expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
-expect_error 2 'explain 64,3 is outside of the picture' --size 64x36 --explain 64,3
+expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
 expect_error 2 'pixel and --heatmap exclude each other' --pixel 3,4 --heatmap rays --size 16x9
 expect_error 2 'json requires --explain' --json --size 16x9
