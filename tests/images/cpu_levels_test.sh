@@ -29,14 +29,14 @@ render() {
 
 render fastest
 grep -q 'KAAMOS_CPU_LEVEL is "fastest", which is no level; .*Set it to sse2 or avx2' "$work/log-fastest" ||
-  fail "an unknown level is not told of: $(cat "$work/log-fastest")"
+  fail "an unknown level is not reported: $(cat "$work/log-fastest")"
 render sse2
 render avx2
 if grep -q '^flags.* avx2' /proc/cpuinfo; then
   grep -q KAAMOS_CPU_LEVEL "$work/log-avx2" && fail "a level that there is: $(cat "$work/log-avx2")"
 else
   grep -q 'which this processor cannot run' "$work/log-avx2" ||
-    fail "a level that there is not is not told of: $(cat "$work/log-avx2")"
+    fail "a level that this processor lacks is not reported: $(cat "$work/log-avx2")"
 fi
 for file in frame_0000.png frame_0001.png frame.exr; do
   cmp "$work/out-sse2/$file" "$work/out-avx2/$file" || fail "$file differs between the levels"
