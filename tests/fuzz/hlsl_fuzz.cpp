@@ -89,7 +89,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
       char* end = nullptr;
       out.seconds = std::strtod(text.c_str(), &end);
       if (end == text.c_str() || *end != '\0' || !(out.seconds > 0)) {
-        std::fprintf(stderr, "hlsl_fuzz: \"%s\" is not a number of seconds above 0\n", text.c_str());
+        std::fprintf(stderr, "hlsl_fuzz: \"%s\" is not a number of seconds above 0\n",
+                     text.c_str());
         return std::nullopt;
       }
     } else if (word == "--out") {
