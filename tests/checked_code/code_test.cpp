@@ -501,8 +501,8 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
       "other scalars. All shaders of a hit group must use one type.");
 }
 
-// Libraries from elsewhere: they arrive without their source on a machine without a compiler. The
-// second load works too after nobody held the library in between.
+// Libraries from elsewhere, loaded without their source on a machine without a compiler. The second
+// load must not compile again, even if nobody held the library in between.
 TEST(CheckedLibrary, ALibraryThatIsLoadedAgainIsNotCompiledAgain) {
   const auto variant = [] {
     const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_code()).value();

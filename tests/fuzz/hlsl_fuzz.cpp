@@ -43,10 +43,10 @@ constexpr char kUsage[] =
     "  SOURCE          folders with the HLSL files to damage\n"
     "  --seed N        which sequence of inputs (default 1)\n"
     "  --seconds S     how long (default 3)\n"
-    "  --long S        as --seconds, but KAAMOS_FUZZ_SECONDS in the environment comes first\n"
+    "  --long S        like --seconds, but KAAMOS_FUZZ_SECONDS in the environment overrides it\n"
     "  --first N       begin with input N of the sequence (default 0)\n"
-    "  --out FOLDER    where inputs that were too much are written (default .)\n"
-    "  --replay PATH   compiles this file, or the .hlsl files of this folder, as they are\n";
+    "  --out FOLDER    where to write failing inputs (default .)\n"
+    "  --replay PATH   compile this file, or the .hlsl files of this folder, unchanged\n";
 
 struct Arguments {
   uint64_t seed = 1;
