@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// compute/split/...: kernels with barriers, cut at them, over the same kernels on fibers.
-// compute/interpreted: a kernel by the interpreter, over the same in native code.
+// compute/split/...: kernels with barriers, split at the barriers, against the same kernels on
+// fibers. compute/interpreted: a kernel in the interpreter against the same in native code.
 #include <dlfcn.h>
 #include <kaamos/shader/abi.h>
 #include <rtapi/rtapi.h>
@@ -69,7 +69,7 @@ void main(uint i : SV_GroupIndex, uint3 id : SV_DispatchThreadID) {
 })"},
 };
 
-// One kernel in all ways, with a device to run it on.
+// One kernel in each variant, and a device to run it on.
 class Comparison {
  public:
   Comparison(const Kernel& kernel, uint32_t groups)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Errors that only a command's execution shows, in any mode: they end the list with their text.
+// Errors that only show when a command executes, in any mode: they end the list with their text.
 #include <cstring>
 
 #include "tests/checks/world.h"
@@ -25,7 +25,7 @@ class Errors : public World {
       EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in: " << text;
     }
   }
-  // As large as any structure here.
+  // Large enough for any structure here.
   Buffer copy_of(const Buffer& source, const std::string& name) {
     return buffer(source.size(), name, true);
   }

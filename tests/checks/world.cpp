@@ -207,8 +207,8 @@ void World::copy_bytes(const Buffer& dest, const Buffer& source) {
   execute(commands).value();
 }
 
-// Without KA0401 to KA0429: shaders that meet what a test spoiled say so too, and that has its
-// tests in tests/checked_code. Where a test spoils nothing, they must be silent as well.
+// Leaves out KA0401 to KA0429: shaders also report what a test broke, and tests/checked_code tests
+// that. Where a test breaks nothing, shaders must be silent too.
 std::vector<std::string> World::told() {
   std::vector<std::string> out;
   for (const Message& m : messages_) {

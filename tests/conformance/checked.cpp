@@ -13,7 +13,7 @@ DeviceDesc in_checked_mode(const Context& t,
                            const std::shared_ptr<std::vector<Message>>& messages) {
   DeviceDesc desc = t.target().device_desc();
   desc.Checked = true;
-  // Messages of a list come before ExecuteAndWait returns, one at a time.
+  // A list's messages arrive before ExecuteAndWait returns, one at a time.
   desc.OnMessage = [messages](const Message& message) { messages->push_back(message); };
   return desc;
 }

@@ -7,7 +7,7 @@
 
 namespace ks = kaamos::shader;
 
-// Shaders' structs stand in namespaces of such names.
+// Shaders' structs are in namespaces with such names.
 namespace unit_probe::u {
 struct Payload {
   ks::vec<float, 3> color;

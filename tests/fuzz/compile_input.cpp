@@ -14,7 +14,7 @@ namespace kaamos::test {
 
 std::string compile_input(const Corpus& corpus, const std::vector<std::string>& include_folders,
                           const Input& input, uint64_t choice) {
-  // From memory only: a damaged #include must not open whatever lies on the disk.
+  // Includes come from memory only: a damaged #include must not open files on the disk.
   hlsl::MemoryFileLoader loader(corpus.texts);
   hlsl::SourceManager sources(loader);
   hlsl::FrontendOptions options;

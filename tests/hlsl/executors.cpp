@@ -14,7 +14,7 @@
 namespace kaamos::test {
 namespace {
 
-// The interpreter's table of a module with SPIR-V in place of its functions.
+// The interpreter's table of a module, with SPIR-V in place of its functions.
 struct SpirvTables {
   std::shared_ptr<const hlsl::InterpretedLibrary> interpreted;
   hlsl::SpirvLibrary spirv;

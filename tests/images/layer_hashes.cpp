@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints a hash per layer of OpenEXR files. Two frames are equal to the bit where these lines are.
+// Prints a hash for each layer of OpenEXR files. Frames with the same lines are equal to the bit.
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// 64-bit FNV-1a. Floats enter by their bits, so that -0 and the payloads of NaNs count too.
+// 64-bit FNV-1a over the bits of floats, so that -0 and NaN payloads count too.
 class Hash {
  public:
   void add(std::uint32_t value) {
