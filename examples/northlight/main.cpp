@@ -100,7 +100,7 @@ void show_progress(const std::string& pass, double done) {
 }
 
 int report(const rtapi::Error& error, const Options& options) {
-  if (error.id.empty()) {
+  if (error.id.number == 0) {
     std::fprintf(stderr, "\n");
     say_error("interrupted: nothing was written, earlier results in " + options.out +
               " are unchanged");

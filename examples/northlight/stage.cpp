@@ -321,7 +321,7 @@ void Stage::clear(rtapi::CommandList& list, const Pass& pass, Effect effect) con
 }
 
 rtapi::Result<double> Stage::execute(const std::function<void(rtapi::CommandList&)>& record) {
-  if (stop_) return rtapi::Error{"", rtapi::ErrorCode::kFailed, "interrupted"};
+  if (stop_) return rtapi::Error{{}, rtapi::ErrorCode::kFailed, "interrupted"};
   if (const auto reset = list_.Reset(); !reset) return reset.error();
   record(list_);
   const double start = clock_ms(options_);

@@ -48,7 +48,7 @@ ShaderLibrary interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spi
   hlsl::InterpretOptions options;
   if (spirv) {
     hlsl::SpirvLibrary compiled = hlsl::compile_spirv(*module);
-    error = compiled.error;
+    error = compiled.error.message();
     if (!error.empty()) return {};
     options.spirv = std::move(compiled.modules);
   }
@@ -69,7 +69,7 @@ ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& 
                          : spirv ? hlsl::Optimisation::kNone
                                  : hlsl::Optimisation::kFull;
   const hlsl::SharedObject object = hlsl::build_library(compiler, module, options);
-  error = object.error;
+  error = object.error.message();
   if (!error.empty()) return {};
   const auto library = LoadShaderLibraryFromFile(object.path.string());
   if (library.ok()) return *library;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "rtapi/src/error_table.h"
 #include "runtime/hlsl/driver/build_library.h"
 #include "runtime/hlsl/driver/frontend.h"
 #include "runtime/hlsl/driver/host_compiler.h"
@@ -52,15 +53,16 @@ std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
   std::vector<ShaderDiagnostic> out;
   for (const hlsl::Diagnostic& diagnostic : engine.diagnostics()) {
     const hlsl::ResolvedLocation place = sources.resolve(diagnostic.location);
-    out.push_back({severity_of(diagnostic.severity), hlsl::diagnostic_code(diagnostic.id),
+    out.push_back({severity_of(diagnostic.severity), ErrorId{static_cast<uint16_t>(diagnostic.id)},
                    std::string(place.path), place.line, place.column, diagnostic.message,
                    hlsl::render(diagnostic, sources)});
   }
   return out;
 }
 
-Error error(const char* id, ErrorCode code, const std::string& text) {
-  return {id, code, std::string(id) + " " + text};
+Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& failure) {
+  const auto id = failure.id == 0 ? detail::Id::kCompilerFailed : detail::Id(failure.id);
+  return detail::MakeError(id, options.File, ": ", failure.text);
 }
 
 // Builds the emitted code and loads it.
@@ -70,8 +72,8 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
   if (!compiler) {
     out.Status =
-        error("KA2750", ErrorCode::kNotFound,
-              missing + "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
+        detail::MakeError(detail::Id::kNoCompiler, missing,
+                          "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
     return;
   }
   hlsl::BuildOptions settings;
@@ -79,11 +81,8 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
   settings.spirv = options.Spirv;
   const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
-  if (!object.error.empty()) {
-    // What the SPIR-V failed by has an id of its own.
-    const bool has_id = object.error.starts_with("KA");
-    out.Status = has_id ? Error{object.error.substr(0, 6), ErrorCode::kFailed, object.error}
-                        : error("KA2751", ErrorCode::kFailed, options.File + ": " + object.error);
+  if (object.error) {
+    out.Status = failed(options, object.error);
     return;
   }
   out.FromCache = object.from_cache;
@@ -101,8 +100,8 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
   if (options.InterpretStepLimit != 0) settings.step_limit = options.InterpretStepLimit;
   if (options.Spirv) {
     hlsl::SpirvLibrary spirv = hlsl::compile_spirv(*module);
-    if (!spirv.error.empty()) {
-      out.Status = Error{spirv.error.substr(0, 6), ErrorCode::kFailed, spirv.error};
+    if (spirv.error) {
+      out.Status = failed(options, spirv.error);
       return;
     }
     settings.spirv = std::move(spirv.modules);
@@ -110,7 +109,7 @@ void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::
   std::string problem;
   const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
   if (interpreted == nullptr) {
-    out.Status = error("KA2753", ErrorCode::kFailed, problem);
+    out.Status = detail::MakeError(detail::Id::kInterpreterFailed, problem);
     return;
   }
   const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
@@ -133,9 +132,8 @@ ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
   out.Diagnostics = convert(diagnostics, sources);
   out.Dependencies = sources.loaded_paths();
   if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
-    out.Status =
-        error("KA2752", ErrorCode::kInvalidArgument,
-              options.File + " does not compile:\n" + hlsl::render_all(diagnostics, sources));
+    out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
+                                   hlsl::render_all(diagnostics, sources));
     return out;
   }
   if (options.Interpret) {

@@ -7,13 +7,13 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::runtime {
 namespace {
 
 rtapi::Error refused(const std::string& text) {
-  return {"KA0898", rtapi::ErrorCode::kDeviceRemoved,
-          "KA0898 indirect arguments cannot be used: " + text};
+  return make_error(Id::kIndirectArguments, text);
 }
 
 class Reader {

@@ -34,7 +34,7 @@ struct MessageEntry {
 };
 // Sorted by id.
 std::span<const MessageEntry> message_table();
-std::string id_text(Id id);  // "KA0417"
+rtapi::ErrorId public_id(Id id);
 
 // Thread-safe.
 class Reporter {

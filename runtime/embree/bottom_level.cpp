@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/instance_node.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/structures/build_inputs.h"
@@ -41,11 +42,10 @@ const char* text_of(RTCError error) {
 rtapi::Status embree_status(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return {};
-  return rtapi::Error{
-      "KA0792",
+  return runtime::make_error(
+      runtime::Id::kBuildFailed,
       error == RTC_ERROR_OUT_OF_MEMORY ? rtapi::ErrorCode::kOutOfMemory : rtapi::ErrorCode::kFailed,
-      std::string("KA0792 bottom level could not be built: Embree reports ") + text_of(error) +
-          " (" + what + ")."};
+      std::string("Embree reports ") + text_of(error) + " for a bottom level (" + what + ").");
 }
 
 RTCSceneFlags scene_flags(BuildFlags flags, bool robust) {

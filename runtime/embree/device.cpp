@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/shader/texture/format_codec.h"
 
@@ -55,9 +56,8 @@ int arena_threads(uint32_t wanted) {
 }
 
 rtapi::Error out_of_memory(const std::string& what, uint64_t bytes) {
-  return rtapi::Error{"KA0990", rtapi::ErrorCode::kOutOfMemory,
-                      "KA0990 out of memory: " + what + " of " + std::to_string(bytes) +
-                          " bytes could not be allocated."};
+  return runtime::make_error(runtime::Id::kOutOfMemory, what + " of " + std::to_string(bytes) +
+                                                            " bytes could not be allocated.");
 }
 
 }  // namespace
@@ -83,9 +83,10 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
       config.find("isa=sse") == std::string::npos ? fastest_pack_filter() : filter_pack_sse2;
   device->embree_ = rtcNewDevice(config.c_str());
   if (device->embree_ == nullptr) {
-    return rtapi::Error{"KA0992", rtapi::ErrorCode::kFailed,
-                        "KA0992 Embree could not be started: error " +
-                            std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + "."};
+    return runtime::make_error(runtime::Id::kEmbreeUnusable,
+                               "it does not start: error " +
+                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) +
+                                   ".");
   }
   if (auto s = device->check_embree(); !s) return s.error();
   rtcSetDeviceMemoryMonitorFunction(device->embree_, count_bytes, device.get());
@@ -117,9 +118,9 @@ rtapi::Status Device::check_embree() const {
   };
   for (const Need& need : needs) {
     if ((rtcGetDeviceProperty(embree_, need.property) != 0) == need.wanted) continue;
-    return rtapi::Error{"KA0992", rtapi::ErrorCode::kUnsupported,
-                        std::string("KA0992 this build of Embree cannot be used: it was built ") +
-                            (need.wanted ? "without " : "with ") + need.name + "."};
+    return runtime::make_error(
+        runtime::Id::kEmbreeUnusable, rtapi::ErrorCode::kUnsupported,
+        std::string("it was built ") + (need.wanted ? "without " : "with ") + need.name + ".");
   }
   return {};
 }
@@ -205,8 +206,8 @@ void Device::reset_statistics() {
   counters_ = {};
 }
 
-void Device::warn(const char* id, const std::string& text) const {
-  context_.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
+void Device::warn(runtime::Id id, const std::string& text) const {
+  context_.message(runtime::make_message(id, text));
 }
 
 const runtime::BackendFactory& backend_factory() {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
@@ -61,7 +62,7 @@ class Device final : public runtime::BackendDevice {
   DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get(), &context_}; }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);
-  void warn(const char* id, const std::string& text) const;
+  void warn(runtime::Id id, const std::string& text) const;
 
  private:
   Device(const rtapi::DeviceDesc& desc, const runtime::Context& context);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
@@ -132,18 +133,19 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
   result.missing.unknown[which] = problems.unknown != RecordProblems::kNone;
   const std::string where = std::string(" (") + label + ").";
   if (const uint64_t index = problems.out_of_bounds; index != RecordProblems::kNone) {
-    result.warnings.push_back(
-        {"KA0895", std::string(name) + " table: record " + std::to_string(index) +
-                       " was reached, the table has " + std::to_string(table.count()) +
-                       ", and nothing ran for it" + where +
-                       " Do SizeInBytes, StrideInBytes and the index terms agree?"});
+    result.warnings.push_back({runtime::Id::kRecordOutOfBounds,
+                               std::string(name) + " table: record " + std::to_string(index) +
+                                   " was reached, the table has " + std::to_string(table.count()) +
+                                   ", and nothing ran for it" + where +
+                                   " Do SizeInBytes, StrideInBytes and the index terms agree?"});
   }
   if (const uint64_t index = problems.unknown; index != RecordProblems::kNone) {
     result.warnings.push_back(
-        {"KA0896", std::string(name) + " table: record " + std::to_string(index) +
-                       " holds no identifier of that kind of this pipeline, and nothing ran for "
-                       "it" +
-                       where + " Was it written, and with an identifier of this state object?"});
+        {runtime::Id::kRecordUnknown,
+         std::string(name) + " table: record " + std::to_string(index) +
+             " holds no identifier of that kind of this pipeline, and nothing ran for "
+             "it" +
+             where + " Was it written, and with an identifier of this state object?"});
   }
 }
 
@@ -231,9 +233,9 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
     result.warnings.push_back(
-        {"KA0894", "rays were traced against address " + std::to_string(address) +
-                       ", where no top level stands, and missed (" + dispatch.label +
-                       "). Was it built, and not overwritten or freed since?"});
+        {runtime::Id::kNoTopLevel, "no top level stands at address " + std::to_string(address) +
+                                       "; the rays missed (" + dispatch.label +
+                                       "). Was it built, and not overwritten or freed since?"});
   }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,
@@ -247,9 +249,8 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   warn("ray generation", runtime::RecordKind::kRayGeneration, one_record,
        dispatch.ray_generation_problems);
   if (dispatch.removed) {
-    const std::string id = dispatch.removal.message.substr(0, 6);
     result.status =
-        rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, std::move(dispatch.removal.message)};
+        runtime::make_error(runtime::removal_id(dispatch.removal.reason), dispatch.removal.text);
   }
   return result;
 }

@@ -11,6 +11,7 @@
 
 #include <rtapi/result.h>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/embree/worker.h"
 
@@ -29,7 +30,7 @@ struct DispatchResult {
   Counters counters;
   // Something ran, or did not run, in a way that the application may not have meant: id and text.
   struct Warning {
-    const char* id;
+    runtime::Id id;
     std::string text;
   };
   std::vector<Warning> warnings;

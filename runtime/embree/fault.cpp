@@ -152,25 +152,23 @@ std::string hexadecimal(uintptr_t value) {
   return text;
 }
 
-std::string message_of(const Worker& worker) {
-  const std::string limit = std::to_string(worker.dispatch->max_recursion_depth);
+std::string detail_of(const Worker& worker) {
   switch (worker.fault_reason) {
     case shader::RemovalReason::kRecursionDepth:
-      return "KA0890 TraceRay past the recursion limit: the pipeline declares "
-             "MaxTraceRecursionDepth " +
-             limit + " and a shader at that depth called TraceRay";
+      return "the pipeline declares MaxTraceRecursionDepth " +
+             std::to_string(worker.dispatch->max_recursion_depth) +
+             " and a shader at that depth called TraceRay";
     case shader::RemovalReason::kStackOverflow:
-      return "KA0891 the shader stack is used up: calls are nested too deep";
+      return "calls are nested too deep";
     case shader::RemovalReason::kFault:
-      return std::string("KA0892 shader code failed: ") + name_of(worker.fault_signal) +
-             " at address " + hexadecimal(worker.fault_address) +
+      return std::string(name_of(worker.fault_signal)) + " at address " +
+             hexadecimal(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is not "
              "there";
     case shader::RemovalReason::kStepLimit:
-      return "KA0897 an interpreted shader used up its limit of steps: it may loop for ever. "
-             "Otherwise raise ShaderCompileOptions::InterpretStepLimit";
+      return "it may loop for ever. Otherwise raise ShaderCompileOptions::InterpretStepLimit";
     default:
-      return "KA0893 the shader asked for the device's removal";
+      return "it called for it";
   }
 }
 
@@ -216,16 +214,16 @@ void remove_device(Worker& worker, shader::RemovalReason reason) {
 
 void record_removal(Worker& worker) {
   DispatchState& dispatch = *worker.dispatch;
-  std::string message = message_of(worker) + " (" + dispatch.label;
+  std::string text = detail_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
-    message += std::string(", shader \"") + worker.running->name + "\" at (" +
-               std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
-               "," + std::to_string(worker.fault_index[2]) + ")";
+    text += std::string(", shader \"") + worker.running->name + "\" at (" +
+            std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
+            "," + std::to_string(worker.fault_index[2]) + ")";
   }
-  message += ").";
+  text += ").";
   const std::lock_guard lock(dispatch.mutex);
   if (dispatch.removed.exchange(true)) return;
-  dispatch.removal = {worker.fault_reason, std::move(message)};
+  dispatch.removal = {worker.fault_reason, std::move(text)};
 }
 
 }  // namespace kaamos::embree

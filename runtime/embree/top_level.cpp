@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
@@ -152,9 +153,9 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   }
   if (geometry != nullptr) rtcReleaseGeometry(geometry);
   if (rtcGetDeviceError(context.device) != RTC_ERROR_NONE || level->scene_ == nullptr) {
-    return rtapi::Error{"KA0792", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0792 top level could not be built: Embree has no memory for " +
-                            std::to_string(instances.size()) + " instances."};
+    return runtime::make_error(runtime::Id::kBuildFailed, rtapi::ErrorCode::kOutOfMemory,
+                               "Embree has no memory for a top level of " +
+                                   std::to_string(instances.size()) + " instances.");
   }
   return level;
 }

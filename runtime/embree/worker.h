@@ -56,7 +56,7 @@ struct Counters {
 // Why a device was removed: the first fault of a dispatch.
 struct Removal {
   shader::RemovalReason reason = shader::RemovalReason::kOther;
-  std::string message;
+  std::string text;
 };
 
 // A texture as large as the dispatch: each invocation mostly reads or writes the texel with its own

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/backend/errors.h"
+
 namespace kaamos::runtime {
 namespace {
 
@@ -110,12 +112,12 @@ uint32_t index_bytes(Format format) {
 
 rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uint64_t bytes,
                       uint64_t available) {
-  return rtapi::Error{
-      "KA0790", rtapi::ErrorCode::kInvalidArgument,
-      "KA0790 build input outside its buffer: geometry " + std::to_string(geometry) + ", " + what +
-          " at address " + std::to_string(address) + " needs " + std::to_string(bytes) +
+  return make_error(
+      Id::kInputOutOfBounds,
+      "geometry " + std::to_string(geometry) + ", " + what + " at address " +
+          std::to_string(address) + " needs " + std::to_string(bytes) +
           " bytes, its allocation has " + std::to_string(available) +
-          " from there. Check address, count and stride, and that the buffer still lives."};
+          " from there. Check address, count and stride, and that the buffer still lives.");
 }
 
 rtapi::Status check_range(uint32_t geometry, const char* what, uint64_t address, uint64_t bytes,
@@ -138,13 +140,13 @@ rtapi::Status check_triangles(const RaytracingGeometryTrianglesDesc& desc, uint3
   const bool indexed = desc.IndexFormat != Format::kUnknown;
   if (format.decode == nullptr ||
       (indexed && desc.IndexFormat != Format::kR16Uint && desc.IndexFormat != Format::kR32Uint)) {
-    return rtapi::Error{
-        "KA0791", rtapi::ErrorCode::kInvalidArgument,
-        "KA0791 format not allowed in a build: geometry " + std::to_string(index) +
-            " has DXGI vertex format " + std::to_string(static_cast<uint32_t>(desc.VertexFormat)) +
-            " and index format " + std::to_string(static_cast<uint32_t>(desc.IndexFormat)) +
+    return make_error(
+        Id::kInputFormat,
+        "geometry " + std::to_string(index) + " has DXGI vertex format " +
+            std::to_string(static_cast<uint32_t>(desc.VertexFormat)) + " and index format " +
+            std::to_string(static_cast<uint32_t>(desc.IndexFormat)) +
             "; allowed are the vertex formats of D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC, and "
-            "R16_UINT, R32_UINT or UNKNOWN for indices."};
+            "R16_UINT, R32_UINT or UNKNOWN for indices.");
   }
   const uint64_t vertices = span_bytes(desc.VertexCount, vertex_stride(desc), format.bytes);
   if (auto s = check_range(index, "vertices", desc.VertexBuffer.StartAddress, vertices, addresses);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::runtime {
 namespace {
@@ -19,7 +20,7 @@ std::string at(const AddressMap& addresses, uint64_t address) {
 }
 
 rtapi::Error instance_error(const std::string& what) {
-  return {"KA0796", rtapi::ErrorCode::kInvalidArgument, "KA0796 " + what};
+  return make_error(Id::kStructureSource, what);
 }
 
 rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const AddressMap& addresses,
@@ -93,8 +94,9 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
     const char* note = activate(environment.structures, instances[i]);
     if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
     if (written++ >= kMostNotes) continue;
-    environment.warn("KA0797", "top level " + at(*environment.context.addresses, top_level) +
-                                   ", instance " + std::to_string(i) + ": " + note + ".");
+    environment.warn(Id::kInstanceInactive,
+                     "top level " + at(*environment.context.addresses, top_level) + ", instance " +
+                         std::to_string(i) + ": " + note + ".");
   }
   return instances;
 }

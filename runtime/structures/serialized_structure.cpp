@@ -5,6 +5,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "runtime/backend/errors.h"
 #include "runtime/structures/serialized_identifier.h"
 
 namespace kaamos::runtime {
@@ -169,8 +170,7 @@ class Parser {
 
  private:
   static rtapi::Error error(const std::string& what) {
-    return {"KA0789", rtapi::ErrorCode::kInvalidArgument,
-            "KA0789 serialized acceleration structure cannot be read: " + what + "."};
+    return make_error(Id::kSerializedData, what + ".");
   }
   template <typename T>
   bool get(T& value) {

@@ -148,7 +148,7 @@ TEST(SerializedStructure, EveryCutAndEveryChangedByteIsSeen) {
       const std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<long>(size));
       const auto parsed = parse_serialized(cut);
       ASSERT_FALSE(parsed) << size;
-      EXPECT_EQ(parsed.error().id, "KA0789");
+      EXPECT_EQ(parsed.error().id.text(), "KA0789");
     }
     for (size_t i = 0; i < bytes.size(); ++i) {
       const bool patchable = i >= sizeof(Header) && i < sizeof(Header) + pointers * 8;
@@ -197,7 +197,7 @@ TEST(SerializedStructure, SealedDamageNamesNoOtherBytes) {
       const auto parsed = parse_serialized(changed);
       if (!parsed) {
         ++refused;
-        EXPECT_EQ(parsed.error().id, "KA0789");
+        EXPECT_EQ(parsed.error().id.text(), "KA0789");
         continue;
       }
       ++accepted;

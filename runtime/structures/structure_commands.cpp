@@ -34,10 +34,6 @@ std::string at(const AddressMap& addresses, uint64_t address) {
   return "at " + describe_address(addresses, address);
 }
 
-rtapi::Error build_error(const char* id, const std::string& what) {
-  return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
-}
-
 // The structure to update, or why it cannot be updated.
 rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     const StructureEnvironment& environment, const BuildCommand& command) {
@@ -45,40 +41,35 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
   auto source = environment.structures.find(command.source);
   if (source == nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
-    return build_error("KA0793",
-                       "update from a source that is no acceleration structure of this "
-                       "type, " +
-                           at(addresses, command.source) + ".");
+    return make_error(Id::kUpdate, "the source is no acceleration structure of this type, " +
+                                       at(addresses, command.source) + ".");
   }
   if (!HasAny(source->flags, BuildFlags::kAllowUpdate)) {
-    return build_error("KA0793",
-                       "update of an acceleration structure that was built without "
-                       "ALLOW_UPDATE, " +
-                           at(addresses, command.source) + ".");
+    return make_error(Id::kUpdate,
+                      "it was built without ALLOW_UPDATE, " + at(addresses, command.source) + ".");
   }
   // For bottom levels check_update reports it.
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
   if (command.type == Type::kTopLevel &&
       (command.flags & ~kMayDiffer) != (source->flags & ~kMayDiffer)) {
-    return build_error("KA0793", "update with build flags " +
-                                     std::to_string(static_cast<uint32_t>(command.flags)) +
-                                     " of a top level built with " +
-                                     std::to_string(static_cast<uint32_t>(source->flags)) +
-                                     ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
+    return make_error(Id::kUpdate, "build flags " +
+                                       std::to_string(static_cast<uint32_t>(command.flags)) +
+                                       " where the top level was built with " +
+                                       std::to_string(static_cast<uint32_t>(source->flags)) +
+                                       ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
   }
   if (command.type == Type::kTopLevel && source->instance_count != command.instance_count) {
-    return build_error("KA0793", "update of a top level changes NumDescs from " +
-                                     std::to_string(source->instance_count) + " to " +
-                                     std::to_string(command.instance_count) + ".");
+    return make_error(Id::kUpdate, "NumDescs of a top level changes from " +
+                                       std::to_string(source->instance_count) + " to " +
+                                       std::to_string(command.instance_count) + ".");
   }
   return source;
 }
 
 rtapi::Status update_error(uint32_t geometry, const std::string& what) {
-  return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
-                      "KA0793 update changes more than DXR allows: geometry " +
-                          std::to_string(geometry) + ", " + what +
-                          ". Only vertex data, transforms and boxes may change; build anew."};
+  return make_error(Id::kUpdate,
+                    "more changes than DXR allows: geometry " + std::to_string(geometry) + ", " +
+                        what + ". Only vertex data, transforms and boxes may change; build anew.");
 }
 
 rtapi::Status write_info(const StructureEnvironment& environment, uint64_t address, InfoType type,
@@ -104,8 +95,8 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
   }
   const AddressMap& addresses = *environment.context.addresses;
   if (!addresses.contains(address, bytes)) {
-    return build_error("KA0795", "postbuild info does not fit: it takes " + std::to_string(bytes) +
-                                     " bytes " + at(addresses, address) + ".");
+    return make_error(Id::kResultTooSmall, "postbuild info takes " + std::to_string(bytes) +
+                                               " bytes " + at(addresses, address) + ".");
   }
   std::memcpy(addresses.host(address), values, bytes);
   return {};
@@ -117,10 +108,9 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
   try {
     return build_level(source, structure);
   } catch (const std::bad_alloc&) {
-    return rtapi::Error{
-        "KA0990", rtapi::ErrorCode::kOutOfMemory,
-        "KA0990 out of memory: copies of the inputs of the acceleration structure at address " +
-            std::to_string(structure.address) + " could not be allocated."};
+    return make_error(Id::kOutOfMemory,
+                      "copies of the inputs of the acceleration structure at address " +
+                          std::to_string(structure.address) + " could not be allocated.");
   }
 }
 
@@ -129,11 +119,11 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
 rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes) {
   const uint64_t available = addresses.bytes_from(address);
   if (bytes <= available) return {};
-  return build_error("KA0795", "acceleration structure does not fit: " + std::to_string(bytes) +
-                                   " bytes " + at(addresses, address) + ", and there are " +
-                                   std::to_string(available) +
-                                   " from there on. Size it by "
-                                   "GetRaytracingAccelerationStructurePrebuildInfo.");
+  return make_error(Id::kResultTooSmall, "an acceleration structure of " + std::to_string(bytes) +
+                                             " bytes " + at(addresses, address) +
+                                             ", and there are " + std::to_string(available) +
+                                             " from there on. Size it by "
+                                             "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
 
 bool overlap(uint64_t a, uint64_t b, uint64_t bytes) {
@@ -144,8 +134,8 @@ uint64_t compacted_size(uint64_t size_bytes, uint64_t held_bytes) {
   return std::min(size_bytes, round_up(kHeaderBytes + held_bytes));
 }
 
-void StructureEnvironment::warn(const char* id, const std::string& text) const {
-  context.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
+void StructureEnvironment::warn(Id id, const std::string& text) const {
+  context.message(make_message(id, text));
 }
 
 rtapi::RaytracingAccelerationStructurePrebuildInfo estimate_sizes(
@@ -199,12 +189,11 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (source != nullptr && command.dest != source->address &&
       overlap(command.dest, source->address, source->size_bytes)) {
-    return build_error("KA0793", "update of the acceleration structure " +
-                                     at(addresses, source->address) + " into the one " +
-                                     at(addresses, command.dest) + ": each takes " +
-                                     std::to_string(source->size_bytes) +
-                                     " bytes, and they overlap. Update in place, or into other "
-                                     "memory.");
+    return make_error(Id::kUpdate, "the acceleration structure " + at(addresses, source->address) +
+                                       " into the one " + at(addresses, command.dest) +
+                                       ": each takes " + std::to_string(source->size_bytes) +
+                                       " bytes, and they overlap. Update in place, or into other "
+                                       "memory.");
   }
   if (auto s = guarded(build_level, source.get(), structure); !s) return s;
   structure.compacted_bytes = source != nullptr
@@ -231,8 +220,9 @@ rtapi::Status emit_postbuild_info(
   for (const uint64_t source : sources) {
     const auto structure = environment.structures.find(source);
     if (structure == nullptr) {
-      return build_error("KA0796", "postbuild info of what is no acceleration structure, " +
-                                       at(*environment.context.addresses, source) + ".");
+      return make_error(Id::kStructureSource,
+                        "postbuild info is asked of what is no acceleration structure, " +
+                            at(*environment.context.addresses, source) + ".");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(environment, address, desc.InfoType, *structure, bytes); !s) return s;
@@ -245,10 +235,9 @@ rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, u
   if (primitive_count(desc) <= rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
     return {};
   }
-  return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
-                      "KA0794 too many primitives: geometry " + std::to_string(index) + " has " +
-                          std::to_string(primitive_count(desc)) +
-                          ", a bottom level holds at most 2^29."};
+  return make_error(Id::kTooManyElements, "geometry " + std::to_string(index) + " has " +
+                                              std::to_string(primitive_count(desc)) +
+                                              ", a bottom level holds at most 2^29.");
 }
 
 rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags built_flags,
@@ -256,15 +245,13 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
                            BuildFlags flags) {
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
   if (!HasAny(built_flags, BuildFlags::kAllowUpdate)) {
-    return rtapi::Error{"KA0793", rtapi::ErrorCode::kInvalidArgument,
-                        "KA0793 update of a bottom level that was built without ALLOW_UPDATE."};
+    return make_error(Id::kUpdate, "the bottom level was built without ALLOW_UPDATE.");
   }
   if ((flags & ~kMayDiffer) != (built_flags & ~kMayDiffer)) {
-    return rtapi::Error{
-        "KA0793", rtapi::ErrorCode::kInvalidArgument,
-        "KA0793 update with build flags " + std::to_string(static_cast<uint32_t>(flags)) +
-            " of a bottom level built with " + std::to_string(static_cast<uint32_t>(built_flags)) +
-            ": only ALLOW_UPDATE and PERFORM_UPDATE may differ."};
+    return make_error(Id::kUpdate, "build flags " + std::to_string(static_cast<uint32_t>(flags)) +
+                                       " where the bottom level was built with " +
+                                       std::to_string(static_cast<uint32_t>(built_flags)) +
+                                       ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
   }
   if (geometries.size() != built.size()) {
     return update_error(static_cast<uint32_t>(geometries.size()),
@@ -294,9 +281,10 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
 void warn_out_of_range(const StructureEnvironment& environment, uint64_t address,
                        uint64_t triangles) {
   if (triangles == 0) return;
-  environment.warn("KA0798", "bottom level " + at(*environment.context.addresses, address) + ": " +
-                                 std::to_string(triangles) +
-                                 " triangles have an index past VertexCount and are never hit.");
+  environment.warn(Id::kIndexOutOfRange,
+                   "bottom level " + at(*environment.context.addresses, address) + ": " +
+                       std::to_string(triangles) +
+                       " triangles have an index past VertexCount and are never hit.");
 }
 
 }  // namespace kaamos::runtime

@@ -16,6 +16,7 @@
 
 #include "runtime/backend/backend.h"
 #include "runtime/backend/commands.h"
+#include "runtime/backend/errors.h"
 #include "runtime/structures/structure_map.h"
 
 namespace kaamos::runtime {
@@ -24,7 +25,7 @@ struct StructureEnvironment {
   const Context& context;
   StructureMap& structures;
   const char* backend_name;  // for messages
-  void warn(const char* id, const std::string& text) const;
+  void warn(Id id, const std::string& text) const;
 };
 
 // Upper bounds from counts and flags alone, growing with every count. Backends keep the structures

@@ -104,7 +104,7 @@ TEST_F(FarDevice, InstancesAreReadAsArrayAndThroughPointers) {
   EXPECT_EQ((*instances)[0].world_to_object[3], -10);
   EXPECT_EQ((*instances)[1].bottom_level, nullptr);
   ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].Id, "KA0797");
+  EXPECT_EQ(messages_[0].Id.text(), "KA0797");
   const uint64_t pointers[] = {kAddress + 4096 + 64, kAddress + 4096};
   std::memcpy(bytes_ + 6000, pointers, sizeof(pointers));
   command.instance_descs = kAddress + 6000;
@@ -115,7 +115,7 @@ TEST_F(FarDevice, InstancesAreReadAsArrayAndThroughPointers) {
   command.instance_descs = kAddress + sizeof(bytes_) - 8;
   const auto outside = read_instances(environment(), command);
   ASSERT_FALSE(outside);
-  EXPECT_EQ(outside.error().id, "KA0796");
+  EXPECT_EQ(outside.error().id.text(), "KA0796");
 }
 
 TEST_F(FarDevice, InputsAreDecodedThroughTheHostsAddresses) {
@@ -145,7 +145,7 @@ TEST_F(FarDevice, ABuildWithoutMemoryIsAnError) {
                         throw std::bad_alloc();
                       });
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0990");
+  EXPECT_EQ(status.error().id.text(), "KA0990");
   EXPECT_EQ(status.error().code, rtapi::ErrorCode::kOutOfMemory);
   EXPECT_EQ(map_.find(kAddress), nullptr);
 }

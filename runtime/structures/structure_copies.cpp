@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/backend/dispatch_checks.h"
+#include "runtime/backend/errors.h"
 #include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::runtime {
@@ -17,17 +18,12 @@ namespace {
 using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
 using Type = rtapi::RaytracingAccelerationStructureType;
 
-rtapi::Error copy_error(const char* id, const std::string& what) {
-  return {id, rtapi::ErrorCode::kInvalidArgument, std::string(id) + " " + what};
-}
-
 std::string at(const AddressMap& addresses, uint64_t address) {
   return "at " + describe_address(addresses, address);
 }
 
 rtapi::Error out_of_memory(const std::string& what) {
-  return {"KA0990", rtapi::ErrorCode::kOutOfMemory,
-          "KA0990 out of memory: " + what + " could not be allocated."};
+  return make_error(Id::kOutOfMemory, what + " could not be allocated.");
 }
 
 // The host bytes to write for serialization and tools.
@@ -37,10 +33,11 @@ rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment
   const AddressMap& addresses = *environment.context.addresses;
   const uint64_t available = addresses.bytes_from(command.dest);
   if (bytes > available) {
-    return copy_error("KA0795", std::string(what) + " does not fit: " + std::to_string(bytes) +
-                                    " bytes " + at(addresses, command.dest) + ", and there are " +
-                                    std::to_string(available) +
-                                    " from there on. Size it by postbuild info " + info_type + ".");
+    return make_error(Id::kResultTooSmall, std::string(what) + ": " + std::to_string(bytes) +
+                                               " bytes " + at(addresses, command.dest) +
+                                               ", and there are " + std::to_string(available) +
+                                               " from there on. Size it by postbuild info " +
+                                               info_type + ".");
   }
   environment.structures.evict(command.dest, bytes);
   return std::span<uint8_t>(addresses.host(command.dest), bytes);
@@ -103,7 +100,7 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
     for (uint32_t i = 0; i < parsed->instances.size(); ++i) {
       const uint64_t address = parsed->instances[i].AccelerationStructure;
       if (address == 0 || addresses.bytes_from(address) != 0) continue;
-      return copy_error("KA0789",
+      return make_error(Id::kSerializedData,
                         "serialized acceleration structure cannot be read: the bottom "
                         "level of instance " +
                             std::to_string(i) + " is " + at(addresses, address) +
@@ -126,8 +123,8 @@ rtapi::Status copy(const StructureEnvironment& environment,
   const AddressMap& addresses = *environment.context.addresses;
   const auto source = environment.structures.find(command.source);
   if (source == nullptr) {
-    return copy_error("KA0796", "copy of what is no acceleration structure, " +
-                                    at(addresses, command.source) + ".");
+    return make_error(Id::kStructureSource, "a copy from what is no acceleration structure, " +
+                                                at(addresses, command.source) + ".");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
@@ -148,7 +145,7 @@ rtapi::Status copy(const StructureEnvironment& environment,
   result.host = environment.context.addresses->host(command.dest);
   if (command.mode == CopyMode::kCompact) {
     if (!rtapi::HasAny(source->flags, BuildFlags::kAllowCompaction)) {
-      return copy_error("KA0796",
+      return make_error(Id::kStructureSource,
                         "compaction of an acceleration structure that was built without "
                         "ALLOW_COMPACTION, " +
                             at(addresses, command.source) + ".");
@@ -158,10 +155,10 @@ rtapi::Status copy(const StructureEnvironment& environment,
   // The source is at least as long as the copy.
   const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
   if (overlap(command.dest, command.source, clear)) {
-    return copy_error("KA0796", "copy of the acceleration structure " +
-                                    at(addresses, command.source) + " to " +
-                                    describe_address(addresses, command.dest) +
-                                    ": they overlap. Copy into other memory.");
+    return make_error(Id::kStructureSource, "copy of the acceleration structure " +
+                                                at(addresses, command.source) + " to " +
+                                                describe_address(addresses, command.dest) +
+                                                ": they overlap. Copy into other memory.");
   }
   // Both refer to the same immutable tree; updating one of them in place first makes it a tree of
   // its own.

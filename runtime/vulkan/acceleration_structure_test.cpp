@@ -86,7 +86,7 @@ TEST(VulkanScene, IndicesAndTransforms) {
   EXPECT_NEAR(caster.cast_along_z(scene, 100).t, 4, 1e-4);
   EXPECT_EQ(caster.cast_along_z(scene, 110).primitive, 1u);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0798");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0798");
 }
 
 // Triangles at 4 * i, one of which has a NaN or another odd number in a corner.
@@ -153,7 +153,7 @@ TEST(VulkanScene, UnusableInstancesAreInactiveWithAMessage) {
   EXPECT_EQ(hit.instance, 4u);
   EXPECT_NEAR(hit.t, 3, 1e-4);
   ASSERT_EQ(h.messages.size(), 4u);
-  for (const auto& message : h.messages) EXPECT_EQ(message.Id, "KA0797");
+  for (const auto& message : h.messages) EXPECT_EQ(message.Id.text(), "KA0797");
   EXPECT_NE(h.messages[0].Text.find("singular"), std::string::npos);
 }
 
@@ -222,7 +222,7 @@ TEST(VulkanScene, UpdatesInPlaceAndElsewhere) {
   command.geometries[0].Triangles.VertexCount = 2;
   const auto status = h.build(command);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0793");
+  EXPECT_EQ(status.error().id.text(), "KA0793");
 }
 
 TEST(VulkanScene, ClonesAndCompaction) {
@@ -292,7 +292,7 @@ TEST(VulkanScene, SealedDamageIsAnErrorOrBuilds) {
       runtime::seal_serialized(std::span(saved->host(), size));
       const auto status = h.copy(copy);
       if (!status) {
-        EXPECT_EQ(status.error().id.substr(0, 4), "KA07") << status.error().message;
+        EXPECT_EQ(status.error().id.text().substr(0, 4), "KA07") << status.error().message;
         continue;
       }
       ++built;
@@ -332,7 +332,7 @@ TEST(VulkanScene, WhatIsTooLargeIsAnError) {
   command.dest = h.buffer(16)->address();
   auto status = h.build(command);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0795");
+  EXPECT_EQ(status.error().id.text(), "KA0795");
   const auto instances = std::vector<rtapi::RaytracingInstanceDesc>(2);
   auto top = h.top_level_command(instances);
   top.instance_count = 1 << 20;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -111,10 +112,11 @@ rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
     index = array.free.front();
     array.free.pop_front();
   } else {
-    return rtapi::Error{"KA0956", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0956 too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
-                            " alive: the Vulkan backend has room for " +
-                            std::to_string(array.size - 1) + "; free textures that are not used."};
+    return runtime::make_error(runtime::Id::kVulkanLimit,
+                               "too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
+                                   " alive: the Vulkan backend has room for " +
+                                   std::to_string(array.size - 1) +
+                                   "; free textures that are not used.");
   }
   write(which, index, image);
   return index;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/dispatch.h"
 #include "runtime/vulkan/memory.h"
@@ -60,7 +61,7 @@ class Device final : public runtime::BackendDevice {
             &check_memory_, &context_};
   }
   void add(const rtapi::RaytracingStatistics& statistics);
-  void warn(const char* id, const std::string& text) const;
+  void warn(runtime::Id id, const std::string& text) const;
   // Tells checked mode's layer about the command, once memory is as the command will find it.
   rtapi::Status observe(const runtime::Command& command, const std::string& label);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/checks.h"
 #include "runtime/vulkan/fault_guard.h"
 #include "runtime/vulkan/state_object.h"
@@ -90,10 +91,10 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
   table.source = {environment_.memory->host(address, size_bytes), address, size_bytes,
                   stride_bytes};
   if (table.source.host != nullptr) return {};
-  return rtapi::Error{"KA0892", rtapi::ErrorCode::kDeviceRemoved,
-                      "KA0892 the " + std::string(name) + " table at address " +
-                          std::to_string(address) + ", " + std::to_string(size_bytes) +
-                          " bytes, does not lie in a living buffer (" + label_ + ")."};
+  return runtime::make_error(runtime::Id::kShaderFault,
+                             "the " + std::string(name) + " table at address " +
+                                 std::to_string(address) + ", " + std::to_string(size_bytes) +
+                                 " bytes, does not lie in a living buffer (" + label_ + ").");
 }
 
 rtapi::Status RaysDispatch::find_tables() {
@@ -124,11 +125,11 @@ rtapi::Status RaysDispatch::check_stack() const {
       record->shader->stack_bytes <= command_.pipeline_stack_bytes) {
     return {};
   }
-  return rtapi::Error{"KA0891", rtapi::ErrorCode::kDeviceRemoved,
-                      "KA0891 the shader stack is used up: \"" + record->name + "\" takes " +
-                          std::to_string(record->shader->stack_bytes) +
-                          " bytes, SetPipelineStackSize gave " +
-                          std::to_string(command_.pipeline_stack_bytes) + " (" + label_ + ")."};
+  return runtime::make_error(
+      runtime::Id::kShaderStack,
+      "\"" + record->name + "\" takes " + std::to_string(record->shader->stack_bytes) +
+          " bytes, SetPipelineStackSize gave " + std::to_string(command_.pipeline_stack_bytes) +
+          " (" + label_ + ").");
 }
 
 // A driver computes the index of the hit record itself, so there must be null records up to the
@@ -147,13 +148,13 @@ rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record
     table.offset = layout_.aligned(offset);
     // Drivers compute offsets in tables in 32 bits.
     if (table.records > UINT32_MAX / stride) {
-      return rtapi::Error{"KA0956", rtapi::ErrorCode::kUnsupported,
-                          "KA0956 the " + std::string(table.name) + " table needs " +
-                              std::to_string(table.records) + " records, " +
-                              std::to_string(UINT32_MAX / stride) +
-                              " are possible on Vulkan; lower InstanceContributionToHitGroupIndex "
-                              "or the number of geometries (" +
-                              label_ + ")."};
+      return runtime::make_error(
+          runtime::Id::kVulkanTableLimit,
+          "the " + std::string(table.name) + " table needs " + std::to_string(table.records) +
+              " records, " + std::to_string(UINT32_MAX / stride) +
+              " are possible on Vulkan; lower InstanceContributionToHitGroupIndex "
+              "or the number of geometries (" +
+              label_ + ").");
     }
     offset = table.offset + table.records * stride;
   }
@@ -170,7 +171,7 @@ void RaysDispatch::write_table(const Table& table) {
   std::memset(out + count * stride, 0, (table.records - count) * stride);
   if (unknown == kNoRecord) return;
   result_.warnings.push_back(
-      {"KA0896",
+      {runtime::Id::kRecordUnknown,
        std::string(table.name) + " table: record " + std::to_string(unknown) +
            " holds no identifier of that kind of this pipeline, and nothing runs for it (" +
            label_ + "). Was it written, and with an identifier of this state object?"});
@@ -180,10 +181,10 @@ void RaysDispatch::warn_of_structure() {
   DispatchStatus status;
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
-  result_.warnings.push_back(
-      {"KA0894", "rays were traced against address " + std::to_string(status.unknown_structure) +
-                     ", where no top level stands, and missed (" + label_ +
-                     "). Was it built, and not overwritten or freed since?"});
+  result_.warnings.push_back({runtime::Id::kNoTopLevel,
+                              "no top level stands at address " +
+                                  std::to_string(status.unknown_structure) + "; the rays missed (" +
+                                  label_ + "). Was it built, and not overwritten or freed since?"});
 }
 
 GridLimits RaysDispatch::limits() const {
@@ -272,10 +273,10 @@ constexpr char kWhoseAddress[] =
 rtapi::Error fault_at(uint64_t address, const std::string& label) {
   char number[2 + 16 + 1];
   std::snprintf(number, sizeof(number), "0x%llx", static_cast<unsigned long long>(address));
-  return rtapi::Error{"KA0892", rtapi::ErrorCode::kDeviceRemoved,
-                      std::string("KA0892 shader code failed: access to memory that is not there "
-                                  "at address ") +
-                          number + kWhoseAddress + " (" + label + ")."};
+  return runtime::make_error(runtime::Id::kShaderFault,
+                             std::string("access to memory that is not there "
+                                         "at address ") +
+                                 number + kWhoseAddress + " (" + label + ").");
 }
 
 // Whether a shader removed the device, and why.
@@ -284,36 +285,31 @@ rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32
   DispatchStatus status;
   std::memcpy(&status, buffer.host(), sizeof(status));
   if (status.removal_reason == 0) return {};
-  std::string id = "KA0893";
-  std::string text = "the shader asked for the device's removal";
-  switch (static_cast<shader::RemovalReason>(status.removal_reason - 1)) {
+  const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
+  std::string text = "it called for it";
+  switch (reason) {
     case shader::RemovalReason::kRecursionDepth:
-      id = "KA0890";
-      text = "TraceRay past the recursion limit: the pipeline declares MaxTraceRecursionDepth " +
-             std::to_string(declared_depth) + " and a shader at that depth called TraceRay";
+      text = "the pipeline declares MaxTraceRecursionDepth " + std::to_string(declared_depth) +
+             " and a shader at that depth called TraceRay";
       if (depth_limit < declared_depth) {
-        text =
-            "TraceRay past the recursion limit: with such payloads this Vulkan device allows a "
-            "depth of " +
-            std::to_string(depth_limit) +
-            " and a shader at that depth called TraceRay; the pipeline declares "
-            "MaxTraceRecursionDepth " +
-            std::to_string(declared_depth);
+        text = "with such payloads this Vulkan device allows a depth of " +
+               std::to_string(depth_limit) +
+               " and a shader at that depth called TraceRay; the pipeline declares "
+               "MaxTraceRecursionDepth " +
+               std::to_string(declared_depth);
       }
       break;
     case shader::RemovalReason::kStackOverflow:
-      id = "KA0891";
-      text = "the shader stack is used up: calls are nested too deep";
+      text = "calls are nested too deep";
       break;
     case shader::RemovalReason::kFault:
-      id = "KA0892";
-      text = std::string("shader code failed: an address that no memory has") + kWhoseAddress;
+      text = std::string("an address that no memory has") + kWhoseAddress;
       break;
     case shader::RemovalReason::kOther:
     case shader::RemovalReason::kStepLimit:
       break;
   }
-  return rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, id + " " + text + " (" + label + ")."};
+  return runtime::make_error(runtime::removal_id(reason), text + " (" + label + ").");
 }
 
 }  // namespace

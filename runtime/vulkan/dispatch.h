@@ -10,6 +10,7 @@
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/dispatch_split.h"
@@ -49,7 +50,7 @@ struct DispatchResult {
   rtapi::Status status;
   // Something ran, or did not run, in a way that the application may not have meant: id and text.
   struct Warning {
-    const char* id;
+    runtime::Id id;
     std::string text;
   };
   std::vector<Warning> warnings;

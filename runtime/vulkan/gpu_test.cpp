@@ -28,7 +28,7 @@ TEST(Gpu, NoDeviceOfThatNameListsThoseThereAre) {
   KAAMOS_NEED_GPU(gpu);
   const auto none = Gpu::create("no such device");
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().id, "KA0953");
+  EXPECT_EQ(none.error().id.text(), "KA0953");
   EXPECT_NE(none.error().message.find(gpu->info().Name), std::string::npos);
 }
 
@@ -63,7 +63,7 @@ TEST(Gpu, TooMuchMemoryIsAnErrorThatNamesIt) {
   KAAMOS_NEED_GPU(gpu);
   const auto buffer = gpu->create_buffer(uint64_t{1} << 60, "the huge buffer");
   ASSERT_FALSE(buffer);
-  EXPECT_EQ(buffer.error().id, "KA0956");
+  EXPECT_EQ(buffer.error().id.text(), "KA0956");
   EXPECT_EQ(buffer.error().code, rtapi::ErrorCode::kOutOfMemory);
   EXPECT_NE(buffer.error().message.find("the huge buffer"), std::string::npos);
   EXPECT_NE(buffer.error().message.find("1152921504606846976"), std::string::npos);
@@ -94,7 +94,7 @@ TEST(Gpu, RunCopiesOnTheQueue) {
 TEST(Gpu, ALostDeviceSaysWhatRan) {
   KAAMOS_NEED_GPU(gpu);
   const auto lost = gpu->error(VK_ERROR_DEVICE_LOST, "DispatchRays, command 3");
-  EXPECT_EQ(lost.id, "KA0955");
+  EXPECT_EQ(lost.id.text(), "KA0955");
   EXPECT_EQ(lost.code, rtapi::ErrorCode::kDeviceRemoved);
   EXPECT_NE(lost.message.find("DispatchRays, command 3"), std::string::npos);
   EXPECT_NE(lost.message.find(gpu->info().Name), std::string::npos);

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/texture_format.h"
 
 namespace kaamos::vulkan {
@@ -151,9 +152,8 @@ VkImageCreateInfo Image::create_info() const {
 
 rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
   const auto unsupported = [&](const std::string& why) {
-    return rtapi::Error{"KA0960", rtapi::ErrorCode::kUnsupported,
-                        "KA0960 texture " + describe(desc_) + " not supported by " +
-                            gpu_->info().Name + ": " + why + "."};
+    return runtime::make_error(runtime::Id::kTextureUnsupported,
+                               describe(desc_) + " on " + gpu_->info().Name + ": " + why + ".");
   };
   if (info.format == VK_FORMAT_UNDEFINED) {
     return unsupported("textures of this format are not known to the Vulkan backend");
@@ -250,11 +250,10 @@ std::optional<TextureViewDesc> Image::storage_view(uint64_t index) const {
 
 rtapi::Status Image::check_view(const TextureViewDesc& desc) const {
   const auto unsupported = [&](const std::string& why) {
-    return rtapi::Error{"KA0961", rtapi::ErrorCode::kUnsupported,
-                        "KA0961 view with DXGI format " +
-                            std::to_string(static_cast<uint32_t>(desc.format)) + " of texture " +
-                            describe(desc_) + " not supported by " + gpu_->info().Name + ": " +
-                            why + "."};
+    return runtime::make_error(runtime::Id::kViewUnsupported,
+                               "DXGI format " + std::to_string(static_cast<uint32_t>(desc.format)) +
+                                   " of texture " + describe(desc_) + " on " + gpu_->info().Name +
+                                   ": " + why + ".");
   };
   const TextureFormat format = texture_format(desc.format);
   if (format.format == VK_FORMAT_UNDEFINED) return unsupported("there is no such texture format");

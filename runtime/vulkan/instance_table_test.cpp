@@ -73,7 +73,7 @@ TEST(InstanceTable, MoreThanItsIndexHasBitsIsAnError) {
   const auto range = table->add({static_cast<const InstanceEntry*>(zeros), kTooMany});
   std::free(zeros);
   ASSERT_FALSE(range);
-  EXPECT_EQ(range.error().id, "KA0794");
+  EXPECT_EQ(range.error().id.text(), "KA0794");
   EXPECT_TRUE(table->add(entries_of(10, 1)));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/sampler.h"
+#include "runtime/backend/errors.h"
 
 #include <algorithm>
 #include <cstring>
@@ -53,8 +54,8 @@ std::optional<VkBorderColor> fixed_border(const float color[4]) {
 }
 
 rtapi::Error lacking(const Gpu& gpu, const char* what) {
-  return rtapi::Error{"KA0962", rtapi::ErrorCode::kUnsupported,
-                      "KA0962 sampler not supported: " + gpu.info().Name + " has no " + what + "."};
+  return runtime::make_error(runtime::Id::kSamplerUnsupported,
+                             gpu.info().Name + " has no " + what + ".");
 }
 
 // Replaces numbers that comparisons and clamps cannot handle by plain ones.

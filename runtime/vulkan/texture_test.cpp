@@ -158,7 +158,7 @@ TEST(VulkanTexture, EveryWritableFormatIsStoredAndCleared) {
     auto texture = h.textures->create_texture(desc);
     if (!texture) {
       // Formats without unordered access, and 96-bit and alpha-only ones.
-      EXPECT_EQ(texture.error().id, "KA0960");
+      EXPECT_EQ(texture.error().id.text(), "KA0960");
       continue;
     }
     ASSERT_NE(codec.encode, nullptr);
@@ -423,11 +423,11 @@ TEST(VulkanTexture, WhatTheDeviceLacksIsAnError) {
   for (const Format format : {Format::kBC1Unorm, Format::kD32Float, Format::kUnknown}) {
     const auto texture = h.textures->create_texture(desc_of(4, 4, 1, 1, format));
     ASSERT_FALSE(texture);
-    EXPECT_EQ(texture.error().id, "KA0960");
+    EXPECT_EQ(texture.error().id.text(), "KA0960");
   }
   const auto large = h.textures->create_texture(desc_of(1u << 20, 1, 1, 1, Format::kR8Unorm));
   ASSERT_FALSE(large);
-  EXPECT_EQ(large.error().id, "KA0960");
+  EXPECT_EQ(large.error().id.text(), "KA0960");
 }
 
 TEST(VulkanSampler, EqualOnesAreOne) {

@@ -167,7 +167,7 @@ TEST(Tracing, NestsToTheDeclaredDepthAndRemovesTheDeviceBeyond) {
     for (int i = 0; i < 8; ++i) EXPECT_EQ(words_of(out)[i], depth);
     result = bench.rays(*pipeline, desc, {out->address(), 0, 0, 200});
     ASSERT_FALSE(result.status);
-    EXPECT_EQ(result.status.error().id, "KA0890");
+    EXPECT_EQ(result.status.error().id.text(), "KA0890");
     EXPECT_THAT(result.status.error().message,
                 HasSubstr("MaxTraceRecursionDepth " + std::to_string(depth) + " "));
   }

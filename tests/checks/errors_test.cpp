@@ -19,7 +19,7 @@ class Errors : public World {
     const Status status = execute(commands);
     ASSERT_FALSE(status.ok());
     const std::string text = status.error().message;
-    EXPECT_EQ(status.error().id, id) << text;
+    EXPECT_EQ(status.error().id.text(), id) << text;
     EXPECT_EQ(text.substr(0, id.size()), id) << text;
     for (const std::string& part : parts) {
       EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in: " << text;

@@ -96,7 +96,7 @@ std::vector<std::string> Context::reports() const {
   if (!shared_->messages) return out;
   for (const Message& message : *shared_->messages) {
     if (message.Severity == MessageSeverity::kInfo) continue;
-    if (message.Id >= "KA0400" && message.Id < "KA0500") out.push_back(message.Text);
+    if (message.Id.number >= 400 && message.Id.number < 500) out.push_back(message.Text);
   }
   return out;
 }
@@ -133,7 +133,7 @@ void Context::close(const std::string& what, float found, float expected, float 
 void Context::refused(const std::string& what, const Status& status, const char* id) {
   if (status) {
     fail(what + ": accepted, expected an error");
-  } else if (id != nullptr && status.error().id != id) {
+  } else if (id != nullptr && status.error().id.text() != id) {
     fail(what + ": expected " + id + ", found " + status.error().message);
   }
 }

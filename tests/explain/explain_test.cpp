@@ -197,9 +197,9 @@ TEST_P(Explain, AFaultOfAShaderEndsTheReplayAndTheTreeUpToThereIsReturned) {
 TEST_P(Explain, ErrorsNameWhatIsWrong) {
   CommandList list = record();
   CommandQueue none;
-  EXPECT_EQ(ExplainPixel(none, list, {}).error().id, "KA0904");
+  EXPECT_EQ(ExplainPixel(none, list, {}).error().id.text(), "KA0904");
   CommandList empty;
-  EXPECT_EQ(ExplainPixel(queue_, empty, {}).error().id, "KA0904");
+  EXPECT_EQ(ExplainPixel(queue_, empty, {}).error().id.text(), "KA0904");
   EXPECT_EQ(ExplainPixel(queue_, list, {.X = 4}).error().message,
             "KA0916 cannot be explained: index (4, 0, 0) is outside of the dispatch (4 x 1 x 1)");
   CommandList again = record();

@@ -99,8 +99,8 @@ TEST_P(Tables, WhatCannotBeAsItWasMeantIsAProblem) {
 TEST_P(Tables, ErrorsNameWhatIsWrong) {
   TableDescriptionDesc desc;
   desc.Dispatch = dispatch_;
-  EXPECT_EQ(DescribeShaderTables({}, pipeline_, desc).error().id, "KA0904");
-  EXPECT_EQ(DescribeShaderTables(device_, {}, desc).error().id, "KA0904");
+  EXPECT_EQ(DescribeShaderTables({}, pipeline_, desc).error().id.text(), "KA0904");
+  EXPECT_EQ(DescribeShaderTables(device_, {}, desc).error().id.text(), "KA0904");
   desc.TopLevel = results_.GetGPUVirtualAddress();
-  EXPECT_EQ(DescribeShaderTables(device_, pipeline_, desc).error().id, "KA0915");
+  EXPECT_EQ(DescribeShaderTables(device_, pipeline_, desc).error().id.text(), "KA0915");
 }

@@ -43,7 +43,7 @@ Device single_threaded_device(const std::string& backend, std::vector<std::strin
   if (told != nullptr) {
     desc.Checked = true;
     desc.OnMessage = [told](const Message& message) {
-      const bool of_compiling = message.Id == "KA0423" || message.Id == "KA0424";
+      const bool of_compiling = message.Id.number == 423 || message.Id.number == 424;
       if (message.Severity != MessageSeverity::kInfo && !of_compiling) {
         told->push_back(message.Text);
       }

@@ -237,7 +237,7 @@ TEST(Sbt23, AnIndexPastTheTableRunsNothing) {
   ray.miss_shader_index = 8;
   EXPECT_EQ(h.trace(ray).end, End::kNothing);
   ASSERT_EQ(h.messages.size(), 2u);
-  EXPECT_EQ(h.messages[0].Id, "KA0895");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0895");
   EXPECT_NE(h.messages[0].Text.find("record 16777215"), std::string::npos) << h.messages[0].Text;
   EXPECT_NE(h.messages[1].Text.find("miss table: record 8 was reached, the table has 8"),
             std::string::npos)
@@ -261,7 +261,7 @@ TEST(Sbt24, GarbageInUnreachedRecordsIsHarmless) {
   // An unknown identifier that is reached runs nothing.
   EXPECT_EQ(h.trace(ray_along_z(row_of_geometries(h, 0))).end, End::kNothing);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0896");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0896");
 }
 
 TEST(Sbt26, AllShadersOfAGroupSeeTheSameRecord) {

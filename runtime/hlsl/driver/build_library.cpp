@@ -27,11 +27,11 @@ SharedObject build_library(const HostCompiler& compiler, const ir::Module& modul
     content += shaders.back().text;
   }
   content += spirv_version();
-  const auto make_source = [&](std::string& error) -> std::string {
+  const auto make_source = [&](BuildFailure& error) -> std::string {
     std::vector<std::vector<uint32_t>> modules;
     for (size_t i = 0; i < shaders.size(); ++i) {
       SpirvModule spirv = compile_spirv(shaders[i], module.entry_points[i].name);
-      if (!spirv.error.empty()) {
+      if (spirv.error) {
         error = std::move(spirv.error);
         return {};
       }

@@ -238,11 +238,11 @@ fs::path cache_folder() {
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
                                  Optimisation optimisation, const fs::path& cache) {
   return build_shared_object(
-      compiler, source, [&](std::string&) { return source; }, optimisation, cache);
+      compiler, source, [&](BuildFailure&) { return source; }, optimisation, cache);
 }
 
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& content,
-                                 const std::function<std::string(std::string& error)>& make_source,
+                                 const std::function<std::string(BuildFailure& error)>& make_source,
                                  Optimisation optimisation, const fs::path& cache) {
   SharedObject out;
   std::error_code failed;
@@ -255,14 +255,15 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
     return out;
   }
   const std::string source = make_source(out.error);
-  if (!out.error.empty()) {
+  if (out.error) {
     return out;
   }
   // A folder of this build's own; the object moves out of it in one step.
   std::string work = (cache / "build-XXXXXX").string();
   if (mkdtemp(work.data()) == nullptr) {
-    out.error = "cannot write to the shader cache " + cache.string() + ": " + std::strerror(errno) +
-                "; set $KAAMOS_CACHE_DIR to a folder that can be written";
+    out.error.text = "cannot write to the shader cache " + cache.string() + ": " +
+                     std::strerror(errno) +
+                     "; set $KAAMOS_CACHE_DIR to a folder that can be written";
     return out;
   }
   const fs::path folder = work;
@@ -274,10 +275,10 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
     file << source;
     file.flush();
     if (!file) {
-      out.error = "cannot write " + source_path.string() + ": " + std::strerror(errno);
+      out.error.text = "cannot write " + source_path.string() + ": " + std::strerror(errno);
     }
   }
-  if (out.error.empty()) {
+  if (!out.error) {
     std::vector<std::string> words = {compiler.program.string()};
     const auto& flags = flags_of(optimisation);
     words.insert(words.end(), flags.begin(), flags.end());
@@ -287,15 +288,16 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
     if (code == 0) {
       fs::rename(built, object, failed);
       if (failed) {
-        out.error = "cannot write " + object.string() + ": " + failed.message();
+        out.error.text = "cannot write " + object.string() + ": " + failed.message();
       } else {
         out.path = object;
       }
     } else if (code < 0) {
-      out.error = "cannot run " + words[0] + ": " + std::strerror(errno);
+      out.error.text = "cannot run " + words[0] + ": " + std::strerror(errno);
     } else {
-      out.error = words[0] + " failed with exit code " + std::to_string(code) +
-                  " on the emitted C++, its first messages:\n" + first_lines(read_file(log), 12);
+      out.error.text = words[0] + " failed with exit code " + std::to_string(code) +
+                       " on the emitted C++, its first messages:\n" +
+                       first_lines(read_file(log), 12);
     }
   }
   fs::remove_all(folder, failed);

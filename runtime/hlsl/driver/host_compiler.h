@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "runtime/hlsl/ir/build_failure.h"
+
 namespace kaamos::hlsl {
 
 struct HostCompiler {
@@ -21,7 +23,7 @@ enum class Optimisation { kNone, kDebug, kFull };  // -O0, -Og -g, -O2
 struct SharedObject {
   std::filesystem::path path;  // empty: error says why
   bool from_cache = false;
-  std::string error;  // what, which program, its first messages, what to do
+  BuildFailure error;  // what, which program, its first messages, what to do
 };
 
 // `wanted`, else $KAAMOS_CXX, else the compiler that built Kaamos, else c++, g++, clang++ in $PATH.
@@ -43,7 +45,7 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
 // The same where the source is costly to make: `content` has everything that it depends on, and
 // `make_source` runs only if the cache has no object. It sets `error` where it cannot.
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& content,
-                                 const std::function<std::string(std::string& error)>& make_source,
+                                 const std::function<std::string(BuildFailure& error)>& make_source,
                                  Optimisation optimisation, const std::filesystem::path& cache);
 
 }  // namespace kaamos::hlsl

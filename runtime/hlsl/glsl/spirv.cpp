@@ -53,17 +53,20 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
   // glslang has 11 bits for the number of a constant; a binding takes four.
   constexpr size_t kMostConstants = 2047;
   if (shader.constants.size() > kMostConstants) {
-    out.error = "KA2761 '" + name + "' reaches " + std::to_string(shader.constants.size() / 4) +
-                " bindings, and a shader with SPIR-V can have 511: use arrays of resources or "
-                "ResourceDescriptorHeap, or go without SPIR-V (-no-spirv, "
-                "ShaderCompileOptions::Spirv = false)";
+    out.error.id = kSpirvBindings;
+    out.error.text = "'" + name + "' reaches " + std::to_string(shader.constants.size() / 4) +
+                     " bindings, and a shader with SPIR-V can have 511: use arrays of resources or "
+                     "ResourceDescriptorHeap, or go without SPIR-V (-no-spirv, "
+                     "ShaderCompileOptions::Spirv = false)";
     return out;
   }
   const auto fail = [&](const char* log) {
-    out.error = "KA2760 internal error: the SPIR-V of '" + name +
-                "' cannot be made (-no-spirv, ShaderCompileOptions::Spirv = false go without it), "
-                "please report it with its HLSL: " +
-                log;
+    out.error.id = kSpirvFailed;
+    out.error.text =
+        "internal error: the SPIR-V of '" + name +
+        "' cannot be made (-no-spirv, ShaderCompileOptions::Spirv = false go without it), "
+        "please report it with its HLSL: " +
+        log;
     return out;
   };
   const EShLanguage stage = language(shader.stage);
@@ -104,7 +107,7 @@ SpirvLibrary compile_spirv(const ir::Module& module) {
   SpirvLibrary out;
   for (const ir::EntryPoint& entry : module.entry_points) {
     SpirvModule spirv = compile_spirv(emit_glsl(module, entry), entry.name);
-    if (!spirv.error.empty()) {
+    if (spirv.error) {
       out.error = std::move(spirv.error);
       break;
     }

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "runtime/hlsl/glsl/emit_glsl.h"
+#include "runtime/hlsl/ir/build_failure.h"
 #include "runtime/hlsl/ir/ir.h"
 
 namespace kaamos::hlsl {
 
 struct SpirvModule {
   std::vector<uint32_t> words;  // empty on failure
-  // KA2760, a fault of the emitter: the export, glslang's messages; KA2761 too many bindings.
-  std::string error;
+  BuildFailure error;           // kSpirvFailed: the export, glslang's messages; kSpirvBindings
 };
 
 // The entry point of the module is "main", for Vulkan 1.3. `name` is the export's, for the error.
@@ -24,7 +24,7 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name);
 // Every entry point of a module, in its order. The error is the first one's.
 struct SpirvLibrary {
   std::vector<std::vector<uint32_t>> modules;
-  std::string error;
+  BuildFailure error;
 };
 SpirvLibrary compile_spirv(const ir::Module& module);
 

@@ -255,7 +255,7 @@ TEST(Interpret, WithoutACompilerTheErrorNamesTheInterpreter) {
   options.CxxCompiler = "/no/such/compiler";
   const rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
   ASSERT_FALSE(compiled.Status.ok());
-  EXPECT_EQ(compiled.Status.error().id, "KA2750");
+  EXPECT_EQ(compiled.Status.error().id.text(), "KA2750");
   EXPECT_NE(compiled.Status.error().message.find("ShaderCompileOptions::Interpret"),
             std::string::npos)
       << compiled.Status.error().message;
