@@ -200,7 +200,7 @@ const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* ind
   if (binding->is_array) node->operands.push_back(build_.convert(index, ir::Scalar::kUint32));
   binding->uses.push_back(node);
   binding_of_[node] = binding;
-  if (function_) function_->bindings.push_back(binding);
+  if (lower_.function_) lower_.function_->bindings.push_back(binding);
   return node;
 }
 

@@ -12,10 +12,10 @@ Checker::Checker(const CheckOptions& options, const SourceManager& sources,
       diagnostics_(diagnostics),
       module_(std::make_unique<ir::Module>()),
       types_(*module_),
-      build_(*module_, types_) {
+      build_(*module_, types_),
+      lower_(*this) {
   global_ = make_scope(ScopeKind::kGlobal, nullptr);
-  scope_ = global_;
-  block_ = &no_block_;
+  lower_.scope_ = global_;
 }
 
 void Checker::report_with_notes(CheckId id, SourceLocation location,

@@ -48,8 +48,8 @@ void Checker::declare_all(std::span<const Decl* const> declarations, Scope* scop
 }
 
 void Checker::declare(const Decl* declaration, Scope* scope) {
-  if (depth_ > 100) return;
-  ++depth_;
+  if (lower_.depth_ > 100) return;
+  ++lower_.depth_;
   switch (declaration->kind) {
     case DeclKind::kVariable:
       declare_variable(static_cast<const VariableDecl*>(declaration), scope);
@@ -93,7 +93,7 @@ void Checker::declare(const Decl* declaration, Scope* scope) {
     case DeclKind::kParameter:
       break;
   }
-  --depth_;
+  --lower_.depth_;
 }
 
 void Checker::declare_namespace(const NamespaceDecl* decl, Scope* scope) {
@@ -277,11 +277,11 @@ void Checker::declare_static(const VariableDecl* decl, const Type* type, Scope* 
       type = types_.error();
     } else {
       ir::Block ignored;
-      BodyScope body(*this, function_, &ignored, scope);
-      std::vector<Piece> pieces;
-      collect_pieces(list, pieces, 0);
+      Lowerer::BodyScope body(lower_, lower_.function_, &ignored, scope);
+      std::vector<Lowerer::Piece> pieces;
+      lower_.collect_pieces(list, pieces, 0);
       uint64_t count = 0;
-      for (const Piece& piece : pieces) count += flat_component_count(piece.type);
+      for (const Lowerer::Piece& piece : pieces) count += flat_component_count(piece.type);
       const uint64_t element = std::max<uint64_t>(1, flat_component_count(type->element));
       type = types_.array(type->element, static_cast<uint32_t>(std::max<uint64_t>(
                                              1, std::min<uint64_t>(count / element, 1u << 20))));
@@ -324,12 +324,13 @@ void Checker::initialise(VariableInfo* variable) {
   }
   variable->initialiser_facts = std::make_unique<FunctionInfo>();
   {
-    BodyScope body(*this, variable->initialiser_facts.get(), &variable->start_up, variable->scope);
+    Lowerer::BodyScope body(lower_, variable->initialiser_facts.get(), &variable->start_up,
+                            variable->scope);
     visible_ = variable->sequence;
     at(variable->decl->location);
-    const ir::Expr* value = initial_value(variable->decl->initializer, variable->type);
+    const ir::Expr* value = lower_.initial_value(variable->decl->initializer, variable->type);
     if (value && !variable->start_up.empty()) {
-      assign(variable->variable, value);
+      lower_.assign(variable->variable, value);
     } else if (value) {
       variable->variable->initialiser = value;
       if (variable->is_const && is_constant(value)) {
@@ -450,11 +451,11 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
       symbol && !function->is_template ? same_signature(symbol, *function) : nullptr;
   if (before) {
     if (!same_type(before->result, function->result) && !function->signature_failed) {
-      report(CheckId::kReturnTypeDiffers, decl->location, {describe(*before)});
+      report(CheckId::kReturnTypeDiffers, decl->location, {lower_.describe(*before)});
       return;
     }
     if (before->definition && decl->body) {
-      report(CheckId::kFunctionRedefined, decl->location, {describe(*before)});
+      report(CheckId::kFunctionRedefined, decl->location, {lower_.describe(*before)});
       return;
     }
     if (decl->body) {

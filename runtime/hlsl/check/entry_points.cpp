@@ -137,12 +137,13 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
     valid = false;
   }
   // The body is checked even where the signature is wrong, so that all errors come in one run.
-  lower_function(function, location);
+  lower_.lower_function(function, location);
   const bool parameters = stage == ir::kStageCompute ? check_compute_parameters(function, entry)
                                                      : check_ray_parameters(function, entry);
   if (!valid || !parameters || !function->ir) return;
   if (!entry.function) entry.function = function->ir;
-  if (stage != ir::kStageCompute && stage != ir::kStageCallable) wrap_payload(function, entry);
+  if (stage != ir::kStageCompute && stage != ir::kStageCallable)
+    lower_.wrap_payload(function, entry);
   entries_.push_back({function, module_->entry_points.size()});
   module_->entry_points.push_back(std::move(entry));
 }
@@ -258,7 +259,7 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
   wrapper->result = types_.void_type()->ir;
   wrapper->location = function->ir->location;
   wrapper->end_location = function->ir->end_location;
-  BodyScope body(*this, nullptr, &wrapper->body, function->scope);
+  Lowerer::BodyScope body(lower_, nullptr, &wrapper->body, function->scope);
   at(function->definition->location);
   bool plain = true;
   const auto value_of = [&](const Type* type, const Semantic* semantic, SourceLocation location,
@@ -281,7 +282,7 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
       ir::Variable* variable = build_.variable(std::string(name), own->ir, ir::Storage::kParameter);
       wrapper->parameters.push_back(variable);
       entry.parameters.push_back(source.parameter);
-      return convert_numeric(build_.read(variable), own, type);
+      return lower_.convert_numeric(build_.read(variable), own, type);
     }
     report(CheckId::kUnknownSemantic, semantic->location,
            {std::string(semantic->text), entry.name});
@@ -336,7 +337,7 @@ void Checker::add_library_functions() {
       continue;
     }
     for (const std::string& name : export_names(function)) {
-      lower_function(function, function->definition->location);
+      lower_.lower_function(function, function->definition->location);
       if (!function->ir) continue;
       std::vector<MangledParameter> parameters;
       for (const ParameterInfo& parameter : function->parameters) {

@@ -4,7 +4,7 @@
 
 namespace kaamos::hlsl {
 
-Value Checker::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
+Value Lowerer::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
                            std::span<Value> arguments, SourceLocation location) {
   size_t index = 0;
   statement->atomic = rule.op;
@@ -35,7 +35,7 @@ Value Checker::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
   return rvalue(build_.int32(0), types_.void_type());
 }
 
-Value Checker::call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
+Value Lowerer::call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
                                 SourceLocation location) {
   const size_t lowest = 2 + (rule.has_compare ? 1 : 0) + (rule.needs_result ? 1 : 0);
   const size_t highest = 2 + (rule.has_compare ? 1 : 0) + (rule.has_result ? 1 : 0);

@@ -12,7 +12,7 @@ constexpr int kMaxFunctionDepth = 200;
 
 }  // namespace
 
-Value Checker::lower_call(const CallExpr* expr) {
+Value Lowerer::lower_call(const CallExpr* expr) {
   if (const auto* member = as<MemberExpr>(expr->callee)) return call_method(member, expr);
   const auto* callee = as<NameExpr>(expr->callee);
   if (!callee) {
@@ -32,13 +32,13 @@ Value Checker::lower_call(const CallExpr* expr) {
     return error_value();
   }
   const QualifiedName& name = *callee->name;
-  Symbol* symbol = resolve_name(name, scope_, true);
+  Symbol* symbol = checker_.resolve_name(name, scope_, true);
   if (symbol &&
       (symbol->kind == SymbolKind::kType || symbol->kind == SymbolKind::kStructTemplate)) {
     const Type* type = symbol->type;
     if (symbol->kind == SymbolKind::kStructTemplate) {
       StructInfo* info =
-          instantiate_struct(symbol->struct_template, name.last(), expr->location, scope_);
+          checker_.instantiate_struct(symbol->struct_template, name.last(), expr->location, scope_);
       type = info ? info->type : types_.error();
     }
     return lower_construct(type, expr->arguments, expr->location);
@@ -86,11 +86,11 @@ Value Checker::lower_call(const CallExpr* expr) {
   if (name.parts.size() == 1) {
     if (auto result = call_builtin(name.last(), arguments, expr->location)) return *result;
   }
-  resolve_name(name, scope_, false);
+  checker_.resolve_name(name, scope_, false);
   return error_value();
 }
 
-Value Checker::call_method(const MemberExpr* callee, const CallExpr* call_expr) {
+Value Lowerer::call_method(const MemberExpr* callee, const CallExpr* call_expr) {
   const bool unused = result_unused_;
   std::vector<const Expr*> all = {callee->base};
   all.insert(all.end(), call_expr->arguments.begin(), call_expr->arguments.end());
@@ -130,17 +130,17 @@ Value Checker::call_method(const MemberExpr* callee, const CallExpr* call_expr) 
       if (info->decl && info->decl->name == qualifier) structure = info;
     }
   }
-  Symbol* symbol = find_member(structure, part.identifier);
+  Symbol* symbol = checker_.find_member(structure, part.identifier);
   if (!symbol || symbol->kind != SymbolKind::kFunctions) {
-    report_unknown(CheckId::kNoSuchMethod, location,
-                   {to_string(object.type), std::string(part.identifier)}, part.identifier,
-                   structure->scope, false);
+    checker_.report_unknown(CheckId::kNoSuchMethod, location,
+                            {to_string(object.type), std::string(part.identifier)}, part.identifier,
+                            structure->scope, false);
     return error_value();
   }
   return call_functions(symbol->functions, part, &object, std::move(arguments), location);
 }
 
-Value Checker::call_functions(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
+Value Lowerer::call_functions(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
                               const Value* object, std::vector<Value> arguments,
                               SourceLocation location) {
   FunctionInfo* function = resolve_overload(candidates, part, arguments, location, false);
@@ -152,7 +152,7 @@ Value Checker::call_functions(const std::vector<FunctionInfo*>& candidates, cons
   return call(function, &self, std::move(arguments), location);
 }
 
-Value Checker::call(FunctionInfo* function, const Value* object, std::vector<Value> arguments,
+Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Value> arguments,
                     SourceLocation location) {
   const bool unused = result_unused_;
   result_unused_ = false;
@@ -271,8 +271,8 @@ Value Checker::call(FunctionInfo* function, const Value* object, std::vector<Val
   return rvalue(build_.read(result), function->result);
 }
 
-ir::Function* Checker::make_ir_function(FunctionInfo* function) {
-  ir::Function* node = &module_->function_pool.emplace_back();
+ir::Function* Lowerer::make_ir_function(FunctionInfo* function) {
+  ir::Function* node = &checker_.module_->function_pool.emplace_back();
   node->name = function->qualified;
   node->result = function->result->ir;
   node->location = locate(function->definition->location);
@@ -302,7 +302,7 @@ ir::Function* Checker::make_ir_function(FunctionInfo* function) {
 }
 
 // Lowers a body when the first call needs it, so that callees end up before their callers.
-void Checker::lower_function(FunctionInfo* function, SourceLocation use) {
+void Lowerer::lower_function(FunctionInfo* function, SourceLocation use) {
   if (function->state == FunctionInfo::State::kDone) return;
   if (function->state == FunctionInfo::State::kLowering) {
     report(CheckId::kRecursion, use, {function->qualified});
@@ -310,8 +310,8 @@ void Checker::lower_function(FunctionInfo* function, SourceLocation use) {
   }
   if (!function->definition) {
     // A definition may stand behind the template's or the method's declaration.
-    report_with_notes(CheckId::kNoBody, use, {describe(*function)},
-                      {{function->decl->location, "declared here"}});
+    checker_.report_with_notes(CheckId::kNoBody, use, {describe(*function)},
+                               {{function->decl->location, "declared here"}});
     return;
   }
   if (function->signature_failed) return;
@@ -324,10 +324,10 @@ void Checker::lower_function(FunctionInfo* function, SourceLocation use) {
   const int depth = depth_;
   depth_ = 0;
   {
-    Scope* scope = make_scope(ScopeKind::kBlock, function->scope);
+    Scope* scope = checker_.make_scope(ScopeKind::kBlock, function->scope);
     ir::Block body;
     BodyScope saved(*this, function, &body, scope);
-    visible_ = function->body_sequence;
+    checker_.visible_ = function->body_sequence;
     function->ir = make_ir_function(function);
     size_t index = 0;
     if (function->owner && !function->is_static) {
@@ -337,17 +337,17 @@ void Checker::lower_function(FunctionInfo* function, SourceLocation use) {
     for (const ParameterInfo& parameter : function->parameters) {
       ir::Variable* variable = function->ir->parameters[index++];
       if (parameter.name.empty()) continue;
-      if (find_local(scope, parameter.name)) {
+      if (checker_.find_local(scope, parameter.name)) {
         report(CheckId::kRedefinition, parameter.decl->location, {std::string(parameter.name)});
         continue;
       }
-      VariableInfo* info = &variables_.emplace_back();
+      VariableInfo* info = &checker_.variables_.emplace_back();
       info->name = parameter.name;
       info->type = parameter.type;
       info->is_const = parameter.is_const;
       info->variable = variable;
-      add_symbol(scope, SymbolKind::kVariable, parameter.name, parameter.decl->location)->variable =
-          info;
+      checker_.add_symbol(scope, SymbolKind::kVariable, parameter.name, parameter.decl->location)
+          ->variable = info;
     }
     lower_block(function->definition->body->statements);
     if (!function->result->is_void() && !ends(body)) {

@@ -34,7 +34,7 @@ uint8_t scalar_rank(Scalar from, Scalar to) {
 
 }  // namespace
 
-Scalar Checker::common_scalar(Scalar a, Scalar b) {
+Scalar Lowerer::common_scalar(Scalar a, Scalar b) {
   if (a == b) return a;
   if (is_literal(b)) std::swap(a, b);
   if (is_literal(a)) {
@@ -53,7 +53,7 @@ Scalar Checker::common_scalar(Scalar a, Scalar b) {
   return is_signed_integer(a) ? b : a;
 }
 
-bool Checker::convertible_numeric(const Type* from, const Type* to, bool) {
+bool Lowerer::convertible_numeric(const Type* from, const Type* to, bool) {
   if (from->components() == 1 && !from->is_matrix()) return true;
   if (from->is_matrix() && to->is_matrix()) {
     return from->rows >= to->rows && from->columns >= to->columns;
@@ -63,7 +63,7 @@ bool Checker::convertible_numeric(const Type* from, const Type* to, bool) {
   return from->components() >= to->components();
 }
 
-ConversionRank Checker::rank(const Type* from, const Type* to) {
+ConversionRank Lowerer::rank(const Type* from, const Type* to) {
   ConversionRank result;
   if (from->is_error() || to->is_error()) {
     result.possible = true;
@@ -108,7 +108,7 @@ ConversionRank Checker::rank(const Type* from, const Type* to) {
   return result;
 }
 
-ConversionRank Checker::rank(const Value& value, const Type* to) {
+ConversionRank Lowerer::rank(const Value& value, const Type* to) {
   ConversionRank result;
   if (value.failed()) {
     result.possible = true;
@@ -123,7 +123,7 @@ ConversionRank Checker::rank(const Value& value, const Type* to) {
   return rank(value.type, to);
 }
 
-const Type* Checker::settled(const Type* type) {
+const Type* Lowerer::settled(const Type* type) {
   if (type->is_numeric() && type->scalar == Scalar::kLiteralInt) {
     return types_.with_scalar(type, Scalar::kInt32);
   }
@@ -133,7 +133,7 @@ const Type* Checker::settled(const Type* type) {
   return type;
 }
 
-Value Checker::settle(Value value) {
+Value Lowerer::settle(Value value) {
   if (value.failed() || !value.type || !value.type->is_numeric() ||
       !is_literal(value.type->scalar)) {
     return value;
@@ -155,7 +155,7 @@ Value Checker::settle(Value value) {
   return rvalue(build_.convert(value.expr, ir_scalar(scalar)), type);
 }
 
-const ir::Expr* Checker::convert_numeric(const ir::Expr* expr, const Type* from, const Type* to) {
+const ir::Expr* Lowerer::convert_numeric(const ir::Expr* expr, const Type* from, const Type* to) {
   const ir::Scalar scalar = ir_scalar(to->scalar);
   const bool same_shape = from->rows == to->rows && from->columns == to->columns;
   if (same_shape) return build_.convert(expr, scalar);
@@ -196,7 +196,7 @@ const ir::Expr* Checker::convert_numeric(const ir::Expr* expr, const Type* from,
   return build_.construct(to->ir, std::move(parts));
 }
 
-const ir::Expr* Checker::convert(const Value& value, const Type* to, SourceLocation location,
+const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocation location,
                                  bool is_explicit) {
   if (value.failed() || to->is_error() || (value.type && value.type->is_error())) return nullptr;
   at(location);
@@ -278,7 +278,7 @@ const ir::Expr* Checker::convert(const Value& value, const Type* to, SourceLocat
 }
 
 // `queue` is a stack: its back is the next piece.
-void Checker::split(const Piece& piece, std::vector<Piece>& queue) {
+void Lowerer::split(const Piece& piece, std::vector<Piece>& queue) {
   const Type* type = piece.type;
   const ir::Expr* expr = repeatable(piece.expr);
   std::vector<Piece> parts;
@@ -307,7 +307,7 @@ void Checker::split(const Piece& piece, std::vector<Piece>& queue) {
   queue.insert(queue.end(), parts.rbegin(), parts.rend());
 }
 
-const ir::Expr* Checker::take(const Type* type, std::vector<Piece>& queue, bool& failed,
+const ir::Expr* Lowerer::take(const Type* type, std::vector<Piece>& queue, bool& failed,
                               SourceLocation location) {
   if (failed || queue.empty()) {
     failed = true;
@@ -365,7 +365,7 @@ const ir::Expr* Checker::take(const Type* type, std::vector<Piece>& queue, bool&
   return failed ? nullptr : build_.construct(type->ir, std::move(parts));
 }
 
-const ir::Expr* Checker::build_from_pieces(const Type* type, std::vector<Piece> pieces,
+const ir::Expr* Lowerer::build_from_pieces(const Type* type, std::vector<Piece> pieces,
                                            SourceLocation location, bool allow_extra) {
   uint64_t available = 0;
   for (const Piece& piece : pieces) available += flat_component_count(piece.type);
@@ -379,16 +379,16 @@ const ir::Expr* Checker::build_from_pieces(const Type* type, std::vector<Piece> 
   if (needed == 0) return build_.zero(type->ir);
   std::reverse(pieces.begin(), pieces.end());
   bool failed = false;
-  const size_t errors = error_count_;
+  const size_t errors = checker_.error_count_;
   const ir::Expr* result = take(type, pieces, failed, location);
-  if (failed && errors == error_count_) {
+  if (failed && errors == checker_.error_count_) {
     report(CheckId::kInitialiserCount, location,
            {to_string(type), std::to_string(needed), std::to_string(available)});
   }
   return failed ? nullptr : result;
 }
 
-void Checker::collect_pieces(const InitListExpr* list, std::vector<Piece>& pieces, int depth) {
+void Lowerer::collect_pieces(const InitListExpr* list, std::vector<Piece>& pieces, int depth) {
   std::vector<const Expr*> leaves;
   const std::function<void(const InitListExpr*, int)> gather = [&](const InitListExpr* at_list,
                                                                    int level) {
@@ -412,7 +412,7 @@ void Checker::collect_pieces(const InitListExpr* list, std::vector<Piece>& piece
   }
 }
 
-const ir::Expr* Checker::lower_init_list(const InitListExpr* list, const Type* type) {
+const ir::Expr* Lowerer::lower_init_list(const InitListExpr* list, const Type* type) {
   if (type->is_error()) return nullptr;
   // `Texture2D t = {..}` and the like come down to one element.
   std::vector<Piece> pieces;
@@ -428,7 +428,7 @@ const ir::Expr* Checker::lower_init_list(const InitListExpr* list, const Type* t
   return build_from_pieces(type, std::move(pieces), list->location, false);
 }
 
-const ir::Expr* Checker::as_condition(const Value& value, SourceLocation location) {
+const ir::Expr* Lowerer::as_condition(const Value& value, SourceLocation location) {
   if (value.failed()) return nullptr;
   const Type* type = value.type;
   if (!type || !(type->is_scalar() || type->is_enum())) {

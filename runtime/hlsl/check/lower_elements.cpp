@@ -16,7 +16,7 @@ bool has_repeats(const std::vector<uint8_t>& components) {
 
 }  // namespace
 
-const ir::Expr* Checker::index_value(const Value& value, SourceLocation location) {
+const ir::Expr* Lowerer::index_value(const Value& value, SourceLocation location) {
   if (value.failed() || !value.type || value.type->is_error()) return nullptr;
   const Type* type = value.type;
   if (!(type->is_numeric() && type->components() == 1) && !type->is_enum()) {
@@ -29,7 +29,7 @@ const ir::Expr* Checker::index_value(const Value& value, SourceLocation location
                  true);
 }
 
-Value Checker::memory_element(const Value& base, const ir::Expr* index) {
+Value Lowerer::memory_element(const Value& base, const ir::Expr* index) {
   Value result = base;
   const Type* type = base.type;
   if (base.whole) {
@@ -60,7 +60,7 @@ Value Checker::memory_element(const Value& base, const ir::Expr* index) {
   return result;
 }
 
-Value Checker::element_of(const Value& base, const Value& index, SourceLocation location) {
+Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation location) {
   if (base.failed() || index.failed()) return error_value();
   const Type* type = base.type;
   const uint32_t limit = type->is_array()    ? type->count
@@ -85,7 +85,7 @@ Value Checker::element_of(const Value& base, const Value& index, SourceLocation 
     }
     result.offset = build_.add_scaled(base.offset, at_index, inner);
     if (result.type->is_array()) return result;
-    return rvalue(binding_value(base.binding, result.offset), result.type);
+    return rvalue(checker_.binding_value(base.binding, result.offset), result.type);
   }
   if (base.kind == ValueKind::kMemory) return memory_element(base, at_index);
   const Type* element = type->is_array()    ? type->element
@@ -114,7 +114,7 @@ Value Checker::element_of(const Value& base, const Value& index, SourceLocation 
   return result;
 }
 
-Value Checker::component_of(const Value& base, const std::vector<uint8_t>& components) {
+Value Lowerer::component_of(const Value& base, const std::vector<uint8_t>& components) {
   Value result = base;
   result.type = types_.vector(base.type->scalar, static_cast<uint32_t>(components.size()));
   if (has_repeats(components)) result.is_place = false;
@@ -137,7 +137,7 @@ Value Checker::component_of(const Value& base, const std::vector<uint8_t>& compo
   return result;
 }
 
-Value Checker::swizzle_of(const Value& base, std::string_view text, SourceLocation location) {
+Value Lowerer::swizzle_of(const Value& base, std::string_view text, SourceLocation location) {
   const uint32_t size = base.type->is_scalar() ? 1 : base.type->columns;
   std::vector<uint8_t> components;
   int set = -1;
@@ -166,7 +166,7 @@ Value Checker::swizzle_of(const Value& base, std::string_view text, SourceLocati
   return component_of(base, components);
 }
 
-Value Checker::matrix_swizzle_of(const Value& base, std::string_view text,
+Value Lowerer::matrix_swizzle_of(const Value& base, std::string_view text,
                                  SourceLocation location) {
   std::vector<uint8_t> components;
   bool valid = !text.empty();

@@ -9,7 +9,7 @@ constexpr int kMaxDepth = 1000;
 
 }  // namespace
 
-Value Checker::lower(const Expr* expression) {
+Value Lowerer::lower(const Expr* expression) {
   if (depth_ >= kMaxDepth) {
     report(CheckId::kTooDeep, expression->location, {std::to_string(kMaxDepth)});
     return error_value();
@@ -29,7 +29,7 @@ Value Checker::lower(const Expr* expression) {
   return value;
 }
 
-Value Checker::lower_inner(const Expr* expression) {
+Value Lowerer::lower_inner(const Expr* expression) {
   switch (expression->kind) {
     case ExprKind::kError:
       return error_value();
@@ -54,7 +54,7 @@ Value Checker::lower_inner(const Expr* expression) {
       if (literal->suffix == LiteralSuffix::kF) scalar = Scalar::kFloat32;
       if (literal->suffix == LiteralSuffix::kL) scalar = Scalar::kFloat64;
       if (literal->suffix == LiteralSuffix::kH) {
-        scalar = options_.native_16bit ? Scalar::kFloat16 : Scalar::kFloat32;
+        scalar = checker_.options_.native_16bit ? Scalar::kFloat16 : Scalar::kFloat32;
       }
       const Type* type = types_.scalar(scalar);
       return rvalue(
@@ -79,7 +79,7 @@ Value Checker::lower_inner(const Expr* expression) {
       return lower_call(static_cast<const CallExpr*>(expression));
     case ExprKind::kConstruct: {
       const auto* construct = static_cast<const ConstructExpr*>(expression);
-      const Type* type = resolve_type(construct->type, scope_);
+      const Type* type = checker_.resolve_type(construct->type, scope_);
       return lower_construct(type, construct->arguments, construct->location);
     }
     case ExprKind::kCast:
@@ -107,7 +107,7 @@ Value Checker::lower_inner(const Expr* expression) {
 // Left to right. What an operand gives is saved before a later one's effects, where they could
 // change it; with `keep_places` a place stays one, and only its indices are saved, with
 // `save_values` what it holds as well.
-std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, bool keep_places,
+std::vector<Value> Lowerer::lower_all(std::span<const Expr* const> expressions, bool keep_places,
                                       bool save_values) {
   std::vector<Value> values;
   values.reserve(expressions.size());
@@ -148,7 +148,7 @@ std::vector<Value> Checker::lower_all(std::span<const Expr* const> expressions, 
   return values;
 }
 
-Value Checker::lower_this(SourceLocation location) {
+Value Lowerer::lower_this(SourceLocation location) {
   if (!this_variable_) {
     report(CheckId::kThisOutside, location);
     return error_value();
@@ -156,7 +156,7 @@ Value Checker::lower_this(SourceLocation location) {
   return place(this_variable_, function_->owner->type, function_->is_const_method);
 }
 
-Value Checker::variable_value(VariableInfo* variable, SourceLocation location) {
+Value Lowerer::variable_value(VariableInfo* variable, SourceLocation location) {
   if (variable->type->is_error()) return error_value();
   switch (variable->kind) {
     case VariableKind::kLocal:
@@ -167,18 +167,18 @@ Value Checker::variable_value(VariableInfo* variable, SourceLocation location) {
       }
       return place(variable->variable, variable->type, variable->is_const);
     case VariableKind::kGlobal: {
-      initialise(variable);
+      checker_.initialise(variable);
       at(location);
       if (function_) function_->globals.push_back(variable);
       return place(variable->variable, variable->type, variable->is_const);
     }
     case VariableKind::kBufferMember:
-      return memory(binding_value(variable->binding, nullptr), nullptr,
+      return memory(checker_.binding_value(variable->binding, nullptr), nullptr,
                     build_.uint32(variable->offset), variable->type, ir::Layout::kConstantBuffer,
                     true);
     case VariableKind::kBinding: {
       if (!variable->binding->is_array) {
-        Value value = rvalue(binding_value(variable->binding, nullptr), variable->type);
+        Value value = rvalue(checker_.binding_value(variable->binding, nullptr), variable->type);
         value.is_const = true;
         return value;
       }
@@ -194,7 +194,7 @@ Value Checker::variable_value(VariableInfo* variable, SourceLocation location) {
   return error_value();
 }
 
-Value Checker::symbol_value(Symbol* symbol, SourceLocation location) {
+Value Lowerer::symbol_value(Symbol* symbol, SourceLocation location) {
   switch (symbol->kind) {
     case SymbolKind::kVariable:
       return variable_value(symbol->variable, location);
@@ -216,7 +216,7 @@ Value Checker::symbol_value(Symbol* symbol, SourceLocation location) {
   }
 }
 
-Value Checker::lower_name(const NameExpr* expr) {
+Value Lowerer::lower_name(const NameExpr* expr) {
   const QualifiedName& name = *expr->name;
   if (name.is_simple()) {
     const std::string_view identifier = name.last().identifier;
@@ -228,13 +228,13 @@ Value Checker::lower_name(const NameExpr* expr) {
       return value;
     }
   }
-  Symbol* symbol = resolve_name(name, scope_, true);
+  Symbol* symbol = checker_.resolve_name(name, scope_, true);
   if (!symbol) {
     if (name.is_simple() && is_builtin_function(name.last().identifier)) {
       report(CheckId::kFunctionValue, expr->location, {std::string(name.last().identifier)});
       return error_value();
     }
-    resolve_name(name, scope_, false);
+    checker_.resolve_name(name, scope_, false);
     return error_value();
   }
   if (symbol->kind == SymbolKind::kField && this_variable_) {
@@ -244,14 +244,14 @@ Value Checker::lower_name(const NameExpr* expr) {
   return symbol_value(symbol, expr->location);
 }
 
-Value Checker::lower_member(const MemberExpr* expr) {
+Value Lowerer::lower_member(const MemberExpr* expr) {
   Value base = lower(expr->base);
   if (base.failed()) return base;
   at(expr->location);
   return member_of(base, *expr->name);
 }
 
-Value Checker::member_of(const Value& base, const QualifiedName& name) {
+Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
   const std::string_view member = name.last().identifier;
   const SourceLocation location = name.location;
   if (base.kind == ValueKind::kHeap || base.kind == ValueKind::kInitList ||
@@ -296,7 +296,7 @@ Value Checker::member_of(const Value& base, const QualifiedName& name) {
     }
   }
   for (StructInfo* info = structure; info; info = info->base) {
-    Symbol* symbol = find_local(info->scope, member);
+    Symbol* symbol = checker_.find_local(info->scope, member);
     if (!symbol) continue;
     if (symbol->kind != SymbolKind::kField) return symbol_value(symbol, location);
     const FieldInfo& field = info->fields[symbol->field];
@@ -309,12 +309,12 @@ Value Checker::member_of(const Value& base, const QualifiedName& name) {
     if (is_access) payload_accesses_[result.expr] = location;
     return result;
   }
-  report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)}, member,
-                 structure->scope, false);
+  checker_.report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)},
+                          member, structure->scope, false);
   return error_value();
 }
 
-Value Checker::lower_index(const IndexExpr* expr) {
+Value Lowerer::lower_index(const IndexExpr* expr) {
   const Expr* operands[] = {expr->base, expr->index};
   std::vector<Value> values = lower_all(operands, true);
   if (values[0].failed() || values[1].failed()) return error_value();
@@ -347,8 +347,8 @@ Value Checker::lower_index(const IndexExpr* expr) {
   return element_of(base, values[1], expr->index->location);
 }
 
-Value Checker::lower_cast(const CastExpr* expr) {
-  const Type* type = resolve_type(expr->type, scope_);
+Value Lowerer::lower_cast(const CastExpr* expr) {
+  const Type* type = checker_.resolve_type(expr->type, scope_);
   Value operand = lower(expr->operand);
   if (operand.failed() || type->is_error()) return error_value();
   at(expr->location);
@@ -356,7 +356,7 @@ Value Checker::lower_cast(const CastExpr* expr) {
   return rvalue(convert(operand, type, expr->location, true), type);
 }
 
-Value Checker::lower_construct(const Type* type, std::span<const Expr* const> arguments,
+Value Lowerer::lower_construct(const Type* type, std::span<const Expr* const> arguments,
                                SourceLocation location) {
   std::vector<Value> values = lower_all(arguments, false);
   if (type->is_error()) return error_value();
@@ -410,10 +410,10 @@ Value Checker::lower_construct(const Type* type, std::span<const Expr* const> ar
   return rvalue(build_.construct(type->ir, std::move(parts)), type);
 }
 
-Value Checker::lower_sizeof(const SizeofExpr* expr) {
+Value Lowerer::lower_sizeof(const SizeofExpr* expr) {
   const Type* type = nullptr;
   if (expr->type) {
-    type = resolve_type(expr->type, scope_);
+    type = checker_.resolve_type(expr->type, scope_);
   } else {
     ir::Block ignored;
     ir::Block* outer = block_;

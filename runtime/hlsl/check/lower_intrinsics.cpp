@@ -14,7 +14,7 @@ bool is_number(const Value& value) {
 
 }  // namespace
 
-bool Checker::check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
+bool Lowerer::check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
                           SourceLocation location) {
   if (given >= lowest && given <= highest) return true;
   const std::string allowed = lowest == highest
@@ -24,14 +24,14 @@ bool Checker::check_count(std::string_view name, size_t given, size_t lowest, si
   return false;
 }
 
-void Checker::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
+void Lowerer::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
   if (!function_) return;
   const bool known = std::any_of(function_->stage_uses.begin(), function_->stage_uses.end(),
                                  [&](const StageUse& use) { return use.name == name; });
   if (!known) function_->stage_uses.push_back({location, name, stages});
 }
 
-std::optional<Value> Checker::call_builtin(const NamePart& part, std::vector<Value>& arguments,
+std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Value>& arguments,
                                            SourceLocation location) {
   const std::string_view name = part.identifier;
   const size_t count = arguments.size();
@@ -114,7 +114,7 @@ std::optional<Value> Checker::call_builtin(const NamePart& part, std::vector<Val
   return std::nullopt;
 }
 
-Value Checker::call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,
+Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,
                           SourceLocation location) {
   using S = IntrinsicShape;
   const S shape = rule.shape;
@@ -300,7 +300,7 @@ Value Checker::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
   return rvalue(build_.intrinsic(rule.intrinsic, result->ir, std::move(operands)), result);
 }
 
-Value Checker::call_mul(std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_mul(std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count("mul", arguments.size(), 2, 2, location)) return error_value();
   for (size_t i = 0; i < 2; ++i) {
     if (!is_number(arguments[i])) {
@@ -348,7 +348,7 @@ Value Checker::call_mul(std::vector<Value>& arguments, SourceLocation location) 
       result);
 }
 
-Value Checker::call_select(std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_select(std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count("select", arguments.size(), 3, 3, location)) return error_value();
   Value& condition = arguments[0];
   if (!is_number(condition)) {
@@ -389,13 +389,13 @@ Value Checker::call_select(std::vector<Value>& arguments, SourceLocation locatio
   return rvalue(build_.expr(ir::ExprKind::kSelect, type->ir, {test, yes, no}), type);
 }
 
-Value Checker::call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count(is_and ? "and" : "or", arguments.size(), 2, 2, location)) return error_value();
   return binary_value(is_and ? BinaryOp::kLogicalAnd : BinaryOp::kLogicalOr, arguments[0],
                       arguments[1], location);
 }
 
-Value Checker::call_with_outputs(std::string_view name, std::vector<Value>& arguments,
+Value Lowerer::call_with_outputs(std::string_view name, std::vector<Value>& arguments,
                                  SourceLocation location) {
   const size_t count = name == "sincos" || name == "asuint" ? 3 : 2;
   if (!check_count(name, arguments.size(), count, count, location)) return error_value();

@@ -64,7 +64,7 @@ bool is_comparison(BinaryOp op) {
 
 }  // namespace
 
-const Type* Checker::common_type(const Type* a, const Type* b, SourceLocation location,
+const Type* Lowerer::common_type(const Type* a, const Type* b, SourceLocation location,
                                  bool& truncates) {
   truncates = false;
   const Scalar scalar = common_scalar(a->scalar, b->scalar);
@@ -90,25 +90,25 @@ const Type* Checker::common_type(const Type* a, const Type* b, SourceLocation lo
   return nullptr;
 }
 
-std::optional<Value> Checker::overloaded_operator(std::string_view name, const Value& left,
+std::optional<Value> Lowerer::overloaded_operator(std::string_view name, const Value& left,
                                                   std::vector<Value> arguments,
                                                   SourceLocation location) {
   NamePart part;
   part.location = location;
   part.identifier = name;
   if (left.type->is_struct()) {
-    Symbol* symbol = find_member(left.type->structure, name);
+    Symbol* symbol = checker_.find_member(left.type->structure, name);
     if (symbol && symbol->kind == SymbolKind::kFunctions) {
       return call_functions(symbol->functions, part, &left, std::move(arguments), location);
     }
   }
-  Symbol* symbol = find(scope_, name);
+  Symbol* symbol = checker_.find(scope_, name);
   if (!symbol || symbol->kind != SymbolKind::kFunctions) return std::nullopt;
   arguments.insert(arguments.begin(), left);
   return call_functions(symbol->functions, part, nullptr, std::move(arguments), location);
 }
 
-Value Checker::lower_unary(const UnaryExpr* expr) {
+Value Lowerer::lower_unary(const UnaryExpr* expr) {
   const bool unused = result_unused_;
   result_unused_ = false;
   Value operand = lower(expr->operand);
@@ -151,7 +151,7 @@ Value Checker::lower_unary(const UnaryExpr* expr) {
   return rvalue(build_.unary(ir::UnaryOp::kBitNot, value), type);
 }
 
-Value Checker::lower_increment(const UnaryExpr* expr, const Value& operand) {
+Value Lowerer::lower_increment(const UnaryExpr* expr, const Value& operand) {
   if (!require_place(operand, expr->location, "the operand of ++ or --")) return error_value();
   const Type* type = operand.type;
   if (!type->is_numeric() || type->scalar == Scalar::kBool) {
@@ -172,7 +172,7 @@ Value Checker::lower_increment(const UnaryExpr* expr, const Value& operand) {
   return post ? rvalue(before, type) : target;
 }
 
-Value Checker::binary_value(BinaryOp op, const Value& left, const Value& right,
+Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
                             SourceLocation location) {
   if (left.failed() || right.failed()) return error_value();
   at(location);
@@ -254,7 +254,7 @@ Value Checker::binary_value(BinaryOp op, const Value& left, const Value& right,
   return rvalue(result, type);
 }
 
-Value Checker::lower_binary(const BinaryExpr* expr) {
+Value Lowerer::lower_binary(const BinaryExpr* expr) {
   if (expr->op == BinaryOp::kLogicalAnd || expr->op == BinaryOp::kLogicalOr) {
     return lower_logical(expr);
   }
@@ -268,7 +268,7 @@ Value Checker::lower_binary(const BinaryExpr* expr) {
 }
 
 // Short circuit on scalars; on vectors component by component, as before HLSL 2021.
-Value Checker::lower_logical(const BinaryExpr* expr) {
+Value Lowerer::lower_logical(const BinaryExpr* expr) {
   const bool is_and = expr->op == BinaryOp::kLogicalAnd;
   Value left = lower(expr->left);
   const uint64_t effects = effects_;
@@ -286,7 +286,7 @@ Value Checker::lower_logical(const BinaryExpr* expr) {
   if (!is_single(left) || !is_single(right)) {
     const bool vectors =
         left.type && right.type && left.type->is_numeric() && right.type->is_numeric();
-    if (vectors && options_.hlsl_version >= 2021) {
+    if (vectors && checker_.options_.hlsl_version >= 2021) {
       report(CheckId::kVectorLogic, expr->location, {is_and ? "&&" : "||", is_and ? "and" : "or"});
     }
     if (effects_ != effects) {
@@ -313,7 +313,7 @@ Value Checker::lower_logical(const BinaryExpr* expr) {
                               boolean->ir, {a, b}),
                   boolean);
   }
-  if (options_.hlsl_version < 2021) {
+  if (checker_.options_.hlsl_version < 2021) {
     const ir::Expr* first = build_.read(temporary(a));
     block().insert(block().end(), right_block.begin(), right_block.end());
     return rvalue(build_.binary(is_and ? ir::BinaryOp::kBitAnd : ir::BinaryOp::kBitOr, first, b),
@@ -331,7 +331,7 @@ Value Checker::lower_logical(const BinaryExpr* expr) {
   return rvalue(build_.read(result), boolean);
 }
 
-Value Checker::lower_assign(const AssignExpr* expr) {
+Value Lowerer::lower_assign(const AssignExpr* expr) {
   // The value first, as DXC does it; then the place.
   const bool unused = result_unused_;
   result_unused_ = false;
@@ -372,7 +372,7 @@ Value Checker::lower_assign(const AssignExpr* expr) {
   return target;
 }
 
-Value Checker::lower_conditional(const ConditionalExpr* expr) {
+Value Lowerer::lower_conditional(const ConditionalExpr* expr) {
   const bool unused = result_unused_;
   result_unused_ = false;
   Value condition = lower(expr->condition);
@@ -444,7 +444,7 @@ Value Checker::lower_conditional(const ConditionalExpr* expr) {
     if (blocks[0].empty() && blocks[1].empty()) {
       return rvalue(build_.conditional(chosen, values[0], values[1]), type);
     }
-    if (options_.hlsl_version < 2021) {
+    if (checker_.options_.hlsl_version < 2021) {
       const ir::Expr* test = build_.read(temporary(chosen));
       block().insert(block().end(), blocks[0].begin(), blocks[0].end());
       const ir::Expr* first = build_.read(temporary(values[0]));
@@ -465,7 +465,7 @@ Value Checker::lower_conditional(const ConditionalExpr* expr) {
     return rvalue(build_.read(result), type);
   }
   // A vector condition chooses component by component and evaluates both sides.
-  if (options_.hlsl_version >= 2021) {
+  if (checker_.options_.hlsl_version >= 2021) {
     report(CheckId::kVectorLogic, expr->location, {"?:", "select"});
   }
   if (effects_ != effects) {

@@ -8,14 +8,14 @@
 
 namespace kaamos::hlsl {
 
-const ir::Expr* Checker::payload_field(const ir::Variable* payload, const PayloadLeaf& leaf) {
+const ir::Expr* Lowerer::payload_field(const ir::Variable* payload, const PayloadLeaf& leaf) {
   const ir::Expr* expr = build_.read(payload);
   for (const uint32_t index : leaf.path) expr = build_.field(expr, index);
   return expr;
 }
 
 // The place without folding: a copy of `from`'s field, or zero without `from`.
-void Checker::copy_payload_field(const ir::Variable* to, const ir::Variable* from,
+void Lowerer::copy_payload_field(const ir::Variable* to, const ir::Variable* from,
                                  const PayloadLeaf& leaf) {
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
   statement->place = payload_field(to, leaf);
@@ -25,7 +25,7 @@ void Checker::copy_payload_field(const ir::Variable* to, const ir::Variable* fro
 
 // TraceRay's own payload object: what a caller may not write does not reach the stages, and what
 // it may not read does not come back.
-void Checker::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
+void Lowerer::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
                          SourceLocation location) {
   if (!type->structure->is_payload) {
     statement->place = build_.read(payload);
@@ -52,21 +52,21 @@ void Checker::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const
 }
 
 // The entry point becomes a function that makes the working copy and calls the one of the source.
-void Checker::wrap_payload(FunctionInfo* function, ir::EntryPoint& entry) {
+void Lowerer::wrap_payload(FunctionInfo* function, ir::EntryPoint& entry) {
   if (!function->ir || function->parameters.empty()) return;
   const StructInfo& structure = *function->parameters[0].type->structure;
   if (!structure.is_payload) return;
-  entry.unbounded_payload = !options_.target.ends_with("6_6");
+  entry.unbounded_payload = !checker_.options_.target.ends_with("6_6");
   const uint8_t stage = payload_stage_of(entry.stage);
   const std::vector<PayloadLeaf> leaves = payload_leaves(structure);
   if (all_access(leaves, stage)) return;
-  for (const Wrapper& one : wrappers_) {
+  for (const Checker::Wrapper& one : checker_.wrappers_) {
     if (one.wrapped == function) {
       entry.function = one.function;
       return;
     }
   }
-  ir::Function* wrapper = &module_->function_pool.emplace_back();
+  ir::Function* wrapper = &checker_.module_->function_pool.emplace_back();
   wrapper->name = function->qualified;
   // The export keeps the name that DXC gives it.
   wrapper->mangled = function->ir->mangled;
@@ -98,7 +98,7 @@ void Checker::wrap_payload(FunctionInfo* function, ir::EntryPoint& entry) {
   for (const PayloadLeaf& leaf : leaves) {
     if (leaf.access.write & stage) copy_payload_field(payload, copy, leaf);
   }
-  wrappers_.push_back({wrapper, function, entry.stage});
+  checker_.wrappers_.push_back({wrapper, function, entry.stage});
   entry.function = wrapper;
 }
 

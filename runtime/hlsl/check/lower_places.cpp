@@ -15,11 +15,11 @@ bool innermost_row_major(const Type* type) {
 
 }  // namespace
 
-Value Checker::error_value() {
+Value Lowerer::error_value() {
   return Value{};
 }
 
-Value Checker::rvalue(const ir::Expr* expr, const Type* type) {
+Value Lowerer::rvalue(const ir::Expr* expr, const Type* type) {
   if (!expr) return error_value();
   Value value;
   value.kind = ValueKind::kExpr;
@@ -28,14 +28,14 @@ Value Checker::rvalue(const ir::Expr* expr, const Type* type) {
   return value;
 }
 
-Value Checker::place(const ir::Variable* variable, const Type* type, bool is_const) {
+Value Lowerer::place(const ir::Variable* variable, const Type* type, bool is_const) {
   Value value = rvalue(build_.read(variable), type);
   value.is_place = true;
   value.is_const = is_const;
   return value;
 }
 
-Value Checker::memory(const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
+Value Lowerer::memory(const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
                       const Type* type, ir::Layout layout, bool is_const) {
   Value value;
   value.kind = ValueKind::kMemory;
@@ -49,12 +49,12 @@ Value Checker::memory(const ir::Expr* resource, const ir::Expr* element, const i
   return value;
 }
 
-void Checker::emit(const ir::Stmt* statement) {
+void Lowerer::emit(const ir::Stmt* statement) {
   block().push_back(statement);
   if (statement->kind != ir::StmtKind::kDeclare) ++effects_;
 }
 
-const ir::Variable* Checker::temporary(const ir::Expr* value, size_t* position) {
+const ir::Variable* Lowerer::temporary(const ir::Expr* value, size_t* position) {
   ir::Variable* variable = build_.variable({}, value->type, ir::Storage::kLocal);
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kDeclare);
   statement->variable = variable;
@@ -67,7 +67,7 @@ const ir::Variable* Checker::temporary(const ir::Expr* value, size_t* position) 
   return variable;
 }
 
-ir::Variable* Checker::empty_temporary(const ir::Type* type) {
+ir::Variable* Lowerer::empty_temporary(const ir::Type* type) {
   ir::Variable* variable = build_.variable({}, type, ir::Storage::kLocal);
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kDeclare);
   statement->variable = variable;
@@ -75,7 +75,7 @@ ir::Variable* Checker::empty_temporary(const ir::Type* type) {
   return variable;
 }
 
-const ir::Expr* Checker::repeatable(const ir::Expr* value) {
+const ir::Expr* Lowerer::repeatable(const ir::Expr* value) {
   const ir::Expr* at_expr = value;
   for (int i = 0; i < 3; ++i) {
     switch (at_expr->kind) {
@@ -96,7 +96,7 @@ const ir::Expr* Checker::repeatable(const ir::Expr* value) {
   return build_.read(temporary(value));
 }
 
-void Checker::assign(const ir::Variable* variable, const ir::Expr* value) {
+void Lowerer::assign(const ir::Variable* variable, const ir::Expr* value) {
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
   statement->place = build_.read(variable);
   statement->value = value;
@@ -104,7 +104,7 @@ void Checker::assign(const ir::Variable* variable, const ir::Expr* value) {
 }
 
 // True where no later statement can change what the expression gives.
-bool Checker::is_fixed(const ir::Expr* expr) {
+bool Lowerer::is_fixed(const ir::Expr* expr) {
   switch (expr->kind) {
     case ir::ExprKind::kVariable:
       return expr->variable->name.empty() || expr->variable->is_const ||
@@ -125,7 +125,7 @@ bool Checker::is_fixed(const ir::Expr* expr) {
   return std::all_of(expr->operands.begin(), expr->operands.end(), is_fixed);
 }
 
-bool Checker::mentions(const ir::Expr* expr, const ir::Variable* variable) {
+bool Lowerer::mentions(const ir::Expr* expr, const ir::Variable* variable) {
   if (!expr) return false;
   if (expr->kind == ir::ExprKind::kVariable && expr->variable == variable) return true;
   return std::any_of(expr->operands.begin(), expr->operands.end(),
@@ -133,7 +133,7 @@ bool Checker::mentions(const ir::Expr* expr, const ir::Variable* variable) {
 }
 
 // Keeps the place, but fixes the indices in it at `position` of the block.
-const ir::Expr* Checker::freeze_place(const ir::Expr* expr, size_t* position) {
+const ir::Expr* Lowerer::freeze_place(const ir::Expr* expr, size_t* position) {
   if (expr->kind == ir::ExprKind::kVariable || expr->operands.empty()) return expr;
   const ir::Expr* base = freeze_place(expr->operands[0], position);
   std::vector<const ir::Expr*> operands = expr->operands;
@@ -150,19 +150,19 @@ const ir::Expr* Checker::freeze_place(const ir::Expr* expr, size_t* position) {
 
 // What the expression gives now, whatever comes later. A resource of an array stays one, by an
 // index that is fixed: backends look it up as such.
-const ir::Expr* Checker::frozen(const ir::Expr* expr, size_t* position) {
+const ir::Expr* Lowerer::frozen(const ir::Expr* expr, size_t* position) {
   if (!expr || is_fixed(expr)) return expr;
   if (expr->kind != ir::ExprKind::kBinding) return build_.read(temporary(expr, position));
   ir::Expr* copy = build_.expr(expr->kind, expr->type);
   *copy = *expr;
   for (const ir::Expr*& operand : copy->operands) operand = frozen(operand, position);
-  BindingInfo* binding = binding_of_.at(expr);
+  BindingInfo* binding = checker_.binding_of_.at(expr);
   binding->uses.push_back(copy);
-  binding_of_[copy] = binding;
+  checker_.binding_of_[copy] = binding;
   return copy;
 }
 
-void Checker::freeze(Value& value, size_t* position) {
+void Lowerer::freeze(Value& value, size_t* position) {
   const auto fix = [&](const ir::Expr*& expr) { expr = frozen(expr, position); };
   if (value.kind == ValueKind::kExpr && value.is_place) {
     value.expr = freeze_place(value.expr, position);
@@ -175,7 +175,7 @@ void Checker::freeze(Value& value, size_t* position) {
   fix(value.mip);
 }
 
-const ir::Expr* Checker::load(const Value& value) {
+const ir::Expr* Lowerer::load(const Value& value) {
   if (value.saved) return value.saved;
   if (value.type && value.type->is_query()) {
     report(CheckId::kRayQueryCopy, value.location, {to_string(value.type)});
@@ -257,7 +257,7 @@ const ir::Expr* Checker::load(const Value& value) {
   return nullptr;
 }
 
-void Checker::store_component(const Value& target, uint32_t component, const ir::Expr* value) {
+void Lowerer::store_component(const Value& target, uint32_t component, const ir::Expr* value) {
   const Type* whole = target.whole ? target.whole : target.type;
   const uint32_t bytes = scalar_bytes(whole->scalar);
   uint32_t offset = component * (target.component_stride ? target.component_stride : bytes);
@@ -277,7 +277,7 @@ void Checker::store_component(const Value& target, uint32_t component, const ir:
   emit(statement);
 }
 
-void Checker::store_memory(const Value& target, const ir::Expr* value) {
+void Lowerer::store_memory(const Value& target, const ir::Expr* value) {
   const bool by_component = target.whole || target.component_stride;
   if (by_component) {
     const uint32_t count = target.type->components();
@@ -300,7 +300,7 @@ void Checker::store_memory(const Value& target, const ir::Expr* value) {
   emit(statement);
 }
 
-void Checker::store(const Value& target, const ir::Expr* value) {
+void Lowerer::store(const Value& target, const ir::Expr* value) {
   if (!value) return;
   if (target.kind == ValueKind::kMemory) {
     store_memory(target, value);
@@ -333,7 +333,7 @@ void Checker::store(const Value& target, const ir::Expr* value) {
   }
 }
 
-Value Checker::field_of(const Value& base, uint32_t index, const Type* type) {
+Value Lowerer::field_of(const Value& base, uint32_t index, const Type* type) {
   if (base.saved) return rvalue(build_.field(base.saved, index), type);
   Value result = base;
   result.type = type;
@@ -349,7 +349,7 @@ Value Checker::field_of(const Value& base, uint32_t index, const Type* type) {
   return result;
 }
 
-Value Checker::base_of(const Value& value, StructInfo* base) {
+Value Lowerer::base_of(const Value& value, StructInfo* base) {
   Value result = value;
   while (!result.failed() && result.type->structure != base && result.type->structure->base) {
     result = field_of(result, 0, result.type->structure->base->type);
@@ -357,7 +357,7 @@ Value Checker::base_of(const Value& value, StructInfo* base) {
   return result;
 }
 
-bool Checker::require_place(const Value& value, SourceLocation location, std::string_view purpose) {
+bool Lowerer::require_place(const Value& value, SourceLocation location, std::string_view purpose) {
   if (value.failed()) return false;
   if (value.is_const) {
     report(CheckId::kConstPlace, location, {std::string(purpose)});

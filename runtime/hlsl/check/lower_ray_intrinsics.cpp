@@ -13,7 +13,7 @@ constexpr uint32_t kCallStages = kTraceStages | ir::kStageCallable;
 
 }  // namespace
 
-Value Checker::call_system_value(const SystemValueRule& rule, SourceLocation location) {
+Value Lowerer::call_system_value(const SystemValueRule& rule, SourceLocation location) {
   use_in_stages(rule.name, rule.stages, location);
   const Type* type = types_.numeric(static_cast<Scalar>(rule.scalar), rule.rows, rule.columns);
   ir::Expr* node = build_.expr(ir::ExprKind::kSystemValue, type->ir);
@@ -22,7 +22,7 @@ Value Checker::call_system_value(const SystemValueRule& rule, SourceLocation loc
 }
 
 // The variable that stands for a payload, callable data or the like during the call.
-const ir::Variable* Checker::pass_by_reference(const Value& value, std::string_view what,
+const ir::Variable* Lowerer::pass_by_reference(const Value& value, std::string_view what,
                                                SourceLocation location, bool& copied) {
   if (!value.type || !value.type->is_struct() || contains_resource(value.type)) {
     report(CheckId::kUserStruct, location,
@@ -38,14 +38,14 @@ const ir::Variable* Checker::pass_by_reference(const Value& value, std::string_v
   return direct ? value.expr->variable : temporary(load(value));
 }
 
-Value Checker::call_trace_ray(std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_trace_ray(std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count("TraceRay", arguments.size(), 8, 8, location)) return error_value();
   use_in_stages("TraceRay", kTraceStages, location);
   if (function_) function_->traces = true;
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kTraceRay);
   const Type* scene = types_.resource(ir::ResourceKind::kAccelerationStructure, nullptr);
   const Type* number = types_.scalar(Scalar::kUint32);
-  const Type* types[] = {scene, number, number, number, number, number, ray_desc_->type};
+  const Type* types[] = {scene, number, number, number, number, number, checker_.ray_desc_->type};
   for (size_t i = 0; i < 7; ++i) {
     const ir::Expr* operand = convert(arguments[i], types[i], arguments[i].location);
     if (!operand) return error_value();
@@ -59,13 +59,13 @@ Value Checker::call_trace_ray(std::vector<Value>& arguments, SourceLocation loca
   const ir::Variable* variable =
       pass_by_reference(payload, "the payload of TraceRay", payload.location, copied);
   if (!variable) return error_value();
-  check_payload_use(payload.type, payload.location);
+  checker_.check_payload_use(payload.type, payload.location);
   emit_trace(statement, variable, payload.type, payload.location);
   if (copied) store(payload, build_.read(variable));
   return rvalue(build_.int32(0), types_.void_type());
 }
 
-Value Checker::call_call_shader(std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_call_shader(std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count("CallShader", arguments.size(), 2, 2, location)) return error_value();
   use_in_stages("CallShader", kCallStages, location);
   if (function_) function_->calls_shader = true;
@@ -88,7 +88,7 @@ Value Checker::call_call_shader(std::vector<Value>& arguments, SourceLocation lo
   return rvalue(build_.int32(0), types_.void_type());
 }
 
-Value Checker::call_report_hit(std::vector<Value>& arguments, SourceLocation location) {
+Value Lowerer::call_report_hit(std::vector<Value>& arguments, SourceLocation location) {
   if (!check_count("ReportHit", arguments.size(), 3, 3, location)) return error_value();
   use_in_stages("ReportHit", ir::kStageIntersection, location);
   if (function_) function_->ends_shader = true;

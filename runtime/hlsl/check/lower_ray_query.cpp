@@ -5,7 +5,7 @@
 namespace kaamos::hlsl {
 
 // The variable that the value names. Null and a message where it is anything else.
-const ir::Expr* Checker::query_object(const Value& value, const Type* type) {
+const ir::Expr* Lowerer::query_object(const Value& value, const Type* type) {
   if (value.failed()) return nullptr;
   const bool is_object = value.type && value.type->is_query() && value.kind == ValueKind::kExpr &&
                          value.expr && value.expr->kind == ir::ExprKind::kVariable;
@@ -21,7 +21,7 @@ const ir::Expr* Checker::query_object(const Value& value, const Type* type) {
 }
 
 // With an initialiser the variable is a second name of that object. [DXR: RayQuery]
-void Checker::lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info) {
+void Lowerer::lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info) {
   if (decl->modifiers & kModStatic) {
     report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "static"});
     return;
@@ -43,11 +43,11 @@ void Checker::lower_local_query(const VariableDecl* decl, const Type* type, Vari
   emit(node);
 }
 
-Value Checker::trace_ray_inline(ir::Stmt* statement, const Type* query,
+Value Lowerer::trace_ray_inline(ir::Stmt* statement, const Type* query,
                                 std::vector<Value>& arguments) {
   const Type* number = types_.scalar(Scalar::kUint32);
   const Type* types[] = {types_.resource(ir::ResourceKind::kAccelerationStructure, nullptr), number,
-                         number, ray_desc_->type};
+                         number, checker_.ray_desc_->type};
   for (size_t i = 0; i < 4; ++i) {
     const ir::Expr* operand = convert(arguments[i], types[i], arguments[i].location);
     if (!operand) return error_value();
@@ -62,7 +62,7 @@ Value Checker::trace_ray_inline(ir::Stmt* statement, const Type* query,
   return rvalue(build_.int32(0), types_.void_type());
 }
 
-Value Checker::call_query_method(const Value& object, const NamePart& part,
+Value Lowerer::call_query_method(const Value& object, const NamePart& part,
                                  std::vector<Value>& arguments, SourceLocation location) {
   const std::string name(part.identifier);
   const ir::Expr* query = query_object(object, object.type);

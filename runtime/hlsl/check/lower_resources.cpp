@@ -4,7 +4,7 @@
 
 namespace kaamos::hlsl {
 
-Value Checker::texel(const ir::Expr* resource, const Type* type, const ir::Expr* coordinates,
+Value Lowerer::texel(const ir::Expr* resource, const Type* type, const ir::Expr* coordinates,
                      const ir::Expr* mip, bool is_const) {
   Value value;
   value.kind = ValueKind::kTyped;
@@ -17,14 +17,14 @@ Value Checker::texel(const ir::Expr* resource, const Type* type, const ir::Expr*
   return value;
 }
 
-const ir::Expr* Checker::to_vector(const Value& value, Scalar scalar, uint32_t size,
+const ir::Expr* Lowerer::to_vector(const Value& value, Scalar scalar, uint32_t size,
                                    SourceLocation location) {
   if (value.failed()) return nullptr;
   const Type* type = types_.vector(scalar, size);
   return convert(value, type, location);
 }
 
-Value Checker::index_resource(const Value& base, const Value& index, SourceLocation location) {
+Value Lowerer::index_resource(const Value& base, const Value& index, SourceLocation location) {
   const bool is_mips = base.kind == ValueKind::kMips;
   const Type* type = base.type;
   const ResourceTraits& traits = traits_of(type->resource);
@@ -64,7 +64,7 @@ Value Checker::index_resource(const Value& base, const Value& index, SourceLocat
   return texel(resource, type, coordinates, mip, !traits.is_writable);
 }
 
-Value Checker::call_resource_method(const Value& object, const NamePart& part,
+Value Lowerer::call_resource_method(const Value& object, const NamePart& part,
                                     std::vector<Value>& arguments, SourceLocation location) {
   const Type* type = object.type;
   const std::string_view name = part.identifier;
@@ -93,7 +93,7 @@ Value Checker::call_resource_method(const Value& object, const NamePart& part,
   return error_value();
 }
 
-std::optional<Value> Checker::call_raw_method(const Value& object, const NamePart& part,
+std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePart& part,
                                               std::vector<Value>& arguments,
                                               SourceLocation location) {
   std::string_view name = part.identifier;
@@ -149,7 +149,7 @@ std::optional<Value> Checker::call_raw_method(const Value& object, const NamePar
       report(CheckId::kNotATemplate, location, {std::string(part.identifier)});
       return error_value();
     }
-    type = type_argument(part.template_arguments[0], scope_);
+    type = checker_.type_argument(part.template_arguments[0], scope_);
     if (type->is_error()) return error_value();
   } else if (is_store && plain) {
     // Store takes any type; Store<T> names it.

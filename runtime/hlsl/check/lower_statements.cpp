@@ -35,7 +35,7 @@ bool uses_variable(const ir::Block& body, const ir::Variable* variable) {
 }  // namespace
 
 // True where the end of the block cannot be reached.
-bool Checker::ends(const ir::Block& body) {
+bool Lowerer::ends(const ir::Block& body) {
   if (body.empty()) return false;
   const ir::Stmt* last = body.back();
   switch (last->kind) {
@@ -85,15 +85,15 @@ bool Checker::ends(const ir::Block& body) {
   }
 }
 
-void Checker::lower_block(std::span<const Stmt* const> statements) {
+void Lowerer::lower_block(std::span<const Stmt* const> statements) {
   for (const Stmt* statement : statements) lower_statement(statement);
 }
 
-void Checker::lower_body(const Stmt* statement, ir::Block& target) {
+void Lowerer::lower_body(const Stmt* statement, ir::Block& target) {
   ir::Block* outer = block_;
   Scope* scope = scope_;
   block_ = &target;
-  scope_ = make_scope(ScopeKind::kBlock, scope);
+  scope_ = checker_.make_scope(ScopeKind::kBlock, scope);
   if (const auto* inner = as<BlockStmt>(statement)) {
     lower_block(inner->statements);
   } else {
@@ -103,14 +103,14 @@ void Checker::lower_body(const Stmt* statement, ir::Block& target) {
   block_ = outer;
 }
 
-void Checker::lower_discarded(const Expr* expression) {
+void Lowerer::lower_discarded(const Expr* expression) {
   const bool unused = result_unused_;
   result_unused_ = true;
   lower(expression);
   result_unused_ = unused;
 }
 
-void Checker::lower_statement(const Stmt* statement) {
+void Lowerer::lower_statement(const Stmt* statement) {
   if (depth_ >= 400) {
     report(CheckId::kTooDeep, statement->location, {"400"});
     return;
@@ -132,7 +132,7 @@ void Checker::lower_statement(const Stmt* statement) {
         if (const auto* variable = as<VariableDecl>(decl)) {
           lower_local(variable);
         } else {
-          declare(decl, scope_);
+          checker_.declare(decl, scope_);
         }
       }
       break;
@@ -147,7 +147,7 @@ void Checker::lower_statement(const Stmt* statement) {
       Scope* scope = scope_;
       ir::Block* outer = block_;
       ir::Stmt* node = build_.stmt(ir::StmtKind::kBlock);
-      scope_ = make_scope(ScopeKind::kBlock, scope);
+      scope_ = checker_.make_scope(ScopeKind::kBlock, scope);
       block_ = &node->body;
       if (loop->init) lower_statement(loop->init);
       lower_loop(loop->condition, loop->step, loop->body, false, *loop);
@@ -193,38 +193,38 @@ void Checker::lower_statement(const Stmt* statement) {
   --depth_;
 }
 
-const ir::Expr* Checker::initial_value(const Expr* initialiser, const Type* type) {
+const ir::Expr* Lowerer::initial_value(const Expr* initialiser, const Type* type) {
   Value value = lower(initialiser);
   return convert(value, type, initialiser->location);
 }
 
 // A temporary that nothing else reads: a variable that begins with it may take its place.
-bool Checker::is_result_of_last_call(const ir::Expr* value) const {
+bool Lowerer::is_result_of_last_call(const ir::Expr* value) const {
   return value && value->kind == ir::ExprKind::kVariable && value->variable == call_result_ &&
          !block_->empty() && block_->back()->kind == ir::StmtKind::kCall &&
          block_->back()->result == call_result_;
 }
 
-void Checker::lower_local(const VariableDecl* decl) {
-  const Type* type = resolve_type(decl->type, scope_);
+void Lowerer::lower_local(const VariableDecl* decl) {
+  const Type* type = checker_.resolve_type(decl->type, scope_);
   at(decl->location);
-  VariableInfo* info = &variables_.emplace_back();
+  VariableInfo* info = &checker_.variables_.emplace_back();
   info->name = decl->name;
   info->type = types_.error();
-  info->is_const = is_const_type(decl->type);
-  const bool valid = check_variable_type(type, decl->location, decl->name);
-  if (find_local(scope_, decl->name)) {
+  info->is_const = checker_.is_const_type(decl->type);
+  const bool valid = checker_.check_variable_type(type, decl->location, decl->name);
+  if (checker_.find_local(scope_, decl->name)) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
     return;
   }
   if (decl->modifiers & kModGroupshared) {
     report(CheckId::kLocalGroupshared, decl->location, {std::string(decl->name)});
-    add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+    checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
     return;
   }
   if (valid && type->is_query()) {
     lower_local_query(decl, type, info);
-    add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+    checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
     return;
   }
   if (decl->modifiers & kModStatic) {
@@ -237,7 +237,8 @@ void Checker::lower_local(const VariableDecl* decl) {
     const auto* list = as<InitListExpr>(decl->initializer);
     if (!list) {
       report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
-      add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+      checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable =
+          info;
       return;
     }
     std::vector<Piece> pieces;
@@ -275,17 +276,17 @@ void Checker::lower_local(const VariableDecl* decl) {
                           value->kind == ir::ExprKind::kLiteral;
     if (is_known) info->constant = value;
   }
-  add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+  checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
 }
 
 // One per shader invocation, as if it stood outside. Its initialiser may not use locals.
-void Checker::lower_local_static(const VariableDecl* decl, const Type* type) {
-  declare_static(decl, type, scope_);
-  Symbol* symbol = find_local(scope_, decl->name);
+void Lowerer::lower_local_static(const VariableDecl* decl, const Type* type) {
+  checker_.declare_static(decl, type, scope_);
+  Symbol* symbol = checker_.find_local(scope_, decl->name);
   if (!symbol || !symbol->variable) return;
   if (symbol->variable->variable) symbol->variable->variable->name = decl->name;
-  symbol->variable->sequence = visible_;
-  initialise(symbol->variable);
+  symbol->variable->sequence = checker_.visible_;
+  checker_.initialise(symbol->variable);
   const ir::Variable* variable = symbol->variable->variable;
   if (!symbol->variable->start_up.empty()) {
     report(CheckId::kUnsupported, decl->location,
@@ -305,7 +306,7 @@ void Checker::lower_local_static(const VariableDecl* decl, const Type* type) {
   }
 }
 
-void Checker::lower_if(const IfStmt* statement) {
+void Lowerer::lower_if(const IfStmt* statement) {
   const Value condition = lower(statement->condition);
   const ir::Expr* value = as_condition(condition, statement->condition->location);
   at(statement->location);
@@ -317,7 +318,7 @@ void Checker::lower_if(const IfStmt* statement) {
 }
 
 // A hint: what is no number of times is none.
-uint32_t Checker::unroll_count(const Stmt& loop) {
+uint32_t Lowerer::unroll_count(const Stmt& loop) {
   constexpr uint32_t kMost = 16;
   const Attribute* attribute = find_attribute(loop.attributes, "unroll");
   if (attribute == nullptr) return 0;
@@ -326,7 +327,7 @@ uint32_t Checker::unroll_count(const Stmt& loop) {
   return count != nullptr ? static_cast<uint32_t>(std::min<uint64_t>(count->value, kMost)) : 0;
 }
 
-void Checker::lower_loop(const Expr* condition, const Expr* step, const Stmt* body,
+void Lowerer::lower_loop(const Expr* condition, const Expr* step, const Stmt* body,
                          bool test_at_end, const Stmt& statement) {
   at(statement.location);
   ir::Stmt* node = build_.stmt(ir::StmtKind::kLoop);
@@ -360,7 +361,7 @@ void Checker::lower_loop(const Expr* condition, const Expr* step, const Stmt* bo
   emit(node);
 }
 
-void Checker::lower_switch(const SwitchStmt* statement) {
+void Lowerer::lower_switch(const SwitchStmt* statement) {
   Value selector = lower(statement->condition);
   selector = settle(selector);
   at(statement->location);
@@ -383,7 +384,7 @@ void Checker::lower_switch(const SwitchStmt* statement) {
   if (!node->value) node->value = build_.int32(0);
   Scope* scope = scope_;
   ir::Block* outer = block_;
-  scope_ = make_scope(ScopeKind::kBlock, scope);
+  scope_ = checker_.make_scope(ScopeKind::kBlock, scope);
   ++switch_depth_;
   std::set<int64_t> seen;
   bool has_default = false;
@@ -395,7 +396,7 @@ void Checker::lower_switch(const SwitchStmt* statement) {
         has_default = one.is_default = true;
         continue;
       }
-      const auto value = constant_integer(label.value, scope_, "a case label");
+      const auto value = checker_.constant_integer(label.value, scope_, "a case label");
       if (!value) continue;
       const int64_t number = static_cast<int64_t>(
           convert_bits(static_cast<uint64_t>(*value), ir::Scalar::kInt64, ir_scalar(type->scalar)));
@@ -417,7 +418,7 @@ void Checker::lower_switch(const SwitchStmt* statement) {
 }
 
 // All sections of a switch share one scope: what a later one uses is declared in front.
-void Checker::share_section_variables(ir::Stmt* node) {
+void Lowerer::share_section_variables(ir::Stmt* node) {
   for (size_t i = 0; i + 1 < node->cases.size(); ++i) {
     for (const ir::Stmt*& statement : node->cases[i].body) {
       if (statement->kind != ir::StmtKind::kDeclare || statement->variable->name.empty()) continue;
@@ -438,7 +439,7 @@ void Checker::share_section_variables(ir::Stmt* node) {
   }
 }
 
-void Checker::lower_return(const ReturnStmt* statement) {
+void Lowerer::lower_return(const ReturnStmt* statement) {
   const Type* result = function_ && function_->result ? function_->result : types_.void_type();
   const ir::Expr* value = nullptr;
   if (statement->value) {

@@ -4,7 +4,7 @@
 
 namespace kaamos::hlsl {
 
-std::optional<Value> Checker::call_texture_method(const Value& object, const NamePart& part,
+std::optional<Value> Lowerer::call_texture_method(const Value& object, const NamePart& part,
                                                   std::vector<Value>& arguments,
                                                   SourceLocation location) {
   const std::string_view name = part.identifier;
@@ -28,7 +28,7 @@ std::optional<Value> Checker::call_texture_method(const Value& object, const Nam
   return std::nullopt;
 }
 
-Value Checker::call_load(const Value& object, std::vector<Value>& arguments,
+Value Lowerer::call_load(const Value& object, std::vector<Value>& arguments,
                          SourceLocation location) {
   const Type* type = object.type;
   const ResourceTraits& traits = traits_of(type->resource);
@@ -77,7 +77,7 @@ Value Checker::call_load(const Value& object, std::vector<Value>& arguments,
   return value;
 }
 
-Value Checker::call_sample(const Value& object, const SampleRule& rule,
+Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
                            std::vector<Value>& arguments, SourceLocation location) {
   using F = SampleForm;
   const Type* type = object.type;
@@ -180,7 +180,7 @@ Value Checker::call_sample(const Value& object, const SampleRule& rule,
   return rvalue(node, result);
 }
 
-Value Checker::call_dimensions(const Value& object, std::vector<Value>& arguments,
+Value Lowerer::call_dimensions(const Value& object, std::vector<Value>& arguments,
                                SourceLocation location) {
   using K = ir::ResourceKind;
   const Type* type = object.type;

@@ -65,7 +65,7 @@ constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection
 
 }  // namespace
 
-std::optional<Value> Checker::call_wave(std::string_view name, std::vector<Value>& arguments,
+std::optional<Value> Lowerer::call_wave(std::string_view name, std::vector<Value>& arguments,
                                         SourceLocation location) {
   const WaveRule* rule = find_wave(name);
   if (!rule) return std::nullopt;

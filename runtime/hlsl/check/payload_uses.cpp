@@ -144,8 +144,8 @@ class Checker::PayloadUses {
   }
 
   const SourceLocation* source_of(const ir::Expr* expr) const {
-    const auto found = checker_.payload_accesses_.find(expr);
-    return found == checker_.payload_accesses_.end() ? nullptr : &found->second;
+    const auto found = checker_.lower_.payload_accesses_.find(expr);
+    return found == checker_.lower_.payload_accesses_.end() ? nullptr : &found->second;
   }
 
   void read(State& state, const ir::Expr* expr) {
@@ -191,9 +191,9 @@ class Checker::PayloadUses {
   }
 
   void trace(State& state, const ir::Stmt& stmt) {
-    const auto found = checker_.trace_payloads_.find(&stmt);
-    if (found == checker_.trace_payloads_.end() || !state.reachable) return;
-    const TracePayload& payload = found->second;
+    const auto found = checker_.lower_.trace_payloads_.find(&stmt);
+    if (found == checker_.lower_.trace_payloads_.end() || !state.reachable) return;
+    const Lowerer::TracePayload& payload = found->second;
     Fields& fields = track(state, payload.variable, *payload.structure);
     for (size_t i = 0; i < fields.leaves->size(); ++i) {
       const PayloadLeaf& leaf = (*fields.leaves)[i];

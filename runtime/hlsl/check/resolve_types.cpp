@@ -101,10 +101,10 @@ const Type* Checker::resolve_type(const TypeSyntax* syntax, Scope* scope) {
 }
 
 const Type* Checker::resolve_array(const TypeSyntax* syntax, Scope* scope) {
-  if (depth_ > 200) return types_.error();
-  ++depth_;
+  if (lower_.depth_ > 200) return types_.error();
+  ++lower_.depth_;
   const Type* element = resolve_type(syntax->element, scope);
-  --depth_;
+  --lower_.depth_;
   element = apply_storage(element, syntax->modifiers);
   if (element->is_error()) return element;
   if (element->is_void()) {
@@ -291,10 +291,10 @@ const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
 std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* scope,
                                                  std::string_view purpose) {
   ir::Block ignored;
-  BodyScope body(*this, function_, &ignored, scope);
-  this_variable_ = nullptr;
+  Lowerer::BodyScope body(lower_, lower_.function_, &ignored, scope);
+  lower_.this_variable_ = nullptr;
   at(expression->location);
-  Value value = lower(expression);
+  Value value = lower_.lower(expression);
   if (value.failed()) return std::nullopt;
   if (!value.type) {  // a heap, an initialiser list: no value yet
     report(CheckId::kNotConstant, expression->location, {std::string(purpose)});
@@ -305,7 +305,7 @@ std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* 
            {std::string(purpose), to_string(value.type)});
     return std::nullopt;
   }
-  const ir::Expr* loaded = load(value);
+  const ir::Expr* loaded = lower_.load(value);
   const auto bits = loaded ? evaluate(loaded) : std::nullopt;
   if (!bits || !ignored.empty()) {
     report(CheckId::kNotConstant, expression->location, {std::string(purpose)});

@@ -179,7 +179,7 @@ bool Checker::deduce(const TypeSyntax* syntax, const Type* type,
   if (const auto index = parameter_named(parameters, syntax->name)) {
     TemplateValue& value = values[*index];
     if (value.value) return true;
-    const Type* plain = settled(type);
+    const Type* plain = lower_.settled(type);
     if (value.type) return same_type(value.type, plain) || is_literal(type->scalar);
     value.type = plain;
     return true;

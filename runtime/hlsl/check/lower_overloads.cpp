@@ -7,7 +7,7 @@
 
 namespace kaamos::hlsl {
 
-std::string Checker::describe(const FunctionInfo& function) {
+std::string Lowerer::describe(const FunctionInfo& function) {
   std::string text = function.result ? to_string(function.result) + " " : "";
   text += function.qualified + "(";
   if (function.is_template) return text + "..)";
@@ -20,7 +20,7 @@ std::string Checker::describe(const FunctionInfo& function) {
   return text + ")";
 }
 
-std::string Checker::describe(const std::vector<Value>& arguments) {
+std::string Lowerer::describe(const std::vector<Value>& arguments) {
   std::string text = "(";
   for (size_t i = 0; i < arguments.size(); ++i) {
     if (i > 0) text += ", ";
@@ -33,7 +33,7 @@ std::string Checker::describe(const std::vector<Value>& arguments) {
   return text + ")";
 }
 
-bool Checker::is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
+bool Lowerer::is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
                         std::vector<uint32_t>& costs) {
   const auto& parameters = function->parameters;
   if (function->signature_failed || arguments.size() > parameters.size()) return false;
@@ -61,7 +61,7 @@ bool Checker::is_viable(FunctionInfo* function, const std::vector<Value>& argume
   return true;
 }
 
-FunctionInfo* Checker::resolve_overload(const std::vector<FunctionInfo*>& candidates,
+FunctionInfo* Lowerer::resolve_overload(const std::vector<FunctionInfo*>& candidates,
                                         const NamePart& part, const std::vector<Value>& arguments,
                                         SourceLocation location, bool quiet) {
   struct Viable {
@@ -71,10 +71,11 @@ FunctionInfo* Checker::resolve_overload(const std::vector<FunctionInfo*>& candid
   };
   std::vector<Viable> viable;
   for (FunctionInfo* candidate : candidates) {
-    if (candidate->sequence > visible_) continue;
+    if (candidate->sequence > checker_.visible_) continue;
     FunctionInfo* function = candidate;
     if (candidate->is_template) {
-      function = instantiate_function(candidate, part.template_arguments, scope_, arguments);
+      function =
+          checker_.instantiate_function(candidate, part.template_arguments, scope_, arguments);
       if (!function) continue;
     } else if (part.has_template_arguments) {
       continue;
@@ -110,16 +111,17 @@ FunctionInfo* Checker::resolve_overload(const std::vector<FunctionInfo*>& candid
     for (const Viable* one : best) {
       notes.push_back({one->function->decl->location, "candidate: " + describe(*one->function)});
     }
-    report_with_notes(CheckId::kAmbiguousCall, location, {name, describe(arguments)}, notes);
+    checker_.report_with_notes(CheckId::kAmbiguousCall, location, {name, describe(arguments)},
+                               notes);
     return nullptr;
   }
   for (FunctionInfo* candidate : candidates) {
     if (notes.size() == 8) break;
-    const bool hidden = candidate->sequence > visible_;
+    const bool hidden = candidate->sequence > checker_.visible_;
     notes.push_back({candidate->decl->location,
                      (hidden ? "declared only here: " : "candidate: ") + describe(*candidate)});
   }
-  report_with_notes(CheckId::kNoOverload, location, {name, describe(arguments)}, notes);
+  checker_.report_with_notes(CheckId::kNoOverload, location, {name, describe(arguments)}, notes);
   return nullptr;
 }
 

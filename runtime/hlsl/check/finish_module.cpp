@@ -44,7 +44,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
 
 void Checker::finish(ir::Module& module) {
   // Facts flow from callees to callers; the order of lowering has callees first.
-  for (FunctionInfo* function : lowered_functions_) {
+  for (FunctionInfo* function : lower_.lowered_functions_) {
     std::sort(function->callees.begin(), function->callees.end());
     function->callees.erase(std::unique(function->callees.begin(), function->callees.end()),
                             function->callees.end());
@@ -101,7 +101,7 @@ void Checker::finish(ir::Module& module) {
     wrapper->may_end_shader = function->ir->may_end_shader;
     wrapper->has_barrier = function->ir->has_barrier;
   }
-  for (FunctionInfo* function : lowered_functions_) {
+  for (FunctionInfo* function : lower_.lowered_functions_) {
     if (function->ir->stages != 0) module.functions.push_back(function->ir);
   }
   for (const Wrapper& one : wrappers_) module.functions.push_back(one.function);
