@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
-// structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
-// tables), emit_groups.cpp (compute shaders with barriers). WideEmitter emits those that run
-// several threads at once.
+// The C++ emitter's state, shared by its files: types.cpp (types, literals, memory access of
+// structs), expressions.cpp, statements.cpp, emit_cpp.cpp (functions, entry points, tables),
+// groups.cpp (compute shaders with barriers). WideEmitter emits those that run several threads at
+// once.
 //
 // The emitted unit has the prelude as namespace `ks` and everything that belongs to the library in
 // namespace `u`: structs, constants, `u::Context` (one per shader invocation, with the ABI's
@@ -37,7 +37,7 @@ class CppEmitter {
  private:
   friend class WideEmitter;  // prints into the same unit
 
-  // emit_types.cpp
+  // types.cpp
   std::string type(const ir::Type* type);
   void emit_structs();
   void emit_memory_functions();
@@ -51,7 +51,7 @@ class CppEmitter {
   // Approximate bytes that C++ needs to store a value of the type; close enough for stack sizes.
   uint32_t stack_bytes(const ir::Type* type) const;
 
-  // emit_expressions.cpp
+  // expressions.cpp
   std::string value(const ir::Expr* expr);
   std::string place(const ir::Expr* expr);  // an lvalue, valid to the left of "="
   std::string literal(const ir::Expr& expr);
@@ -93,7 +93,7 @@ class CppEmitter {
   std::string texel_coordinates_text(const ir::Type* resource, const std::string& coordinates,
                                      const std::string& mip, const std::string& offset);
 
-  // emit_statements.cpp
+  // statements.cpp
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
   void begin_statement(const ir::Stmt& stmt);
@@ -131,7 +131,7 @@ class CppEmitter {
   void collect_static_use();
   void look_up_once(const ir::Function& function);
 
-  // emit_groups.cpp: compute shaders that are cut at their barriers
+  // groups.cpp: compute shaders that are cut at their barriers
   bool emit_split_group(size_t index);  // false: it must run on fibers
   void emit_group_body(const ir::EntryPoint& entry, const GroupPlan& plan);
   void emit_group_variables(const ir::EntryPoint& entry, const GroupPlan& plan);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints functions that run several threads at once (wide_plan.h), next to the scalar functions of
-// CppEmitter, from which it takes names and the text of uniform expressions: emit_wide.cpp
-// (structs, functions, entry points), emit_wide_statements.cpp, emit_wide_expressions.cpp.
+// CppEmitter, from which it takes names and the text of uniform expressions: wide.cpp (structs,
+// functions, entry points), wide_statements.cpp, wide_expressions.cpp.
 //
 // In emitted code, a varying value of type T has T's wide type (wide.h); a uniform value has the
 // same type as in scalar code. Each function has a mask of the threads that it runs for, which is
@@ -37,7 +37,7 @@ class WideEmitter {
   bool emit_row(size_t index);
 
  private:
-  // emit_wide.cpp
+  // wide.cpp
   std::string type(const ir::Type* type);
   void emit_structs();
   void emit_context();
@@ -47,7 +47,7 @@ class WideEmitter {
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   void emit_static_initialisers(const ir::Function& function);
 
-  // emit_wide_statements.cpp
+  // wide_statements.cpp
   void block(const ir::Block& body);  // in the current scope
   void scope(const ir::Block& body);  // in braces, with a label for threads that leave it early
   void statement(const ir::Stmt& stmt);
@@ -72,7 +72,7 @@ class WideEmitter {
   std::string declare_mask(const std::string& value);
   void declare_texel_row(const ir::Variable* variable, const ir::Expr* value);
 
-  // emit_wide_expressions.cpp
+  // wide_expressions.cpp
   std::string value(const ir::Expr* expr);  // wide, even for a uniform expression
   std::string varying(const ir::Expr& expr);
   std::string place(const ir::Expr* expr);

@@ -5,7 +5,7 @@
 
 namespace kaamos::hlsl {
 
-// The files of runtime/hlsl/glsl; an empty one marks the end.
+// The files of runtime/hlsl/glsl/prelude; an empty one marks the end.
 extern const std::string_view kGlslPreludeSources[];
 
 namespace glsl_blocks {

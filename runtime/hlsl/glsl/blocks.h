@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The text blocks that make up the GLSL prelude: how the files in runtime/hlsl/glsl are read, and
-// how a block is expanded into the overloads that it stands for.
+// The text blocks that make up the GLSL prelude: how the files in runtime/hlsl/glsl/prelude are
+// read, and how a block is expanded into the overloads that it stands for.
 #pragma once
 
 #include <cctype>

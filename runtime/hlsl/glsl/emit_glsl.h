@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Prints one entry point of a module of the intermediate representation, and everything it reaches,
-// as GLSL 4.60 with GL_EXT_ray_tracing on top of the prelude in runtime/hlsl/glsl. The interface
-// with a backend is <kaamos/shader/spirv_interface.h>.
+// as GLSL 4.60 with GL_EXT_ray_tracing on top of the prelude in runtime/hlsl/glsl/prelude. The
+// interface with a backend is <kaamos/shader/spirv_interface.h>.
 #pragma once
 
 #include <cstdint>

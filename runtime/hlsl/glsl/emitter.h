@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The GLSL emitter's state, shared by its files: emit_glsl_types.cpp (types, literals),
-// emit_glsl_memory.cpp (loads and stores), emit_glsl_matrices.cpp, emit_glsl_expressions.cpp,
-// emit_glsl_resources.cpp (bindings, typed buffers, textures, atomics), emit_glsl_statements.cpp,
-// emit_glsl_rays.cpp (TraceRay and related calls, system values), emit_glsl.cpp (functions, main).
+// The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
+// stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
+// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, system_values.cpp,
+// emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
 // a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
@@ -52,7 +52,7 @@ class GlslEmitter {
     std::string guard() const;  // all guards combined
   };
 
-  // emit_glsl_types.cpp
+  // types.cpp
   std::string type(const ir::Type* type);
   std::string matrix_name(ir::Scalar scalar, int rows, int columns);
   std::string zero(const ir::Type* type);
@@ -61,7 +61,7 @@ class GlslEmitter {
   void emit_struct(const ir::Struct* structure);
   bool is_constant(const ir::Expr& expr) const;
 
-  // emit_glsl_memory.cpp
+  // memory.cpp
   std::string memory_read(const ir::Type* type, ir::Layout layout, bool row_major,
                           const std::string& window, const std::string& at);
   std::string memory_write(const ir::Type* type, ir::Layout layout, bool row_major,
@@ -74,7 +74,7 @@ class GlslEmitter {
   std::string load(const ir::Expr& expr);
   void store(const ir::Stmt& stmt);
 
-  // emit_glsl_matrices.cpp
+  // matrices.cpp
   std::string matrix_call(const std::string& function, const ir::Type* result,
                           const std::vector<const ir::Expr*>& operands);
   std::string matrix_intrinsic(const ir::Expr& expr);
@@ -86,7 +86,7 @@ class GlslEmitter {
   std::string transpose(const ir::Type* matrix);
   std::string determinant(const ir::Type* matrix);
 
-  // emit_glsl_expressions.cpp
+  // expressions.cpp
   std::string value(const ir::Expr* expr);
   Path path(const ir::Expr* expr);
   std::string element_index(const ir::Expr* index, uint32_t count, Path& path);
@@ -102,7 +102,7 @@ class GlslEmitter {
   std::string hoist(const std::string& type, const std::string& text);
   std::string repeatable(const ir::Expr* expr);  // a name or a literal
 
-  // emit_glsl_resources.cpp
+  // resources.cpp
   std::string binding(const ir::Expr& expr);
   std::string binding_arguments(uint32_t binding, const std::string& index);
   // For checked libraries: CheckReport::site; the extra arguments of the checked windows; k_tell's
@@ -122,7 +122,7 @@ class GlslEmitter {
   std::string to_texel(const ir::Type* type, const std::string& text);
   std::string texel_at(const ir::Expr* coordinates);
 
-  // emit_glsl_statements.cpp
+  // statements.cpp
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
   void declare(const ir::Stmt& stmt);
@@ -136,7 +136,7 @@ class GlslEmitter {
   void barrier(uint32_t flags);
   void end_shader();
 
-  // emit_glsl_rays.cpp
+  // rays.cpp
   void declare_workarounds();
   std::string generated(const std::string& name, const std::string& text);
   std::string wire_type(const ir::Type* type);
@@ -162,7 +162,7 @@ class GlslEmitter {
   std::string reported_t();
   void report_hit(const ir::Stmt& stmt);
 
-  // emit_glsl_queries.cpp
+  // queries.cpp
   void declare_query();
   bool uses_queries() const;
   std::string query_arguments(const ir::Expr* object);
@@ -171,7 +171,7 @@ class GlslEmitter {
   std::string query_result(const ir::Expr& expr);
   std::string query_value(const ir::Expr& expr);
 
-  // emit_glsl_system_values.cpp
+  // system_values.cpp
   void declare_instance_entry();
   std::string system_value(const ir::Expr& expr);
   std::string hit_builtin(const std::string& name, const std::string& type,

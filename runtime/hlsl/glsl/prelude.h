@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // HLSL's operators, conversions, intrinsics and resource accesses as GLSL functions: what
-// kaamos/shader/prelude.h is for emitted C++. The text is in runtime/hlsl/glsl; the README there
-// says what it contains and how the blocks are written.
+// kaamos/shader/prelude.h is for emitted C++. The text is in runtime/hlsl/glsl/prelude; the README
+// there says what it contains and how the blocks are written.
 #pragma once
 
 #include <string>

@@ -18,7 +18,7 @@ class Compiler {
   void run();
 
  private:
-  // interpret_compile.cpp
+  // compile.cpp
   void place_globals();
   void function(const ir::Function& function);
   EntryCode entry(const ir::EntryPoint& entry);
@@ -32,7 +32,7 @@ class Compiler {
   uint32_t bytes_of(const ir::Type* type) { return extent_of(type).bytes; }
   std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
-  // interpret_compile_expressions.cpp
+  // compile_expressions.cpp
   const Node* node(const ir::Expr* expr);
   Node* variable_node(const ir::Variable* variable, const ir::Expr* expr);
   void compile(Node& node);

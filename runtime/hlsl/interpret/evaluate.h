@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// How each kind of node is evaluated. interpret_compile picks one of these for each expression.
+// How each kind of node is evaluated. compile.cpp picks one of these for each expression.
 #pragma once
 
 #include "runtime/hlsl/interpret/program.h"
 
 namespace kaamos::hlsl::interpret {
 
-// interpret_evaluate.cpp
+// evaluate.cpp
 Evaluate evaluate_data();  // node.data: literals
 Evaluate evaluate_zero();
 // Variables: node.offset bytes from the start of their storage. With `reference`, a pointer is
@@ -28,14 +28,14 @@ Evaluate evaluate_query_value();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
 
-// interpret_memory.cpp
+// memory.cpp
 Evaluate evaluate_load();
 Evaluate evaluate_load_element();
 void store(const Action& action, Frame& frame);
 void store_element(const Action& action, Frame& frame);
 void run_atomic(const Action& action, Frame& frame);
 
-// interpret_textures.cpp
+// textures.cpp
 Evaluate evaluate_typed_load();
 Evaluate evaluate_sample();
 Evaluate evaluate_dimensions();

@@ -154,11 +154,11 @@ struct Program {
   bool checked = false;  // Module::check_access
 };
 
-// interpret_compile.cpp
+// compile.cpp
 std::unique_ptr<Program> make_program(std::shared_ptr<const ir::Module> module,
                                       const InterpretOptions& options);
 
-// interpret_run.cpp: the stages' entry points. attributes and payload are null if the stage has
+// run.cpp: the stages' entry points. attributes and payload are null if the stage has
 // none. Returns the any-hit shader's decision.
 shader::AnyHitResult run_ray_entry(const Program& program, const EntryCode& entry,
                                    shader::Invocation& invocation, void* payload,
@@ -170,7 +170,7 @@ void run_compute_thread(const Program& program, const EntryCode& entry,
 // Calls the hook, if there is one.
 void report(Context& context, InterpretFinding finding, const ir::Location& location);
 
-// interpret_statements.cpp: runs a function whose parameters are already in place.
+// statements.cpp: runs a function whose parameters are already in place.
 void run_body(const Code& code, Frame& frame);
 
 inline const std::byte* evaluate(const Node& node, Frame& frame) {

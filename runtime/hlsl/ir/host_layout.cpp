@@ -102,7 +102,7 @@ const Type* innermost(const Type* type) {
   return type;
 }
 
-// Follows memory.h and emit_types.cpp: structs and arrays of structs are copied member by member.
+// Follows memory.h and cpp/types.cpp: structs and arrays of structs are copied member by member.
 // Anything else is one access, with the scalars counted from its aligned start.
 class MoveCollector {
  public:
