@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The checker's inner state; check.h is what others include. One class, whose parts stand in one
-// file per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
-// subobjects, payloads, payload_uses, finish_module. Bodies and expressions are the lowerer's
+// The checker's inner state; check.h is what others include. It is one class, split into one file
+// per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
+// subobjects, payloads, payload_uses, finish_module. The lowerer handles bodies and expressions
 // (lowerer.h).
 #pragma once
 

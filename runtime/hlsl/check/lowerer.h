@@ -2,7 +2,7 @@
 //
 // From syntax trees of bodies and expressions to IR. The lowerer asks the checker what names and
 // types mean; the checker asks it for the values of constants and initialisers, and to lower what
-// an entry point reaches. One class, whose parts stand in lower_*.cpp, one noun each.
+// an entry point reaches. It is one class, split into lower_*.cpp, one file per noun.
 #pragma once
 
 #include <optional>
@@ -117,7 +117,8 @@ class Lowerer {
   Value lower_construct(const Type* type, std::span<const Expr* const> arguments,
                         SourceLocation location);
   Value lower_sizeof(const SizeofExpr* expr);
-  // The type of two operands of one numeric shape; null, and reported, where there is none.
+  // The common type of two operands of one numeric shape; reports an error and returns null if
+  // there is none.
   const Type* common_type(const Type* a, const Type* b, SourceLocation location, bool& truncates);
   std::optional<Value> overloaded_operator(std::string_view name, const Value& left,
                                            std::vector<Value> arguments, SourceLocation location);
@@ -219,7 +220,7 @@ class Lowerer {
  private:
   friend class Checker;
 
-  // The checker's, under the names that they have there.
+  // Forward to the checker's functions with the same names.
   void report(CheckId id, SourceLocation location,
               std::initializer_list<std::string> arguments = {});
   ir::Location locate(SourceLocation location);
