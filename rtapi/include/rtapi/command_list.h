@@ -47,22 +47,23 @@ class CommandList {
   ///@}
 
   /// Drops commands and errors, forgets all state and opens the list, in whatever state it is. Work
-  /// that was submitted goes on: the queue keeps its commands. [D3D12:
-  /// ID3D12GraphicsCommandList::Reset]
+  /// that was submitted goes on: the queue keeps its commands.
+  /// [D3D12: ID3D12GraphicsCommandList::Reset]
   /// @errors KA0904 empty handle; what Device::GetDeviceRemovedReason says.
   Status Reset();
   /// Ends recording. [D3D12: ID3D12GraphicsCommandList::Close]
   /// @errors KA0904 empty handle; KA0800 the list is closed already; else the first error of the
   /// calls since Reset, KA0824 for a BeginEvent without its EndEvent: the list cannot be executed.
   Status Close();
+  /// All errors since Reset, in order. Valid until the next call on the list.
   const std::vector<Error>& GetErrors() const;
+  /// Whether commands can be recorded; false for an empty handle.
   bool is_open() const;
 
   /// Orders what comes before and after, and says what resources are used for next. Each barrier of
   /// the span is taken or refused by itself. Builds, and traces of what they built, need UAV
-  /// barriers between them; the backends wait without them too, and checked mode reports what is
-  /// missing (KA0450-0452). [D3D12: ResourceBarrier; DXR: Synchronizing acceleration structure
-  /// memory writes/reads]
+  /// barriers between them; checked mode reports barriers that are missing (KA0450-0452).
+  /// [D3D12: ResourceBarrier; DXR: Synchronizing acceleration structure memory writes/reads]
   /// @errors KA0800; KA0802 type, states that are equal, an upload or readback buffer, or a
   /// subresource that does not exist; KA0803 a transition of an acceleration structure buffer;
   /// KA0903 a resource of another device; KA0904 an empty resource in a transition.
@@ -73,8 +74,8 @@ class CommandList {
   }
 
   /// Sets the heaps that descriptor tables and HLSL's descriptor heaps read: at most one of each
-  /// type, shader-visible. Replaces both; a type that is not given has none afterwards. [D3D12:
-  /// SetDescriptorHeaps; DXR: Resource binding]
+  /// type, shader-visible. Replaces both; a type that is not given has none afterwards.
+  /// [D3D12: SetDescriptorHeaps; DXR: Resource binding]
   /// @errors KA0800; KA0804 a heap that shaders cannot see, or the second of its type; KA0903 a
   /// heap of another device; KA0904 an empty handle.
   void SetDescriptorHeaps(std::span<const DescriptorHeap> heaps);
@@ -88,19 +89,18 @@ class CommandList {
   /// them. [DXR: Local root signatures vs global root signatures]
   /// @errors KA0800; KA0536 a local root signature; KA0903 of another device; KA0904 empty handle.
   void SetComputeRootSignature(const RootSignature& root_signature);
-  /// Sets one constant of a parameter: 32-bit value number `dest_offset_dwords`, from 0. [D3D12:
-  /// SetComputeRoot32BitConstant]
+  /// Sets one constant of a parameter: 32-bit value number `dest_offset_dwords`, from 0.
+  /// [D3D12: SetComputeRoot32BitConstant]
   /// @errors as of SetComputeRoot32BitConstants: KA0800, KA0805, KA0807, KA0808.
   void SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value, uint32_t dest_offset_dwords);
   /// Sets `count` 32-bit constants of a parameter from value number `dest_offset_dwords` on.
-  /// `values` are copied in this call; the other constants stay as they are. [D3D12:
-  /// SetComputeRoot32BitConstants]
+  /// `values` are copied in this call; the other constants stay as they are.
+  /// [D3D12: SetComputeRoot32BitConstants]
   /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
   /// type; KA0808 values past the end of the parameter, or a null pointer.
   void SetComputeRoot32BitConstants(uint32_t parameter, uint32_t count, const void* values,
                                     uint32_t dest_offset_dwords);
-  /// Sets the first constants of a parameter to the bytes of `value`, whose size is a multiple of
-  /// 4.
+  /// Sets the first constants of a parameter to the bytes of `value`; its size is a multiple of 4.
   /// @errors as of the overload with a pointer: KA0800, KA0805, KA0807, KA0808.
   template <class T>
   void SetComputeRoot32BitConstants(uint32_t parameter, const T& value) {
@@ -121,8 +121,8 @@ class CommandList {
   /// type; KA0809 a misaligned address, or one in no live buffer.
   void SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address);
   /// Sets a root UAV to an address, a multiple of 4 in a live buffer. 0: a null view, which drops
-  /// writes. Lifetime and checks as of SetComputeRootConstantBufferView. [D3D12:
-  /// SetComputeRootUnorderedAccessView]
+  /// writes. Lifetime and checks as of SetComputeRootConstantBufferView.
+  /// [D3D12: SetComputeRootUnorderedAccessView]
   /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
   /// type; KA0809 a misaligned address, or one in no live buffer.
   void SetComputeRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address);
@@ -132,12 +132,12 @@ class CommandList {
   /// type; KA0810 the handle is in no heap of this type that is set.
   void SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base);
 
-  /// Sets the pipeline of Dispatch, and unsets that of DispatchRays. Root arguments stay. [D3D12:
-  /// SetPipelineState]
+  /// Sets the pipeline of Dispatch, and unsets that of DispatchRays. Root arguments stay.
+  /// [D3D12: SetPipelineState]
   /// @errors KA0800; KA0903 a pipeline of another device; KA0904 empty handle.
   void SetPipelineState(const PipelineState& pipeline);
-  /// Sets the pipeline of DispatchRays, and unsets that of Dispatch. Root arguments stay. [DXR:
-  /// SetPipelineState1]
+  /// Sets the pipeline of DispatchRays, and unsets that of Dispatch. Root arguments stay.
+  /// [DXR: SetPipelineState1]
   /// @errors KA0800; KA0811 a collection; KA0903 a state object of another device; KA0904 empty
   /// handle.
   void SetPipelineState1(const StateObject& pipeline);
@@ -166,8 +166,8 @@ class CommandList {
   /// executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4, and
   /// the arguments of max_command_count commands lie inside the buffer. The pipeline and all other
   /// root arguments are those of the list; what the signature sets is 0 afterwards. Commands of a
-  /// zero dimension are skipped whatever else they hold. [D3D12: ExecuteIndirect; DXR:
-  /// ExecuteIndirect, D3D12_INDIRECT_ARGUMENT_TYPE]
+  /// zero dimension are skipped whatever else they hold.
+  /// [D3D12: ExecuteIndirect; DXR: ExecuteIndirect, D3D12_INDIRECT_ARGUMENT_TYPE]
   /// @errors KA0800; KA0811, KA0812 as of DispatchRays or Dispatch; KA0816 an offset, a range
   /// outside of a buffer, or another root signature than the command signature's; KA0903 an object
   /// of another device; KA0904 an empty signature or argument buffer. When it executes: KA0898
@@ -183,8 +183,8 @@ class CommandList {
   /// structure does not refer to them. It lasts until something else is written to its bytes. After
   /// a bottom level has changed, the top levels that hold it must be rebuilt or updated before they
   /// are traced (KA0463 in checked mode). An update may change vertex positions, the contents of
-  /// transforms, boxes, and everything of instances; nothing else, and no address between 0 and not
-  /// 0. [DXR: BuildRaytracingAccelerationStructure; Acceleration structure update constraints]
+  /// transforms, boxes, and everything about instances, and nothing else; inputs may lie elsewhere.
+  /// [DXR: BuildRaytracingAccelerationStructure; Acceleration structure update constraints]
   /// @errors KA0800; the inputs: KA0700-0705, KA0707-0710; KA0711 an address that is not a multiple
   /// of 256; KA0712 an address in no live buffer; KA0713 a destination that was not created for
   /// acceleration structures, or scratch memory without kAllowUnorderedAccess; KA0714 a source
@@ -198,8 +198,8 @@ class CommandList {
       std::span<const RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos = {});
   /// Writes postbuild info of built structures: an array without gaps, one element for each source,
   /// in order; 8 bytes each, of kSerialization 16. The values are those of when the list executes;
-  /// a UAV barrier stands between the builds and this. [DXR:
-  /// EmitRaytracingAccelerationStructurePostbuildInfo]
+  /// a UAV barrier stands between the builds and this.
+  /// [DXR: EmitRaytracingAccelerationStructurePostbuildInfo]
   /// @errors KA0800; KA0711-0713 a source; KA0712, KA0719 the destination; KA0715 its type, its
   /// alignment or its buffer's flags. When it executes: KA0795 it does not fit, KA0796 a source
   /// that is no acceleration structure.
@@ -210,8 +210,8 @@ class CommandList {
   /// the ranges do not overlap. The source stays as it is; bottom levels that a top level refers to
   /// are not touched. Sizes: kClone as the source, kCompact, kSerialize and
   /// kVisualizationDecodeForTools by postbuild info, kDeserialize by the header. Structures lie in
-  /// buffers for acceleration structures, serialized and decoded bytes in others. [DXR:
-  /// CopyRaytracingAccelerationStructure, D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
+  /// buffers for acceleration structures, serialized and decoded bytes in others.
+  /// [DXR: CopyRaytracingAccelerationStructure, D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
   /// @errors KA0800; KA0711 alignment; KA0712 an address in no live buffer; KA0713 a buffer of the
   /// wrong kind, or bytes written to one without kAllowUnorderedAccess; KA0716 the mode, or both
   /// addresses are the same; KA0719 a buffer is too small. When it executes: KA0789 the serialized
@@ -230,8 +230,8 @@ class CommandList {
                         uint64_t source_offset_bytes, uint64_t size_bytes);
   /// Copies texels between subresources, or between a subresource and a buffer: those of
   /// `source_box` (null: all) to (x, y, z) of the destination. Formats are of one family; values
-  /// are not converted. An empty box copies nothing. The list keeps both sides alive. [D3D12:
-  /// CopyTextureRegion]
+  /// are not converted. An empty box copies nothing. The list keeps both sides alive.
+  /// [D3D12: CopyTextureRegion]
   /// @errors KA0800; KA0817 a subresource that does not exist, texels outside of a side, or a
   /// footprint outside of its buffer; KA0818 source and destination are one subresource; KA0819
   /// formats of different families, two buffers, or a Type that is not the resource's; KA0820 the

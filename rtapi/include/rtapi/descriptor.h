@@ -94,8 +94,8 @@ inline constexpr bool kIsFlags<BufferSrvFlags> = true;
 
 /// A view of a buffer, of one of three kinds. Structured: StructureByteStride is not 0, Format is
 /// kUnknown. Raw: kRaw is set, Format is kR32Typeless, elements have 4 bytes, and the view starts
-/// at a multiple of 16 bytes. Typed: neither, and Format is one that the backend supports. [D3D12:
-/// D3D12_BUFFER_SRV]
+/// at a multiple of 16 bytes. Typed: neither, and Format is one that the backend supports.
+/// [D3D12: D3D12_BUFFER_SRV]
 struct BufferSrv {
   uint64_t FirstElement = 0;         ///< in elements, not bytes
   uint32_t NumElements = 0;          ///< 0: to the end of the buffer

@@ -150,8 +150,8 @@ class Device {
   /// that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`, rounded up
   /// to 512, the others behind it. Appends to each vector that is not null one element for each
   /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Returns
-  /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device. [D3D12:
-  /// GetCopyableFootprints]
+  /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
+  /// [D3D12: GetCopyableFootprints]
   /// @errors KA0817 more subresources than there are; KA0907-0909 as of CreateTexture.
   Result<uint64_t> GetCopyableFootprints(const TextureDesc& desc, uint32_t first_subresource,
                                          uint32_t count, uint64_t base_offset_bytes,
@@ -185,8 +185,8 @@ class Device {
   /// @errors as of the overload with a desc: KA0622, KA0626 (typeless formats), KA0903, KA0904.
   Status CreateShaderResourceView(const Texture& texture, CpuDescriptorHandle dest) const;
   /// Writes a view that shaders can write to into slot `dest` of a living CBV/SRV/UAV heap. An
-  /// empty resource makes a null descriptor. The view does not keep the resource alive. [D3D12:
-  /// CreateUnorderedAccessView]
+  /// empty resource makes a null descriptor. The view does not keep the resource alive.
+  /// [D3D12: CreateUnorderedAccessView]
   /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
   /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride, offset or counter;
   /// KA0626 format; KA0627 the resource was created without kAllowUnorderedAccess; KA0630 mips or
@@ -254,8 +254,8 @@ class Device {
   /// if the device is removed.
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
   /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
-  /// if an argument sets a root argument, and ignored otherwise. [D3D12: CreateCommandSignature;
-  /// DXR: D3D12_COMMAND_SIGNATURE_DESC]
+  /// if an argument sets a root argument, and ignored otherwise.
+  /// [D3D12: CreateCommandSignature; DXR: D3D12_COMMAND_SIGNATURE_DESC]
   /// @errors KA0904 empty handle; KA0903 a root signature of another device; KA0536 a local one;
   /// KA0540 an argument or the stride; KA0541 kDispatchRays on a device of tier 1.0; the reason if
   /// the device is removed.
@@ -276,8 +276,8 @@ class Device {
       const BuildRaytracingAccelerationStructureInputs& inputs) const;
 
   /// Whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this identifier,
-  /// which is the start of its header. An empty handle recognizes none. Never fails. [DXR:
-  /// CheckDriverMatchingIdentifier]
+  /// which is the start of its header. An empty handle recognizes none. Never fails.
+  /// [DXR: CheckDriverMatchingIdentifier]
   DriverMatchingIdentifierStatus CheckDriverMatchingIdentifier(
       SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const;
 
