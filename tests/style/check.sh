@@ -1,8 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice,
+# documented.
 set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 rule=$1
 cd "$2"
 
@@ -166,8 +168,56 @@ check_used() {
   done
 }
 
+# What Doxygen says of the public headers, by the project's own settings and with nothing written: every public
+# type, function and member has a comment, and Doxygen understands it.
+check_comments() {
+  local input=() folder scratch
+  for folder in rtapi/include effects; do
+    [[ ! -d $folder ]] || input+=("$folder")
+  done
+  scratch=$(mktemp -d)
+  {
+    cat "$here/../../cmake/Doxyfile"
+    echo "INPUT = ${input[*]}"
+    echo "USE_MDFILE_AS_MAINPAGE ="
+    echo "GENERATE_HTML = NO"
+    echo "GENERATE_XML = YES"
+    echo "XML_PROGRAMLISTING = NO"
+    echo "WARN_AS_ERROR = NO"
+    echo "WARN_LOGFILE = \"$scratch/warnings\""
+  } >"$scratch/Doxyfile"
+  KAAMOS_MANUAL_DIR=$scratch KAAMOS_VERSION=0 doxygen "$scratch/Doxyfile" >"$scratch/log" 2>&1 ||
+    sed 's/^/cmake\/Doxyfile:1: /' "$scratch/log"
+  sed -n "s|^$PWD/||; s/: warning: /: /p" "$scratch/warnings" | LC_ALL=C sort -u
+  rm -rf "$scratch"
+}
+
+# A public call that can fail says by which errors: a comment over a function that returns a Result or a Status
+# holds @errors and an id, or says that it is the overload of one that does.
+check_errors_of_calls() {
+  list_files -path './rtapi/include/*.h' | xargs -r -d '\n' awk '
+    FNR == 1 { comment = "" }
+    /^ *\/\/\// { comment = comment $0; next }
+    /^ *(template <|static |\[\[)/ && !/[(]/ { next }
+    /^ *(static |inline )?(Result<.*>|Status)( [A-Za-z_]+\(|$)/ {
+      if (comment !~ /@overload/ && comment !~ /@errors.*KA[0-9][0-9][0-9][0-9]/)
+        print FILENAME ":" FNR ": returns an error, and its comment names none by @errors"
+    }
+    { comment = "" }'
+}
+
+# Public headers are the contract: what is in them is said there, for the reference manual too.
+check_documented() {
+  if ! command -v doxygen >/dev/null; then
+    echo "cmake/Doxyfile:1: doxygen is missing, which reads the comments: apt-get install doxygen"
+    return
+  fi
+  check_comments
+  check_errors_of_calls
+}
+
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told | twice) ;;
+  spdx | paths | marks | readme | length | listed | used | told | twice | documented) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
