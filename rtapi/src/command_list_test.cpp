@@ -95,7 +95,7 @@ TEST_F(CommandListTest, RootArgumentsLieWhereTheSignatureSays) {
         &v, Executed<runtime::DispatchCommand>(command).state.root_arguments->bytes.data() + at, 8);
     return v;
   };
-  EXPECT_EQ(u32(0, 0), 0u);  // the snapshot of the first dispatch
+  EXPECT_EQ(u32(0, 0), 0u);  // the first dispatch keeps its snapshot
   EXPECT_EQ(u32(0, 4), 11u);
   EXPECT_EQ(u32(0, 8), 12u);
   EXPECT_EQ(u64(0, 16), buffer.GetGPUVirtualAddress() + 256);

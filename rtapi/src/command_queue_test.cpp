@@ -10,7 +10,7 @@ namespace {
 
 class QueueTest : public ::testing::Test {
  protected:
-  // A closed list whose execution shows in the log.
+  // A closed list that leaves its name in the log when it executes.
   CommandList Marker(const char* name) {
     CommandList list = device_.CreateCommandList().value();
     list.BeginEvent(name);
@@ -47,7 +47,7 @@ TEST_F(QueueTest, WaitsForAFenceThatTheHostSignals) {
   CommandList list = Marker("a");
   EXPECT_OK(queue_.ExecuteCommandLists({list}));
   EXPECT_EQ(Executed(), "");
-  EXPECT_OK(list.Reset());  // what was submitted stays
+  EXPECT_OK(list.Reset());  // submitted work stays as it was
   EXPECT_OK(fence_.Signal(4));
   EXPECT_EQ(Executed(), "a");
 }

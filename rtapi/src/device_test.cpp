@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Devices, the table of errors, buffers, textures, footprints.
+// Devices, the error table, buffers, textures, footprints.
 #include <fstream>
 #include <set>
 #include <sstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Nothing that a caller can say crashes: random descriptions and calls, most of them wrong, from a
-// fixed seed. Run under the sanitizers by the asan preset.
+// No call may crash, whatever its arguments: random descriptions and calls, most of them wrong,
+// from a fixed seed. The asan preset runs this under the sanitizers.
 #include <random>
 
 #include "rtapi/testing/command_list_fixture.h"
@@ -13,7 +13,7 @@ class RandomCallsTest : public CommandListTest {
  protected:
   uint64_t Below(uint64_t n) { return n ? random_() % n : 0; }
   bool Coin() { return random_() & 1; }
-  // Small, near a power of two, or anything.
+  // A small number, one near a power of two, or any at all.
   uint64_t Number() {
     switch (Below(3)) {
       case 0:
@@ -316,7 +316,7 @@ TEST_F(RandomCallsTest, CommandLists) {
     }
     const bool sound = list.Close().ok();
     sound ? ++closed : ++failed;
-    // The recording backend copies buffers for real: a range that slipped through would show.
+    // The recording backend really copies buffers, so a range that slipped through would show.
     EXPECT_EQ(queue_.ExecuteCommandLists({list}).ok(), sound);
   }
   EXPECT_GT(closed, 50);
