@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ray traced ambient occlusion. The pass adds the number of open samples to kAmbientOcclusionSum.
+/// @file
+/// Ray traced ambient occlusion. The pass adds the number of open samples to kAmbientOcclusionSum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the frame's radiance from the G-buffer and the effects.
+/// @file
+/// Computes the frame's radiance from the G-buffer and the effects.
 #pragma once
 
 #include "effects/frame/compute_pass.h"

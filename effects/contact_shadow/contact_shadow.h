@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Contact shadows of each pixel's strongest point light and strongest spot light, by short rays.
-// [effects-spec B2.12]
+/// @file
+/// Contact shadows of each pixel's strongest point light and strongest spot light, by short rays.
+/// [effects-spec B2.12]
 #pragma once
 
 #include "effects/frame/ray_pass.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
-// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
-// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
+/// @file
+/// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
+/// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
+/// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -113,7 +114,7 @@ class Denoiser {
     bool of_lobe = false;
   };
 
-  /// Errors: those of the device; more signals than there may be, or none.
+  /// @errors those of the device; more signals than there may be, or none.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries,
                                         const std::vector<Signal>& signals,

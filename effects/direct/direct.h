@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
+/// @file
+/// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -14,7 +15,7 @@ rtapi::Result<rtapi::ShaderLibrary> direct_library();
 
 class DirectLighting {
  public:
-  /// Errors: those of the device.
+  /// @errors those of the device.
   static rtapi::Result<DirectLighting> create(const rtapi::Device& device, const Frame& frame,
                                               const Lighting& lighting,
                                               const rtapi::ShaderLibrary& library);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A compute pipeline over a frame, one thread per pixel of a picture.
+/// @file
+/// A compute pipeline over a frame, one thread per pixel of a picture.
 #pragma once
 
 #include <rtapi/rtapi.h>

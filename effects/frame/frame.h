@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pictures and the global root table that all effects of a frame share.
+/// @file
+/// The pictures and the global root table that all effects of a frame share.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -136,7 +137,8 @@ class Frame {
   /// [effects/ray_order]
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;
-  /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
+  /// Descriptors for one pass.
+  /// @errors FrameDesc::max_pass_views are in use.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
   /// A picture of the frame's size.
   rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,

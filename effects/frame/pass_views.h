@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a pass reads and writes besides the frame's own pictures: registers t0.. and u0.. of space3,
-// and constants in b0 of space3. With these an effect brings its own pictures and buffers, and no
-// other effect's shaders depend on them.
+/// @file
+/// What a pass reads and writes besides the frame's own pictures: registers t0.. and u0.. of
+/// space3, and constants in b0 of space3. With these an effect brings its own pictures and buffers,
+/// and no other effect's shaders depend on them.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A picture that passes write and read. The texture stays in unordered-access state, so no pass
-// needs a transition, only a UAV barrier after the pass that wrote it.
+/// @file
+/// A picture that passes write and read. The texture stays in unordered-access state, so no pass
+/// needs a transition, only a UAV barrier after the pass that wrote it.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray tracing pipeline over a frame: state object, shader tables, dispatch. Each dispatch has a
-// state object of its own. [Northlight deck: One state object per dispatch]
+/// @file
+/// A ray tracing pipeline over a frame: state object, shader tables, dispatch. Each dispatch has a
+/// state object of its own. [Northlight deck: One state object per dispatch]
 #pragma once
 
 #include <rtapi/rtapi.h>

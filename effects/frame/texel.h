@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads texels of the frame's pictures as floats.
+/// @file
+/// Reads texels of the frame's pictures as floats.
 #pragma once
 
 #include <rtapi/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The G-buffer, from one primary ray through the centre of each pixel.
+/// @file
+/// The G-buffer, from one primary ray through the centre of each pixel.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

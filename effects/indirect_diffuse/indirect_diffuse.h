@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
+/// @file
+/// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
 #pragma once
 
 #include "effects/frame/ray_pass.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cell of the volume as shaders read it, in half the size of VolumeCell.
+/// @file
+/// A cell of the volume as shaders read it, in half the size of VolumeCell.
 #pragma once
 
 #include <array>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A sparse volume of indirect light: cells of 25 cm in bricks of 8 x 8 x 8, stored where there is
-// geometry, and baked by a path tracer that is a DXR program like every effect. [effects-spec B5.1]
+/// @file
+/// A sparse volume of indirect light: cells of 25 cm in bricks of 8 x 8 x 8, stored where there is
+/// geometry, and baked by a path tracer that is a DXR program like every effect. [effects-spec
+/// B5.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -52,8 +54,8 @@ struct IndirectVolume {
 
 /// The bricks that hold geometry, and those next to them, without light yet. Without a size of
 /// cells they are of kVolumeCell, or of as many times twice that as keep the volume within
-/// `most_cells`: baking takes as long as there are cells, and a large floor has many. Errors: more
-/// than 2^24 cells: a larger cell is needed.
+/// `most_cells`: baking takes as long as there are cells, and a large floor has many.
+/// @errors more than 2^24 cells: a larger cell is needed.
 Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres = {},
                                      std::uint64_t most_cells = 1u << 19);
 
@@ -74,8 +76,8 @@ rtapi::Status bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queu
                           const std::function<void(double)>& progress,
                           const std::atomic<bool>& stop);
 
-/// Little-endian, with a version and the length of everything. Errors: files that cannot be written
-/// or read, are of another version, cut short or damaged.
+/// Little-endian, with a version and the length of everything.
+/// @errors files that cannot be written or read, are of another version, cut short or damaged.
 Status save_volume(const std::string& path, const IndirectVolume& volume);
 Result<IndirectVolume> load_volume(const std::string& path);
 

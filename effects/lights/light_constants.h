@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Local lights in the format that shaders read. [Northlight deck: Lighting Data]
+/// @file
+/// Local lights in the format that shaders read. [Northlight deck: Lighting Data]
 #pragma once
 
 #include <cstdint>

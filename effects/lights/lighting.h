@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The local lights of a frame: light lists per cluster and an atlas of shadow maps. Both are made
-// anew each frame and bound to every pass whose shaders include hit_lighting.hlsli.
+/// @file
+/// The local lights of a frame: light lists per cluster and an atlas of shadow maps. Both are made
+/// anew each frame and bound to every pass whose shaders include hit_lighting.hlsli.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -25,8 +26,8 @@ rtapi::Result<rtapi::ShaderLibrary> lighting_library();
 
 class Lighting {
  public:
-  /// Room for the lights that the scene has now. Errors: those of the device; more lights than an
-  /// atlas has tiles for (4,096).
+  /// Room for the lights that the scene has now.
+  /// @errors those of the device; more lights than an atlas has tiles for (4,096).
   static rtapi::Result<Lighting> create(const rtapi::Device& device, const Frame& frame,
                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                         std::uint32_t light_count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The order in which a dispatch takes the pixels of a frame: by the direction or origin of their
-// rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21, B1.5]
+/// @file
+/// The order in which a dispatch takes the pixels of a frame: by the direction or origin of their
+/// rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21, B1.5]
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Opaque reflections. [effects-spec B4.10]
+/// @file
+/// Opaque reflections. [effects-spec B4.10]
 #pragma once
 
 #include "effects/frame/ray_pass.h"

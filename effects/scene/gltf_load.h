@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Loads glTF 2.0 files (.gltf with its parts, or .glb) as scenes.
-//
-// It reads triangle lists, strips and fans, indexed or not, with every component type, normalised
-// and sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
-// KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; and skins, either in
-// the pose of the file or, on request, as skins and animations. Whatever it ignores (points, lines,
-// morph targets, vertex colours) is named in the warnings.
+/// @file
+/// Loads glTF 2.0 files (.gltf with its parts, or .glb) as scenes.
+///
+/// It reads triangle lists, strips and fans, indexed or not, with every component type, normalised
+/// and sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
+/// KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; and skins, either in
+/// the pose of the file or, on request, as skins and animations. Whatever it ignores (points,
+/// lines, morph targets, vertex colours) is named in the warnings.
 #pragma once
 
 #include <cstdint>
@@ -18,11 +19,13 @@
 
 namespace kaamos::effects {
 
+/// A scene from a file.
 struct LoadedScene {
-  Scene scene;
-  std::vector<std::string> warnings;
+  Scene scene;                        ///< passes validate()
+  std::vector<std::string> warnings;  ///< what was left out, one sentence each
 };
 
+/// How a file is read.
 struct GltfOptions {
   /// Skinned meshes keep their bind pose, joints and weights, nodes their hierarchy, and the first
   /// animation drives all instances: for a StructureManager. Else everything stands in the pose of

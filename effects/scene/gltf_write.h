@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes scenes as .glb files that any glTF viewer reads.
+/// @file
+/// Writes scenes as .glb files that any glTF viewer reads.
 #pragma once
 
 #include <cstdint>

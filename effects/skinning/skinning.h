@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Deforms the vertices of skinned meshes by a compute shader. It leaves the indices alone, so that
-// acceleration structures can be updated.
+/// @file
+/// Deforms the vertices of skinned meshes by a compute shader. It leaves the indices alone, so that
+/// acceleration structures can be updated.
 #pragma once
 
 #include <rtapi/rtapi.h>

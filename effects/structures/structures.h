@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
-// level. [effects-spec B1.1, Northlight deck: Build Flags]
+/// @file
+/// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
+/// level. [effects-spec B1.1, Northlight deck: Build Flags]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -67,8 +68,8 @@ class StructureManager {
   /// levels, one barrier, top level, one barrier; what has nothing to do is left out together with
   /// its barrier. Positions become relative to `origin`, the camera. The list of the frame before
   /// must have finished: what the device reads is written now.
-  /// Error: not one state per instance, not one matrix per joint, or a mesh that is no level of its
-  /// instance.
+  /// @errors not one state per instance, not one matrix per joint, or a mesh that is no level of
+  /// its instance.
   rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
                        const glm::dvec3& origin);
   /// The same, executed stage by stage and measured.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shadow of a sun with an area. The pass adds the number of samples that see it to
-// kSunVisibilitySum.
+/// @file
+/// Shadow of a sun with an area. The pass adds the number of samples that see it to
+/// kSunVisibilitySum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
-// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
+/// @file
+/// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
+/// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
 #pragma once
 
 #include <rtapi/rtapi.h>

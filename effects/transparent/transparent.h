@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12, B4.13]
+/// @file
+/// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12,
+/// B4.13]
 #pragma once
 
 #include <cstdint>
