@@ -11,8 +11,12 @@
 
 namespace kaamos::effects {
 
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> direct_library();
 
+/// The two passes of the local lights: all of them, or the two strongest of each pixel later, when
+/// their contact shadows are known.
 class DirectLighting {
  public:
   /// @errors those of the device.
@@ -25,6 +29,7 @@ class DirectLighting {
   /// total() = direct() + the two lights, times their contact shadow.
   void add_strongest(rtapi::CommandList& list, const Frame& frame) const;
   /// The contact shadow that add_strongest reads: visibility, r point light, g spot light.
+  /// @errors those of PassViews::set_unordered_access.
   rtapi::Status set_contact(const rtapi::Texture& contact);
 
   /// Of all that the two passes read and write besides the G-buffer, the lights' lists and maps

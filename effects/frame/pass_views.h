@@ -15,29 +15,40 @@ namespace kaamos::effects {
 
 inline constexpr std::uint32_t kPassShaderResources = 16;  ///< t0..t15 of space3
 inline constexpr std::uint32_t kPassUnorderedAccess = 32;  ///< u0..u31 of space3
-inline constexpr std::uint32_t kPassViews = kPassShaderResources + kPassUnorderedAccess;
-inline constexpr std::uint32_t kPassWords = 24;  ///< of constants b0, space3
+inline constexpr std::uint32_t kPassViews =
+    kPassShaderResources + kPassUnorderedAccess;  ///< of a pass, in all
+inline constexpr std::uint32_t kPassWords = 24;   ///< of constants b0, space3
 
 /// A block of descriptors in the heap of a frame, made by Frame::create_pass_views. What is not set
 /// must not be read.
 class PassViews {
  public:
   PassViews() = default;
+  /// The block of kPassViews descriptors from slot `first` of a heap on.
   PassViews(rtapi::Device device, rtapi::DescriptorHeap heap, std::uint32_t first)
       : device_(std::move(device)), heap_(std::move(heap)), first_(first) {}
 
+  /// Register t, 0 to 15: the whole texture. It must outlive the dispatches.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Texture& texture);
-  /// A structured buffer.
+  /// Register t, 0 to 15: a whole structured buffer of elements of `stride` bytes. It must outlive
+  /// the dispatches.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_shader_resource(std::uint32_t t, const rtapi::Buffer& buffer,
                                     std::uint32_t stride);
+  /// Register u, 0 to 31: mip 0 of a texture. It must outlive the dispatches.
+  /// @errors those of rtapi::Device::CreateUnorderedAccessView.
   rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Texture& texture);
-  /// A structured buffer.
+  /// Register u, 0 to 31: a whole structured buffer of elements of `stride` bytes. It must outlive
+  /// the dispatches.
+  /// @errors those of rtapi::Device::CreateUnorderedAccessView.
   rtapi::Status set_unordered_access(std::uint32_t u, const rtapi::Buffer& buffer,
                                      std::uint32_t stride);
   /// Records that zero is written to a picture of floats, which register u holds.
   void clear(rtapi::CommandList& list, std::uint32_t u, const rtapi::Texture& texture) const;
   /// Of the pictures and buffers that the views name.
   std::uint64_t bytes() const;
+  /// Their first descriptor, for FrameRootParameter::kRootPassViews.
   rtapi::GpuDescriptorHandle table() const { return heap_.GetGPUDescriptorHandle(first_); }
 
  private:
@@ -49,10 +60,11 @@ class PassViews {
 
 /// Arguments of one dispatch that only its pass knows.
 struct PassArguments {
-  const PassViews* views = nullptr;  ///< null: the pass has none
-  std::array<std::uint32_t, kPassWords> words{};
+  const PassViews* views = nullptr;               ///< null: the pass has none
+  std::array<std::uint32_t, kPassWords> words{};  ///< constants b0, space3
 
   PassArguments() = default;
+  /// Views alone.
   explicit PassArguments(const PassViews& pass_views) : views(&pass_views) {}
   /// `constants`: as the pass's cbuffer b0, space3 has them.
   template <class T>

@@ -13,15 +13,17 @@ namespace kaamos::effects {
 RayPassDesc reflections_pass(rtapi::ShaderLibrary library);
 /// The same rays, of which only the length is kept: nothing is shaded.
 RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library);
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> reflections_library();
 
 /// Constants b0, space3. The lengths are Control's.
 struct ReflectionConstants {
-  float longest = 200.0f;      ///< metres, of the rays of a mirror
-  float shortest = 3.0f;       ///< metres, at roughness 1
-  float length_jitter = 0.2f;  ///< part of the length that varies
-  float firefly_limit = 0.0f;  ///< luminance that a sample is clamped to; 0: none
-  std::uint32_t sun_at_hits = 1;
+  float longest = 200.0f;           ///< metres, of the rays of a mirror
+  float shortest = 3.0f;            ///< metres, at roughness 1
+  float length_jitter = 0.2f;       ///< part of the length that varies
+  float firefly_limit = 0.0f;       ///< luminance that a sample is clamped to; 0: none
+  std::uint32_t sun_at_hits = 1;    ///< 1: what rays hit is lit by the sun, by a ray; 0: it is not
   std::uint32_t single_length = 0;  ///< 1: `longest` at every roughness
 };
 

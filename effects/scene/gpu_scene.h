@@ -49,7 +49,7 @@ enum PreviousInstanceFlags : std::uint32_t {
 struct GpuSceneStatistics {
   double bottom_level_ms = 0;             ///< builds of all bottom levels
   double top_level_ms = 0;                ///< build of the top level
-  std::uint64_t bottom_level_bytes = 0;   ///< of all bottom levels, compacted
+  std::uint64_t bottom_level_bytes = 0;   ///< of all bottom levels
   std::uint64_t top_level_bytes = 0;      ///< of the top level
   std::uint64_t unique_triangles = 0;     ///< of the meshes
   std::uint64_t instanced_triangles = 0;  ///< of the instances
@@ -71,6 +71,7 @@ struct GpuScene {
 
 /// Buffers and textures of a valid scene, and the arguments of its meshes' records; no acceleration
 /// structures, nor what depends on them.
+/// @errors those of the device, among them KA0990 no memory.
 rtapi::Result<GpuScene> upload_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                      const Scene& scene);
 /// Input of a bottom level build. `gpu`: the record of `geometry`.
@@ -88,6 +89,7 @@ rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, 
 /// `origin` (the camera) before they are rounded to float: far from the world's origin a float has
 /// too few digits left. [effects-spec B0.1] Skinned meshes stay in their bind pose: scenes that
 /// move take a StructureManager. [effects/structures]
+/// @errors those of the device, among them KA0990 no memory and KA0709 too many triangles.
 rtapi::Result<GpuScene> create_gpu_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                          const Scene& scene, const glm::dvec3& origin);
 

@@ -150,8 +150,9 @@ std::uint64_t unique_triangle_count(const Scene& scene);
 /// too small.
 Bounds scene_bounds(const Scene& scene);
 
-/// First broken rule of the data, named by place and value: ids in range, index ranges inside their
-/// buffers, finite transforms, mip sizes, unit directions. A valid scene can be uploaded unchecked.
+/// Checks the data: ids in range, index ranges inside their buffers, finite transforms, mip sizes,
+/// unit directions. A valid scene can be uploaded unchecked.
+/// @errors the first broken rule, named by place and value.
 Status validate(const Scene& scene);
 
 }  // namespace kaamos::effects

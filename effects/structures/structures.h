@@ -19,47 +19,53 @@
 
 namespace kaamos::effects {
 
+/// How structures that move are kept.
 struct StructureOptions {
   /// A structure that is updated is built anew once in so many frames, because updates make it
   /// slower to trace; never two of a class in one frame while there are fewer than frames. 1: never
   /// updated. 0: only updated.
+  ///@{
   std::uint32_t deformable_period = 8;
   std::uint32_t hero_period = 30;
+  ///@}
   bool compact = true;  ///< static structures
 };
 
 /// Of the last frame unless it says otherwise.
 struct StructureStatistics {
   // Of the scene.
-  std::uint32_t static_structures = 0;
-  std::uint32_t skinned_structures = 0;  ///< instances in the same pose share one
-  std::uint64_t static_bytes = 0;
-  std::uint64_t static_bytes_before_compaction = 0;
-  std::uint64_t skinned_bytes = 0;  ///< structures
-  std::uint64_t vertex_bytes = 0;   ///< deformed vertices
-  std::uint64_t scratch_bytes = 0;
-  std::uint64_t top_level_bytes = 0;
-  double create_ms = 0;
+  std::uint32_t static_structures = 0;               ///< bottom levels that never change
+  std::uint32_t skinned_structures = 0;              ///< instances in the same pose share one
+  std::uint64_t static_bytes = 0;                    ///< of them
+  std::uint64_t static_bytes_before_compaction = 0;  ///< the same as they were built
+  std::uint64_t skinned_bytes = 0;                   ///< structures
+  std::uint64_t vertex_bytes = 0;                    ///< deformed vertices
+  std::uint64_t scratch_bytes = 0;                   ///< of all builds and updates
+  std::uint64_t top_level_bytes = 0;                 ///< of the top level
+  double create_ms = 0;                              ///< create()
   // Of the frame.
-  std::uint32_t frame = 0;    ///< frames recorded before this one
-  std::uint32_t skinned = 0;  ///< dispatches
-  std::uint64_t skinned_vertices = 0;
-  std::uint32_t updated = 0;
-  std::uint32_t rebuilt = 0;  ///< the first build counts too
-  std::uint32_t skipped = 0;  ///< no joint moved
-  std::uint32_t moved_instances = 0;
-  std::uint32_t changed_levels = 0;  ///< instances that show another level of detail than before
-  std::uint32_t barriers = 0;        ///< batches
+  std::uint32_t frame = 0;             ///< frames recorded before this one
+  std::uint32_t skinned = 0;           ///< dispatches
+  std::uint64_t skinned_vertices = 0;  ///< of these dispatches
+  std::uint32_t updated = 0;           ///< structures that were refitted
+  std::uint32_t rebuilt = 0;           ///< the first build counts too
+  std::uint32_t skipped = 0;           ///< no joint moved
+  std::uint32_t moved_instances = 0;   ///< with another transform or shape than before
+  std::uint32_t changed_levels = 0;    ///< instances that show another level of detail than before
+  std::uint32_t barriers = 0;          ///< batches
   // Only by execute().
-  double skinning_ms = 0;
-  double bottom_level_ms = 0;
-  double top_level_ms = 0;
+  double skinning_ms = 0;      ///< with its barrier
+  double bottom_level_ms = 0;  ///< with their barrier
+  double top_level_ms = 0;     ///< with its barrier
 };
 
+/// Keeps the acceleration structures of a scene that moves, and what its hit records and passes
+/// read. One frame at a time.
 class StructureManager {
  public:
   /// Uploads a valid scene and builds the static structures. There is no top level before the first
   /// frame.
+  /// @errors those of the device, among them KA0990 no memory.
   static rtapi::Result<StructureManager> create(const rtapi::Device& device,
                                                 rtapi::CommandQueue& queue, const Scene& scene,
                                                 const StructureOptions& options = {});
@@ -73,11 +79,13 @@ class StructureManager {
   rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
                        const glm::dvec3& origin);
   /// The same, executed stage by stage and measured.
+  /// @errors those of record, and of rtapi::CommandQueue::ExecuteAndWait.
   rtapi::Status execute(const rtapi::Device& device, rtapi::CommandQueue& queue,
                         std::span<const InstanceState> states, const glm::dvec3& origin);
 
   /// For passes and Frame; its resources stay the same over all frames.
   const GpuScene& scene() const { return gpu_; }
+  /// Of the last frame, and of the scene.
   const StructureStatistics& statistics() const { return statistics_; }
   /// What an instance's vertices became, kSkinnedVertexStride apart. Empty where it has no skin.
   rtapi::Buffer skinned_vertices(std::uint32_t instance) const;

@@ -20,21 +20,27 @@ struct TaaConstants {
   float alpha = 0.1f;             ///< least weight of the new frame; the Nth has at least 1 / N
   float clip_gamma = 1.0f;        ///< deviations of 3 x 3 pixels; 0: history is not clipped
   float depth_tolerance = 0.02f;  ///< relative; what was nearer by more may have hidden the surface
-  std::uint32_t history_valid = 0;
+  std::uint32_t history_valid = 0;  ///< set by TemporalAntialiasing
 };
 static_assert(sizeof(TaaConstants) == 16);
 
+/// Frames after which taa_jitter begins anew.
 inline constexpr std::uint32_t kTaaJitterPeriod = 16;
 
 /// Where in its pixels frame `index` looks through: pixels from their middle, within half a pixel.
 /// Points of the Halton sequence to bases 2 and 3. [Halton 1960]
 glm::vec2 taa_jitter(std::uint32_t index);
 
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> taa_library();
 
 /// Resolves the radiance of one frame after the other.
 class TemporalAntialiasing {
  public:
+  /// Makes the pass and its two pictures of the size of the frame.
+  /// @errors those of the device: KA0990, and of rtapi::Device::CreateComputePipelineState; KA0537
+  /// a library without the pass.
   static rtapi::Result<TemporalAntialiasing> create(const rtapi::Device& device, const Frame& frame,
                                                     const rtapi::ShaderLibrary& library,
                                                     const TaaConstants& constants = {});

@@ -16,8 +16,11 @@ namespace kaamos::effects {
 /// layers traced one by one. Lighting::bind and GpuVolume::bind are needed too. What lies behind is
 /// multiplied with u1 and u0 added.
 RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> transparent_library();
 /// That composition onto the frame's kRadiance; takes the same views and constants.
+/// @errors KA0537 a library without the pass; those of rtapi::Device::CreateComputePipelineState.
 rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
                                                     const rtapi::ShaderLibrary& library);
 
@@ -30,6 +33,7 @@ enum class BlendWeight : std::uint32_t {
   kDepth,   ///< alpha max(3000 (near / z)^3, 0.01)
 };
 
+/// Most layers that are traced one by one.
 inline constexpr std::uint32_t kMaxSortedLayers = 8;
 
 /// Constants b0, space3. The defaults are Control's: the first layer reflects.
@@ -38,7 +42,7 @@ struct TransparentConstants {
   /// Nearest layers traced one by one, in their exact order, at most kMaxSortedLayers; those that
   /// do not reflect are lit only. What lies behind is blended without an order.
   std::uint32_t sorted_layers = 1;
-  BlendWeight weight = BlendWeight::kSquare;
+  BlendWeight weight = BlendWeight::kSquare;  ///< of layers that are blended without an order
   std::uint32_t sun = 1;  ///< 1: shadow rays to the sun; 0: the sun does not shine on glass
   float reflection_length = 60.0f;  ///< metres; beyond it the sky or the volume is mirrored
   float fade = 0.2f;                ///< last part of that length, over which the sky takes over
