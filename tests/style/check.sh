@@ -168,17 +168,24 @@ check_used() {
   done
 }
 
-# What Doxygen says of the public headers, by the project's own settings and with nothing written: every public
-# type, function and member has a comment, and Doxygen understands it.
+# The headers that the reference manual is made of, by the project's Doxyfile.
+list_public_headers() {
+  local patterns pattern hidden=()
+  patterns=$(sed -n '/^EXCLUDE_PATTERNS/,/[^\\]$/{s/^[A-Z_]* *=//; s/\\$//; p}' "$here/../../cmake/Doxyfile")
+  while read -r pattern; do
+    hidden+=(! -path "$pattern")
+  done < <(tr -s ' ' '\n' <<<"$patterns" | grep .)
+  list_files \( -path './rtapi/include/*.h' -o -path './effects/*.h' \) "${hidden[@]}"
+}
+
+# What Doxygen says of these headers by the project's own settings: every public type, function and member has
+# a comment, and Doxygen understands it.
 check_comments() {
-  local input=() folder scratch
-  for folder in rtapi/include effects; do
-    [[ ! -d $folder ]] || input+=("$folder")
-  done
+  local scratch
   scratch=$(mktemp -d)
   {
     cat "$here/../../cmake/Doxyfile"
-    echo "INPUT = ${input[*]}"
+    echo "INPUT = $(list_public_headers | tr '\n' ' ')"
     echo "USE_MDFILE_AS_MAINPAGE ="
     echo "GENERATE_HTML = NO"
     echo "GENERATE_XML = YES"
@@ -192,18 +199,24 @@ check_comments() {
   rm -rf "$scratch"
 }
 
-# A public call that can fail says by which errors: a comment over a function that returns a Result or a Status
-# holds @errors and an id, or says that it is the overload of one that does.
+# What Doxygen does not ask for: @file, without which it passes over a header's functions; and the errors of each
+# call that returns a Result or a Status, behind @errors, in rtapi with their ids. @overload points at another.
 check_errors_of_calls() {
-  list_files -path './rtapi/include/*.h' | xargs -r -d '\n' awk '
-    FNR == 1 { comment = "" }
+  list_public_headers | xargs -r -d '\n' awk '
+    function close_file() { if (last != "" && !has_file) print last ":1: has no @file" }
+    FNR == 1 { close_file(); last = FILENAME; has_file = 0; comment = ""; hidden = 0 }
+    /^\/\/\/ @file/ { has_file = 1 }
     /^ *\/\/\// { comment = comment $0; next }
-    /^ *(template <|static |\[\[)/ && !/[(]/ { next }
-    /^ *(static |inline )?(Result<.*>|Status)( [A-Za-z_]+\(|$)/ {
-      if (comment !~ /@overload/ && comment !~ /@errors.*KA[0-9][0-9][0-9][0-9]/)
+    /^ *(private|protected):/ { hidden = 1 }
+    /^ *public:|^[}]/ { hidden = 0 }
+    /^ *(template <|\[\[)/ && !/[(]/ { next }
+    !hidden && /^ *(static |inline )?(rtapi::)?(Result<.*>|Status)( [A-Za-z_]+\(|$)/ {
+      errors = FILENAME ~ /^rtapi/ ? "@errors.*KA[0-9][0-9][0-9][0-9]" : "@errors ."
+      if (comment !~ /@overload/ && comment !~ errors && !/Status failure/)
         print FILENAME ":" FNR ": returns an error, and its comment names none by @errors"
     }
-    { comment = "" }'
+    { comment = "" }
+    END { close_file() }'
 }
 
 # Public headers are the contract: what is in them is said there, for the reference manual too.
