@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+/// Northlight's effects on rtapi: scenes, pictures, passes. Start at Scene and Frame.
 namespace kaamos::effects {
 
 /// Outcome of an operation without a value. An empty text is success.

@@ -10,6 +10,7 @@
 #include <rtapi/flags.h>
 #include <rtapi/format.h>
 
+/// DirectX Raytracing: the calls, structures and numbers of D3D12 and DXR. Start at Device.
 namespace rtapi {
 
 /// An address in GPU memory, in bytes. 0 is no address. [D3D12: D3D12_GPU_VIRTUAL_ADDRESS]
