@@ -39,7 +39,7 @@ class ComposePass {
                                            const FrameParts& parts);
   /// Records the pass, behind those that wrote the parts: it writes kRadiance.
   void dispatch(rtapi::CommandList& list, const Frame& frame) const;
-  /// Of the parts.
+  /// Bytes of the parts.
   std::uint64_t bytes() const { return views_.bytes(); }
 
  private:

@@ -8,8 +8,9 @@
 
 namespace kaamos::effects {
 
-/// Registers u0 and u1 of space3: the lights that `direct` named, and a R32G32B32A32_FLOAT picture
-/// to whose r (point light) and g (spot light) the visible samples are added.
+/// The pass. Registers u0 and u1 of space3: the lights that `direct` named, and a
+/// R32G32B32A32_FLOAT picture to whose r (point light) and g (spot light) the visible samples are
+/// added.
 RayPassDesc contact_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

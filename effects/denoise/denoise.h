@@ -19,8 +19,8 @@
 
 namespace kaamos::effects {
 
-/// Mirrors DenoiseConstants of denoise_common.hlsli, which says what each is. The defaults are
-/// SVGF's. [Schied et al. 2017]
+/// Constants b0, space3, of every kernel: mirrors DenoiseConstants of denoise_common.hlsli. The
+/// defaults are SVGF's. [Schied et al. 2017]
 struct DenoiseConstants {
   float alpha = 0.2f;          ///< least weight of the new frame, 0 to 1
   float moments_alpha = 0.2f;  ///< the same for its moments
@@ -50,7 +50,7 @@ inline constexpr std::size_t kMostSignals = 5;
 
 /// How a signal is denoised. [effects-spec B6]
 enum class DenoiseMethod {
-  kNone,
+  kNone,            ///< the signal as it is
   kGaussian,        ///< N1: blurs over edges
   kBilateral,       ///< N2: rows, then columns
   kBilateralExact,  ///< N2 in two dimensions: slow
@@ -63,21 +63,22 @@ enum class DenoiseMethod {
 struct DenoiseDesc {
   DenoiseMethod method = DenoiseMethod::kSvgf;  ///< how
   DenoiseConstants constants;                   ///< with which numbers
-  /// Of SVGF's wavelet filter, 0 to 8: while fewer than kFramesOfHistory frames stand behind this
-  /// one, and then. What many frames have smoothed already needs no filter that wide: with fewer
-  /// passes it is nearer to the truth. [README.md]
+  /// Passes of SVGF's wavelet filter, 0 to 8: in the first frames, and once kFramesOfHistory frames
+  /// stand behind a frame. What many frames have smoothed needs no filter that wide: with fewer
+  /// passes the result is nearer to the truth, as effects/denoise/README.md shows.
   ///@{
   std::uint32_t iterations = 5;
   std::uint32_t iterations_with_history = 3;
   ///@}
 };
 
-/// From here on the variance is one over time. [svgf.hlsl: kEnoughFrames]
+/// From so many frames on the variance is taken over time instead of over neighbours: kEnoughFrames
+/// of svgf.hlsl. [Schied et al. 2017]
 inline constexpr std::uint32_t kFramesOfHistory = 4;
 
-/// What a method takes by default: B6.1 for the bilateral filters, alpha 0.05 for accumulation.
-/// kControl: a filter of fixed radius; with constants.lobe_scale 1 it is that of reflections, whose
-/// signal has the mean distance of its hits, in metres, in w.
+/// The settings of a method: those of B6.1 for the bilateral filters, alpha 0.05 for accumulation.
+/// kControl gets a filter of fixed radius; with constants.lobe_scale = 1 it becomes that of
+/// reflections, whose signal holds the mean distance of its hits, metres, in w. [effects-spec B6]
 DenoiseDesc default_denoise(DenoiseMethod method);
 
 /// Pipelines of kernels by name, made when the first denoiser asks; all signals of a frame share
@@ -121,18 +122,21 @@ class Denoiser {
   struct Signal {
     std::string name;        ///< for messages
     rtapi::Texture picture;  ///< of the frame's size, R32G32B32A32_FLOAT
-    /// Of rays in the reflection lobe of the surface: SVGF leaves mirrors as they are, whose lobe
-    /// is one direction and has no noise.
+    /// The signal comes from rays in the reflection lobe of the surface: SVGF leaves mirrors as
+    /// they are, because their lobe is one direction and has no noise.
     bool of_lobe = false;
   };
 
-  /// @errors those of the device; more signals than there may be, or none.
+  /// Makes the pictures and the passes for 1 to kMostSignals signals. The signals' pictures must
+  /// outlive it; `frame` must be that of every later call.
+  /// @errors no signal, or more than kMostSignals; those of the device, among them KA0990 no memory
+  /// and KA0537 a library without a kernel.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries,
                                         const std::vector<Signal>& signals,
                                         const DenoiseDesc& desc);
-  /// Of one signal.
-  /// @errors those of the device.
+  /// Makes them for one signal.
+  /// @errors as of the overload for several.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries, std::string name,
                                         const rtapi::Texture& signal, const DenoiseDesc& desc) {
@@ -155,9 +159,10 @@ class Denoiser {
 
   /// The denoised signal, R32G32B32A32_FLOAT.
   const rtapi::Texture& result(std::size_t index = 0) const { return channels_[index].result; }
-  /// Of the sums, the signals and the denoiser's own pictures.
+  /// Bytes of the sums, the signals and the denoiser's own pictures.
   std::uint64_t bytes() const;
-  /// Frames that stand behind each pixel, in z; kTemporal and kSvgf.
+  /// R32G32B32A32_FLOAT: moments of the luminance in x and y, and in z the frames that stand behind
+  /// each pixel. For kTemporal and kSvgf.
   const rtapi::Texture& moments(std::size_t index = 0) const {
     return channels_[index].moments[(frames_ + 1) % 2];
   }

@@ -63,21 +63,21 @@ struct PassConstants {
   std::uint32_t accumulate = 1;    ///< 0: pictures of sums begin anew, whatever stands in them
 };
 
-/// Pictures of a frame in the order of their registers u0, u1, ...
+/// Pictures of a frame in the order of their registers u0, u1, ... [effects-spec B0.2]
 enum FrameTexture : std::uint32_t {
-  kDepth,
-  kViewZ,
-  kNormal,
-  kShadingNormal,
-  kBaseColor,
-  kEmissive,
-  kMaterial,
-  kIds,
-  kPosition,
-  kAmbientOcclusionSum,
-  kSunVisibilitySum,
-  kRadiance,
-  kMotion,
+  kDepth,                ///< R32_FLOAT: near plane over view depth; 0: a miss
+  kViewZ,                ///< R32_FLOAT: metres along the camera's axis; 0: a miss
+  kNormal,               ///< R16G16_SNORM: geometric normal, octahedral, towards the camera
+  kShadingNormal,        ///< R16G16_SNORM: as kNormal, with normal maps
+  kBaseColor,            ///< R8G8B8A8_UNORM: EncodeColor of encoding.hlsli
+  kEmissive,             ///< R16G16B16A16_FLOAT: radiance
+  kMaterial,             ///< R8G8B8A8_UNORM: roughness, metallic, 0, 0
+  kIds,                  ///< R32G32_UINT: instance + 1, primitive; 0: a miss
+  kPosition,             ///< R32G32B32A32_FLOAT: relative to the camera; w: offset of ray origins
+  kAmbientOcclusionSum,  ///< R32_FLOAT: open samples
+  kSunVisibilitySum,     ///< R32_FLOAT: samples that see the sun
+  kRadiance,             ///< R32G32B32A32_FLOAT: what the camera sees
+  kMotion,               ///< R32G32B32A32_FLOAT: to where the surface was a frame ago
   kFrameTextureCount
 };
 
@@ -126,44 +126,45 @@ class Frame {
 
   /// The global one, see FrameRootParameter.
   const rtapi::RootSignature& root_signature() const { return root_signature_; }
-  /// Of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
+  /// The one of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
   const rtapi::RootSignature& local_root_signature() const { return local_root_signature_; }
-  /// Pixels.
+  /// Size of its pictures, pixels.
+  ///@{
   std::uint32_t width() const { return desc_.width; }
-  /// Pixels.
   std::uint32_t height() const { return desc_.height; }
+  ///@}
 
   /// Goes on to the next frame of a sequence, which the next dispatches render: another camera, and
   /// so other constants and lights. The top level must be relative to that camera by then.
   /// @errors those of rtapi::Device::CreateBuffer.
   rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
                            const FrameTime& time);
-  /// What random numbers follow from, behind the next set_camera.
+  /// Sets the seed of random numbers, from the next set_camera on.
   void set_seed(std::uint32_t seed) { desc_.seed = seed; }
   /// Puts the top level and the previous instances of `gpu` in place of those before (t0, t4). Its
   /// textures and materials must be those that the frame was made with. No dispatch of this frame
   /// may run meanwhile.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
-  /// A word per pixel each: what rays are sorted by (u13), and the pixels in that order (t5).
-  /// [effects/ray_order]
+  /// Sets what RaySorter made, a word for each pixel: the keys of rays (u13), and the pixels in
+  /// their order (t5).
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;
-  /// Descriptors for one pass.
+  /// Descriptors for one pass, in the heap of the frame. They are never given back.
   /// @errors FrameDesc::max_pass_views of them are in use already.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
-  /// A picture of the frame's size.
+  /// Makes a picture of zeros of the frame's size, see effects::create_picture.
   /// @errors those of rtapi::Device::CreateTexture.
   rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
                                                rtapi::Format format) const;
 
-  /// Sets heaps, root signature and root arguments of a dispatch.
+  /// Records what a dispatch needs besides its pipeline: heaps, root signature and root arguments.
   void bind(rtapi::CommandList& list, const PassConstants& constants,
             const PassArguments& arguments = {}) const;
-  /// Writes zero to a picture of floats.
+  /// Records that zero is written to a picture of floats.
   void clear(rtapi::CommandList& list, FrameTexture texture) const;
-  /// One of its pictures.
+  /// One of its pictures, in unordered-access state.
   const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
 
   /// One of its pictures as floats, see read_picture.
@@ -191,7 +192,8 @@ class Frame {
   std::vector<rtapi::Texture> textures_;
 };
 
-/// The constants of a camera, sun and sky.
+/// The constants of a camera, sun and sky. Colours that are not finite become black, so that they
+/// cannot spoil anything else.
 FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
                                const FrameTime& time);
 

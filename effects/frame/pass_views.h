@@ -13,16 +13,20 @@
 
 namespace kaamos::effects {
 
-inline constexpr std::uint32_t kPassShaderResources = 16;  ///< t0..t15 of space3
-inline constexpr std::uint32_t kPassUnorderedAccess = 32;  ///< u0..u31 of space3
-inline constexpr std::uint32_t kPassViews =
-    kPassShaderResources + kPassUnorderedAccess;  ///< of a pass, in all
-inline constexpr std::uint32_t kPassWords = 24;   ///< of constants b0, space3
+/// Registers of space3 that one pass has: t0 to t15, u0 to u31, and both together.
+///@{
+inline constexpr std::uint32_t kPassShaderResources = 16;
+inline constexpr std::uint32_t kPassUnorderedAccess = 32;
+inline constexpr std::uint32_t kPassViews = kPassShaderResources + kPassUnorderedAccess;
+///@}
+/// Words of constants b0, space3.
+inline constexpr std::uint32_t kPassWords = 24;
 
 /// A block of descriptors in the heap of a frame, made by Frame::create_pass_views. What is not set
 /// must not be read.
 class PassViews {
  public:
+  /// No block; a pass without views.
   PassViews() = default;
   /// The block of kPassViews descriptors from slot `first` of a heap on.
   PassViews(rtapi::Device device, rtapi::DescriptorHeap heap, std::uint32_t first)
@@ -46,7 +50,7 @@ class PassViews {
                                      std::uint32_t stride);
   /// Records that zero is written to a picture of floats, which register u holds.
   void clear(rtapi::CommandList& list, std::uint32_t u, const rtapi::Texture& texture) const;
-  /// Of the pictures and buffers that the views name.
+  /// Bytes of the pictures and buffers that the views name.
   std::uint64_t bytes() const;
   /// Their first descriptor, for FrameRootParameter::kRootPassViews.
   rtapi::GpuDescriptorHandle table() const { return heap_.GetGPUDescriptorHandle(first_); }
@@ -63,10 +67,12 @@ struct PassArguments {
   const PassViews* views = nullptr;               ///< null: the pass has none
   std::array<std::uint32_t, kPassWords> words{};  ///< constants b0, space3
 
+  /// No views, and constants of 0.
   PassArguments() = default;
   /// Views alone.
   explicit PassArguments(const PassViews& pass_views) : views(&pass_views) {}
-  /// `constants`: as the pass's cbuffer b0, space3 has them.
+  /// Views, and `constants` as the pass's cbuffer b0, space3 has them: up to kPassWords words,
+  /// which are copied.
   template <class T>
   PassArguments(const PassViews& pass_views, const T& constants) : views(&pass_views) {
     static_assert(sizeof(T) <= sizeof(words));

@@ -8,8 +8,8 @@
 
 namespace kaamos::effects {
 
-/// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: irradiance over pi,
-/// and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
+/// The pass. Register u0 of space3 is R32G32B32A32_FLOAT, to which the samples are added:
+/// irradiance over pi, and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
 RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

@@ -21,12 +21,14 @@
 
 namespace kaamos::effects {
 
-inline constexpr std::uint32_t kBrickCells = 8;  ///< along each axis
+/// Cells along each axis of a brick.
+inline constexpr std::uint32_t kBrickCells = 8;
 /// Cells of a brick.
 inline constexpr std::uint32_t kCellsPerBrick = kBrickCells * kBrickCells * kBrickCells;
 /// IndirectVolume::brick_starts: nothing is stored there.
 inline constexpr std::uint32_t kNoBrick = 0xFFFFFFFFu;
-inline constexpr float kVolumeCell = 0.25f;  ///< metres, unless a scene is too large for it
+/// Size of a cell, metres, unless a scene is too large for it.
+inline constexpr float kVolumeCell = 0.25f;
 
 /// Radiance towards a unit direction d: mean + slope_x d.x + slope_y d.y + slope_z d.z. Mirrors
 /// CellSums of volume_bake.hlsl.
@@ -57,10 +59,10 @@ struct IndirectVolume {
   std::vector<glm::dvec3> cell_centers() const;
 };
 
-/// The bricks that hold geometry, and those next to them, without light yet. Without a size of
-/// cells they are of kVolumeCell, or of as many times twice that as keep the volume within
-/// `most_cells`: baking takes as long as there are cells, and a large floor has many.
-/// @errors more than 2^24 cells: a larger cell is needed.
+/// A volume of the bricks that hold geometry, and of those next to them, without light yet. If no
+/// size of cells is given, it is kVolumeCell, doubled until the volume has `most_cells` at most:
+/// baking takes as long as there are cells, and a large floor has many. [effects-spec B5.1]
+/// @errors more than 2^24 cells or bricks: larger cells are needed.
 Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres = {},
                                      std::uint64_t most_cells = 1u << 19);
 
@@ -96,14 +98,15 @@ Result<IndirectVolume> load_volume(const std::string& path);
 /// A volume as shaders read it: registers t0 to t2 of space3.
 class GpuVolume {
  public:
-  /// `origin`: of the frame. An empty volume is one that has no light anywhere stored.
+  /// Uploads a volume. `origin` is that of the frame, world space. An empty volume has no light
+  /// stored anywhere.
   /// @errors those of rtapi::Device::CreateBuffer.
   static rtapi::Result<GpuVolume> create(const rtapi::Device& device, const IndirectVolume& volume,
                                          const glm::dvec3& origin);
   /// Binds the volume to a pass: registers t0 to t2 of space3.
   /// @errors those of PassViews::set_shader_resource.
   rtapi::Status bind(PassViews& views) const;
-  /// The frame moved on to another origin. No dispatch that reads the volume may run meanwhile.
+  /// Follows the frame to another origin. No dispatch that reads the volume may run meanwhile.
   void set_origin(const glm::dvec3& origin);
 
  private:

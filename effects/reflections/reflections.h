@@ -7,17 +7,17 @@
 
 namespace kaamos::effects {
 
-/// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: radiance over the
-/// specular albedo of brdf.hlsli, and the rays' length. Lighting::bind and GpuVolume::bind are
-/// needed too.
+/// The pass. Register u0 of space3 is R32G32B32A32_FLOAT, to which the samples are added: radiance
+/// over the specular albedo of brdf.hlsli, and the rays' length. Lighting::bind and GpuVolume::bind
+/// are needed too.
 RayPassDesc reflections_pass(rtapi::ShaderLibrary library);
-/// The same rays, of which only the length is kept: nothing is shaded.
+/// A pass of the same rays that keeps only their length: nothing is shaded.
 RayPassDesc reflections_trace_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> reflections_library();
 
-/// Constants b0, space3. The lengths are Control's.
+/// Constants b0, space3. The lengths are Control's. [effects-spec B4.10]
 struct ReflectionConstants {
   float longest = 200.0f;           ///< metres, of the rays of a mirror
   float shortest = 3.0f;            ///< metres, at roughness 1

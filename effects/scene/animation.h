@@ -89,7 +89,7 @@ struct InstanceState {
 
 /// Node to scene transforms at `seconds`, which wraps at the animation's end.
 std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds);
-/// Of a valid scene: one per instance.
+/// Where the instances of a valid scene are at `seconds`, one state for each. [glTF 2.0: Skins]
 std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds);
 
 /// What the skinning shader computes, on the host: blended matrices move positions, their cofactors

@@ -106,7 +106,7 @@ struct Mesh {
                        std::uint32_t corner) const;
   /// Triangles of all geometries.
   std::uint64_t triangle_count() const;
-  /// Of the finite positions.
+  /// The box of all finite positions, object space.
   Bounds bounds() const;
 };
 

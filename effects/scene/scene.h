@@ -52,7 +52,7 @@ struct Instance {
   glm::dmat4 transform{1.0};        ///< object to world, affine
   std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
   Motion motion = {};               ///< none by default: it stands still
-  /// Of skinned instances; kStatic counts as kDeformable there.
+  /// How the structure of a skinned instance is kept; kStatic counts as kDeformable there.
   BuildClass build_class = BuildClass::kStatic;
 };
 
@@ -111,7 +111,7 @@ struct Camera {
   std::string name;                 ///< for people
   glm::dmat4 camera_to_world{1.0};  ///< rigid; looks along -Z, +Y is up in the picture
   double vertical_fov = 0.9;        ///< full angle, 0..pi exclusive
-  double near_plane = 0.05;  ///< metres; of the depth that the G-buffer stores, nothing is cut off
+  double near_plane = 0.05;         ///< metres; scales stored depths, cuts nothing off
 
   /// Where it stands, world space.
   glm::dvec3 position() const { return glm::dvec3(camera_to_world[3]); }

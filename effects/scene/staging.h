@@ -19,7 +19,7 @@ Camera default_camera(const Scene& scene);
 
 /// A warm sun, high and from the side.
 Sun default_sun();
-/// A blue sky over brown ground.
+/// A blue sky over grey ground.
 Sky default_sky();
 
 /// True where little lies under the scene that a shadow could fall on: less than a third of its

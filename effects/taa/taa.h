@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// Mirrors TaaConstants of taa.hlsl.
+/// Constants b0, space3: mirrors TaaConstants of taa.hlsl. [effects-spec B7.1]
 struct TaaConstants {
   float alpha = 0.1f;             ///< least weight of the new frame; the Nth has at least 1 / N
   float clip_gamma = 1.0f;        ///< deviations of 3 x 3 pixels; 0: history is not clipped
@@ -38,9 +38,8 @@ rtapi::Result<rtapi::ShaderLibrary> taa_library();
 /// Resolves the radiance of one frame after the other.
 class TemporalAntialiasing {
  public:
-  /// Makes the pass and its two pictures of the size of the frame.
-  /// @errors those of the device: KA0990, and of rtapi::Device::CreateComputePipelineState; KA0537
-  /// a library without the pass.
+  /// Makes the pass and its pictures of the frame's size.
+  /// @errors those of the device, among them KA0990 no memory; KA0537 a library without the pass.
   static rtapi::Result<TemporalAntialiasing> create(const rtapi::Device& device, const Frame& frame,
                                                     const rtapi::ShaderLibrary& library,
                                                     const TaaConstants& constants = {});
@@ -49,7 +48,7 @@ class TemporalAntialiasing {
   void dispatch(rtapi::CommandList& list, const Frame& frame);
   /// The next frame starts without history, as after a cut: its result is its radiance.
   void reset() { frames_ = 0; }
-  /// Of what a frame's pass reads and writes besides the G-buffer.
+  /// Bytes of what a frame's pass reads and writes besides the G-buffer.
   std::uint64_t bytes() const { return views_[written_].bytes(); }
 
   /// R32G32B32A32_FLOAT: radiance of the frame dispatched last, and in w the frames behind it.

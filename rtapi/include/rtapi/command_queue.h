@@ -53,7 +53,7 @@ class Fence {
 
 /// Executes command lists in the order of submission. A copyable handle, thread-safe. Work runs on
 /// the thread that submits it, before the call returns, unless the queue waits for a fence: then on
-/// the thread that signals it. Of all queues of a device one executes at a time.
+/// the thread that signals it. Only one queue of a device executes at a time.
 /// [D3D12: ID3D12CommandQueue]
 class CommandQueue {
  public:

@@ -45,7 +45,7 @@ enum class IndirectArgumentType : uint32_t {
   kDispatchMesh = 10,
 };
 
-/// Of kVertexBufferView, which is refused; here for its layout.
+/// The argument of kVertexBufferView, which is refused; here for its layout.
 struct IndirectVertexBuffer {
   uint32_t Slot;  ///< input slot
 };

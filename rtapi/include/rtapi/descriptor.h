@@ -160,8 +160,8 @@ struct RaytracingAccelerationStructureSrv {
   GpuVirtualAddress Location = 0;
 };
 
-/// Describes a view for Device::CreateShaderResourceView. Of the members after
-/// Shader4ComponentMapping only the one that ViewDimension names counts.
+/// Describes a view for Device::CreateShaderResourceView. ViewDimension says which of the members
+/// after Shader4ComponentMapping counts.
 /// [D3D12: D3D12_SHADER_RESOURCE_VIEW_DESC]
 struct ShaderResourceViewDesc {
   /// Textures: the texture's own format, which kUnknown stands for, or a typed format of a typeless
@@ -243,8 +243,8 @@ struct Tex3DUav {
   uint32_t WSize = 0xFFFFFFFFu;  ///< at least 1; ~0: to the end; Vulkan: only all of them (KA0961)
 };
 
-/// Describes a view for Device::CreateUnorderedAccessView. Of the members after ViewDimension only
-/// the one that it names counts. [D3D12: D3D12_UNORDERED_ACCESS_VIEW_DESC]
+/// Describes a view for Device::CreateUnorderedAccessView. ViewDimension says which of the members
+/// after it counts. [D3D12: D3D12_UNORDERED_ACCESS_VIEW_DESC]
 struct UnorderedAccessViewDesc {
   /// As in ShaderResourceViewDesc; the backend must support it for unordered access.
   rtapi::Format Format = rtapi::Format::kUnknown;

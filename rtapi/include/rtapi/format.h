@@ -130,8 +130,8 @@ struct FormatInfo {
 };
 
 /// What a format looks like, for every format that textures, typed buffers and vertices can have.
-/// Of all others (depth, block-compressed, video and packed YUV formats, and numbers that are none)
-/// the type is kUnsupported; CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
+/// The type is kUnsupported for all others (depth, block-compressed, video and packed YUV formats,
+/// and numbers that are none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
 constexpr FormatInfo GetFormatInfo(Format format) {
   using F = Format;
   using C = FormatClass;

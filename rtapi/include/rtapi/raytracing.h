@@ -132,8 +132,8 @@ struct RaytracingInstanceDesc {
   /// Added to the index of the hit record. [DXR: Hit group table indexing]
   uint32_t InstanceContributionToHitGroupIndex : 24 = 0;
   uint32_t Flags : 8 = 0;  ///< RaytracingInstanceFlags
-  /// Of a bottom level, which must be there when the top level is traced; 0: inactive, never hit.
-  /// Anything else than a bottom level makes it inactive with a warning (KA0797).
+  /// The address of a bottom level, which must be there when the top level is traced; 0: inactive,
+  /// never hit. Anything else than a bottom level makes it inactive with a warning (KA0797).
   GpuVirtualAddress AccelerationStructure = 0;
 };
 
