@@ -100,7 +100,8 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
                                          const std::vector<Signal>& signals,
                                          const DenoiseDesc& desc) {
   if (signals.empty() || signals.size() > kMostSignals) {
-    return rtapi::Error{"effects", rtapi::ErrorCode::kInvalidArgument,
+    return rtapi::Error{{},
+                        rtapi::ErrorCode::kInvalidArgument,
                         "a Denoiser of " + std::to_string(signals.size()) +
                             " signals: it takes 1 to " + std::to_string(kMostSignals) +
                             "; make a second one for the others"};

@@ -66,7 +66,7 @@ rtapi::Status trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queu
   const std::uint32_t rows = (cell_count + kGridWidth - 1) / kGridWidth;
   std::uint32_t step = 1;
   for (std::uint32_t first = 0; first < desc.samples;) {
-    if (stop) return rtapi::Error{"", rtapi::ErrorCode::kFailed, "interrupted"};
+    if (stop) return rtapi::Error{{}, rtapi::ErrorCode::kFailed, "interrupted"};
     const std::uint32_t count = std::min(step, desc.samples - first);
     const BakeConstants constants = {cell_count, first, count, desc.bounces, kGridWidth, desc.seed};
     if (const auto reset = list->Reset(); !reset) return reset;

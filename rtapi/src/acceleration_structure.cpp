@@ -7,7 +7,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/command_list_impl.h"
-#include "runtime/serialized_identifier.h"
+#include "runtime/structures/serialized_identifier.h"
 
 namespace rtapi {
 

@@ -11,7 +11,7 @@
 #include "rtapi/src/pipeline_state_impl.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_impl.h"
-#include "runtime/dispatch_checks.h"
+#include "runtime/backend/dispatch_checks.h"
 
 namespace rtapi {
 

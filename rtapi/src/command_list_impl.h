@@ -9,7 +9,7 @@
 #include <rtapi/command_list.h>
 
 #include "rtapi/src/device_impl.h"
-#include "runtime/commands.h"
+#include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
 

@@ -16,7 +16,7 @@ TEST_F(CommandListTest, OpenAndClosed) {
   EXPECT_FALSE(list_.is_open());
   EXPECT_ERROR(list_.Close(), "KA0800");
   list_.Dispatch(1, 1, 1);
-  EXPECT_EQ(list_.GetErrors().at(0).id, "KA0800");
+  EXPECT_EQ(list_.GetErrors().at(0).id.text(), "KA0800");
   EXPECT_OK(list_.Reset());
   EXPECT_TRUE(list_.is_open());
   EXPECT_TRUE(list_.GetErrors().empty());

@@ -98,7 +98,7 @@ TEST_F(QueueTest, ListsMustBeClosedAndSound) {
 
 TEST_F(QueueTest, FailureInExecutionRemovesTheDevice) {
   null_log().fail_next_execute =
-      Error{"KA0799", ErrorCode::kFailed, "KA0799 the backend met something"};
+      Error{{799}, ErrorCode::kFailed, "KA0799 the backend met something"};
   CommandList list = Marker("a");
   CommandList late = Marker("b");
   EXPECT_ERROR(queue_.ExecuteAndWait(list), "KA0799");
@@ -110,7 +110,7 @@ TEST_F(QueueTest, FailureInExecutionRemovesTheDevice) {
   EXPECT_ERROR(queue_.ExecuteCommandLists({late}), "KA0799");
   EXPECT_EQ(Executed(), "a");
   ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].Id, "KA0799");
+  EXPECT_EQ(messages_[0].Id.text(), "KA0799");
 }
 
 }  // namespace

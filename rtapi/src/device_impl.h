@@ -14,7 +14,7 @@
 
 #include "rtapi/src/error_table.h"
 #include "rtapi/src/view_names.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/layer.h"
 #include "runtime/checks/report.h"
 

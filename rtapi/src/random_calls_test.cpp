@@ -109,7 +109,7 @@ TEST_F(RandomCallsTest, StateObjects) {
         Below(8) ? device_.CreateStateObject(desc) : device_.AddToStateObject(desc, Pick(objects));
     so.ok() ? ++made : ++refused;
     if (!so.ok()) {
-      EXPECT_EQ(so.error().message.rfind(so.error().id, 0), 0u) << so.error().message;
+      EXPECT_EQ(so.error().message.rfind(so.error().id.text(), 0), 0u) << so.error().message;
       continue;
     }
     const std::string name = Name();

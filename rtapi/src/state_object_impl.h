@@ -18,7 +18,7 @@
 #include <rtapi/state_object.h>
 
 #include "rtapi/src/device_impl.h"
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace rtapi::detail {
 

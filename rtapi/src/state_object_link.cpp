@@ -90,7 +90,7 @@ class Linker {
     if (!parts_.may_stay_unresolved()) return false;
     for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
                   Id::kBindingMissing, Id::kDefaultAmbiguous}) {
-      if (error.id == MakeError(id, "").id) return true;
+      if (error.id == PublicId(id)) return true;
     }
     return false;
   }

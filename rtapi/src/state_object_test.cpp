@@ -64,7 +64,7 @@ TEST_F(StateObjectTest, SO_02_RefusalsAreInvalidArguments) {
   auto so = Make(desc);
   ASSERT_FALSE(so.ok());
   EXPECT_EQ(so.error().code, ErrorCode::kInvalidArgument);
-  EXPECT_EQ(so.error().id, "KA0518");  // SO-30: a pipeline leaves nothing unresolved
+  EXPECT_EQ(so.error().id.text(), "KA0518");  // SO-30: a pipeline leaves nothing unresolved
 }
 
 TEST_F(StateObjectTest, SO_03_LibraryTargetIsLib63OrLater) {

@@ -7,7 +7,7 @@
 #include "rtapi/src/address_text.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_impl.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace rtapi {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace rtapi::detail {
 

@@ -11,11 +11,11 @@
 namespace rtapi::testing {
 
 inline std::string IdOf(const Status& s) {
-  return s.ok() ? "ok" : s.error().id;
+  return s.ok() ? "ok" : s.error().id.text();
 }
 template <class T>
 std::string IdOf(const Result<T>& r) {
-  return r.ok() ? "ok" : r.error().id;
+  return r.ok() ? "ok" : r.error().id.text();
 }
 inline std::string MessageOf(const Status& s) {
   return s.ok() ? "ok" : s.error().message;

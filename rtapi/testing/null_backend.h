@@ -9,7 +9,7 @@
 
 #include <rtapi/rtapi.h>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace rtapi::testing {
 

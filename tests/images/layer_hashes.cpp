@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Prints a hash per layer of OpenEXR files. Two frames are equal to the bit where these lines are.
+// Prints a hash for each layer of OpenEXR files. Frames with the same lines are equal to the bit.
 #include <cinttypes>
 #include <cstdint>
 #include <cstdio>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// 64-bit FNV-1a. Floats enter by their bits, so that -0 and the payloads of NaNs count too.
+// 64-bit FNV-1a over the bits of floats, so that -0 and NaN payloads count too.
 class Hash {
  public:
   void add(std::uint32_t value) {
@@ -46,11 +46,11 @@ int main(int argc, char** argv) {
   }
   for (int i = 1; i < argc; ++i) {
     const auto file = kaamos::effects::read_exr(argv[i]);
-    if (!file) {
-      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().message.c_str());
+    if (!file.ok()) {
+      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().c_str());
       return 1;
     }
-    for (const kaamos::effects::ExrLayer& layer : file->layers) {
+    for (const kaamos::effects::ExrLayer& layer : file.value().layers) {
       std::printf("%016" PRIx64 " %s\n", hash_layer(layer.image),
                   layer.name.empty() ? "(picture)" : layer.name.c_str());
     }

@@ -48,7 +48,7 @@ enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
 /// What DeviceDesc::OnMessage is given.
 struct Message {
   MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
-  std::string Id;                                      ///< KA and four digits, as in Error
+  ErrorId Id;                                          ///< KA0715 is number 715
   std::string Text;                                    ///< begins with the id
 };
 

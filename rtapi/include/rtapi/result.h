@@ -23,13 +23,27 @@ enum class ErrorCode : uint32_t {
   kFailed,           ///< E_FAIL
 };
 
+/// The number of an error or a message, KA0712 for 712. Numbers are stable: one keeps its meaning
+/// in later versions. rtapi/ERRORS.md lists them with their meaning and their cure. Compare
+/// numbers, never texts.
+struct ErrorId {
+  uint16_t number = 0;  ///< 0 is no id
+
+  /// The id as messages begin with it: "KA0712".
+  std::string text() const {
+    std::string digits = std::to_string(number);
+    return "KA" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+  }
+  /// True if the numbers are equal.
+  bool operator==(const ErrorId&) const = default;
+};
+
 /// What went wrong. Programs branch on the id or the code; the message is for people.
 struct Error {
-  /// KA and four digits, e.g. KA0712. Ids are stable: one keeps its meaning in later versions. The
-  /// list of errors has all of them, with the rule that each one stands for.
-  std::string id;
+  ErrorId id;                           ///< which error it is
   ErrorCode code = ErrorCode::kFailed;  ///< the family of the id
-  /// Begins with the id and says what, where, the actual and the allowed value, and what to do.
+  /// Begins with the id and says what, where, the actual and the allowed value, and what to do,
+  /// e.g. "KA0712 vertex buffer misaligned: ...".
   std::string message;
 };
 

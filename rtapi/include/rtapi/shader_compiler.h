@@ -55,7 +55,7 @@ enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
 /// One thing that the compiler has to say about the source.
 struct ShaderDiagnostic {
   ShaderDiagnosticSeverity Severity = ShaderDiagnosticSeverity::kError;  ///< how grave it is
-  std::string Id;         ///< "KA2104"; all are in KA2000-2799
+  ErrorId Id;             ///< KA2104 is number 2104; all are in KA2000-2799
   std::string File = {};  ///< as the include that read it found it
   uint32_t Line = 0;      ///< from 1; 0 without a place
   uint32_t Column = 0;    ///< from 1
