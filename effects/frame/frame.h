@@ -138,6 +138,8 @@ class Frame {
                               const rtapi::Buffer& order) const;
   /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
+  /// Gives the descriptors of all passes back: none of those passes may run again.
+  void release_pass_views() { *pass_views_ = 0; }
   /// A picture of the frame's size.
   rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
                                                rtapi::Format format) const;

@@ -5,9 +5,7 @@
 
 #include <rtapi/rtapi.h>
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +13,7 @@
 
 #include "effects/common/result.h"
 #include "effects/frame/frame.h"
+#include "effects/frame/outcome.h"
 #include "effects/lights/lighting.h"
 
 namespace kaamos::effects {
@@ -65,14 +64,13 @@ struct BakeDesc {
 
 rtapi::Result<rtapi::ShaderLibrary> volume_bake_library();
 
-/// Path traces every cell, in steps that take some tenths of a second. `progress` gets the done
-/// part; `stop` ends it (an error with an empty id).
-rtapi::Status bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                          const Frame& frame, const GpuScene& gpu, const Lighting& lighting,
-                          const glm::dvec3& origin, const rtapi::ShaderLibrary& library,
-                          const BakeDesc& desc, IndirectVolume& volume,
-                          const std::function<void(double)>& progress,
-                          const std::atomic<bool>& stop);
+/// Path traces every cell, in steps that take some tenths of a second. A volume whose bake was
+/// stopped holds nothing of use.
+rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                   const Frame& frame, const GpuScene& gpu,
+                                   const Lighting& lighting, const glm::dvec3& origin,
+                                   const rtapi::ShaderLibrary& library, const BakeDesc& desc,
+                                   IndirectVolume& volume, const StepCallback& progress = {});
 
 /// Little-endian, with a version and the length of everything. Errors: files that cannot be written
 /// or read, are of another version, cut short or damaged.

@@ -3,14 +3,13 @@
 // here on each backend.
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/image/csv.h"
+#include "frame_result.h"
 #include "options.h"
-#include "stage.h"
 
 namespace northlight {
 
@@ -32,16 +31,12 @@ kaamos::effects::Table as_csv(const ClaimTable& table);
 
 // On Embree, and, a quarter as wide and high, on Vulkan where the machine has it: medians over
 // options.repeats of ratios within one round. Where the scene lacks what a claim is about, it has
-// no number. An error with an empty id: `stop` was set.
-rtapi::Result<ClaimTable> measure_claims(const Options& options,
-                                         const kaamos::effects::Scene& scene,
-                                         const ShaderLibraries& libraries,
-                                         const StageProgress& progress,
-                                         const std::atomic<bool>& stop);
+// no number.
+rtapi::Result<Outcome> measure_claims(const Options& options, const kaamos::effects::Scene& scene,
+                                      const Progress& progress, ClaimTable& table);
 
 // Measures, prints, and writes claims.csv into options.out.
-rtapi::Status run_claims(const Options& options, const kaamos::effects::Scene& scene,
-                         const ShaderLibraries& libraries, const StageProgress& progress,
-                         const std::atomic<bool>& stop);
+rtapi::Result<Outcome> run_claims(const Options& options, const kaamos::effects::Scene& scene,
+                                  const Progress& progress);
 
 }  // namespace northlight

@@ -3,20 +3,16 @@
 // timed against the one without.
 #pragma once
 
-#include <atomic>
 #include <string>
 
-#include "renderer.h"
+#include "frame_result.h"
+#include "options.h"
 
 namespace northlight {
 
-// Renders the scene kRounds times as it is and with each part, in turn, and returns a table: part,
-// milliseconds of the frame without and with it (medians), what was saved. An empty error id:
-// `stop` was set.
-rtapi::Result<std::string> measure_left_out(const Options& options,
-                                            const kaamos::effects::Scene& scene,
-                                            const ShaderLibraries& libraries,
-                                            const Progress& progress,
-                                            const std::atomic<bool>& stop);
+// Renders the scene kRounds times as it is and with each part, in turn, and writes a table: part,
+// milliseconds of the frame without and with it (medians), what was saved.
+rtapi::Result<Outcome> measure_left_out(const Options& options, const kaamos::effects::Scene& scene,
+                                        const Progress& progress, std::string& table);
 
 }  // namespace northlight

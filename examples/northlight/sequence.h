@@ -3,7 +3,6 @@
 // antialiasing carried on.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,14 +11,14 @@
 #include "effects/image/flicker.h"
 #include "effects/scene/camera_path.h"
 #include "effects/structures/structures.h"
+#include "frame_result.h"
 #include "output.h"
-#include "renderer.h"
 
 namespace northlight {
 
 struct SequenceFrame {
   double ms = 0;
-  std::vector<PassStatistics> passes;
+  std::vector<kaamos::effects::PassStatistics> passes;
   std::optional<kaamos::effects::StructureStatistics> structures;  // none: nothing moves
   bool cut = false;
 };
@@ -39,21 +38,20 @@ struct SequenceResult {
 };
 
 // Renders options.frames frames and puts frame_0000.png ... into `files`, which publish nothing
-// yet. Errors: the path's, those of rendering (an empty id: `stop` was set), those of files.
-rtapi::Result<SequenceResult> render_sequence(Renderer& renderer, const ShaderLibraries& libraries,
-                                              const Options& options,
-                                              const kaamos::effects::Scene& scene,
-                                              const Progress& progress,
-                                              const std::atomic<bool>& stop, StagedFiles& files);
+// yet. Errors: the path's, those of rendering, those of files.
+rtapi::Result<Outcome> render_sequence(kaamos::effects::FrameRenderer& renderer,
+                                       const Options& options, const Progress& progress,
+                                       StagedFiles& files, SequenceResult& out);
 
 // Adds what a still writes, of the last frame; stats.json gets a table with a line for each frame.
 // The error text is empty on success.
 std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
-                        const Renderer& renderer, const SequenceResult& sequence,
-                        StagedFiles& files);
+                        const kaamos::effects::FrameRenderer& renderer,
+                        const SequenceResult& sequence, StagedFiles& files);
 
 // The tables that a person sees at the end: passes, structures, flicker.
-std::string describe(const Renderer& renderer, const SequenceResult& sequence);
+std::string describe(const kaamos::effects::FrameRenderer& renderer,
+                     const SequenceResult& sequence);
 
 // Removes the frames that a longer sequence left in the folder behind the last of this one.
 void remove_later_frames(const std::string& folder, std::uint32_t count);
