@@ -303,7 +303,7 @@ rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progres
          << kVolumeCell << ")";
     left_out_.push_back(text.str());
   }
-  const BakeDesc desc = {wanted.samples, wanted.bounces, settings_.seed};
+  const BakeDesc desc = {wanted.samples, wanted.bounces, wanted.seed.value_or(settings_.seed)};
   const auto step = [&](double done) { return !progress || progress("indirect light", done); };
   const auto baked =
       bake_volume(device_, queue_, frame_, gpu_, *lighting_, moment_.camera.position(),
