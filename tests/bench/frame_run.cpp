@@ -79,14 +79,15 @@ void FrameRun::denoise_and_compose() {
 std::vector<FrameRay> FrameRun::record(uint64_t& hits, const std::string& part) {
   heard.clear();
   ++recording;
-  device().ResetStatistics();
+  rtapi::Device device = renderer_->device();
+  device.ResetStatistics();
   embree::set_ray_listener(hear);
   trace_and_shade(part);
   embree::set_ray_listener(nullptr);
   std::vector<FrameRay> rays;
   for (const auto& list : heard) rays.insert(rays.end(), list->begin(), list->end());
   heard.clear();
-  const rtapi::RaytracingStatistics statistics = device().GetStatistics();
+  const rtapi::RaytracingStatistics statistics = device.GetStatistics();
   if (statistics.TraceRayCalls != rays.size()) {
     throw std::runtime_error("the frame traced " + std::to_string(statistics.TraceRayCalls) +
                              " rays, " + std::to_string(rays.size()) + " were heard of");
