@@ -24,8 +24,9 @@ static const uint kModeNearFieldGlossy = 3;
 static const uint kIndirectPair = 4;    // and 5: the end's jitter
 
 struct IndirectPayload {
-  float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;   // of the hit, metres; negative: none
+  float3 radiance;
+  float distance;        // of the hit, metres; negative: none
+  float3 volume_jitter;  // of the ray's reads of the volume [VolumeTowards]
 };
 
 float RayLength() { return Contain(constants.length, kLongestRay); }
@@ -38,7 +39,7 @@ float3 RadianceFromEnd(float3 jitter) {
 
 [shader("miss")]
 void IndirectMiss(inout IndirectPayload payload) {
-  payload.radiance = RadianceFromEnd(payload.radiance);
+  payload.radiance = RadianceFromEnd(payload.volume_jitter);
   payload.distance = -1.0;
 }
 
@@ -51,7 +52,7 @@ void IndirectAnyHit(inout IndirectPayload payload, in BuiltInTriangleIntersectio
 
 [shader("closesthit")]
 void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  const float3 jitter = payload.radiance;
+  const float3 jitter = payload.volume_jitter;
   payload.radiance = float3(0, 0, 0);
   payload.distance = RayTCurrent();
   if (constants.mode == kModeHitBlack) return;
@@ -78,8 +79,9 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
   ray.Direction = direction;
   ray.TMax = RayLength();
   IndirectPayload payload;
-  payload.radiance = jitter;
+  payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
+  payload.volume_jitter = jitter;
   TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
   return float4(payload.radiance, payload.distance < 0.0 ? ray.TMax : payload.distance);

@@ -25,15 +25,16 @@ static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 static const float kNoisyRoughness = 0.21;
 
 struct ReflectionPayload {
-  float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;  // of the hit, metres; negative: none
+  float3 radiance;
+  float distance;        // of the hit, metres; negative: none
+  float3 volume_jitter;  // of the ray's reads of the volume [VolumeTowards]
 };
 
 [shader("miss")]
 void ReflectionMiss(inout ReflectionPayload payload) {
   // Where the ray ends, not where it would have hit: the volume knows what comes from there on.
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-  payload.radiance = VolumeRadiance(end, payload.radiance, WorldRayDirection());
+  payload.radiance = VolumeRadiance(end, payload.volume_jitter, WorldRayDirection());
   payload.distance = -1.0;
 }
 
@@ -47,9 +48,8 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
-  const float3 jitter = payload.radiance;
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     IndirectAtHit(surface, jitter, -WorldRayDirection());
+                     IndirectAtHit(surface, payload.volume_jitter, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 
@@ -135,11 +135,12 @@ void ReflectionRayGen() {
     ray.Direction = direction;
     ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
-    payload.radiance = kEveryCell;
-    if (point.roughness > kNoisyRoughness) {
-      payload.radiance = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
-    }
+    payload.radiance = float3(0, 0, 0);
     payload.distance = -1.0;
+    payload.volume_jitter = kEveryCell;
+    if (point.roughness > kNoisyRoughness) {
+      payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
+    }
     TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);
     float3 sample = payload.radiance * weight / albedo;
