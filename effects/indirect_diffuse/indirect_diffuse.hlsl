@@ -95,9 +95,8 @@ float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
 [shader("raygeneration")]
 void IndirectRayGen() {
   const uint2 pixel = FramePixel();
-  const float4 before = SumBefore(indirect, pixel);
   if (g_ids[pixel].x == 0) {
-    indirect[pixel] = before;
+    indirect[pixel] = SumBefore(indirect, pixel);
     return;
   }
   const float4 position = g_position[pixel];
@@ -106,7 +105,8 @@ void IndirectRayGen() {
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
     indirect[pixel] =
-        before + count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
+        SumBefore(indirect, pixel) +
+        count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
     return;
   }
   const float3 origin = position.xyz + normal * position.w;
@@ -119,7 +119,7 @@ void IndirectRayGen() {
     // Half a cell to each side hides the cells' steps.
     sum += Gather(origin, direction, PixelJitter(pixel, index, kIndirectPair + 1, frame.seed));
   }
-  indirect[pixel] = before + sum;
+  indirect[pixel] = SumBefore(indirect, pixel) + sum;
 }
 
 [shader("raygeneration")]

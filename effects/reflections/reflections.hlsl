@@ -107,9 +107,8 @@ float3 SampleHalfVector(ReflectionPoint point, float2 u) {
 [shader("raygeneration")]
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
-  const float4 before = SumBefore(reflection, pixel);
   if (g_ids[pixel].x == 0) {
-    reflection[pixel] = before;
+    reflection[pixel] = SumBefore(reflection, pixel);
     return;
   }
   const ReflectionPoint point = LoadReflectionPoint(pixel);
@@ -150,7 +149,7 @@ void ReflectionRayGen() {
     }
     sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
   }
-  reflection[pixel] = before + sum;
+  reflection[pixel] = SumBefore(reflection, pixel) + sum;
 }
 
 [shader("raygeneration")]

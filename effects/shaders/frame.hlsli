@@ -149,7 +149,7 @@ uint2 FramePixel() {
   return uint2(pixel & 0xFFFFu, pixel >> 16);
 }
 
-// What a pass adds its samples to. Asked for before the rays, which cover the wait.
+// What a pass adds its samples to.
 float SumBefore(RWTexture2D<float> sums, uint2 pixel) {
   if (pass_constants.accumulate == 0) return 0.0;
   return sums[pixel];

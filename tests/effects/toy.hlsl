@@ -11,14 +11,13 @@ RWTexture2D<float4> toy_sum : register(u0, space3);
 [shader("raygeneration")]
 void ToyRayGen() {
   const uint2 pixel = FramePixel();
-  const float4 before = SumBefore(toy_sum, pixel);
   float open = 0.0;
   if (g_ids[pixel].x != 0) {
     const float4 position = g_position[pixel];
     const float3 origin = position.xyz + OctahedralDecode(g_normal[pixel]) * position.w;
     open = TraceVisibility(origin, float3(0, 1, 0), kLongestRay);
   }
-  toy_sum[pixel] = before + open * float(pass_constants.sample_count);
+  toy_sum[pixel] = SumBefore(toy_sum, pixel) + open * float(pass_constants.sample_count);
 }
 
 [shader("compute")]
