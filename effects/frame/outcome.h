@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How work that may be stopped ended. Being stopped is no error: nothing failed, somebody asked for
-// it.
+/// @file
+/// How work that may be stopped ended. Being stopped is no error: nothing failed, somebody asked
+/// for it.
 #pragma once
 
 #include <rtapi/result.h>
@@ -10,8 +11,9 @@
 
 namespace kaamos::effects {
 
+/// How work ended that a callback may stop.
 enum class Outcome : std::uint8_t {
-  kDone,
+  kDone,     ///< complete
   kStopped,  ///< the caller's callback asked for it; results are incomplete
 };
 

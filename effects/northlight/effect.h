@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A row of the registry: what a frame has to know about an effect. A new effect is a folder of its
-// own and one row.
+/// @file
+/// A row of the registry: what a frame has to know about an effect. A new effect is a folder of its
+/// own and one row.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -29,12 +30,14 @@ struct EffectSettings {
   bool keep = false;        ///< rendered even where the scene has no use for it
   bool trace_only = false;  ///< FrameRenderer::run only: the rays without shading [Effect::trace]
 
+  /// Sets `constants`.
   template <class T>
   EffectSettings& set_constants(const T& values) {
     static_assert(sizeof(T) <= sizeof(constants));
     std::memcpy(constants.data(), &values, sizeof(T));
     return *this;
   }
+  /// `constants` as the type that they were set from.
   template <class T>
   T get_constants() const {
     static_assert(sizeof(T) <= sizeof(constants));
@@ -47,6 +50,7 @@ struct EffectSettings {
 /// A shader library, by the file that it is compiled from.
 struct EffectLibrary {
   std::string file;  ///< below effects/, without ".hlsl": "gbuffer/gbuffer". Empty: none
+  /// Loads the one that the program was built with.
   std::function<rtapi::Result<rtapi::ShaderLibrary>()> built_in;
 };
 
@@ -77,10 +81,11 @@ struct EffectNeeds {
   bool strongest_lights = false;
 };
 
+/// An effect as the frame sees it.
 struct Effect {
-  std::string name;   ///< in FrameSettings::effects and on command lines
-  std::string about;  ///< a few words for --help
-  EffectLibrary library = {};
+  std::string name;            ///< in FrameSettings::effects and on command lines
+  std::string about;           ///< a few words for --help
+  EffectLibrary library = {};  ///< of `pass`, `trace` and `compose`
   /// Null: the frame's main lighting, which is no ray tracing pass.
   std::function<RayPassDesc(rtapi::ShaderLibrary)> pass = {};
   /// The same rays with nothing shaded, for measuring. The volume is then empty. May be null.
@@ -88,9 +93,9 @@ struct Effect {
   /// A compute shader of the library, [numthreads(8, 8, 1)], that adds the effect to the finished
   /// radiance; it has the pass's views and constants. Empty: none.
   std::string compose = {};
-  std::vector<EffectSignal> signals = {};
-  EffectSettings defaults = {};
-  EffectNeeds needs = {};
+  std::vector<EffectSignal> signals = {};  ///< at least one
+  EffectSettings defaults = {};            ///< what FrameSettings start from
+  EffectNeeds needs = {};                  ///< what it reads, and what scenes must have
   std::string includes = {};        ///< another effect that this one changes and so brings along
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
 
 rtapi::Error failure(const std::string& text) {
-  return {"effects", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 bool has_glass(const Scene& scene) {

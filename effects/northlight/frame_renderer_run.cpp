@@ -14,7 +14,7 @@ constexpr double kDispatchMs = 300;
 constexpr std::uint32_t kMostSamplesPerDispatch = 1024;
 
 rtapi::Error failure(const std::string& text) {
-  return {"effects", rtapi::ErrorCode::kInvalidArgument, text};
+  return {{}, rtapi::ErrorCode::kInvalidArgument, text};
 }
 
 }  // namespace

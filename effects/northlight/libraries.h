@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The shader libraries of a frame: those of its effects, by the registry, and those of the passes
-// that every frame stands on.
+/// @file
+/// The shader libraries of a frame: those of its effects, by the registry, and those of the passes
+/// that every frame stands on.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -23,6 +24,7 @@ std::vector<EffectLibrary> frame_libraries(
     const FrameSettings& settings, const std::vector<Effect>& effects = northlight_effects());
 
 /// Loads what is built in.
+/// @errors those of rtapi::LoadShaderLibrary.
 rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& libraries);
 
 /// The denoiser's among them.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What can be chosen about a frame.
+/// @file
+/// What can be chosen about a frame.
 #pragma once
 
 #include <cstdint>
@@ -26,19 +27,20 @@ struct VolumeSettings {
   std::shared_ptr<const IndirectVolume> given;  ///< instead of a file and of baking
 };
 
+/// The size of a frame, its effects and how good they are.
 struct FrameSettings {
-  std::uint32_t width = 1280;
-  std::uint32_t height = 720;
-  std::uint32_t seed = 0;  ///< the same seed gives the same frame
+  std::uint32_t width = 1280;  ///< pixels, 1 to 16384
+  std::uint32_t height = 720;  ///< pixels, 1 to 16384
+  std::uint32_t seed = 0;      ///< the same seed gives the same frame
   /// What is rendered, by the names of the registry. [choose_effects]
   std::map<std::string, EffectSettings> effects;
   /// Signals are denoised and put together with local lights and glass. false: only ambient
   /// occlusion and the sun, as they are; an effect with pictures of its own is then an error.
   bool whole_frame = true;
-  DenoiseDesc denoise;  ///< of a whole frame
-  VolumeSettings volume;
-  bool taa = false;     ///< antialiasing over the frames of a sequence
-  bool moving = false;  ///< frames of a sequence: structures are kept up with what moves
+  DenoiseDesc denoise;    ///< of a whole frame
+  VolumeSettings volume;  ///< for effects that read it
+  bool taa = false;       ///< antialiasing over the frames of a sequence
+  bool moving = false;    ///< frames of a sequence: structures are kept up with what moves
   RayOrder order = RayOrder::kPixels;  ///< of rays; the frame stays the same
   bool ray_cones = true;               ///< [FrameDesc]
   float sun_angular_radius = -1.0f;    ///< [FrameDesc]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Normals and tangents for vertices that come without.
+/// @file
+/// Computes normals and tangents for vertices that lack them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --tables, --explain and --heatmap: what is looked at, printed and written.
+// What --tables, --explain and --heatmap look at, print and write.
 #pragma once
 
 #include <rtapi/explain.h>
@@ -33,10 +33,10 @@ void inspect(const Options& options, kaamos::effects::FrameRenderer& renderer, I
 using PassTables = std::vector<std::pair<std::string, rtapi::TableDescription>>;
 // The tables of each pass, by its name.
 rtapi::Result<PassTables> describe_tables(const kaamos::effects::FrameRenderer& renderer);
-// Each pass under its name, as text or as one JSON object.
+// Each pass with its name, as text or as one JSON object.
 std::string print_tables(const PassTables& passes, bool json);
 std::string print_explanations(const std::vector<ExplainedDispatch>& dispatches, bool json);
-// Writes <out>/heatmap-<kind>.png and sets `said` to what its colors mean. Returns what went wrong.
+// Writes <out>/heatmap-<kind>.png and describes its colors in `said`. Returns what went wrong.
 std::string write_heatmap(const Options& options, const Inspection& seen, std::string& said);
 
 }  // namespace northlight

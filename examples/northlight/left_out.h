@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts would cost that a scene has no use for: each is put back in turn, and the frame
-// timed against the one without.
+// What the parts that a scene does not need would cost: each is put back in turn, and the frame is
+// timed against the one without it.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace northlight {
 
-// Renders the scene kRounds times as it is and with each part, in turn, and writes a table: part,
-// milliseconds of the frame without and with it (medians), what was saved.
+// Renders the scene kRounds times as it is and with each part, in turn, and makes a table: the
+// part, the frame's milliseconds without and with it (medians), and the saving.
 rtapi::Result<Outcome> measure_left_out(const Options& options, const kaamos::effects::Scene& scene,
                                         const Progress& progress, std::string& table);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The demo: Northlight's ray traced effects over a scene, one frame or a sequence of them.
+// The demo: Northlight's ray traced effects over a scene, as one frame or a sequence.
 #include <unistd.h>
 
 #include <atomic>
@@ -33,7 +33,7 @@ using namespace northlight;
 using kaamos::effects::FrameRenderer;
 using kaamos::effects::Scene;
 
-constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
+constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells report it
 
 std::atomic<bool> stop_requested{false};
 void on_interrupt(int) {
@@ -58,12 +58,12 @@ bool load_scene(const Options& options, Scene& scene) {
     std::fprintf(stderr, "northlight: warning: %s\n", warning.c_str());
   }
   scene = std::move(loaded.value().scene);
-  // A tree on its own has nothing to cast its shadow on.
+  // A tree alone has nothing to cast its shadow on.
   if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
   return true;
 }
 
-// What the program makes of a scene before it is uploaded.
+// Prepares a scene for upload.
 void prepare_geometry(const Options& options, Scene& scene) {
   if (options.frames == 0) kaamos::effects::show_levels(scene, scene.cameras.front());
   if (options.piece_triangles == 0) return;
@@ -89,7 +89,7 @@ bool override_materials(const Options& options, Scene& scene) {
   return true;
 }
 
-// A bar on a terminal, nothing in a log. False when Ctrl-C came.
+// A progress bar on a terminal, nothing in a log. False after Ctrl-C.
 bool show_progress(const std::string& pass, double done) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!terminal) return !stop_requested;
@@ -113,7 +113,7 @@ int report(const rtapi::Result<Outcome>& result, const Options& options) {
   if (*result == Outcome::kDone) return 0;
   std::fprintf(stderr, "\n");
   say_error("interrupted: nothing was written, earlier results in " + options.out +
-            " are as they were");
+            " are unchanged");
   return kInterrupted;
 }
 
@@ -185,7 +185,7 @@ int print_left_out(const Options& options, const Scene& scene) {
   return report(done, options);
 }
 
-// Until Ctrl-C: an error in a shader is shown, and the next change tried.
+// Runs until Ctrl-C: shows errors in shaders and waits for the next change.
 int watch(FrameRenderer& renderer, const Options& options) {
   const auto folder = find_effects_folder();
   if (folder.empty()) {

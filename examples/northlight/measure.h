@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// northlight --measure EFFECT: time against error over the quality settings of an effect.
+// northlight --measure EFFECT: time against error over an effect's quality settings.
 #pragma once
 
 #include <string>
@@ -13,24 +13,24 @@
 
 namespace northlight {
 
-// A setting that is measured.
+// A setting to measure.
 struct MeasuredSetting {
-  std::string group;  // settings that differ in one thing only; a line of the plot
+  std::string group;  // settings that differ in one thing only; one line of the plot
   std::string label;
   Setting setting;
-  std::string reference;  // which of the plan's
+  std::string reference;  // name of one of the plan's references
   bool steps = true;      // the group's settings are steps of one scale
 };
 
 struct MeasurePlan {
   std::string title;
-  std::string signal;  // what is compared
+  std::string signal;  // the signal to compare
   struct Reference {
-    std::string name;   // of the file too
+    std::string name;   // also of its file
     std::string about;  // what it is
     Setting setting;
-    bool light = false;  // radiance, tone mapped to be looked at; else a visibility of 0..1
-    bool exact = false;  // no noise: one run tells all
+    bool light = false;  // radiance, tone mapped for viewing; otherwise a visibility of 0..1
+    bool exact = false;  // without noise: one run is enough
   };
   std::vector<Reference> references;
   std::vector<MeasuredSetting> settings;
@@ -41,19 +41,19 @@ struct MeasurePlan {
 // What --measure takes, in the order of --help: every effect of the registry that traces rays, and
 // svgf.
 std::vector<std::string> measured_effects();
-// The size that is measured where none is given: each takes a few minutes on two cores.
+// The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
 // Not for svgf.
 MeasurePlan measure_plan(const Options& options);
 
-// One line of the table.
+// One row of the table.
 struct MeasuredRow {
   std::string group, label, reference;
-  std::uint32_t rays = 0;  // per pixel, as the setting says
-  double traced = 0;       // per pixel, with those of hit shading
+  std::uint32_t rays = 0;  // per pixel, as the setting asks for
+  double traced = 0;       // per pixel, including those of hit shading
   double ms = 0;           // median
   double ms_min = 0;
-  double filter_ms = 0;  // of it: the denoiser's
+  double filter_ms = 0;  // the denoiser's part of ms
   double flicker = -1;   // negative: not measured
   Errors::Summary errors;
   double reference_rmse = 0;
@@ -77,12 +77,12 @@ rtapi::Result<Outcome> measure_denoisers(const Options& options,
                                          const kaamos::effects::Scene& scene,
                                          const Progress& progress, MeasuredTable& table);
 
-// Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References stay in
+// Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References are kept in
 // its folder measure-cache.
 rtapi::Result<Outcome> run_measure(const Options& options, const kaamos::effects::Scene& scene,
                                    const Progress& progress);
 
-// The middle one; of an even number the lower of the two.
+// The middle value; for an even number of values, the lower of the middle two.
 double median(std::vector<double> values);
 
 }  // namespace northlight

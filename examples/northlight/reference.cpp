@@ -24,7 +24,7 @@ Options reference_options(const Options& options) {
     if (name == "transparent") settings.set_constants(sorted_reference());
   }
   out.frame.denoise = default_denoise(DenoiseMethod::kNone);
-  // Random numbers that the frame itself has not seen.
+  // Random numbers that the frame itself has not used.
   out.frame.seed = options.frame.seed ^ 0x5EED0000u;
   return out;
 }

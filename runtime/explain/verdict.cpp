@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/explain/verdict.h"
+#include "runtime/backend/ray_flags.h"
 
 #include <cstdio>
 
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 namespace {
 
 using rtapi::CandidateOutcome;
 using rtapi::RayFlags;
-
-bool has(uint32_t flags, RayFlags flag) {
-  return (flags & static_cast<uint32_t>(flag)) != 0;
-}
+using runtime::has;
 
 std::string hex2(uint32_t value) {
   char text[16];
@@ -32,7 +30,7 @@ bool is_culled_by_face(const Search& search, const Candidate& candidate, const I
 
 bool is_outside(const Search& search, const Candidate& candidate) {
   const auto t = static_cast<float>(candidate.t);
-  // The interval is open for triangles, closed for boxes. [DXR: Ray extents]
+  // The interval is open for triangles and closed for boxes. [DXR: Ray extents]
   if (candidate.procedural) return candidate.leave < search.t_min || t > search.t_max;
   return !(t > search.t_min && t < search.t_max);
 }

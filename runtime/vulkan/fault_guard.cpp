@@ -10,13 +10,15 @@
 #include <cerrno>
 #include <mutex>
 
+#include "runtime/backend/fault_signals.h"
+
 namespace kaamos::vulkan {
 namespace {
 
 constexpr uintptr_t kPageBytes = 4096;
-constexpr uint32_t kMaxPages = 16384;  // beyond, the fault is nobody's
+constexpr uint32_t kMaxPages = 16384;  // further faults are not handled
 
-// All of it is read and written by a signal handler.
+// A signal handler reads and writes all of it.
 struct Faults {
   std::atomic<bool> active = false;
   std::atomic<uint32_t> count = 0;
@@ -24,8 +26,9 @@ struct Faults {
   std::atomic<uintptr_t> pages[kMaxPages];
 };
 Faults faults;
-std::mutex owner;  // of the guard that is active
-struct sigaction previous_action;
+std::mutex owner;  // held by the active guard
+constexpr int kSignals[] = {SIGSEGV};
+constinit runtime::FaultSignals signals(kSignals);
 
 void* instruction_of(const void* context) {
   const auto* machine = static_cast<const ucontext_t*>(context);
@@ -38,14 +41,14 @@ void* instruction_of(const void* context) {
 #endif
 }
 
-// Code that a driver made at run time is in no file, unlike all other code.
+// Code that a driver generated at run time is in no file, unlike all other code.
 bool is_generated_code(const void* context) {
   void* instruction = instruction_of(context);
   Dl_info info;
   return instruction != nullptr && dladdr(instruction, &info) == 0;
 }
 
-// True if the instruction can run again.
+// True if the instruction can be run again.
 bool give_page(uintptr_t address) {
   const uint32_t slot = faults.count.fetch_add(1);
   if (slot >= kMaxPages) return false;
@@ -53,7 +56,7 @@ bool give_page(uintptr_t address) {
   void* mapped = mmap(reinterpret_cast<void*>(page), kPageBytes, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED_NOREPLACE, -1, 0);
   const bool given = mapped == reinterpret_cast<void*>(page);
-  const bool taken = mapped == MAP_FAILED && errno == EEXIST;  // by another thread, a moment before
+  const bool taken = mapped == MAP_FAILED && errno == EEXIST;  // by another thread, just before
   if (!given && mapped != MAP_FAILED) munmap(mapped, kPageBytes);
   if (given) faults.pages[slot] = page;
   uintptr_t none = 0;
@@ -66,24 +69,13 @@ void on_fault(int signal_number, siginfo_t* info, void* context) {
       give_page(reinterpret_cast<uintptr_t>(info->si_addr))) {
     return;
   }
-  if ((previous_action.sa_flags & SA_SIGINFO) != 0 && previous_action.sa_sigaction != nullptr) {
-    previous_action.sa_sigaction(signal_number, info, context);
-  } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
-    previous_action.sa_handler(signal_number);
-  } else {
-    // Restored, the default takes the instruction that faulted, when it runs again.
-    sigaction(signal_number, &previous_action, nullptr);
-    if (info->si_code <= 0) raise(signal_number);
-  }
+  signals.forward(signal_number, info, context);
 }
 
 void install_handler() {
   static const bool installed = [] {
-    struct sigaction action = {};
-    action.sa_sigaction = on_fault;
-    action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
-    sigemptyset(&action.sa_mask);
-    return sigaction(SIGSEGV, &action, &previous_action) == 0;
+    signals.install(on_fault);
+    return true;
   }();
   static_cast<void>(installed);
 }

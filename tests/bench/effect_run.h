@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One effect over the lounge, with its rays in the pixels' order or sorted by direction.
+// Runs one effect over the lounge, with its rays in pixel order or sorted by direction.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ class EffectRun {
   // `effect`: its name in the registry.
   EffectRun(const std::string& effect, Fixtures& fixtures);
 
-  // Keys of the rays, and their order.
+  // Computes the rays' keys and sorts them.
   void sort();
-  // One dispatch, `samples` rays a pixel.
+  // One dispatch with `samples` rays per pixel.
   void trace(bool sorted, uint32_t samples = 1);
 
  private:

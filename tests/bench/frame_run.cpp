@@ -16,7 +16,7 @@ namespace {
 // What RayListener writes to: a list for each thread.
 std::mutex heard_mutex;
 std::vector<std::unique_ptr<std::vector<FrameRay>>> heard;
-std::atomic<uint32_t> recording = 0;  // a number for each
+std::atomic<uint32_t> recording = 0;  // numbers the recordings
 
 void hear(const shader::TraceRayArguments& arguments, shader::RayLanes origin,
           shader::RayLanes direction) {
@@ -60,8 +60,8 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
 
 void FrameRun::trace_and_shade(const std::string& part) {
   rtapi::CommandList list = device().CreateCommandList().value();
-  // Other samples in each frame, as in a sequence: noise that stands still would be no noise to
-  // the filters.
+  // Each frame uses other samples, as in a sequence: to the filters, noise that stands still would
+  // not be noise.
   const effects::FrameRenderer::PartOptions options = {.first_sample = frames_++};
   for (const char* each : kFrameParts) {
     if (part.empty() || part == each) renderer_->record(list, each, options);

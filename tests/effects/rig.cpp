@@ -84,7 +84,7 @@ void split(Pictures& pictures, const std::string& name, const std::string& fourt
 
 Pictures read(FrameRenderer& renderer, const RigOptions& options) {
   Pictures out;
-  for (const std::string& name : {"ids", "view_z", "normal", "position", "radiance"}) {
+  for (const std::string name : {"ids", "view_z", "normal", "position", "radiance"}) {
     out[name] = renderer.read(name).value();
   }
   out["motion"] = renderer.read(renderer.frame().texture(kMotion)).value();
