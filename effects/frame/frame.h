@@ -154,6 +154,8 @@ class Frame {
   /// Descriptors for one pass, in the heap of the frame. They are never given back.
   /// @errors FrameDesc::max_pass_views of them are in use already.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
+  /// Gives the descriptors of all passes back: none of those passes may run again.
+  void release_pass_views() { *pass_views_ = 0; }
   /// Makes a picture of zeros of the frame's size, see effects::create_picture.
   /// @errors those of rtapi::Device::CreateTexture.
   rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,

@@ -7,9 +7,7 @@
 
 #include <rtapi/rtapi.h>
 
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -17,6 +15,7 @@
 
 #include "effects/common/result.h"
 #include "effects/frame/frame.h"
+#include "effects/frame/outcome.h"
 #include "effects/lights/lighting.h"
 
 namespace kaamos::effects {
@@ -78,14 +77,13 @@ struct BakeDesc {
 rtapi::Result<rtapi::ShaderLibrary> volume_bake_library();
 
 /// Path traces every cell, in steps that take some tenths of a second. `origin` is that of `gpu`
-/// and `frame`. `progress` gets the done part, 0 to 1; setting `stop` ends it.
-/// @errors those of the device; interrupted by `stop`.
-rtapi::Status bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                          const Frame& frame, const GpuScene& gpu, const Lighting& lighting,
-                          const glm::dvec3& origin, const rtapi::ShaderLibrary& library,
-                          const BakeDesc& desc, IndirectVolume& volume,
-                          const std::function<void(double)>& progress,
-                          const std::atomic<bool>& stop);
+/// and `frame`. After kStopped the cells hold nothing of use.
+/// @errors those of the device.
+rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                   const Frame& frame, const GpuScene& gpu,
+                                   const Lighting& lighting, const glm::dvec3& origin,
+                                   const rtapi::ShaderLibrary& library, const BakeDesc& desc,
+                                   IndirectVolume& volume, const StepCallback& progress = {});
 
 /// Writes a volume to a file: little-endian, with a version and the length of everything. An
 /// earlier file at `path` stays as it was on any error.
