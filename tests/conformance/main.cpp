@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-conformance: holds a machine and its drivers against DXR's rules.
+#include <rtapi/version.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
   std::string backend, filter, json, precision;
   bool list = false, checked = false;
   CLI::App app("Holds this machine's backends against the rules of DirectX Raytracing.");
+  app.set_version_flag("--version", std::string("kaamos-conformance ") + rtapi::GetVersion());
   app.add_option("--backend", backend, "embree or vulkan; without it every one there is")
       ->check(CLI::IsMember({"embree", "vulkan"}));
   app.add_option("--precision", precision,
