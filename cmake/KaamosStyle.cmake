@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
-# Targets that look at sources: format-check (fails where clang-format would change a line), format
-# (changes it), tidy-check (clang-tidy over all C++ sources; minutes). None is part of a build or test.
+# Targets that look at sources: format-check (fails where clang-format would change a line, as the test
+# style.SourcesAreFormatted does), format (changes it), tidy-check (clang-tidy over all C++ sources; minutes).
 include_guard()
 
-find_program(KAAMOS_CLANG_FORMAT NAMES clang-format clang-format-14)
-find_program(KAAMOS_RUN_CLANG_TIDY NAMES run-clang-tidy run-clang-tidy-14)
+find_program(KAAMOS_CLANG_FORMAT NAMES clang-format-14 clang-format)
+find_program(KAAMOS_RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
 
 # kaamos_add_source_check(name program command...): without the program, building it says so.
 function(kaamos_add_source_check name program package)
@@ -19,9 +19,9 @@ endfunction()
 
 set(format_sources "${PROJECT_SOURCE_DIR}/cmake/format_sources.sh")
 kaamos_add_source_check(format-check "${KAAMOS_CLANG_FORMAT}" clang-format
-  COMMAND bash "${format_sources}" "${KAAMOS_CLANG_FORMAT}" --dry-run --Werror)
+  COMMAND bash "${format_sources}" "${PROJECT_SOURCE_DIR}" "${KAAMOS_CLANG_FORMAT}" --dry-run --Werror)
 kaamos_add_source_check(format "${KAAMOS_CLANG_FORMAT}" clang-format
-  COMMAND bash "${format_sources}" "${KAAMOS_CLANG_FORMAT}" -i)
+  COMMAND bash "${format_sources}" "${PROJECT_SOURCE_DIR}" "${KAAMOS_CLANG_FORMAT}" -i)
 kaamos_add_source_check(tidy-check "${KAAMOS_RUN_CLANG_TIDY}" clang-tidy
   COMMAND "${KAAMOS_RUN_CLANG_TIDY}" -quiet -p "${PROJECT_BINARY_DIR}"
           "^${PROJECT_SOURCE_DIR}/(rtapi|runtime|effects|examples|tests)/.*[.]cpp$")
