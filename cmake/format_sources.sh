@@ -16,7 +16,7 @@ if [[ $version != "$wanted" ]]; then
   echo "the sources are formatted by clang-format $wanted, and there is ${version:-none} here"
   exit 77
 fi
-mapfile -d '' files < <(find . \( -name build -o -name out -o -name .git -o -name .cache -o -name testdata \) -prune -o \
-  -type f \( -name '*.cpp' -o -name '*.h' \) -printf '%P\0')
+mapfile -d '' files < <(find . \( -name build -o -name out -o -name .git -o -name .cache \
+  -o -name testdata \) -prune -o -type f \( -name '*.cpp' -o -name '*.h' \) -printf '%P\0')
 printf '%d files\n' "${#files[@]}"
 "$clang_format" "$@" "${files[@]}"

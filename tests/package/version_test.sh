@@ -16,7 +16,8 @@ expect() {
 
 [[ $version =~ ^[0-9]+\.[0-9]+\.[0-9]+$ ]] || expect "PROJECT_VERSION" "$version" "three numbers"
 header=$source/rtapi/include/rtapi/version.h
-expect "$header" "$(sed -nE 's/.* kVersion(Major|Minor|Patch) = ([0-9]+);.*/\2/p' "$header" | paste -sd .)" "$version"
+numbers=$(sed -nE 's/.* kVersion(Major|Minor|Patch) = ([0-9]+);.*/\2/p' "$header" | paste -sd .)
+expect "$header" "$numbers" "$version"
 package=$build/kaamosConfigVersion.cmake
 expect "$package" "$(sed -nE 's/^set\(PACKAGE_VERSION "(.*)"\)$/\1/p' "$package" | head -n 1)" "$version"
 changes=$source/CHANGELOG.md
