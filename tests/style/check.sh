@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice.
+# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice, recipes.
 set -euo pipefail
 rule=$1
 cd "$2"
@@ -166,8 +166,19 @@ check_used() {
   done
 }
 
+# The recipes of CONTRIBUTING.md name files of this tree: `folder/file` and `folder/`, with * as in a shell. What
+# has <...> in it is for the reader to fill in; build/ is made.
+check_recipes() {
+  local file=CONTRIBUTING.md line name
+  [[ -f $file ]] || return 0
+  grep -noE '`[.A-Za-z0-9_*-]+/[.A-Za-z0-9_*/-]*`|`[A-Z]+\.md`' "$file" | tr -d '`' |
+    while IFS=: read -r line name; do
+      [[ $name == build/* || -n $(compgen -G "${name%/}") ]] || echo "$file:$line: there is no $name"
+    done
+}
+
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told | twice) ;;
+  spdx | paths | marks | readme | length | listed | used | told | twice | recipes) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
