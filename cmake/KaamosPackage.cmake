@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: MIT
-# cmake --install and find_package(kaamos CONFIG). Called once, after every folder was added, so that
-# a library or a dependency that is new in the tree is in the package without a line here.
+# cmake --install and find_package(kaamos CONFIG). Called once, after all folders have been added,
+# so that a new library or dependency is packaged without a line here.
 include_guard()
 include(CMakePackageConfigHelpers)
 
 set(KAAMOS_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/kaamos")
-# Headers under these folders are included by their path below it.
+# Headers below these folders are included by their path relative to the folder.
 set(KAAMOS_PACKAGE_INCLUDE_DIRS "${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_INSTALL_INCLUDEDIR}/kaamos")
 
-# kaamos_collect_libraries(variable folder...): every library target of these folders and below.
+# kaamos_collect_libraries(variable folder...): collects every library target in these folders and
+# below.
 function(kaamos_collect_libraries result)
   set(libraries)
   foreach(folder IN LISTS ARGN)
@@ -26,7 +27,7 @@ function(kaamos_collect_libraries result)
   set(${result} ${libraries} PARENT_SCOPE)
 endfunction()
 
-# The same names in this build as for who uses the package.
+# Gives a target the same name in this build as in the installed package.
 function(kaamos_add_alias name target)
   if(TARGET kaamos::${name})
     return()
@@ -39,7 +40,7 @@ function(kaamos_add_alias name target)
   endif()
 endfunction()
 
-# The include folders of the source tree are for the build; an installed library has its own.
+# The include folders of the source tree serve the build only; an installed library has its own.
 function(kaamos_make_includes_relocatable target)
   get_target_property(folders ${target} INTERFACE_INCLUDE_DIRECTORIES)
   set(relocatable)
@@ -56,7 +57,8 @@ function(kaamos_make_includes_relocatable target)
   set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${relocatable}")
 endfunction()
 
-# A library that find_library found has an absolute path here; elsewhere its name finds it.
+# find_library gives a library an absolute path. The package needs its bare name, which works
+# elsewhere.
 function(kaamos_make_links_relocatable target)
   get_target_property(linked ${target} INTERFACE_LINK_LIBRARIES)
   if(NOT linked)
@@ -73,8 +75,9 @@ function(kaamos_make_links_relocatable target)
   set_target_properties(${target} PROPERTIES INTERFACE_LINK_LIBRARIES "${relocatable}")
 endfunction()
 
-# kaamos_collect_dependencies(variable target...): find_dependency lines for what these targets link.
-# "TBB::tbb" comes from package TBB; Debian's Embree is the one whose target has no namespace.
+# kaamos_collect_dependencies(variable target...): the find_dependency lines for everything these
+# targets link. "TBB::tbb" comes from package TBB; Debian's Embree is the one target without a
+# namespace.
 function(kaamos_collect_dependencies result)
   set(lines)
   foreach(target IN LISTS ARGN)
@@ -104,8 +107,8 @@ function(kaamos_install_headers)
       install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     endif()
   endforeach()
-  # Headers of the effects include each other as "effects/...", with which they keep working in
-  # include/kaamos; their shader files go with them.
+  # Headers of the effects include each other as "effects/...", which also works below
+  # include/kaamos. Their shader files are installed with them.
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
     PATTERN "*_test_support.h" EXCLUDE)

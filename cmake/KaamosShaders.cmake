@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: MIT
-# kaamos_add_shader_library: HLSL compiled with the program. Part of the installed package too.
+# kaamos_add_shader_library: HLSL compiled at build time. Part of the installed package too.
 include_guard()
 
-# What emitted code needs to mean the same on every compiler; runtime/hlsl/host_compiler.cpp has the
-# same list for libraries that are compiled at run time.
+# Options that make emitted code mean the same on every compiler. runtime/hlsl/driver/host_compiler.cpp has
+# the same list for libraries compiled at run time.
 set(KAAMOS_SHADER_COMPILE_OPTIONS
   -w -fwrapv -ffp-contract=off -fno-math-errno -fno-trapping-math -fno-exceptions -fno-rtti
   -fno-strict-aliasing -fstack-clash-protection)
 
-# Shader libraries are compiled for any x86-64 and once more for AVX2, whose registers hold the eight
-# threads that a compute shader runs at once; the program takes what its processor can run
-# (kaamos/shader/cpu_level.h). Both give the same bits. -fno-weak: inline functions stay in their
-# object, so that the linker cannot take the AVX2 version of one for code that runs everywhere; only
-# g++ has it.
+# Shader libraries are compiled for any x86-64 and a second time for AVX2, whose registers hold the
+# eight threads that a compute shader runs at once. The program picks what its processor can run
+# (kaamos/shader/cpu_level.h); both give the same bits. -fno-weak keeps inline functions local to
+# their object, so the linker cannot pick the AVX2 version of one for code that runs everywhere.
+# Only g++ has this option.
 set(KAAMOS_SHADER_AVX2_OPTIONS -mavx2 -fno-weak)
 set(_kaamos_shader_avx2 OFF)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
@@ -23,12 +23,11 @@ option(KAAMOS_SHADER_AVX2 "Compile shader libraries for AVX2 too" ${_kaamos_shad
 
 # kaamos_add_shader_library(TARGET SOURCES a.hlsl b.hlsl ... [INCLUDES folder ...]
 #   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [BASELINE_ONLY])
-# makes a static library TARGET to link to. Each source NAME.hlsl gives a header <shaders/NAME.h>
-# with
+# makes a static library TARGET to link to. Each source NAME.hlsl gets a header <shaders/NAME.h> with
 #   const kaamos::shader::LibraryDesc* kaamos_shaders_NAME();
-# for rtapi::ShaderLibrary. It runs on every backend; OPTIONS -no-spirv leaves out what Vulkan needs,
-# BASELINE_ONLY what is compiled for AVX2.
-# A change of a source or of anything it includes compiles it again.
+# to pass to rtapi::ShaderLibrary. The library runs on every backend; OPTIONS -no-spirv leaves out what
+# Vulkan needs, BASELINE_ONLY leaves out the AVX2 version. It is compiled again when a source or anything
+# it includes changes.
 function(kaamos_add_shader_library target)
   cmake_parse_arguments(arg "BASELINE_ONLY" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
@@ -97,7 +96,7 @@ extern \"C\" const kaamos::shader::LibraryDesc* kaamos_shaders_@name@() {
   if(NOT "avx2" IN_LIST levels)
     add_library(${target} STATIC ${generated})
   else()
-    # Both versions are made from the same sources, by one rule.
+    # One rule makes both versions from the same sources.
     add_custom_target(${target}-sources DEPENDS ${generated})
     add_library(${target} STATIC ${choices})
     foreach(level IN LISTS levels)

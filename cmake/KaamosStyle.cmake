@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: MIT
-# Targets that look at sources: format-check (fails where clang-format would change a line, as the test
-# style.SourcesAreFormatted does), format (changes it), tidy-check (clang-tidy over all C++ sources; minutes).
+# Targets that check the form of the sources: format-check (fails where clang-format would change a
+# line, as the test style.SourcesAreFormatted does), format (makes those changes), tidy-check
+# (clang-tidy over all C++ sources; takes minutes). No build includes them.
 include_guard()
 
 find_program(KAAMOS_CLANG_FORMAT NAMES clang-format-14 clang-format)
 find_program(KAAMOS_RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
 
-# kaamos_add_source_check(name program command...): without the program, building it says so.
+# kaamos_add_source_check(name program command...): if the program is missing, building the target
+# says so.
 function(kaamos_add_source_check name program package)
   if(NOT program)
     add_custom_target(${name} VERBATIM

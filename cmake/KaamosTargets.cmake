@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT
-# What every target of the project shares: warnings, sanitizers, a faster linker where there is one,
+# What all targets of the project share: warnings, sanitizers, a faster linker where there is one,
 # and kaamos_add_test, which gives a GoogleTest executable its ctest labels.
 include_guard()
 
-# Older ones fail in the middle of the build, with messages that help nobody.
+# Older compilers fail in the middle of the build with unhelpful messages.
 if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
    OR (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14))
   message(FATAL_ERROR "Kaamos needs g++ 12 or clang++ 14 or newer; ${CMAKE_CXX_COMPILER} is "
     "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}. Set CXX to a newer one.")
 endif()
 
-# All of it is for this build only: the package exports the target empty, because the static libraries
-# that link it name it.
+# All of this applies to this build only. The package exports the target empty, because static
+# libraries that link it refer to it by name.
 add_library(kaamos_build_flags INTERFACE)
 set_target_properties(kaamos_build_flags PROPERTIES EXPORT_NAME build_flags)
 function(kaamos_add_build_flags)
@@ -27,9 +27,9 @@ kaamos_add_build_flags(COMPILE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
   -Wno-missing-braces  # clang asks for braces around each row of a matrix
   -Wno-missing-field-initializers)  # designated initialisers name what differs from the default
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # gcc 12 sees overlapping copies in every "literal" + std::string at -O2 and up (its bug 105651).
-  # In moves of std::variant and std::optional it sees reads of members that are not the active one;
-  # clang and the sanitizers look for real ones.
+  # gcc 12 reports overlapping copies in every "literal" + std::string at -O2 and above (its bug
+  # 105651). In moves of std::variant and std::optional it reports reads of inactive members; clang
+  # and the sanitizers catch real ones.
   kaamos_add_build_flags(COMPILE -Wno-restrict -Wno-maybe-uninitialized)
 endif()
 if(KAAMOS_WERROR)
@@ -40,11 +40,11 @@ if(KAAMOS_SANITIZE)
     COMPILE -fsanitize=${KAAMOS_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=undefined
     LINK -fsanitize=${KAAMOS_SANITIZE})
   if(KAAMOS_SANITIZE MATCHES "undefined")
-    # Debian's glslang has no type information, which this check would refer to.
+    # Debian's glslang has no type information, which this check needs.
     kaamos_add_build_flags(COMPILE -fno-sanitize=vptr)
   endif()
-  # What the sanitizers are to ignore is part of every program, so that it holds for tests, for the
-  # tools they start, and for a program started by hand.
+  # Sanitizer suppressions are linked into every program, so that they apply to tests, to the tools
+  # that tests start, and to programs started by hand.
   add_library(kaamos_sanitizer_defaults OBJECT "${CMAKE_CURRENT_LIST_DIR}/sanitizer_defaults.cpp")
   target_compile_options(kaamos_sanitizer_defaults PRIVATE -fsanitize=${KAAMOS_SANITIZE})
   target_link_libraries(kaamos_build_flags INTERFACE
@@ -59,18 +59,19 @@ if(KAAMOS_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${KAAMOS_CCACHE}")
 endif()
 
-# Tests are half of what a build compiles, and run once: the release build optimises them lightly, which
-# takes a quarter less time.
+# Tests are half of what a build compiles, and each runs only once, so the release build optimises
+# them lightly. That takes a quarter less time.
 function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
 # kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [MANY_PIPELINES])
-# One executable; every TEST in it is one ctest test, a process of its own, with the given labels.
-# They start through kaamos-isolate, which repeats a test on Vulkan that the driver crashed: one with
-# "vulkan" in its name, which gets the label vulkan too, or in its executable's. MANY_PIPELINES: of
-# those on Vulkan that make many pipelines and trace few rays lavapipe optimises none, which takes it
-# less than half the time; the others run what users run.
+# Adds one executable; every TEST in it becomes one ctest test in a process of its own, with the
+# given labels. Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
+# crashed. A test counts as one on Vulkan if it or its executable has "vulkan" in its name; it then
+# gets the label vulkan too. MANY_PIPELINES is for Vulkan tests that make many pipelines and trace
+# few rays: lavapipe does not optimise those pipelines, which takes it less than half the time. All
+# other tests run what users run.
 function(kaamos_add_test name)
   cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
@@ -84,21 +85,21 @@ function(kaamos_add_test name)
   kaamos_compile_lightly(${name})
   target_compile_definitions(${name} PRIVATE
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  # What CMake starts a test through is called an emulator there.
+  # CMake calls the program that starts a test its emulator.
   set_target_properties(${name} PROPERTIES
     CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT}")
   add_dependencies(${name} kaamos-isolate)
-  math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it earlier
+  math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it before this
   include(GoogleTest)
-  # DISCOVERY_MODE PRE_TEST keeps the build from running every test executable once; sanitizers on a
-  # busy machine need more than the usual 5 s to list their tests.
+  # DISCOVERY_MODE PRE_TEST keeps the build from running every test executable once. With sanitizers
+  # on a busy machine, listing the tests takes longer than the default 5 s.
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${timeout})
   set(vulkan_environment "")
   if(arg_MANY_PIPELINES)
     set(vulkan_environment "GALLIVM_PERF=nopt")
   endif()
-  # gtest_discover_tests takes a list of labels apart, so they are set when ctest knows the tests.
+  # gtest_discover_tests splits lists of labels, so they are set once ctest knows the tests.
   set(labels_file "${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake")
   file(WRITE "${labels_file}"
     "foreach(test IN LISTS ${name}_TESTS)\n"

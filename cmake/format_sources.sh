@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# format_sources.sh ROOT CLANG_FORMAT [options]: runs clang-format over every C++ source below ROOT. Shaders
-# are left alone: clang-format reads HLSL's attributes and semantics as C++ and breaks their lines badly.
-# Each version of clang-format breaks some lines in its own way, so only the one that .clang-format names
-# runs; without it the exit status is 77, which ctest counts as skipped.
+# format_sources.sh ROOT CLANG_FORMAT [options]: runs clang-format on every C++ source below ROOT. Shaders
+# are left alone: clang-format reads HLSL attributes and semantics as C++ and breaks those lines badly.
+# Versions of clang-format disagree on some lines, so only the one that .clang-format names runs; any
+# other gives exit status 77, which ctest counts as skipped.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 cd "$1"

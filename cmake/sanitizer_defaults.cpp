@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the thread sanitizer is told in every program of a sanitized build. Weak, because each
-// library that is linked brings it along.
+// Suppressions of the thread sanitizer, for every program of a sanitized build. Weak, because each
+// linked library brings them along.
 #if defined(__has_feature)
 #define KAAMOS_HAS_FEATURE(feature) __has_feature(feature)
 #else
@@ -10,15 +10,15 @@
 
 #if defined(__SANITIZE_THREAD__) || KAAMOS_HAS_FEATURE(thread_sanitizer)
 
-// oneTBB and Embree are not instrumented: locks and atomics inside them order nothing that the
-// sanitizer can see. The order of our own tasks, and of what Embree's builders call, is told by
-// runtime/embree/parallel.cpp, so that what they read and write is checked. Left out is what only
-// those two libraries share with themselves:
+// oneTBB and Embree are not instrumented, so the sanitizer does not see the order that their locks
+// and atomics impose. runtime/embree/parallel.cpp tells it the order of our own tasks and of what
+// Embree's builders call, so everything those read and write is checked. Suppressed is only what
+// the two libraries share with themselves:
 // - allocations, copies and locks that they make;
 // - words in Embree's settings, which its builders look up;
-// - the bookkeeping of tasks in oneTBB's headers, which other files of ours include;
-// - Embree's report of memory it took, from its own threads: one atomic addition, in a device that
-//   Embree's locks hand over.
+// - the bookkeeping of tasks in oneTBB's headers, which our files include;
+// - Embree's report of the memory it took, from its own threads: one atomic addition in a device
+//   that Embree's locks hand over.
 extern "C" __attribute__((weak)) const char* __tsan_default_suppressions() {
   return "called_from_lib:libtbb.so\n"
          "called_from_lib:libembree\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray traced ambient occlusion: kAmbientOcclusionSum grows by the number of open samples.
+// Ray traced ambient occlusion. The pass adds the number of open samples to kAmbientOcclusionSum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ambient occlusion: the part of the hemisphere, weighted by its cosine, that is open up to a
-// radius. [effects-spec B3.6]
+// Ambient occlusion: the fraction of the hemisphere, weighted by the cosine, that is open up to a
+// radius. Directions are cosine-distributed, so the estimate is simply the mean visibility.
+// [effects-spec B3.6]
 #include "visibility.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
@@ -15,7 +16,7 @@ void AmbientOcclusionRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
   const float before = SumBefore(ambient_occlusion_sum, pixel);
-  // The sky is open, and so is everything as far as nothing. [effects-spec E.2]
+  // The sky is open, and with a radius of zero nothing can be in the way. [effects-spec E.2]
   if (g_ids[pixel].x == 0 || !(pass_constants.radius > 0.0)) {
     ambient_occlusion_sum[pixel] = before + float(count);
     return;
@@ -29,7 +30,8 @@ void AmbientOcclusionRayGen() {
   float open = 0.0;
   for (uint i = 0; i < count; ++i) {
     const float3 direction = OcclusionDirection(tile, pass_constants.first_sample + i, shading_normal);
-    // Below the true surface there is nothing to see: such a ray counts as blocked.
+    // Directions below the geometric surface count as blocked; they would see the inside of the
+    // object.
     if (dot(direction, normal) > 0.0) {
       open += TraceVisibility(origin, direction, pass_constants.radius);
     }

@@ -12,8 +12,9 @@
 namespace kaamos::effects {
 namespace {
 
-/// Which cells are set, and for each cell how crowded its surroundings are. Row-wise extremes are
-/// kept, because a change touches few rows and the search for the extreme cell is all the time.
+/// Which cells are set, and how crowded the surroundings of each cell are. The extremes of each row
+/// are cached, because a change touches few rows and nearly all time goes into finding the extreme
+/// cell.
 class Pattern {
  public:
   explicit Pattern(std::uint32_t size)
@@ -37,7 +38,7 @@ class Pattern {
   std::uint32_t largest_void() const { return extreme(&Row::empty, false); }
 
  private:
-  // Ulichney's advice for the Gaussian. Beyond reach 9 it is below 2^-20.
+  // Ulichney's advice for the Gaussian. Beyond a reach of 9 it is below 2^-20.
   static constexpr double kSigma = 1.9;
   static constexpr int kReach = 9;
   static constexpr std::uint32_t kNone = 0xFFFFFFFFu;
@@ -47,7 +48,8 @@ class Pattern {
     std::uint32_t empty = kNone;
   };
 
-  /// Equal energies are told apart by a hash of the cell: first-come would leave a pattern of rows.
+  /// Ties of equal energy are broken by a hash of the cell; taking the first would leave a pattern
+  /// of rows.
   static std::uint32_t tie(std::uint32_t cell) { return pcg_hash(cell); }
   bool before(std::uint32_t a, std::uint32_t b, bool crowded) const {
     if (energy_[a] != energy_[b]) return (energy_[a] > energy_[b]) == crowded;
@@ -75,7 +77,7 @@ class Pattern {
         e = add ? e + kernel_[k] : e - kernel_[k];
       }
     }
-    // Small tiles are wrapped over more than once; rescanning a row twice does no harm.
+    // A small tile wraps around more than once; scanning a row twice does no harm.
     for (int dy = -kReach; dy <= kReach; ++dy) rescan((cy + static_cast<std::uint32_t>(dy)) & mask);
   }
 
@@ -104,7 +106,7 @@ void seed_pattern(Pattern& pattern, std::uint32_t cells, std::uint32_t seed) {
     return ha != hb ? ha < hb : a < b;
   });
   for (std::uint32_t i = 0; i < cells / 10; ++i) pattern.set(order[i], true);
-  // Ends when a cell returns to its place; the bound is for the eye, it is never reached.
+  // Ends when a cell returns to its place. The bound only makes that obvious; it is never reached.
   for (std::uint32_t step = 0; step < 16 * cells; ++step) {
     const std::uint32_t from = pattern.tightest_cluster();
     pattern.set(from, false);
@@ -131,8 +133,9 @@ std::vector<std::uint32_t> void_and_cluster(std::uint32_t size, std::uint32_t se
     shrinking.set(cell, false);
     rank[cell] = r;
   }
-  // Ulichney's third phase (the other half, with the roles changed) picks the same cells: with the
-  // sum of all kernels constant, the least crowded empty cell is the tightest cluster of empties.
+  // Ulichney's third phase (the other half, with the roles exchanged) would pick the same cells:
+  // since the sum of all kernels is constant, the least crowded empty cell is the tightest cluster
+  // of empty cells.
   for (std::uint32_t r = ones; r < cells; ++r) {
     const std::uint32_t cell = pattern.largest_void();
     pattern.set(cell, true);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Blue-noise tiles: neighbouring pixels get values far apart, so that the error of few samples
-// shows as fine grain. Made here, by void and cluster [Ulichney 1993].
+// Blue-noise tiles: neighbouring pixels get very different values, so that the error of few samples
+// appears as fine grain. They are made at run time by void and cluster. [Ulichney 1993]
 #pragma once
 
 #include <cstdint>

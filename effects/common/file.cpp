@@ -32,7 +32,7 @@ class FileDescriptor {
     if (fd_ >= 0) ::close(fd_);
   }
   int get() const { return fd_; }
-  /// Closing reports errors that a network file system delays until then.
+  /// A network file system may report write errors only on closing.
   int close() {
     const int fd = fd_;
     fd_ = -1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole files in and out. A file that is being replaced keeps its old content until the new one is
+// Reads and writes whole files. A file that is replaced keeps its old content until the new one is
 // complete on disk, so an interrupted or failed run leaves earlier output untouched.
 #pragma once
 

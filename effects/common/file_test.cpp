@@ -47,7 +47,7 @@ TEST_F(FileTest, ReplacesAnEarlierFile) {
 }
 
 TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
-  // Renaming over a folder fails after the bytes are written.
+  // Renaming over a folder fails after the bytes have been written.
   std::filesystem::create_directories(folder_ / "taken" / "inside");
   const Status status = write_file_atomically(path("taken"), bytes("x"));
   EXPECT_FALSE(status.ok());
@@ -57,7 +57,7 @@ TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
 
 TEST_F(FileTest, AWriteThatEndsHalfWayKeepsTheEarlierFile) {
   ASSERT_TRUE(write_file_atomically(path("a"), bytes("earlier")).ok());
-  // A limit on file sizes fails the write in the middle, as a full disk does.
+  // A limit on the file size makes the write fail half-way, as a full disk does.
   rlimit before = {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   rlimit small = before;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Where a ray that leaves a triangle starts, so that it neither hits that triangle again nor misses
-// what is close by: the point's own rounding error, bounded, instead of a fixed epsilon. Value for
-// value effects/shaders/geometry.hlsli. [effects-spec B0.5, method 1: error bound of Waechter,
-// van Antwerpen and Klehm 2023]
+// Where a ray that leaves a triangle must start, so that it neither hits that triangle again nor
+// misses what is close by. Instead of a fixed epsilon it uses a bound of the point's own rounding
+// error. The same as effects/shaders/geometry.hlsli, value for value. [effects-spec B0.5, method 1:
+// error bound of Waechter, van Antwerpen and Klehm 2023]
 #pragma once
 
 #include <algorithm>

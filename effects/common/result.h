@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Success or an error text. No exception crosses a border of the effects library, and it never
-// prints: whoever called decides what to do with the text.
+// Success, a value, or an error text. The effects library lets no exception out and never prints;
+// the caller decides what to do with the text.
 #pragma once
 
 #include <cassert>

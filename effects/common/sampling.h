@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Random numbers and sampling routines of effects/shaders/sampling.hlsli, so that a host-side test
-// can hold a shader against them: value for value but for sine and cosine, which each backend has
-// its own of.
+// The random numbers and sampling routines of effects/shaders/sampling.hlsli for the host, so that
+// tests can compare a shader with them. The values are equal except for sine and cosine, which
+// differ between backends.
 #pragma once
 
 #include <cmath>

@@ -16,7 +16,8 @@ namespace kaamos::effects {
 namespace {
 
 TEST(Sobol, SecondDimensionIsThatOfTheDirectionNumbers) {
-  // Polynomial x + 1: each direction number is the one before, xored with itself shifted by one.
+  // For the polynomial x + 1, each direction number is the previous one xored with itself shifted
+  // by one.
   for (std::uint32_t i = 0; i < 5000; ++i) {
     std::uint32_t direction = 0x80000000u, expected = 0;
     for (std::uint32_t bits = i * 2654435761u; bits; bits >>= 1, direction ^= direction >> 1)
@@ -55,7 +56,7 @@ TEST(Sobol, ScramblingIsABijectionThatKeepsPrefixes) {
   EXPECT_EQ(images.size(), 4096u);
 }
 
-/// Root mean square error of the share of points with x + y < 0.8 over scrambles.
+/// Root mean square error, over scrambles, of the fraction of points with x + y < 0.8.
 double edge_error(std::uint32_t n, bool random) {
   double squares = 0.0;
   constexpr std::uint32_t kTrials = 200;
@@ -74,7 +75,7 @@ double edge_error(std::uint32_t n, bool random) {
 }
 
 TEST(Sobol, ErrorFallsFasterThanWithRandomNumbers) {
-  // [effects-spec B0.3]: slope -0.77 for an edge; independent random numbers have -0.5.
+  // [effects-spec B0.3]: the slope is -0.77 for an edge; independent random numbers have -0.5.
   const double slope = std::log(edge_error(1024, false) / edge_error(16, false)) / std::log(64.0);
   EXPECT_LT(slope, -0.65);
   const double random = std::log(edge_error(1024, true) / edge_error(16, true)) / std::log(64.0);
@@ -101,7 +102,7 @@ TEST(BlueNoise, HoldsEveryRankOnce) {
 
 /// Mean power per frequency below `limit` cycles per tile, and over all frequencies.
 std::pair<double, double> power(const std::vector<double>& values, int size, double limit) {
-  // Rows, then columns: a plain Fourier sum is enough for one tile.
+  // Rows, then columns. For one tile a plain Fourier sum is fast enough.
   using Complex = std::complex<double>;
   std::vector<Complex> turn(static_cast<std::size_t>(size));
   for (int i = 0; i < size; ++i)
@@ -134,7 +135,7 @@ std::pair<double, double> power(const std::vector<double>& values, int size, dou
 }
 
 TEST(BlueNoise, HasLittleEnergyAtLowFrequencies) {
-  // [effects-spec B0.3]: at least 10 dB less than white below a quarter of the Nyquist frequency.
+  // [effects-spec B0.3]: at least 10 dB below white noise under a quarter of the Nyquist frequency.
   const std::vector<std::uint32_t> ranks = void_and_cluster(64, 1);
   std::vector<double> blue, white;
   for (std::size_t i = 0; i < ranks.size(); ++i) {
@@ -157,7 +158,7 @@ TEST(BlueNoise, TileIsDeterministicAndInRange) {
     hash = hash_combine(hash, static_cast<std::uint32_t>(v.x * 16384.0f));
     hash = hash_combine(hash, static_cast<std::uint32_t>(v.y * 16384.0f));
   }
-  // The same on every machine and compiler, or pictures with one seed would differ.
+  // Must be the same on every machine and compiler, or pictures with the same seed would differ.
   EXPECT_EQ(hash, 2867323639u);
 }
 

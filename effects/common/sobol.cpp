@@ -19,7 +19,7 @@ std::uint32_t sobol_0(std::uint32_t index) {
 
 std::uint32_t sobol_1(std::uint32_t index) {
   // The generator matrix of this dimension (polynomial x + 1) is Pascal's triangle modulo 2, the
-  // Kronecker power of [1 1; 0 1]: five steps multiply by it instead of 32.
+  // Kronecker power of [1 1; 0 1]. That allows multiplying by it in 5 steps instead of 32.
   std::uint32_t x = index;
   x ^= (x & 0xAAAAAAAAu) >> 1;
   x ^= (x & 0xCCCCCCCCu) >> 2;
@@ -30,7 +30,7 @@ std::uint32_t sobol_1(std::uint32_t index) {
 }
 
 std::uint32_t owen_scramble(std::uint32_t fraction, std::uint32_t seed) {
-  // In reversed order a carry only reaches bits of less weight, which is what nesting means.
+  // With the bits reversed, a carry only reaches bits of less weight, which is what nesting means.
   std::uint32_t x = reverse_bits(fraction);
   x ^= x * 0x3D20ADEAu;
   x += seed;

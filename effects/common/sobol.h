@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Owen-scrambled Sobol points, two dimensions at a time. Effects that need more take further pairs
-// with other seeds ("padding"): each pair is well distributed, pairs are independent.
+// Owen-scrambled Sobol points, two dimensions at a time. An effect that needs more dimensions takes
+// further pairs with other seeds ("padding"): each pair is well distributed, and pairs are
+// independent.
 #pragma once
 
 #include <cstdint>

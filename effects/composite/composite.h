@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The frame's radiance from the G-buffer and the effects, by a compute shader.
+// Computes the frame's radiance from the G-buffer and the effects.
 #pragma once
 
 #include "effects/frame/compute_pass.h"

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Radiance of each pixel: what a diffuse surface sends back of the sun it sees and of the open sky,
-// what it emits itself, and the sky behind everything.
+// Radiance of each pixel, from the G-buffer and the results of the effects.
+//
+// Composite: a diffuse surface under the part of the sun it sees and the open part of the sky, plus
+// emission; where nothing is hit, the sky. ComposeFrame, further down, adds up all effects.
 #include "brdf.hlsli"
 #include "frame.hlsli"
 
 static const float kPi = 3.14159265;
 
-// Mean radiance over the hemisphere about a normal, weighted by its cosine: the sky is a smooth
-// gradient, three directions are enough.
+// Mean radiance over the hemisphere about a normal, weighted by the cosine. The sky is a smooth
+// gradient, so three directions are enough.
 float3 SkyAround(float3 normal) {
   const float3 up = SkyTowards(normal);
   const float3 tilted = SkyTowards(normalize(normal + float3(0.0, 0.8, 0.0)));
@@ -15,7 +17,8 @@ float3 SkyAround(float3 normal) {
   return (2.0 * up + tilted + down) * 0.25;
 }
 
-// pass_constants.first_sample and sample_count: samples in the sums of ambient occlusion and sun.
+// pass_constants.first_sample is the number of samples in the sum of ambient occlusion,
+// sample_count that of the sun.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void Composite(uint3 id : SV_DispatchThreadID) {
@@ -43,13 +46,13 @@ void Composite(uint3 id : SV_DispatchThreadID) {
   radiance[pixel] = float4(base_color * (from_sun + from_sky) + g_emissive[pixel].rgb, 1.0);
 }
 
-// The whole frame: what each effect found, put together. What an effect has not rendered is left out,
-// or stands in for by the sky. [effects-spec C: Co1]
+// The whole frame: adds up what the effects have found. An effect that was not rendered is left
+// out; without indirect light, the open sky stands in for it. [effects-spec C: Co1]
 RWTexture2D<float4> sun_visibility : register(u0, space3);
 RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
 RWTexture2D<float4> local_lights : register(u2, space3);  // radiance
-RWTexture2D<float4> indirect : register(u3, space3);      // irradiance over pi
-RWTexture2D<float4> reflection : register(u4, space3);    // radiance over the specular albedo
+RWTexture2D<float4> indirect : register(u3, space3);      // irradiance / pi
+RWTexture2D<float4> reflection : register(u4, space3);    // radiance / specular albedo
 
 static const uint kHasSun = 1;
 static const uint kHasAmbient = 2;

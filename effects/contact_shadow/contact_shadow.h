@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact shadows of the strongest point and the strongest spot light of each pixel, by short rays.
+// Contact shadows of each pixel's strongest point light and strongest spot light, by short rays.
 // [effects-spec B2.12]
 #pragma once
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Contact shadows: short rays to the two lights that matter most for a pixel, where shadow maps are
-// too coarse. [effects-spec B2.12; Control]
+// Contact shadows: short rays to the two lights that matter most to a pixel. They resolve the
+// places where things touch, for which shadow maps are too coarse. [effects-spec B2.12; Control]
 #include "visibility.hlsli"
 #include "sampling.hlsli"
 
 RWTexture2D<uint2> strongest : register(u0, space3);
-RWTexture2D<float4> contact : register(u1, space3);  // r point light, g spot light; sums of samples
+RWTexture2D<float4> contact : register(u1, space3);  // sums; r: point light, g: spot light
 
 struct ContactConstants {
   float length;  // metres
@@ -15,13 +15,13 @@ ConstantBuffer<ContactConstants> constants : register(b0, space3);
 static const uint kNoLight = 0xFFFFFF;
 static const uint kContactPair = 6;  // and 7 [effects-spec B0.3]
 
-// Visibility of one point of a light, by a ray that ends after constants.length. Rays end anywhere in
-// its last fifth, so that an occluder fades there and the end does not show as an edge.
+// Visibility of one point of a light by a ray of at most constants.length. Rays end at a random
+// place in the last fifth, so an occluder fades out there and the end does not show as an edge.
 float ContactVisibility(LightConstants light, float3 position, float3 normal, float offset, float2 u,
                         float end_fraction) {
   const float3 to_center = light.position - position;
   const float distance = length(to_center);
-  // In the light, or on it: it is seen.
+  // Inside the light or on it, the light is visible.
   if (!(distance > light.radius)) return 1.0;
   const float3 target = light.position + ToWorld(float3(SampleDisk(u) * light.radius, 0.0),
                                                  to_center / distance);
@@ -29,7 +29,7 @@ float ContactVisibility(LightConstants light, float3 position, float3 normal, fl
   const float reach = length(to_target);
   const float3 direction = to_target / reach;
   if (!(dot(direction, normal) > 0.0)) return 0.0;
-  // The lamp's own surface does not shade it.
+  // The ray stops before the lamp's own surface, which must not shadow it.
   const float longest = Contain(constants.length, kLongestRay) * (0.8 + 0.2 * end_fraction);
   const float end = min(reach - light.radius, longest);
   if (!(end > 0.0)) return 1.0;

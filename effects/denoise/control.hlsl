@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Control's denoiser of reflections in three stages: fireflies, accumulation over frames, a filter in
-// space twice in each direction. [effects-spec B6.5; Control, survey table 1]
+// The reflection denoiser of Control in three stages: clamp fireflies, accumulate over frames,
+// filter twice in rows and columns. [effects-spec B6.5; Control, survey table 1]
 //
-// The accumulation is svgf.hlsl's, with history clipped to the neighbours. Contact shadows and
-// indirect light take the same way with lobe_scale 0: a fixed radius, no distances of hits.
+// The accumulation is that of svgf.hlsl with the history clipped to the neighbours. Contact shadows
+// and indirect light use the same stages with lobe_scale 0: a fixed radius, and no hit distances.
 #include "denoise_common.hlsli"
 
 RWTexture2D<float4> source : register(u0, space3);  // light; w: mean distance of the hits, metres
 RWTexture2D<float4> result : register(u1, space3);
-// What the first stage wrote, with hit distances of 3 x 3 pixels in w.
+// Output of the first stage, with hit distances averaged over 3 x 3 pixels in w.
 RWTexture2D<float4> clamped : register(u2, space3);
 
-// Pixels over which a lobe of that roughness spreads what it sees at that distance. A mirror: none.
+// Radius in pixels over which a reflection lobe of this roughness spreads what it sees at
+// `distance`; 0 for a mirror.
 float FootprintRadius(float roughness, float distance, float view_z) {
-  const float tangent = roughness * roughness;  // alpha: half the lobe lies within
+  const float tangent = roughness * roughness;  // alpha: half of the lobe lies within
   const float seen = distance / max(distance + view_z, 1e-20);
   return denoise.lobe_scale * tangent * seen / frame.pixel_angle;
 }
@@ -22,7 +23,7 @@ float SmoothnessWeight(int2 pixel, int2 other) {
   return exp(-abs(g_material[other].x - g_material[pixel].x) / denoise.sigma_roughness);
 }
 
-// A pixel may not be brighter than the brightest of its neighbours on the same surface.
+// Clamps a pixel to the brightest of its neighbours on the same surface.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void ClampFireflies(uint3 id : SV_DispatchThreadID) {
@@ -54,7 +55,7 @@ void ClampFireflies(uint3 id : SV_DispatchThreadID) {
     }
   }
   distance /= weights;
-  // What a mirror shows is no noise, even if it is as small as a pixel.
+  // An image in a mirror is not noise, even if it is as small as a pixel.
   const bool is_mirror = denoise.lobe_scale > 0.0 &&
                          FootprintRadius(g_material[pixel].x, distance, guide.view_z) < 1.0;
   const float luminance = Luminance(color);
@@ -62,7 +63,7 @@ void ClampFireflies(uint3 id : SV_DispatchThreadID) {
   result[pixel] = float4(color, distance);
 }
 
-// Rows or columns, `radius` taps to each side of what the lobe covers.
+// One row or column of the filter: `radius` taps to each side within the lobe's footprint.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void FilterLobe(uint3 id : SV_DispatchThreadID) {
@@ -80,7 +81,7 @@ void FilterLobe(uint3 id : SV_DispatchThreadID) {
   const float roughness = g_material[pixel].x;
   const float taps = float(denoise.radius);
   const float wanted = by_lobe ? FootprintRadius(roughness, distance, guide.view_z) : taps;
-  // The second time half as wide: it fills what the first left out.
+  // The second iteration is half as wide; it fills the gaps between the taps of the first.
   const float radius = min(wanted, denoise.sigma_pixels) / float(denoise.step);
   const float spacing = max(radius / max(taps, 1.0), 1.0);
   const int2 direction = denoise.vertical != 0 ? int2(0, 1) : int2(1, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Control's denoiser: what each of its stages is for. [effects-spec B6.5]
+// What each stage of Control's denoiser is for. [effects-spec B6.5]
 #include <random>
 
 #include "effects/denoise/denoise_fixture.h"
@@ -9,7 +9,7 @@ namespace {
 
 class ControlDenoiseTest : public DenoiseFixture {
  protected:
-  // 8 bits a channel.
+  // Roughness is stored in 8 bits per channel.
   void set_roughness(const std::function<float(std::uint32_t)>& of_column) {
     std::vector<std::uint8_t> texels(std::size_t{4} * kWidth * kHeight, 0);
     for (std::size_t i = 0; i < texels.size(); i += 4) {
@@ -24,7 +24,7 @@ class ControlDenoiseTest : public DenoiseFixture {
     desc.constants.lobe_scale = 1;
     return desc;
   }
-  // Mean square of the noise about 1 that a frame leaves.
+  // Mean square of the noise about 1 that is left after some frames.
   double noise_after(const DenoiseDesc& desc, float hit, int frames = 1) {
     Denoiser denoiser = make(desc);
     std::mt19937 random(7);
@@ -68,8 +68,8 @@ TEST_F(ControlDenoiseTest, AMirrorStaysAsItIs) {
   for_surface([&](auto x, auto y) { ASSERT_EQ(out.at(x, y), shown.at(x, y)); });
 }
 
-// SVGF as well. The left half of the picture is a mirror, the right half is rough; a signal that is
-// not of reflections is filtered in both.
+// Holds for SVGF too. The left half of the picture is a mirror, the right half is rough. A signal
+// that does not come from reflections is filtered in both halves.
 TEST_F(ControlDenoiseTest, SvgfLeavesMirrorsAsTheyAre) {
   set_roughness([this](auto x) { return x < kWidth / 2 ? 0.02f : 0.5f; });
   std::mt19937 random(4);
@@ -102,8 +102,8 @@ TEST_F(ControlDenoiseTest, TheFilterIsAsWideAsTheLobe) {
   set_roughness([](auto) { return 1.0f; });
   const double far = noise_after(of_reflections(), 50);
   const double near = noise_after(of_reflections(), 0.001f);
-  EXPECT_LT(far, 0.33 / 20);  // of a uniform distribution's variance
-  EXPECT_GT(near, 2 * far);   // what touches the surface is sharp
+  EXPECT_LT(far, 0.33 / 20);  // a twentieth of the variance of a uniform distribution
+  EXPECT_GT(near, 2 * far);   // reflections of things that touch the surface are sharp
   set_roughness([](auto) { return 0.1f; });
   EXPECT_GT(noise_after(of_reflections(), 50), 2 * far);
 }
@@ -114,7 +114,7 @@ TEST_F(ControlDenoiseTest, FramesAddUp) {
   EXPECT_LT(noise_after(fixed, 0, 8), 0.5 * noise_after(fixed, 0, 1));
 }
 
-// Two materials side by side: neither takes the other's light.
+// Two materials side by side: neither receives the other's light.
 TEST_F(ControlDenoiseTest, SmoothnessStopsTheLight) {
   set_roughness([&](auto x) { return x < kWidth / 2 ? 0.6f : 1.0f; });
   Denoiser denoiser = make(of_reflections());

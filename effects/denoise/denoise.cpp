@@ -31,17 +31,17 @@ std::int32_t squarings_of(float power) {
   return is_power_of_two && exponent >= 1 ? exponent - 1 : -1;
 }
 
-// Registers of svgf.hlsl.
+// The registers of svgf.hlsl.
 constexpr std::uint32_t kSignals = 4, kHistories = 9, kPreviousMoments = 14, kAccumulated = 19,
                         kMoments = 24, kPreviousGuides = 29;
 
-// The elements of an array of pictures, at register u on.
+// Binds an array of pictures to the registers from u on.
 template <class Bindings, class Pictures>
 void add_bindings(Bindings& bindings, std::uint32_t u, const Pictures& pictures) {
   for (const Texture* picture : pictures) bindings.push_back({u++, picture});
 }
 
-// Entries are kept for frames that may be gone by now.
+// Entries may belong to frames that no longer exist, so their number is bounded.
 constexpr std::size_t kMostPipelines = 64;
 
 }  // namespace
@@ -67,7 +67,7 @@ DenoiseDesc default_denoise(DenoiseMethod method) {
   desc.method = method;
   if (method == DenoiseMethod::kBilateral || method == DenoiseMethod::kBilateralExact) {
     desc.constants.sigma_n = 32.0f;
-    desc.constants.sigma_l = 0.0f;  // noise would keep itself
+    desc.constants.sigma_l = 0.0f;  // a luminance weight would keep the noise
   }
   if (method == DenoiseMethod::kTemporal) {
     desc.constants.alpha = 0.05f;
@@ -100,7 +100,8 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
                                          const std::vector<Signal>& signals,
                                          const DenoiseDesc& desc) {
   if (signals.empty() || signals.size() > kMostSignals) {
-    return rtapi::Error{"effects", rtapi::ErrorCode::kInvalidArgument,
+    return rtapi::Error{{},
+                        rtapi::ErrorCode::kInvalidArgument,
                         "a Denoiser of " + std::to_string(signals.size()) +
                             " signals: it takes 1 to " + std::to_string(kMostSignals) +
                             "; make a second one for the others"};
@@ -254,7 +255,7 @@ rtapi::Status Denoiser::add_temporal(const Recorder& to) {
   add_bindings(bindings, kMoments, moments_of(to.parity));
   if (const auto s = add(to, kTemporal, bindings, desc_.constants); !s) return s;
   if (desc_.method == DenoiseMethod::kSvgf) {
-    // Into the moments of the frame before, which are done with.
+    // The output goes into the previous frame's moments, which are no longer needed.
     if (const auto s = add(to, kVariance, bindings, desc_.constants); !s) return s;
     return add_wavelet(to);
   }
@@ -288,7 +289,7 @@ rtapi::Status Denoiser::add_wavelet(const Recorder& to) {
   const Pictures accumulated = pictures(&Channel::accumulated);
   const Pictures history = pictures(&Channel::history);
   const Pictures results = pictures(&Channel::result);
-  // The first pass's result is what the next frame starts from. [Schied et al. 2017]
+  // The next frame's history is the output of the first pass. [Schied et al. 2017]
   const Pictures* from = &first;
   for (std::uint32_t i = 0; i < to.iterations; ++i) {
     const bool last = i + 1 == to.iterations;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Denoising of the signals of a frame: filters in space, accumulation over time, and SVGF, which is
-// both. A signal is a picture of the frame's size, R32G32B32A32_FLOAT, of light without the
-// surface's own colour; a scalar signal is three equal channels. [effects-spec B6]
+// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
+// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
+// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -84,7 +84,7 @@ class DenoisePipelines {
 
  private:
   struct Entry {
-    rtapi::RootSignature root_signature;  // of the frame that it is for
+    rtapi::RootSignature root_signature;  // of the frame that it was made for
     rtapi::ShaderLibrary library;
     std::string name;
     std::shared_ptr<ComputePass> pass;
@@ -152,7 +152,7 @@ class Denoiser {
     DenoiseConstants constants;
   };
 
-  // What belongs to one signal.
+  // Everything that belongs to one signal.
   struct Channel {
     std::string name;
     rtapi::Texture sum, signal, result, history, accumulated, moments[2], clamped;
@@ -168,7 +168,7 @@ class Denoiser {
     rtapi::ShaderLibrary DenoiseLibraries::*library;
     const char* name;
   };
-  // What making a step takes.
+  // Everything needed to create the steps.
   struct Recorder {
     const rtapi::Device& device;
     const Frame& frame;
@@ -177,7 +177,7 @@ class Denoiser {
     std::uint32_t parity = 0;
     std::uint32_t iterations = 0;  // of the wavelet filter
   };
-  // A picture of each channel.
+  // One picture per channel.
   using Pictures = std::vector<const rtapi::Texture*>;
 
   static constexpr auto kSpatialLibrary = &DenoiseLibraries::spatial;
@@ -207,8 +207,8 @@ class Denoiser {
   DenoiseDesc desc_;
   std::vector<Channel> channels_;
   rtapi::Texture guides_[2];
-  std::vector<Step> steps_[2];               // of even and odd frames
-  std::vector<Step> steps_with_history_[2];  // empty: the same
+  std::vector<Step> steps_[2];               // for even and odd frames
+  std::vector<Step> steps_with_history_[2];  // empty: same as steps_
   std::uint32_t frames_ = 0;                 // since the last cut
 };
 

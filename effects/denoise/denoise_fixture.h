@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A sphere over a plane, its G-buffer, and one signal that a test writes.
+// A sphere over a plane, its G-buffer, and one signal that the test fills.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class DenoiseFixture : public testing::Test {
     FrameDesc desc;
     desc.width = kWidth;
     desc.height = kHeight;
-    desc.max_pass_views = 4096;  // a test makes many denoisers
+    desc.max_pass_views = 4096;  // one test makes many denoisers
     frame_ = Frame::create(device_, queue_, scene_, gpu_, camera, desc).value();
     gbuffer_ =
         RayPass::create(device_, frame_, gpu_, gbuffer_pass(gbuffer_library().value())).value();
@@ -57,7 +57,7 @@ class DenoiseFixture : public testing::Test {
         .value();
   }
 
-  // One frame of a grey signal; `hit`: its w.
+  // Runs one frame of a grey signal; `hit` is its w.
   FloatImage run(Denoiser& denoiser, const Value& value, float hit = 0.0f) {
     FloatImage image(kWidth, kHeight, 4, hit);
     for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -76,7 +76,7 @@ class DenoiseFixture : public testing::Test {
   bool is_surface(std::uint32_t x, std::uint32_t y) const { return view_z_.at(x, y) > 0; }
   bool is_sphere(std::uint32_t x, std::uint32_t y) const { return ids_.at(x, y, 0) == 2.0f; }
 
-  // Over the surface pixels of a picture's first channel.
+  // Visits the surface pixels.
   template <class F>
   void for_surface(F visit) const {
     for (std::uint32_t y = 0; y < kHeight; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What each method keeps and what it loses, on signals that are known.
+// What each method preserves and what it loses, on known signals.
 #include <cstring>
 #include <limits>
 #include <random>
@@ -47,7 +47,7 @@ TEST_F(DenoiseTest, WhatIsNotFiniteStaysInItsPixelAndGoes) {
   }
 }
 
-// A bright sphere before a dark plane: what does a method carry over the silhouette?
+// A bright sphere in front of a dark plane: how much light leaks across the silhouette?
 TEST_F(DenoiseTest, GuidesStopTheLightAtSilhouettes) {
   const auto leak = [&](DenoiseMethod method) {
     Denoiser denoiser = make(default_denoise(method));
@@ -82,7 +82,7 @@ TEST_F(DenoiseTest, SeparableIsCloseToExact) {
   EXPECT_LT(std::sqrt(squares / count), 0.02);
 }
 
-// The weights of the first frames are 1 / N: an average of N frames.
+// The first frames have weights 1 / N, which gives the average of N frames.
 TEST_F(DenoiseTest, AccumulationAveragesFrames) {
   DenoiseDesc desc = default_denoise(DenoiseMethod::kTemporal);
   desc.constants.clip_gamma = 0;
@@ -114,7 +114,7 @@ TEST_F(DenoiseTest, SvgfRemovesNoiseAndKeepsTheMean) {
       squares += std::pow(out.at(x, y) - 0.4, 2);
       ++count;
     });
-    EXPECT_LT(squares / count, 0.24 / 20);  // the first frame already
+    EXPECT_LT(squares / count, 0.24 / 20);  // already in the first frame
   }
   double sum = 0, squares = 0, count = 0;
   for_surface([&](auto x, auto y) {
@@ -126,7 +126,8 @@ TEST_F(DenoiseTest, SvgfRemovesNoiseAndKeepsTheMean) {
   EXPECT_LT(squares / count, 0.24 / 100);
 }
 
-// Few frames behind a pixel are filtered as wide as one; what four frames have smoothed is not.
+// Pixels with few frames of history get the wide filter; after four frames the narrow one is
+// enough.
 TEST_F(DenoiseTest, SvgfIsNarrowerWithHistory) {
   DenoiseDesc wide = default_denoise(DenoiseMethod::kSvgf);
   wide.iterations = wide.iterations_with_history = 5;
@@ -149,7 +150,7 @@ TEST_F(DenoiseTest, SvgfIsNarrowerWithHistory) {
   }
 }
 
-// Signals that are filtered together come out as each does alone, to the bit, for several frames.
+// Signals that are filtered together come out exactly as each would alone, over several frames.
 TEST_F(DenoiseTest, SignalsDoNotSeeEachOther) {
   for (const auto method : {DenoiseMethod::kBilateral, DenoiseMethod::kTemporal,
                             DenoiseMethod::kSvgf, DenoiseMethod::kControl}) {
@@ -201,14 +202,14 @@ TEST_F(DenoiseTest, TooManySignalsAreAnError) {
   }
 }
 
-// A pattern that hangs in the world, seen by a camera that turns: history follows it, and is given
-// up where the sphere uncovers the plane or the picture's border brings something new.
+// A pattern fixed in the world, seen by a turning camera. The history follows it, and is dropped
+// where the sphere uncovers the plane or where the picture's border brings something new.
 TEST_F(DenoiseTest, HistoryFollowsTheCamera) {
   DenoiseDesc desc = default_denoise(DenoiseMethod::kTemporal);
   desc.constants.clip_gamma = 0;
   Denoiser denoiser = make(desc);
   const auto pattern = [&](auto x, auto y) {
-    // Fades with the distance: at the horizon it would be finer than a pixel.
+    // Fade with the distance, because near the horizon the pattern would be finer than a pixel.
     const float z = view_z_.at(x, y);
     return 0.5f + 0.4f * std::sin(2 * position_.at(x, y, 0)) * std::exp(-z * z / 50);
   };
@@ -217,7 +218,7 @@ TEST_F(DenoiseTest, HistoryFollowsTheCamera) {
   FloatImage out;
   for (std::uint32_t i = 0; i < 8; ++i) {
     if (i > 0) {
-      const double angle = 0.02;  // about the world's vertical axis, two pixels or so
+      const double angle = 0.02;  // about the world's vertical axis; some two pixels
       const glm::dmat3 turn(std::cos(angle), 0, -std::sin(angle), 0, 1, 0, std::sin(angle), 0,
                             std::cos(angle));
       for (int axis = 0; axis < 3; ++axis) {
@@ -237,9 +238,9 @@ TEST_F(DenoiseTest, HistoryFollowsTheCamera) {
     ++count;
     if (moments.at(x, y, 2) == 8.0f) ++kept;
   });
-  EXPECT_LT(std::sqrt(squares / count), 0.02);  // a still history would be 0.04 off
+  EXPECT_LT(std::sqrt(squares / count), 0.02);  // a history that does not move would be off by 0.04
   EXPECT_GT(kept / count, 0.6);
-  EXPECT_LT(kept / count, 0.95);  // one border is new
+  EXPECT_LT(kept / count, 0.95);  // one border of the picture is new
 }
 
 TEST_F(DenoiseTest, MotionThatIsWildIsNoHistory) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Filters in one picture: a separable Gaussian and bilateral ones. [effects-spec B6.1]
+// Filters within one picture: a separable Gaussian and bilateral filters. [effects-spec B6.1]
 #include "denoise_common.hlsli"
 
 RWTexture2D<float4> source : register(u0, space3);
 RWTexture2D<float4> result : register(u1, space3);
 RWTexture2D<float> scalar_source : register(u2, space3);
 
-// What the other passes of the frame guide themselves by.
+// Prepares the guides that all other passes of the frame read.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void PrepareGuides(uint3 id : SV_DispatchThreadID) {
@@ -14,11 +14,11 @@ void PrepareGuides(uint3 id : SV_DispatchThreadID) {
   if (!IsInside(pixel, SizeOf(guides))) return;
   const float z = g_view_z[pixel];
   const float4 guide = float4(OctahedralDecode(g_shading_normal[pixel]), z);
-  // What is not a number would spread from here; it guides nobody.
+  // A NaN would spread from here, so such a pixel gets no guide.
   guides[pixel] = z > 0.0 && all(isfinite(guide)) ? guide : float4(0, 0, 0, 0);
 }
 
-// A sum of one channel becomes a signal: three equal channels.
+// Turns a sum of one channel into a signal of three equal channels.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void LoadScalar(uint3 id : SV_DispatchThreadID) {
@@ -28,7 +28,7 @@ void LoadScalar(uint3 id : SV_DispatchThreadID) {
   result[pixel] = float4(value, value, value, 0.0);
 }
 
-// A sum over samples becomes a signal, their mean.
+// Turns a sum over samples into a signal: the mean.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void LoadColor(uint3 id : SV_DispatchThreadID) {
@@ -52,7 +52,7 @@ float GaussianWeight(int2 offset) {
   return exp(-dot(o, o) / (2.0 * denoise.sigma_pixels * denoise.sigma_pixels));
 }
 
-// Blurs over every edge: what the talk warns of, kept for comparison.
+// Blurs across every edge. The talk warns against it; it is here for comparison.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void Gaussian(uint3 id : SV_DispatchThreadID) {
@@ -95,7 +95,7 @@ void AddBilateral(inout BilateralSum sum, Guide guide, float3 center, int2 pixel
   sum.weight += weight;
 }
 
-// Rows, then columns: close to the exact one below, and much cheaper.
+// First rows, then columns: close to the exact filter below, and much cheaper.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BilateralSeparable(uint3 id : SV_DispatchThreadID) {

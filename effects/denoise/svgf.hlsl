@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Temporal reprojection and spatiotemporal variance-guided filtering. [effects-spec B6.2, B6.3;
-// Schied et al. 2017]
+// SVGF: temporal reprojection, then an edge-stopping wavelet filter that adapts to the variance.
+// [effects-spec B6.2, B6.3; Schied et al. 2017, Spatiotemporal Variance-Guided Filtering]
 //
-// Of several signals at once: what the surfaces say of the neighbours of a pixel holds for all of
-// them. Each comes out as it would alone.
+// Filters several signals at once, because weights by depth and normal are the same for all of
+// them. Each signal comes out as it would alone.
 #include "brdf.hlsli"
 #include "denoise_common.hlsli"
 
 static const int kMostSignals = 5;  // effects/denoise/denoise.h
 
-// signal: this frame's noisy light. accumulated: rgb and variance of the luminance. moments: first
-// and second moment of the luminance, frames of history, instance.
+// signal: this frame's noisy light. accumulated: rgb, and the variance of the luminance. moments:
+// first and second moment of the luminance, frames of history, instance.
 RWTexture2D<float4> signal[kMostSignals] : register(u4, space3);
 RWTexture2D<float4> history[kMostSignals] : register(u9, space3);
 RWTexture2D<float4> previous_moments[kMostSignals] : register(u14, space3);
@@ -18,12 +18,12 @@ RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
 
-// Light without noise, whatever its variance over the picture: that of a mirror. It takes no part.
+// Light in a mirror has no noise, however much it varies over the picture. It is not filtered.
 bool IsExact(int2 pixel, int s) {
   return (denoise.lobes >> s & 1) != 0 && g_material[pixel].x <= kMirrorRoughness;
 }
 
-// What is here now, for the search of where it was one frame ago.
+// The surface at this pixel, to be found again in the previous frame.
 struct Surface {
   float3 normal;
   float expected_z;
@@ -37,11 +37,12 @@ bool IsSameSurface(float4 guide, float instance, Surface surface) {
          dot(guide.xyz, surface.normal) >= 0.9;
 }
 
-// Where a pixel was one frame ago: how much each of four pixels there shows of its surface.
+// Where a pixel's surface was in the previous frame: how much each of the four pixels there shows
+// of it.
 struct Past {
   int2 corner;
-  float weights[4];  // x first
-  float weight;      // their sum; 0: this surface was not seen
+  float weights[4];  // x runs fastest
+  float weight;      // their sum; 0: the surface was not visible
 };
 
 Past FindPast(int2 pixel, int2 size) {
@@ -53,7 +54,7 @@ Past FindPast(int2 pixel, int2 size) {
   const float4 motion = g_motion[pixel];
   if (!isfinite(motion.x) || !isfinite(motion.y)) return past;
   const float2 before = float2(pixel) + motion.xy * float2(size);
-  // Far outside of the picture the conversion to integers would overflow.
+  // Far outside the picture, the conversion to integers would overflow.
   if (any(before < float2(-1, -1)) || any(before > float2(size))) return past;
   const float2 gradient = DepthGradient(pixel, size);
   Surface surface;
@@ -68,13 +69,13 @@ Past FindPast(int2 pixel, int2 size) {
     const int2 offset = int2(j & 1, j >> 1);
     const int2 tap = past.corner + offset;
     if (!IsInside(tap, size)) continue;
-    // The instance is the same in the moments of every signal.
+    // The moments of every signal hold the same instance.
     if (!IsSameSurface(previous_guides[tap], previous_moments[0][tap].w, surface)) continue;
     past.weights[j] = (offset.x == 1 ? part.x : 1.0 - part.x) *
                       (offset.y == 1 ? part.y : 1.0 - part.y);
     past.weight += past.weights[j];
   }
-  // Less than a hundredth of a pixel is rounding, not history.
+  // A hundredth of a pixel is rounding error, not history.
   if (past.weight < 0.01) past.weight = 0.0;
   return past;
 }
@@ -99,12 +100,13 @@ Reprojected Reproject(Past past, int s) {
   }
   result.color /= past.weight;
   result.moments /= past.weight;
-  // What is not a number would stay for ever.
+  // A NaN in the history would never go away.
   result.found = all(isfinite(result.color)) && all(isfinite(result.moments));
   return result;
 }
 
-// Mean and deviation of the new light in 3 x 3 pixels bound the history: what changed is let go.
+// Clips the history to mean and deviation of the new light in 3 x 3 pixels, so that outdated light
+// is dropped.
 float3 ClipToNeighbours(float3 color, int2 pixel, int2 size, int s) {
   float3 sum = float3(0, 0, 0);
   float3 squares = float3(0, 0, 0);
@@ -164,7 +166,7 @@ void TemporalAccumulation(uint3 id : SV_DispatchThreadID) {
   for (int s = 0; s < denoise.signals; ++s) Accumulate(pixel, size, past, instance, s);
 }
 
-// Where there are too few frames for a variance over time, over 7 x 7 pixels of the same surface.
+// With fewer frames than this, the variance comes from 7 x 7 pixels of the same surface instead.
 static const float kEnoughFrames = 4.0;
 
 [shader("compute")]
@@ -176,7 +178,7 @@ void EstimateVariance(uint3 id : SV_DispatchThreadID) {
   const bool surface = guides[pixel].w != 0.0;
   bool few = false;
   for (int i = 0; i < denoise.signals; ++i) few = few || moments[i][pixel].z < kEnoughFrames;
-  // previous_moments is free by now: the filter's first input.
+  // previous_moments is no longer needed and holds the filter's first input.
   if (!surface || !few) {
     for (int j = 0; j < denoise.signals; ++j) previous_moments[j][pixel] = accumulated[j][pixel];
     return;
@@ -211,7 +213,7 @@ void EstimateVariance(uint3 id : SV_DispatchThreadID) {
   }
 }
 
-// The variance that guides the luminance weight, itself smoothed. [Schied et al. 2017, equation 5]
+// The variance for the luminance weight, smoothed in 3 x 3. [Schied et al. 2017, equation 5]
 float SmoothVariance(int2 pixel, int2 size, int s) {
   float sum = 0.0;
   float weights = 0.0;
@@ -227,19 +229,19 @@ float SmoothVariance(int2 pixel, int2 size, int s) {
   return sum / weights;
 }
 
-// The pixels that a pass of the wavelet filter mixes: 5 x 5, `step` apart.
+// The pixels that a pass of the wavelet filter mixes: 5 x 5, `step` pixels apart.
 static const int kTaps = 25;
 int2 TapOffset(int tap) { return int2(tap % 5 - 2, tap / 5 - 2); }
 
-// How much each counts by where it is and by its surface, as share * exp(-distance); 0 where it is
-// outside of the picture or of another surface.
+// Weight of each tap by kernel, depth and normal, as share * exp(-distance); share 0 outside the
+// picture or on another surface.
 struct Taps {
   float shares[kTaps];
   float distances[kTaps];
 };
 
 Taps WeighTaps(Guide guide, int2 pixel, int2 size) {
-  const float kernel[3] = {0.375, 0.25, 0.0625};  // the cubic B-spline, from its middle
+  const float kernel[3] = {0.375, 0.25, 0.0625};  // cubic B-spline, from its centre
   Taps taps;
   for (int i = 0; i < kTaps; ++i) {
     taps.shares[i] = 0.0;
@@ -263,7 +265,7 @@ Taps WeighTaps(Guide guide, int2 pixel, int2 size) {
 
 float4 Mix(Taps taps, int2 pixel, float4 center, float deviation, int s) {
   const float luminance = Luminance(center.rgb);
-  // Light that is equal but for rounding is mixed in any case. A variance is a difference of squares,
+  // Light that differs only by rounding is always mixed. The variance is a difference of squares,
   // so rounding alone makes it 1e-7 of the light's square.
   const float per_luminance =
       1.0 / (denoise.sigma_l * max(deviation, 1e-3 * luminance) + 1e-30);
@@ -282,7 +284,7 @@ float4 Mix(Taps taps, int2 pixel, float4 center, float deviation, int s) {
   return float4(color / weights, variance / (weights * weights));
 }
 
-// One pass of the a-trous wavelet filter: signal to accumulated.
+// One pass of the a-trous wavelet filter, from signal to accumulated.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void Atrous(uint3 id : SV_DispatchThreadID) {
@@ -297,7 +299,7 @@ void Atrous(uint3 id : SV_DispatchThreadID) {
   for (int s = 0; s < denoise.signals; ++s) {
     const float4 center = signal[s][pixel];
     const float deviation = sqrt(max(SmoothVariance(pixel, size, s), 0.0));
-    // Without variance there is no noise: only equal light would be mixed.
+    // Zero variance means no noise; the weights would only admit equal light.
     accumulated[s][pixel] =
         deviation == 0.0 || IsExact(pixel, s) ? center : Mix(taps, pixel, center, deviation, s);
   }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
-// From a quarter of the pixels to all of them: joint bilateral upscaling. [effects-spec B7.2]
+// Upscales a signal traced at a quarter of the pixels: joint bilateral upscaling. [effects-spec
+// B7.2]
 #include "denoise_common.hlsli"
 
-// Sums over samples, written at even pixels only.
+// Sums over samples; only even pixels of even rows are written.
 RWTexture2D<float4> source : register(u0, space3);
 RWTexture2D<float4> result : register(u1, space3);
 RWTexture2D<float> scalar_source : register(u2, space3);
 
-static const int kStep = 2;  // pixels from one that was traced to the next
+static const int kStep = 2;  // pixels from one traced pixel to the next
 
 struct Traced {
   float4 light;
@@ -23,9 +24,9 @@ bool IsFinite(float4 value) { return all(isfinite(value)); }
 
 float Tent(int distance) { return max(1.0 - abs(float(distance)) / float(kStep), 0.0); }
 
-static const int kNormalSquarings = 4;  // the sixteenth power of the cosine
+static const int kNormalSquarings = 4;  // the cosine to the 16th power
 
-// How much a pixel that was traced says of one that was not: by what stands there, not by how far.
+// Weight of a traced pixel for another pixel by depth and normal, not by distance.
 float SurfaceWeight(Guide guide, int2 traced, int2 offset) {
   const float z = g_view_z[traced];
   if (!(z > 0.0)) return 0.0;
@@ -35,7 +36,7 @@ float SurfaceWeight(Guide guide, int2 traced, int2 offset) {
   return isfinite(weight) ? weight : 0.0;
 }
 
-// Change of the depth to the next pixel along an axis. At the border one side has no neighbour.
+// Change of the depth to the next pixel along an axis. At the border, one side has no neighbour.
 float Slope(int2 pixel, int2 axis, int2 size) {
   const float z = g_view_z[pixel];
   const bool has_before = IsInside(pixel - axis, size);
@@ -46,7 +47,7 @@ float Slope(int2 pixel, int2 axis, int2 size) {
   return has_after ? Smaller(before, after) : before;
 }
 
-// As LoadGuide(), of the G-buffer itself: this runs before the guides are prepared.
+// Like LoadGuide(), but from the G-buffer: this runs before the guides are prepared.
 Guide GuideOf(int2 pixel, int2 size) {
   Guide guide;
   guide.view_z = g_view_z[pixel];
@@ -70,7 +71,7 @@ Traced LoadTraced(int2 pixel, bool is_scalar) {
   return traced;
 }
 
-// `reach`: traced pixels to each side of the one at or before this pixel.
+// `reach` is the number of traced pixels to each side.
 Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
   Sum sum;
   sum.light = float4(0, 0, 0, 0);
@@ -95,8 +96,8 @@ Sum Gather(int2 pixel, int2 size, Guide guide, int reach, bool is_scalar) {
   return sum;
 }
 
-// Mostly of the nearest in depth, where nothing near is of the same surface: thin things. Those that
-// are as near count alike, so that rounding does not choose between them.
+// For thin things, where no traced pixel nearby is on the same surface: mostly the nearest in
+// depth. Those at nearly the same depth count alike, so that rounding does not choose between them.
 float4 NearestInDepth(int2 pixel, int2 size, Guide guide, bool is_scalar) {
   float4 light = float4(0, 0, 0, 0);
   float weights = 0.0;
@@ -126,7 +127,7 @@ float4 Upscaled(int2 pixel, int2 size, bool is_scalar) {
   }
   const Guide guide = GuideOf(pixel, size);
   Sum sum = Gather(pixel, size, guide, 1, is_scalar);
-  // Of less than a thousandth rounding would make the picture.
+  // Below a thousandth, rounding would determine the picture.
   if (!(sum.weight > 1e-3)) sum = Gather(pixel, size, guide, 2, is_scalar);
   if (!(sum.weight > 1e-6)) return NearestInDepth(pixel, size, guide, is_scalar);
   return sum.light / sum.weight;

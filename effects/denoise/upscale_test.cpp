@@ -12,7 +12,7 @@ class UpscaleTest : public DenoiseFixture {
   explicit UpscaleTest(std::uint32_t width = 64, std::uint32_t height = 40)
       : DenoiseFixture(width, height) {}
 
-  // A sum of four channels or of one, of which only even pixels mean anything.
+  // Upscales a sum of one or four channels in which only even pixels are valid.
   FloatImage upscale(bool scalar, const Value& value) {
     const std::uint32_t channels = scalar ? 1 : 4;
     const rtapi::Texture sum =
@@ -44,7 +44,7 @@ class UpscaleTest : public DenoiseFixture {
     }
   }
 
-  // What is linear between traced pixels, without a look at what stands there.
+  // Bilinear interpolation between traced pixels, without guides.
   double bilinear(const Value& value, std::uint32_t x, std::uint32_t y) const {
     double sum = 0, weights = 0;
     for (const std::uint32_t dy : {0u, 1u}) {
@@ -95,14 +95,14 @@ TEST_F(UpscaleTest, EdgesAreKept) {
   EXPECT_LT(ours, 0.02 * plain);
 }
 
-// What is smooth on a surface stays so.
+// A smooth signal on one surface stays smooth.
 TEST_F(UpscaleTest, RampsAreKept) {
   const auto value = [&](auto x, auto) { return static_cast<float>(x); };
   const FloatImage out = upscale(false, value);
   double worst = 0;
   for_surface([&](auto x, auto y) {
     if (is_sphere(x, y) || x < 3 || x + 3 >= kWidth || y < 3 || y + 3 >= kHeight) return;
-    // Not beside the silhouette, where one side is all there is.
+    // Skip pixels near the silhouette, which have neighbours on one side only.
     for (int d = -2; d <= 2; ++d) {
       if (is_sphere(x + d, y) || !is_surface(x + d, y) || is_sphere(x, y + d) ||
           !is_surface(x, y + d) || is_sphere(x + d, y + 1) || is_sphere(x + d, y - 1)) {

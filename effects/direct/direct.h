@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Main lighting: the local lights' part of each pixel. [effects-spec A22, B2.12]
+// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
 #pragma once
 
 #include <rtapi/rtapi.h>

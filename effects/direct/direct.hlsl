@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Main lighting: what each pixel's surface sends to the camera of the local lights. The strongest
-// point light and the strongest spot light are left to the contact shadow pass and only named here.
-// [effects-spec A22, B2.12]
+// Main lighting: local light that each pixel's surface reflects to the camera. The strongest point
+// light and the strongest spot light can be left to the contact shadow pass; they are only named
+// here. [effects-spec A22, B2.12]
 #include "hit_lighting.hlsli"
 
 RWTexture2D<float4> direct : register(u0, space3);       // radiance
 RWTexture2D<uint2> strongest : register(u1, space3);     // point light, spot light; kNoLight: none
 
-static const uint kNoLight = 0xFFFFFF;  // survives a picture of floats
+static const uint kNoLight = 0xFFFFFF;  // exact when stored as a float
 
 struct DirectConstants {
   uint leave_out_strongest;
@@ -40,8 +40,8 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   const BrdfView view = PixelView(pixel, brdf);
   const ClusterRange range = ClusterLights(position);
 
-  // Every light's shadow map is read once: a light stays out of the sum while it is the strongest of
-  // its kind, and comes in when another is stronger.
+  // Reads each light's shadow map once: the strongest light of a kind so far stays out of the sum,
+  // and is added when a stronger one replaces it.
   uint2 best = uint2(kNoLight, kNoLight);
   float3 best_radiance[2] = {float3(0, 0, 0), float3(0, 0, 0)};
   float3 sum = float3(0, 0, 0);
@@ -73,10 +73,11 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
   strongest[pixel] = best;
 }
 
-RWTexture2D<float4> contact : register(u2, space3);  // visibility: r point light, g spot light
+RWTexture2D<float4> contact : register(u2, space3);  // visibility; r: point light, g: spot light
 RWTexture2D<float4> total : register(u3, space3);
 
-// Adds the two lights that were left out: shadow map times contact shadow. [Control: section 5.3.1]
+// Adds the two lights that were left out, with shadow map times contact shadow. [Control: section
+// 5.3.1]
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void AddStrongest(uint3 id : SV_DispatchThreadID) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One compute pipeline over a frame, a thread for each pixel of a picture.
+// A compute pipeline over a frame, one thread per pixel of a picture.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -37,7 +37,8 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"motion", Format::kR32G32B32A32Float},
 };
 
-// Descriptors of the view heap: t0..t5, then u0.., then the scene's textures, then the passes' own.
+// Layout of the view heap: t0..t5, then u0.., then the scene's textures, then the passes' own
+// views.
 constexpr std::uint32_t kRayOrder = 5;
 constexpr std::uint32_t kFirstPicture = kRayOrder + 1;
 constexpr std::uint32_t kRayKeys = kFirstPicture + kFrameTextureCount;
@@ -55,7 +56,7 @@ TextureAddressMode address_mode(Wrap wrap) {
   return TextureAddressMode::kWrap;
 }
 
-// D3D12's filter number: bit 0 linear between mips, bit 2 linear magnification, bit 4 linear
+// D3D12's filter number: bit 0 is linear between mips, bit 2 linear magnification, bit 4 linear
 // minification.
 rtapi::Filter filter(const Sampler& sampler) {
   const auto linear = [](Filter f) { return f == Filter::kLinear ? 1u : 0u; };
@@ -63,7 +64,7 @@ rtapi::Filter filter(const Sampler& sampler) {
                                     linear(sampler.min_filter) << 4);
 }
 
-// Of a sky or a sun that is no number: nothing of it shines, and nothing else is spoilt.
+// Turns a sky or sun with NaN or infinite values black, so that it cannot spoil anything else.
 glm::vec3 finite_or_black(const glm::vec3& color) {
   return std::isfinite(color.x) && std::isfinite(color.y) && std::isfinite(color.z)
              ? color
@@ -71,7 +72,7 @@ glm::vec3 finite_or_black(const glm::vec3& color) {
 }
 
 void set_sun(FrameConstants& c, const Sun& sun, float radius) {
-  // A flat disk does not get to half the sky.
+  // A flat disk cannot cover half the sky.
   constexpr float kLargestRadius = 1.5f;
   c.tan_sun_radius = std::tan(radius > 0 ? std::min(radius, kLargestRadius) : 0.0f);
   c.direction_to_sun = finite_or_black(sun.direction_to_sun);
@@ -170,7 +171,8 @@ rtapi::Result<Texture> Frame::create_picture(const Device& device, std::string n
 
 rtapi::Result<PassViews> Frame::create_pass_views(const Device& device) const {
   if (*pass_views_ == desc_.max_pass_views) {
-    return Error{"", ErrorCode::kFailed,
+    return Error{{},
+                 ErrorCode::kFailed,
                  "the frame has room for " + std::to_string(desc_.max_pass_views) +
                      " passes with views of their own and one more was asked for; raise "
                      "FrameDesc::max_pass_views"};
@@ -253,7 +255,7 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
 rtapi::Status Frame::set_camera(const Device& device, const Scene& scene, const Camera& camera,
                                 const FrameTime& time) {
   std::vector<LightConstants> lights = light_constants(scene, camera.position());
-  // Constant buffers are read in whole 256-byte blocks. [D3D12: constant buffer placement]
+  // Constant buffers are read in whole blocks of 256 bytes. [D3D12: constant buffer placement]
   std::vector<std::byte> constants(256);
   FrameConstants values = frame_constants(scene, camera, desc_, time);
   values.light_count = static_cast<std::uint32_t>(lights.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The pictures and the global root table that all effects of one frame share.
+// The pictures and the global root table that all effects of a frame share.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -169,7 +169,7 @@ class Frame {
   rtapi::Buffer constants_;
   rtapi::Buffer blue_noise_;
   rtapi::Buffer lights_;
-  std::shared_ptr<std::uint32_t> pass_views_;  // in use; copies of a frame share its heap
+  std::shared_ptr<std::uint32_t> pass_views_;  // number in use; copies of a frame share its heap
   std::vector<rtapi::Texture> textures_;
 };
 

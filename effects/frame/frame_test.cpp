@@ -12,8 +12,8 @@
 namespace kaamos::effects {
 namespace {
 
-// A plane with a texture of black and white texels, 64 to the metre, seen from high above: a pixel
-// covers dozens of them.
+// A plane with a texture of black and white texels, 64 per metre, seen from so high above that a
+// pixel covers dozens of them.
 Scene checkered_plane() {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.instances.resize(1);
@@ -49,7 +49,7 @@ FloatImage base_colors(const Scene& scene, bool ray_cones) {
   return frame.read(device, queue, kBaseColor).value();
 }
 
-// Mean and standard deviation of the base colour as it is stored.
+// Mean and standard deviation of the base colour as stored.
 struct Spread {
   double mean = 0, deviation = 0;
 };
@@ -72,7 +72,8 @@ TEST(Frame, RayConesChooseTheLevelOfTextures) {
   EXPECT_GT(level_zero.deviation, 0.1) << "level 0 picks a few of them";
 }
 
-// The nearest byte to a colour's square root. [effects/shaders/encoding.hlsli]
+// Base colours are stored as the byte nearest to their square root.
+// [effects/shaders/encoding.hlsli]
 TEST(Frame, BaseColorsAreStoredBySquareRoots) {
   Scene scene = checkered_plane();
   const glm::vec3 color(0.25f, 0.001f, 1.0f);

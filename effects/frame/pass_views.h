@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What one pass reads and writes besides the frame's own pictures: registers t0.. and u0.. of
-// space3, and constants b0 of space3. So an effect brings its own pictures and buffers, and no
-// other effect's shader knows of them.
+// What a pass reads and writes besides the frame's own pictures: registers t0.. and u0.. of space3,
+// and constants in b0 of space3. With these an effect brings its own pictures and buffers, and no
+// other effect's shaders depend on them.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -43,7 +43,7 @@ class PassViews {
   rtapi::Device device_;
   rtapi::DescriptorHeap heap_;
   std::uint32_t first_ = 0;
-  std::array<std::uint64_t, kPassViews> bytes_{};  // by view
+  std::array<std::uint64_t, kPassViews> bytes_{};  // per view
 };
 
 /// Arguments of one dispatch that only its pass knows.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture that passes write and read: a texture in unordered-access state for good, so that no
-// pass needs a transition, only the UAV barrier behind the one that wrote it.
+// A picture that passes write and read. The texture stays in unordered-access state, so no pass
+// needs a transition, only a UAV barrier after the pass that wrote it.
 #pragma once
 
 #include <rtapi/rtapi.h>

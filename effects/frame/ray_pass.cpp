@@ -9,7 +9,7 @@ using namespace rtapi;
 
 namespace {
 
-// Hit group of a ray type, for opaque and for alpha-tested geometry.
+// Name of the hit group of a ray type, for opaque or alpha-tested geometry.
 std::string group_name(std::uint32_t ray_type, bool alpha_tested) {
   return std::string(ray_type == kRayTypeSurface ? "Surface" : "Visibility") +
          (alpha_tested ? "AlphaTested" : "Opaque");
@@ -20,12 +20,12 @@ bool has_alpha_tested(const GpuScene& scene) {
                      [](const GpuGeometry& geometry) { return geometry.alpha_tested; });
 }
 
-// Without alpha-tested geometry there are no any-hit shaders and no groups that have one.
+// A scene without alpha-tested geometry needs neither any-hit shaders nor hit groups that have one.
 rtapi::Result<StateObject> create_pipeline(const Device& device, const Frame& frame,
                                            const GpuScene& scene, const RayPassDesc& desc) {
   const bool any_hit = has_alpha_tested(scene);
   StateObjectDesc state;
-  // Only what is named: the library exports its helper functions too.
+  // List the exports, because the library also exports helper functions.
   DxilLibraryDesc library;
   library.DXILLibrary = desc.library;
   library.Exports.push_back({desc.ray_generation});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ray tracing pipeline over a frame: state object, shader tables, dispatch. Each dispatch has a
+// A ray tracing pipeline over a frame: state object, shader tables, dispatch. Each dispatch has a
 // state object of its own. [Northlight deck: One state object per dispatch]
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every pass that adds up samples, over pictures that hold something: PassConstants::accumulate
-// says whether that counts.
+// PassConstants::accumulate, tested for every pass that sums samples: whether a pass adds to what
+// the picture holds or begins anew.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,12 +79,12 @@ class Sums : public testing::Test {
     };
     const std::vector<float> first = dispatch(0);
     EXPECT_GT(std::count_if(first.begin(), first.end(), [](float x) { return x != 0; }),
-              kWidth * kHeight / 16);  // the sun reaches a sixth
+              kWidth * kHeight / 16);  // the sun reaches a sixth of the pixels
     EXPECT_EQ(dispatch(0), first);
     std::vector<float> twice = first;
     for (float& value : twice) value *= 2;
     EXPECT_EQ(dispatch(1), twice);
-    // No pixel keeps what it held, those without a surface neither.
+    // No pixel keeps its old value, not even those without a surface.
     EXPECT_EQ(dispatch(0), first);
   }
 

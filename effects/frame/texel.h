@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Texels of the frame's pictures as floats.
+// Reads texels of the frame's pictures as floats.
 #pragma once
 
 #include <rtapi/format.h>

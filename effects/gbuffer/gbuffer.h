@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The G-buffer from primary rays: what is seen through the centre of each pixel.
+// The G-buffer, from one primary ray through the centre of each pixel.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

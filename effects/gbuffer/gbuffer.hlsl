@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The G-buffer: one ray through the centre of each pixel, attributes of what it hits.
-// [effects-spec B0.2]
+// The G-buffer: one ray through the centre of each pixel stores the attributes of the surface it
+// hits. [effects-spec B0.2]
 #include "alpha_test.hlsli"
 #include "surface.hlsli"
 
 struct SurfacePayload {
-  uint unused;  // hit and miss write the pictures themselves
+  uint unused;  // the hit and miss shaders write the pictures themselves
 };
 
 [shader("raygeneration")]
@@ -14,8 +14,7 @@ void GBufferRayGen() {
   uint width, height;
   g_view_z.GetDimensions(width, height);
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
-  // Not normalised: one step along it is one metre along the camera's axis, so that the ray's t is
-  // the view depth.
+  // Not normalised: its component along the camera's axis is 1, so the ray's t is the view depth.
   RayDesc ray;
   ray.Origin = float3(0, 0, 0);
   ray.TMin = 0.0;
@@ -30,7 +29,7 @@ void GBufferRayGen() {
 [shader("miss")]
 void GBufferMiss(inout SurfacePayload payload) {
   const uint2 pixel = FramePixel();
-  g_depth[pixel] = 0.0;  // reversed-Z: infinitely far
+  g_depth[pixel] = 0.0;  // reversed-Z: infinitely far away
   g_view_z[pixel] = 0.0;
   g_normal[pixel] = float2(0, 0);
   g_shading_normal[pixel] = float2(0, 0);
@@ -49,18 +48,18 @@ void GBufferAnyHit(inout SurfacePayload payload, in BuiltInTriangleIntersectionA
   }
 }
 
-// Where on the picture, from the left upper corner, a point relative to a camera stands; `view_z` is
-// its distance along the camera's axis. `over_right`, `over_up`: 1 / length.
+// Projects a point relative to a camera to picture coordinates from the upper left corner, 0..1.
+// `view_z` is its distance along the camera's axis; `over_right` and `over_up` are 1 / length.
 float2 PictureUv(float3 position, float3 right, float over_right, float3 up, float over_up,
                  float3 forward, out float view_z) {
   view_z = dot(position, forward);
-  // right and up are as long as half the picture at distance 1.
+  // The lengths of right and up are half the picture's size at distance 1.
   const float2 ndc = float2(dot(position, right) * (over_right * over_right),
                             dot(position, up) * (over_up * over_up)) * (1.0 / view_z);
   return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
 }
 
-// Where the hit point was one frame ago, relative to the camera of then.
+// The hit point's position in the previous frame, relative to that frame's camera.
 float3 PreviousPosition(float3 position, float2 barycentrics) {
   const PreviousInstance before = previous_instances[InstanceIndex()];
   if (before.flags == 0) {
@@ -78,8 +77,8 @@ float3 PreviousPosition(float3 position, float2 barycentrics) {
                 dot(before.rows[2], object));
 }
 
-// From here to where this point was one frame ago: picture widths and heights, metres along the axis.
-// `previous_position`: relative to the camera of then.
+// Motion vector to where the point was in the previous frame: picture widths and heights, and
+// metres along the camera's axis. `previous_position` is relative to the previous camera.
 float3 MotionOf(float3 position, float3 previous_position) {
   float view_z, previous_view_z;
   const float2 now = PictureUv(position, frame.camera_right, frame.over_right, frame.camera_up,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far two pictures are from each other. [effects-spec B0.6]
+// Compares two pictures: how far they are apart. [effects-spec B0.6]
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,8 @@ void add_line(const std::vector<std::string>& cells, std::string& out) {
   out += '\n';
 }
 
-// Takes one line, which a quoted cell may stretch over several. False: a quote is not closed.
+// Takes one row from the text; a quoted cell may span several lines. Returns false if a quote is
+// not closed.
 bool take_line(std::string_view& text, std::vector<std::string>& cells) {
   cells.assign(1, "");
   bool quoted = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables as files of comma-separated values. [RFC 4180]
+// Tables as comma-separated values. [RFC 4180]
 #pragma once
 
 #include <string>

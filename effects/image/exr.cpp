@@ -21,7 +21,7 @@
 namespace kaamos::effects {
 namespace {
 
-/// OpenEXR writes into memory, so that the file can appear whole or not at all.
+/// Lets OpenEXR write into memory, so that the file appears as a whole or not at all.
 class MemoryOut : public Imf::OStream {
  public:
   MemoryOut() : Imf::OStream("memory") {}
@@ -121,7 +121,7 @@ std::vector<std::uint8_t> encode(const ExrFile& file) {
     const std::size_t size = layer.half ? sizeof(half) : sizeof(float);
     const std::size_t pixel = layer.image.channels * size;
     if (layer.half) halves[i].assign(layer.image.values.begin(), layer.image.values.end());
-    // The frame buffer wants a pointer to non-const although it only reads.
+    // The frame buffer wants a non-const pointer although it only reads.
     char* base = layer.half
                      ? reinterpret_cast<char*>(halves[i].data())
                      : const_cast<char*>(reinterpret_cast<const char*>(layer.image.values.data()));
@@ -141,7 +141,7 @@ std::vector<std::uint8_t> encode(const ExrFile& file) {
   return std::move(stream.bytes);
 }
 
-/// Where a channel stands within its layer.
+/// Position of a channel within its layer.
 int channel_rank(const std::string& name) {
   static const char* const order[] = {"R", "G", "B", "A", "X", "Y", "Z"};
   for (int i = 0; i < 7; ++i)
@@ -149,7 +149,7 @@ int channel_rank(const std::string& name) {
   return 7;
 }
 
-/// Layer names with their channels, in the order of the file format (alphabetical).
+/// Names of the layers with their channels, in the order of the file format (alphabetical).
 std::vector<ExrLayer> layers_of(const Imf::Header& header) {
   std::map<std::string, ExrLayer> layers;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
@@ -178,7 +178,8 @@ ExrFile decode(const std::vector<std::uint8_t>& bytes, const std::string& path) 
   const Imath::Box2i window = in.header().dataWindow();
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-  // Each compressed byte cannot stand for more than a few thousand pixels; a broken header can.
+  // A compressed byte can hold no more than a few thousand pixels, but a broken header can claim
+  // any size.
   if (width < 1 || height < 1 || width > 65536 || height > 65536)
     throw std::runtime_error("its size is " + std::to_string(width) + " x " +
                              std::to_string(height) + ", sides of 1..65536 are allowed");

@@ -16,13 +16,13 @@ std::string size_of(const FloatImage& image) {
          std::to_string(image.channels);
 }
 
-// The four pixels about a place of the frame before, and their weights.
+// The four pixels around a place in the previous frame, and their weights.
 struct Taps {
   std::uint32_t x[4], y[4];
   double weight[4];
 };
 
-// Where a pixel's surface was; nothing if it was not seen.
+// Where the pixel's surface was in the previous frame; empty if it was not visible.
 std::optional<Taps> find(const FloatImage& previous_view_z, const FrameSurfaces& surfaces,
                          std::uint32_t x, std::uint32_t y) {
   const double z = surfaces.view_z.at(x, y);
@@ -40,7 +40,7 @@ std::optional<Taps> find(const FloatImage& previous_view_z, const FrameSurfaces&
   for (std::uint32_t i = 0; i < 4; ++i) {
     const std::uint32_t right = i & 1, down = i >> 1;
     taps.weight[i] = (right ? part_x : 1 - part_x) * (down ? part_y : 1 - part_y);
-    // A tap without weight may lie outside.
+    // A tap with zero weight may lie outside the picture.
     taps.x[i] = std::min(x0 + right, surfaces.view_z.width - 1);
     taps.y[i] = std::min(y0 + down, surfaces.view_z.height - 1);
     if (taps.weight[i] == 0.0) continue;

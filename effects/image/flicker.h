@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How much pictures of a sequence change beyond what motion explains: noise that boils, edges that
-// crawl. [effects-spec B0.6: temporal]
+// Measures how much the pictures of a sequence change beyond what motion explains: boiling noise,
+// crawling edges. [effects-spec B0.6: temporal]
 #pragma once
 
 #include <cstdint>

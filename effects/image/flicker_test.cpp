@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Pictures that only move do not flicker; noise does, as much as it is.
+// Pictures that only move have no flicker; noise counts in full.
 #include "effects/image/flicker.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ FloatImage ramp(double shift) {
   return out;
 }
 
-// All surfaces came from `dx` pixels to the right.
+// All surfaces were `dx` pixels to the right in the previous frame.
 FrameSurfaces moved(double dx) {
   FrameSurfaces out = {FloatImage(kWidth, kHeight, 1, 2.0f), FloatImage(kWidth, kHeight, 4)};
   for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -40,9 +40,9 @@ TEST(Flicker, MotionAloneIsNone) {
   const FloatImage depth(kWidth, kHeight, 1, 2.0f);
   const auto change = temporal_change(ramp(0), ramp(2.25), depth, moved(2.25)).value();
   EXPECT_LT(change.mean(), 1e-6);
-  EXPECT_EQ(change.hidden, 3 * kHeight);  // the last columns came from outside
+  EXPECT_EQ(change.hidden, 3 * kHeight);  // the last columns came from outside the picture
   EXPECT_EQ(change.count, 3 * (kWidth - 3) * kHeight);
-  // Taken for standing, the same pair differs by what it moved.
+  // If it is taken for static, the same pair differs by the motion.
   EXPECT_NEAR(temporal_change(ramp(0), ramp(2.25), depth, moved(0)).value().mean(), 0.225, 1e-5);
 }
 
@@ -64,9 +64,9 @@ TEST(Flicker, NoiseIsItsMeanDifference) {
 TEST(Flicker, HiddenSurfacesAndTheSkyDoNotCount) {
   FloatImage before(kWidth, kHeight, 1, 2.0f);
   FrameSurfaces now = moved(0);
-  before.at(5, 5) = 1.0f;      // something stood before it
-  before.at(6, 5) = 0.0f;      // nothing was there
-  now.view_z.at(7, 5) = 0.0f;  // the sky
+  before.at(5, 5) = 1.0f;      // something was in front of it
+  before.at(6, 5) = 0.0f;      // there was no surface
+  now.view_z.at(7, 5) = 0.0f;  // now the sky
   now.motion.at(8, 5, 0) = std::numeric_limits<float>::quiet_NaN();
   now.motion.at(9, 5, 2) = std::numeric_limits<float>::quiet_NaN();
   const auto change = temporal_change(ramp(0), ramp(1), before, now).value();

@@ -13,7 +13,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-// A picture of vectors, its border repeated to all sides.
+// A picture of vectors; beyond the border, the border pixels repeat.
 struct Plane {
   int width = 0;
   int height = 0;
@@ -25,7 +25,7 @@ struct Plane {
   }
 };
 
-// Linear sRGB to XYZ, rows. [IEC 61966-2-1 with the white that its own sums give]
+// Linear sRGB to XYZ, by rows. [IEC 61966-2-1, with the white that its own sums give]
 const dmat3 kXyzFromRgb =
     glm::transpose(dmat3(10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794,
                          2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897,
@@ -36,7 +36,7 @@ double linear_from_srgb(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
-// CIELAB without its cube roots: luminance and two opponent colours, fit for linear filters.
+// CIELAB without the cube roots: luminance and two opponent colours, so that linear filters apply.
 dvec3 opponent_from_rgb(const dvec3& rgb) {
   const dvec3 n = (kXyzFromRgb * rgb) / kWhite;
   return {116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z)};
@@ -47,7 +47,7 @@ dvec3 rgb_from_opponent(const dvec3& c) {
   return glm::inverse(kXyzFromRgb) * (dvec3(y + c.y / 500, y, y - c.z / 200) * kWhite);
 }
 
-// CIELAB with the Hunt effect: colours count less in the dark.
+// CIELAB with the Hunt effect: colours matter less in the dark.
 dvec3 hunt_lab_from_rgb(const dvec3& rgb) {
   const dvec3 n = (kXyzFromRgb * rgb) / kWhite;
   const auto f = [](double t) {
@@ -59,20 +59,20 @@ dvec3 hunt_lab_from_rgb(const dvec3& rgb) {
           0.01 * lightness * 200 * (f(n.y) - f(n.z))};
 }
 
-// Distance between colours that also holds far apart. [Abasi et al. 2020]
+// A colour distance that also holds for large differences. [Abasi et al. 2020]
 double hyab(const dvec3& a, const dvec3& b) {
   return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// What the eye resolves: a sum of two Gaussians per opponent channel, in degrees of the visual
-// field.
+// The eye's contrast sensitivity: a sum of two Gaussians per opponent channel, in degrees of the
+// visual field.
 struct Sensitivity {
   double a1, b1, a2, b2;
 };
 constexpr Sensitivity kSensitivities[3] = {
     {1, 0.0047, 0, 1e-5}, {1, 0.0053, 0, 1e-5}, {34.1, 0.04, 13.5, 0.025}};
 
-using Kernel = std::vector<dvec3>;  // (2 radius + 1)^2
+using Kernel = std::vector<dvec3>;  // (2 radius + 1)^2 entries
 
 Kernel sensitivity_kernel(double pixels_per_degree, int radius) {
   constexpr double kPi = 3.14159265358979323846;
@@ -104,8 +104,9 @@ dvec3 filtered(const Plane& plane, const Kernel& kernel, int radius, int x, int 
   return sum;
 }
 
-// Weights of edges (first derivative of a Gaussian) and points (second), in x; positive and
-// negative ones sum to one each. The Gaussian in y is the third component.
+// Filters in x for edges (first derivative of a Gaussian) and points (second derivative). The
+// positive weights sum to one, and so do the negative ones. The third component is the Gaussian in
+// y.
 Kernel feature_weights(double deviation, int radius) {
   Kernel weights;
   dvec3 positive(0), negative(0);
@@ -123,7 +124,7 @@ Kernel feature_weights(double deviation, int radius) {
   return weights;
 }
 
-// Strength of edge and point at a pixel of luminance.
+// Strength of edges and points at a pixel, in luminance.
 glm::dvec2 features(const Plane& plane, const Kernel& weights, int radius, int x, int y) {
   double edge_x = 0, edge_y = 0, point_x = 0, point_y = 0;
   for (int dy = -radius; dy <= radius; ++dy) {
@@ -140,7 +141,7 @@ glm::dvec2 features(const Plane& plane, const Kernel& weights, int radius, int x
   return {std::hypot(edge_x, edge_y), std::hypot(point_x, point_y)};
 }
 
-// The large differences of colour are squeezed into the last twentieth.
+// Compresses large colour differences into the last twentieth of the range.
 double redistributed(double difference, double largest) {
   constexpr double kKnee = 0.4, kAtKnee = 0.95;
   const double knee = kKnee * largest;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The difference that a person sees who looks at two pictures in turn. [Andersson et al. 2020,
-// FLIP: A Difference Evaluator for Alternating Images]
+// The difference that a person sees when two pictures alternate. [Andersson et al. 2020, FLIP: A
+// Difference Evaluator for Alternating Images]
 #pragma once
 
 #include "effects/common/result.h"

@@ -8,7 +8,7 @@
 namespace kaamos::effects {
 namespace {
 
-// Brightness grows along the way, so that the picture reads without colors, too.
+// Brightness increases along the scale, so that the picture also reads without colours.
 constexpr float kColors[5][3] = {
     {0, 0, 0}, {30, 40, 160}, {210, 40, 70}, {250, 200, 60}, {255, 255, 255}};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts per pixel as colors: black, blue, red, yellow, white.
+// Counts per pixel as colours: black, blue, red, yellow, white.
 #pragma once
 
 #include <cstdint>

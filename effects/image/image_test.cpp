@@ -192,7 +192,7 @@ TEST(HeatMap, GoesFromBlackToWhiteAndLeavesOutliersWhite) {
   std::vector<std::uint32_t> counts(2000, 4);
   counts[0] = 0;
   counts[1] = 1;
-  counts[2] = 900;  // 1 of 2000: does not set the scale
+  counts[2] = 900;  // 1 of 2000 does not set the scale
   const HeatMap map = heat_map(100, 20, counts);
   EXPECT_EQ(map.white, 4u);
   EXPECT_EQ(map.most, 900u);
@@ -205,7 +205,7 @@ TEST(HeatMap, GoesFromBlackToWhiteAndLeavesOutliersWhite) {
   EXPECT_EQ(color(1), (std::array<int, 3>{30, 40, 160}));
   EXPECT_EQ(color(2), (std::array<int, 3>{255, 255, 255}));
   EXPECT_EQ(color(3), (std::array<int, 3>{255, 255, 255}));
-  // Fewer counts than pixels, none at all.
+  // Fewer counts than pixels, or none at all.
   EXPECT_EQ(heat_map(2, 1, {}).image.values, std::vector<std::uint8_t>(6, 0));
   EXPECT_EQ(heat_map(0, 0, {}).white, 1u);
 }

@@ -24,7 +24,7 @@ Status same_size(const FloatImage& a, const FloatImage& b) {
                          size_text(b));
 }
 
-// Mean without the largest thousandth.
+// The mean without the largest thousandth of the values.
 double trimmed_mean(std::vector<double>& values) {
   if (values.empty()) return 0;
   const std::size_t kept = values.size() - values.size() / 1000;
@@ -48,7 +48,7 @@ std::vector<double> gaussian_window() {
   return weights;
 }
 
-// One channel, blurred in both directions.
+// One channel, blurred along both axes.
 std::vector<double> blurred(const std::vector<double>& plane, int width, int height) {
   const std::vector<double> weights = gaussian_window();
   std::vector<double> rows(plane.size()), out(plane.size());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// How far a picture is from its reference, in the measures that papers on rendering use.
-// [effects-spec B0.6]
+// How far a picture is from its reference, in the measures that rendering papers use. [effects-spec
+// B0.6]
 //
-// All of them: a value that is not finite in either picture is left out of every sum and counted
-// (`not_finite`); a picture with such values is never called good by leaving them out silently.
+// Every measure leaves out values that are not finite in either picture and counts them in
+// `not_finite`, so that a broken picture cannot look good silently.
 #pragma once
 
 #include <cstdint>

@@ -86,7 +86,7 @@ TEST(Metrics, FlickerIsTheChangeThatTheReferenceDoesNotHave) {
 TEST(Ssim, IsOneForEqualPicturesAndKnownForConstants) {
   const FloatImage a = ramp(24, 20, 3);
   EXPECT_NEAR(ssim(a, a).value(), 1, 1e-12);
-  // Of constants only the luminance term is left.
+  // For constants only the luminance term remains.
   const double expected = (2 * 0.2 * 0.6 + 1e-4) / (0.04 + 0.36 + 1e-4);
   EXPECT_NEAR(ssim(FloatImage(16, 16, 1, 0.2f), FloatImage(16, 16, 1, 0.6f)).value(), expected,
               1e-6);
@@ -107,15 +107,15 @@ FloatImage constant(float r, float g, float b) {
   return image;
 }
 
-// Pictures of one colour have no features, so that the map is the redistributed distance of their
-// colours: green against blue is the largest there is, by definition 1.
+// Pictures of a single colour have no features, so the map is the redistributed colour distance.
+// That of green and blue is the largest there is, 1 by definition.
 TEST(Flip, GreenAgainstBlueIsOne) {
   const Flip result = flip(constant(0, 1, 0), constant(0, 0, 1)).value();
   EXPECT_NEAR(result.mean, 1, 1e-6);
 }
 
-// Black and white are a lightness of 100 apart: 100^0.7 = 25.1189, and the largest difference is
-// 41.2760 [the paper's reference implementation prints it].
+// Black and white differ by 100 in lightness: 100^0.7 = 25.1189. The largest difference is 41.2760,
+// as the paper's reference implementation prints it.
 TEST(Flip, BlackAgainstWhiteFollowsFromThePaper) {
   const double knee = 0.4 * 41.2760;
   const double expected = 0.95 + (25.1189 - knee) / (41.2760 - knee) * 0.05;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kWidth = 900, kHeight = 600;
 constexpr double kLeft = 84, kRight = 660, kTop = 66, kBottom = 528;
-constexpr double kCharacter = 5.9;  // width of one at 11 px, about
-// Told apart by people who see few colors. [Okabe & Ito]
+constexpr double kCharacter = 5.9;  // approximate width of a character at 11 px
+// Colours that colour-blind people can tell apart. [Okabe & Ito]
 constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                 "#000000", "#56b4e9", "#e69f00", "#8c510a"};
 
@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
     if (c == '<') out += "&lt;";
     if (c == '>') out += "&gt;";
     if (c == '"') out += "&quot;";
-    // XML has no place for other control characters.
+    // XML does not allow other control characters.
     if (c != '&' && c != '<' && c != '>' && c != '"')
       out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
   }
@@ -44,14 +44,14 @@ bool has_place(double x, double y) {
   return std::isfinite(x) && std::isfinite(y) && x > 0 && y > 0;
 }
 
-// One axis: values to positions.
+// Maps values to positions along one axis.
 class Axis {
  public:
   void include(double value) {
     low_ = std::min(low_, std::log10(value));
     high_ = std::max(high_, std::log10(value));
   }
-  // Room around the values, and a range even for a single one.
+  // Leaves a margin around the values, and makes a range even of a single one.
   void finish(double from, double to) {
     if (low_ > high_) low_ = high_ = 0;
     const double room = std::max(0.08 * (high_ - low_), 0.1);
@@ -63,7 +63,7 @@ class Axis {
   double place(double value) const {
     return from_ + (std::log10(value) - low_) / (high_ - low_) * (to_ - from_);
   }
-  // Decades; with their halves and fifths where there are few.
+  // Decades; if there are few, 2 and 5 times each decade as well.
   std::vector<double> ticks() const {
     const bool fine = high_ - low_ < 3.2;
     std::vector<double> out;
@@ -85,7 +85,7 @@ struct Box {
   bool meets(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
 
-// Puts labels where nothing else stands, nearest places first.
+// Places labels where they overlap nothing, the nearest places first.
 class Labels {
  public:
   void occupy(const Box& box) { taken_.push_back(box); }
@@ -108,7 +108,7 @@ class Labels {
                  box.x0, y + offset[1], color) +
              escaped(text) + "</text>\n";
     }
-    return {};  // the table tells which it is
+    return {};  // the label is dropped; the table says which point it is
   }
 
  private:
@@ -148,7 +148,7 @@ std::string grid(const Plot& plot, const Axis& x, const Axis& y) {
   return out;
 }
 
-// What a legend's line has room for.
+// Shortens a text to what fits in a line of the legend.
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 34;
   return text.size() <= kMost ? text : text.substr(0, kMost - 3) + "...";

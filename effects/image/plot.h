@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plots with logarithmic axes, as SVG that needs nothing but itself.
+// Plots with logarithmic axes, as self-contained SVG.
 #pragma once
 
 #include <string>

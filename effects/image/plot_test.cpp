@@ -13,7 +13,7 @@
 namespace kaamos::effects {
 namespace {
 
-// What is wrong with a document as XML: tags that do not match, bare < and &; empty: nothing.
+// What is wrong with the text as XML (tags that do not match, bare < and &), or nothing.
 std::string xml_fault(const std::string& text) {
   std::vector<std::string> open;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -81,7 +81,7 @@ TEST(Plot, AxesAreLogarithmic) {
   EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.2);
   EXPECT_NEAR(y[1] - y[0], y[2] - y[1], 0.2);
   EXPECT_GT(x[1], x[0]);
-  EXPECT_GT(y[1], y[0]);  // down
+  EXPECT_GT(y[1], y[0]);  // SVG's y points down
 }
 
 TEST(Csv, ComesBackAsItWas) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSide = 65535;
 
-/// libpng's simplified interface keeps its state outside C++; this frees it on every way out.
+/// libpng's simplified interface has state of its own; this frees it on every path out.
 class PngImage {
  public:
   PngImage() {

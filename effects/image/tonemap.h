@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From linear values to the bytes that a screen shows.
+// Converts linear values to the bytes that a screen shows.
 #pragma once
 
 #include "effects/image/image.h"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Indirect diffuse light of each pixel, in the ways that the talk compares. [effects-spec B5.2 to
-// B5.4]
+// Indirect diffuse light of each pixel, in the variants that the talk compares: the volume alone,
+// rays that read it where they miss and are black where they hit, and near-field rays whose hits are
+// shaded. [effects-spec B5.2 to B5.4]
 #include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
-// Sums over the samples: irradiance over pi, and the rays' length.
+// Sums over samples: irradiance / pi, and the length of the rays.
 RWTexture2D<float4> indirect : register(u0, space3);
 
 struct IndirectConstants {
@@ -15,22 +16,23 @@ struct IndirectConstants {
 };
 ConstantBuffer<IndirectConstants> constants : register(b0, space3);
 
-// IndirectMode of indirect_diffuse.h
+// IndirectMode in indirect_diffuse.h.
 static const uint kModeDirect = 0;
 static const uint kModeHitBlack = 1;
 static const uint kModeNearField = 2;
 static const uint kModeNearFieldGlossy = 3;
 
-static const uint kIndirectPair = 4;    // and 5: the end's jitter
+static const uint kIndirectPair = 4;    // and 5, for the jitter of the ray's end
 
 struct IndirectPayload {
   float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;   // of the hit, metres; negative: none
+  float distance;   // of the hit, metres; negative: a miss
 };
 
 float RayLength() { return Contain(constants.length, kLongestRay); }
 
-// What comes from where the ray ends, by the volume. [GDC 2018 talk: sampled in the miss shader]
+// Light that arrives where the ray ends, from the volume. [GDC 2018 talk: sampled in the miss
+// shader]
 float3 RadianceFromEnd(float3 jitter) {
   return VolumeRadiance(WorldRayOrigin() + WorldRayDirection() * RayLength(), jitter,
                         WorldRayDirection());
@@ -64,13 +66,13 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
     payload.radiance =
         ShadeMatteHit(surface, constants.sun_at_hits != 0) + IndirectAtMatteHit(surface, jitter);
   }
-  // Close to the ray's end the volume takes over, so that no shell shows where rays end.
+  // Near the ray's end, blend to the volume, so that no shell shows where rays end.
   const float length = RayLength();
   const float far = smoothstep(0.8 * length, length, RayTCurrent());
   if (far > 0.0) payload.radiance = lerp(payload.radiance, RadianceFromEnd(jitter), far);
 }
 
-// What one direction brings, and in w how far its ray got.
+// Radiance from one direction; w is the distance that its ray reached.
 float4 Gather(float3 origin, float3 direction, float3 jitter) {
   RayDesc ray;
   ray.Origin = origin;
@@ -114,7 +116,7 @@ void IndirectRayGen() {
     const uint index = pass_constants.first_sample + i;
     const float3 direction = IndirectDirection(tile, index, shading_normal);
     if (!(dot(direction, normal) > 0.0)) continue;
-    // Half a cell to each side hides the cells' steps.
+    // A jitter of half a cell to each side hides the steps between cells.
     sum += Gather(origin, direction, PixelJitter(pixel, index, kIndirectPair + 1, frame.seed));
   }
   indirect[pixel] = before + sum;

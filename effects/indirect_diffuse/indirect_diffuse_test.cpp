@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Indirect light against answers that are known, and the failures of a volume that the talk shows.
+// Indirect light against known answers, and the failures of a volume that the talk shows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace kaamos::effects {
 namespace {
 
-// In constant light the gathered one is the light times the ambient visibility, exactly; and the
-// one sampled at the surface is the light. [effects-spec B5.3: oracle]
+// Under constant light, the gathered light is exactly the light times the ambient visibility, and
+// the light sampled at the surface is the light itself. [effects-spec B5.3: oracle]
 TEST(IndirectDiffuse, OfAConstantFieldIsAmbientVisibility) {
   Stage stage(small_scene(0.5f));
   const IndirectVolume volume = constant_volume(stage.scene, 0.5f);
@@ -40,8 +40,9 @@ TEST(IndirectDiffuse, OfAConstantFieldIsAmbientVisibility) {
   EXPECT_GT(count, 50);
 }
 
-// A ray reads one cell, but their mean is what all eight give: linear in linear light. Half a cell
-// aside along any axis would be 0.125 or more; a pixel's mean of 1024 rays is good to 0.02.
+// A ray reads a single cell, but on average that equals all eight: linear for linear light. A shift
+// of half a cell along any axis would show as 0.125 or more; the mean of a pixel's 1024 rays is
+// good to 0.02.
 TEST(IndirectDiffuse, CellsThatRaysChooseAverageToAllEight) {
   Scene scene = small_scene(0.0f);
   scene.instances.resize(1);  // the plane
@@ -63,9 +64,9 @@ TEST(IndirectDiffuse, CellsThatRaysChooseAverageToAllEight) {
     for (std::uint32_t x = 0; x < stage.width; ++x) {
       const glm::dvec3 p =
           eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
-      // Farther out ends lie in bricks that are not stored.
+      // Further out, rays end in bricks that are not stored.
       if (stage.ids.at(x, y, 0) == 0 || std::max(std::abs(p.x), std::abs(p.z)) > 5) continue;
-      // The mean end lies 2/3 of the length above.
+      // On average a ray ends 2/3 of its length above the plane.
       const double expected = light(p + glm::dvec3(0, kLength * 2 / 3, 0));
       ASSERT_NEAR(gathered.at(x, y), expected, 0.1) << x << "," << y;
       sum += gathered.at(x, y) - expected;
@@ -76,15 +77,15 @@ TEST(IndirectDiffuse, CellsThatRaysChooseAverageToAllEight) {
   EXPECT_NEAR(sum / count, 0, 0.01);
 }
 
-// Where the cell that a ray chose lies in a solid, the others of the eight stand in for it, as they
-// do without a choice.
+// If the chosen cell lies in a solid, the other ones of the eight replace it, as they do without a
+// choice.
 TEST(IndirectDiffuse, CellsInSolidsAreStoodInForByOthers) {
   Scene scene = small_scene(0.0f);
   scene.instances.resize(1);
   Stage stage(scene);
   IndirectVolume volume = constant_volume(stage.scene, 0.5f);
   for (std::size_t i = 0; i < volume.cells.size(); ++i) {
-    // Every second one along each axis.
+    // Every second cell along each axis.
     if (((i + i / kBrickCells + i / (kBrickCells * kBrickCells)) & 1) != 0) volume.cells[i] = {};
   }
   const FloatImage gathered = stage.gather(volume, mode(IndirectMode::kHitBlack, 1.0f), 64);
@@ -103,7 +104,7 @@ TEST(IndirectDiffuse, CellsInSolidsAreStoodInForByOthers) {
   EXPECT_GT(count, 50);
 }
 
-// A plane of albedo a under a sky of 1: from above comes 1, from below a.
+// A plane of albedo a under a sky of 1: the radiance is 1 from above and a from below.
 TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   Scene scene = small_scene(1.0f);
   for (Vertex& vertex : scene.meshes[0].vertices) {
@@ -119,7 +120,7 @@ TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   const std::vector<glm::dvec3> centers = volume.cell_centers();
   int count = 0;
   for (std::size_t i = 0; i < centers.size(); ++i) {
-    // Close over the plane's middle: it fills the lower half.
+    // Close above the middle of the plane, which fills the lower half there.
     if (std::hypot(centers[i].x, centers[i].z) > 0.4 || centers[i].y < 0 || centers[i].y > 0.15) {
       continue;
     }
@@ -132,7 +133,7 @@ TEST(IndirectVolumes, HoldWhatArrivesOverAPlane) {
   EXPECT_GT(count, 3);
 }
 
-// Two rooms with a thin wall between, one under the sky, one closed. [effects-spec D.2: SC8]
+// Two rooms with a thin wall between them, one open to the sky, one closed. [effects-spec D.2: SC8]
 Scene cells_scene(float thickness) {
   Scene scene = small_scene(1.0f);
   scene.meshes.clear();
@@ -163,7 +164,7 @@ Scene cells_scene(float thickness) {
   return scene;
 }
 
-// What leaks through a wall of 5 mm into a room that is dark in truth: sampled at the surface, and
+// Light leaks through a wall of 5 mm into a room that should be dark: sampled at the surface, and
 // by rays. [effects-spec B5.5]
 TEST(IndirectDiffuse, RaysStopTheLeakThroughThinWalls) {
   Stage stage(cells_scene(0.005f));
@@ -177,7 +178,8 @@ TEST(IndirectDiffuse, RaysStopTheLeakThroughThinWalls) {
   EXPECT_LT(gathered, direct / 4) << direct << " " << gathered;
 }
 
-// Hits that are black lose what the walls send: shading them brings it back. [effects-spec B5.4]
+// Black hits lose the light that the walls reflect; shading them brings it back. [effects-spec
+// B5.4]
 TEST(IndirectDiffuse, NearFieldLightingMendsBlackHits) {
   Scene scene = cells_scene(0.3f);
   scene.cameras.front().camera_to_world = look_at({-1.0, 1.9, 1.5}, {-0.6, 0.0, -0.6});
@@ -188,11 +190,10 @@ TEST(IndirectDiffuse, NearFieldLightingMendsBlackHits) {
       mean_of(stage.gather(volume, mode(IndirectMode::kNearField), 64), stage.ids);
   const double direct = mean_of(stage.gather(volume, mode(IndirectMode::kDirect), 1), stage.ids);
   EXPECT_LT(black, 0.85 * near_field);
-  EXPECT_NEAR(near_field / direct, 1, 0.25);  // both stand for all the light there is
+  EXPECT_NEAR(near_field / direct, 1, 0.25);  // each is all of the light
 }
 
-// The shape of a lamp adds nothing to the lamp: what is stored is, to the bit, what it is without
-// it.
+// The shape of a lamp adds no light: the volume is the same, bit for bit, as without the shape.
 TEST(IndirectVolumes, ALampThatShowsItsShapeCountsOnce) {
   Scene bare = make_mirror_hall();
   const auto is_bulb = [](const Instance& i) { return i.mask == kMaskEmissiveProxy; };
@@ -207,14 +208,14 @@ TEST(IndirectVolumes, ALampThatShowsItsShapeCountsOnce) {
     sum += a.cells[i].mean.x;
   }
   EXPECT_GT(sum, 1.0);
-  // Rays that gather see past it as well; only the camera does not.
+  // Gathering rays do not see the shape either; only the camera does.
   const FloatImage seen = with.gather(a, mode(IndirectMode::kNearField), 4);
   const FloatImage expected = without.gather(b, mode(IndirectMode::kNearField), 4);
   std::size_t different = 0;
   for (std::size_t i = 0; i < seen.values.size(); ++i) {
     different += seen.values[i] == expected.values[i] ? 0 : 1;
   }
-  EXPECT_LE(different, 4u);  // a pixel of the lamp
+  EXPECT_LE(different, 4u);  // the pixels that show the lamp
 }
 
 TEST(IndirectVolumes, FilesComeBack) {
@@ -229,7 +230,7 @@ TEST(IndirectVolumes, FilesComeBack) {
   EXPECT_EQ(std::memcmp(loaded.cells.data(), volume.cells.data(),
                         volume.cells.size() * sizeof(VolumeCell)),
             0);
-  // Damage anywhere is found.
+  // Damage is found wherever it is.
   std::vector<std::uint8_t> bytes = read_file(path).value();
   for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{56}, bytes.size() / 2}) {
     std::vector<std::uint8_t> damaged = bytes;

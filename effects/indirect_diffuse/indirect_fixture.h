@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What tests of indirect light share.
+// Shared by the tests of indirect light.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace kaamos::effects {
 
-/// A scene's G-buffer, its lights, and what gathers light over them.
+/// A scene with its G-buffer and lights, and the passes that gather light over them.
 struct Stage {
   explicit Stage(Scene given, std::uint32_t picture_width = 24, std::uint32_t picture_height = 16)
       : width(picture_width), height(picture_height), scene(std::move(given)) {
@@ -53,7 +53,7 @@ struct Stage {
     return volume;
   }
 
-  /// Irradiance over pi, 4 channels.
+  /// Irradiance / pi; 4 channels.
   FloatImage gather(const IndirectVolume& volume, const IndirectConstants& constants,
                     std::uint32_t samples) {
     const GpuVolume gpu_volume =
@@ -113,7 +113,7 @@ inline IndirectConstants mode(IndirectMode m, float length = 3.0f) {
   return constants;
 }
 
-/// A volume about a scene with the same light in every cell.
+/// A volume around a scene with the same light in every cell.
 inline IndirectVolume constant_volume(const Scene& scene, float light) {
   IndirectVolume volume = layout_volume(scene, 0.5f).value();
   for (VolumeCell& cell : volume.cells) {
@@ -123,8 +123,8 @@ inline IndirectVolume constant_volume(const Scene& scene, float light) {
   return volume;
 }
 
-/// A small plane with a sphere over it; the sky as bright as the volume, so that where nothing is
-/// stored it is the same light.
+/// A small plane with a sphere over it. The sky should be as bright as the volume, so that places
+/// where nothing is stored get the same light.
 inline Scene small_scene(float sky) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   for (Mesh& mesh : scene.meshes) {
@@ -138,7 +138,7 @@ inline Scene small_scene(float sky) {
   return scene;
 }
 
-/// Over the pixels that show a surface.
+/// The mean over the pixels that show a surface.
 inline double mean_of(const FloatImage& image, const FloatImage& ids) {
   double sum = 0, count = 0;
   for (std::uint32_t y = 0; y < image.height; ++y) {

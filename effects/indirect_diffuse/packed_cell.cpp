@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::uint32_t kSign = 0x80000000u;
 constexpr std::uint32_t kInfinity = 0x7F800000u;
-constexpr std::uint32_t kLower = 0x7FFu;  // of a word: blue's
+constexpr std::uint32_t kLower = 0x7FFu;  // the lower bits of a word, which hold a part of blue
 
-// The float nearest to `value` whose bits under `dropped` are zero.
+// Rounds to the nearest float whose bits under `dropped` are zero.
 std::uint32_t rounded(float value, std::uint32_t dropped) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   const std::uint32_t size = bits & ~kSign;
-  if (size > kInfinity) return kInfinity | 0x400000u;  // no number stays none
+  if (size > kInfinity) return kInfinity | 0x400000u;  // NaN stays NaN
   const std::uint32_t largest = kInfinity - dropped - 1;
   return (bits & kSign) | std::min((size + (dropped + 1) / 2) & ~dropped, largest);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cell of the volume as shaders read it: half as long as VolumeCell.
+// A cell of the volume as shaders read it, in half the size of VolumeCell.
 #pragma once
 
 #include <array>

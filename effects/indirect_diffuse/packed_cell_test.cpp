@@ -60,7 +60,7 @@ TEST(PackedCell, KeepsBlackAndSingleColours) {
   }
 }
 
-// A volume that is a power of two as bright gives a picture that is so to the bit.
+// Scaling a volume by a power of two scales its picture by exactly that power.
 TEST(PackedCell, RoundsPowersOfTwoAlike) {
   VolumeCell cell = uniform(0.123456f);
   cell.mean = {0.7f, 3.3f, 0.011f};

@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Mirrors BakeConstants of volume_bake.hlsl.
+// Mirrors BakeConstants in volume_bake.hlsl.
 struct BakeConstants {
   std::uint32_t cell_count;
   std::uint32_t first_sample;
@@ -26,7 +26,7 @@ struct BakeConstants {
   std::uint32_t seed;
 };
 
-// Mirrors VolumeConstants of indirect_volume.hlsli.
+// Mirrors VolumeConstants in indirect_volume.hlsli.
 struct VolumeConstants {
   glm::vec3 origin;
   float cell;
@@ -38,7 +38,7 @@ static_assert(sizeof(VolumeConstants) == 36);
 
 constexpr std::uint32_t kGridWidth = 1024;
 constexpr double kStepSeconds = 0.25;
-// A cell that sees the backs of surfaces in more directions than this lies in a solid.
+// A cell that sees back faces in more than this fraction of its directions lies in a solid.
 // [effects-spec B5.1]
 constexpr float kMaxBackFaces = 0.25f;
 
@@ -55,7 +55,7 @@ RayPassDesc bake_pass(const rtapi::ShaderLibrary& library) {
   return desc;
 }
 
-// Runs all samples of all cells; several a step as long as a step is short.
+// Traces all samples of all cells. A step takes more samples as long as steps are short.
 rtapi::Status trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queue,
                           const Frame& frame, const RayPass& pass, const PassViews& views,
                           std::uint32_t cell_count, const BakeDesc& desc,
@@ -66,7 +66,7 @@ rtapi::Status trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queu
   const std::uint32_t rows = (cell_count + kGridWidth - 1) / kGridWidth;
   std::uint32_t step = 1;
   for (std::uint32_t first = 0; first < desc.samples;) {
-    if (stop) return rtapi::Error{"", rtapi::ErrorCode::kFailed, "interrupted"};
+    if (stop) return rtapi::Error{{}, rtapi::ErrorCode::kFailed, "interrupted"};
     const std::uint32_t count = std::min(step, desc.samples - first);
     const BakeConstants constants = {cell_count, first, count, desc.bounces, kGridWidth, desc.seed};
     if (const auto reset = list->Reset(); !reset) return reset;
@@ -82,7 +82,7 @@ rtapi::Status trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queu
   return {};
 }
 
-// Sums to means; cells in solids are marked.
+// Turns sums into means and marks cells in solids.
 void normalise(std::vector<VolumeCell>& cells, std::uint32_t samples) {
   const float scale = 1.0f / static_cast<float>(samples);
   for (VolumeCell& cell : cells) {
@@ -144,7 +144,7 @@ rtapi::Result<GpuVolume> GpuVolume::create(const rtapi::Device& device,
   GpuVolume out;
   VolumeConstants constants = {glm::vec3(volume.origin - origin), volume.cell, volume.bricks,
                                volume.cells.empty() ? 0u : 1u, 1.0f / volume.cell};
-  // Views of nothing need one element too.
+  // A view needs at least one element, even of an empty volume.
   std::vector<std::uint32_t> starts = volume.brick_starts;
   if (starts.empty()) starts.push_back(kNoBrick);
   std::vector<PackedCell> cells;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A sparse volume of indirect light: cells of 25 cm in bricks of 8 x 8 x 8, stored where there is
-// geometry, baked by a path tracer that is a DXR program like every effect. [effects-spec B5.1]
+// geometry, and baked by a path tracer that is a DXR program like every effect. [effects-spec B5.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -90,7 +90,7 @@ class GpuVolume {
   void set_origin(const glm::dvec3& origin);
 
  private:
-  glm::dvec3 corner_{0.0};  // of the volume, in the world
+  glm::dvec3 corner_{0.0};  // the volume's corner, in world space
   rtapi::Buffer brick_starts_, cells_, constants_;
 };
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Fills a volume by path tracing: from each cell's middle rays to all sides, and from their hits on.
-// [effects-spec B5.1]
+// Fills the volume by path tracing: rays from the centre of each cell in all directions, and on
+// from their hits. [effects-spec B5.1]
 #include "hit_lighting.hlsli"
 #include "indirect_volume.hlsli"
 #include "sampling.hlsli"
 #include "surface.hlsli"
 #include "visibility.hlsli"
 
-// Over the samples: radiance towards a unit direction d is mean + slope_x d.x + slope_y d.y +
-// slope_z d.z. effects/indirect_diffuse/volume.h holds the same layout.
+// Sums over samples. Radiance from a unit direction d is mean + slope_x d.x + slope_y d.y + slope_z
+// d.z. effects/indirect_diffuse/volume.h has the same layout.
 struct CellSums {
   float3 mean;
-  float validity;  // back faces
+  float validity;  // samples whose ray hit a back face
   float3 slope_x;
   float padding0;
   float3 slope_y;
@@ -33,10 +33,10 @@ struct BakeConstants {
 };
 ConstantBuffer<BakeConstants> constants : register(b0, space3);
 
-// What a path needs of a hit to go on.
+// What a path needs to know about a hit to continue.
 struct PathPayload {
   float3 position;
-  float offset;  // negative: nothing was hit
+  float offset;  // negative: a miss
   float3 normal;
   uint back_face;
   float3 albedo;
@@ -63,20 +63,21 @@ void PathClosestHit(inout PathPayload payload, in BuiltInTriangleIntersectionAtt
   payload.offset = surface.offset;
   payload.normal = surface.normal;
   payload.back_face = surface.back_face ? 1 : 0;
-  // Metal sends light on too; as far as this volume can tell, to all sides.
+  // Metal reflects light too; in this diffuse volume, in all directions alike.
   payload.albedo = surface.base_color * lerp(1.0, 0.7, surface.metallic);
   payload.emissive = surface.emissive;
 }
 
-// A local light and what it sends onto a surface, shadows apart.
+// A local light that was chosen, and its unshadowed irradiance on a surface.
 struct ChosenLight {
-  float3 irradiance;  // of all lights, as far as this one stands for them
+  float3 irradiance;  // estimates that of all lights
   float3 direction;
-  float reach;  // up to the lamp's surface, metres
+  float reach;  // distance to the lamp's surface, metres
 };
 
-// One light of all, as likely as it is bright here: a ray to each would cost more than it is worth.
-// [resampling, Talbot et al. 2005; `u`: 0..1, used up light by light]
+// Picks one of all lights with a probability proportional to its brightness here, because a shadow
+// ray to each would cost too much. Weighted reservoir sampling in one pass; `u` in 0..1 is rescaled
+// after each light, so a single random number is enough. [resampling, Talbot et al. 2005]
 ChosenLight ChooseLight(float3 position, float3 normal, float u) {
   ChosenLight chosen;
   chosen.irradiance = chosen.direction = float3(0, 0, 0);
@@ -106,7 +107,7 @@ ChosenLight ChooseLight(float3 position, float3 normal, float u) {
   return chosen;
 }
 
-// Light of the sun and of the local lights on a surface, over pi, with shadow rays.
+// Irradiance / pi of the sun and the local lights on a surface, with shadow rays.
 float3 DirectAt(PathPayload hit, float u) {
   const float3 origin = hit.position + hit.normal * hit.offset;
   float3 sum = float3(0, 0, 0);
@@ -141,7 +142,7 @@ PathPayload TracePath(float3 origin, float3 direction) {
 
 float2 Random2(uint key) { return float2(UnitFloat(PcgHash(key)), UnitFloat(PcgHash(key ^ 0x9E3779B9u))); }
 
-// Radiance along a ray; back_face: its first hit was a surface's back.
+// Radiance along a ray. `back_face` tells whether the first hit was the back of a surface.
 float3 PathRadiance(float3 origin, float3 direction, uint key, out bool back_face) {
   float3 radiance = float3(0, 0, 0);
   float3 throughput = float3(1, 1, 1);
@@ -171,7 +172,7 @@ void BakeRayGen() {
   const uint cell_seed = HashCombine(constants.seed, cell);
   for (uint i = 0; i < constants.sample_count; ++i) {
     const uint index = constants.first_sample + i;
-    // The whole sphere, evenly.
+    // Uniform over the sphere.
     const float2 u = SobolOwen(index, cell_seed);
     const float z = 1.0 - 2.0 * u.x;
     const float r = sqrt(max(0.0, 1.0 - z * z));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What goes wrong with light from a volume of coarse cells, each failure with its number, and what
-// rays do about it. [effects-spec G6, B5.5; GDC 2018 talk; Northlight deck: Indirect Diffuse]
+// What goes wrong with light from a volume of coarse cells, a number for each failure, and how much
+// rays help. [effects-spec G6, B5.5; GDC 2018 talk; Northlight deck: Indirect Diffuse]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace kaamos::effects {
 namespace {
 
-// What each way makes of one volume, the mean over the picture.
+// Light from one volume in each of the four modes: means over the picture.
 struct Leak {
   double direct, times_ao, hit_black, near_field;
 };
@@ -41,8 +41,8 @@ void say(const std::string& what, const Leak& leak) {
 
 // --- Light through thin walls
 
-// One room of nine is lit. The cells in the middle of a dark room know that it is dark; those at a
-// wall that is thinner than they are lie half in the lit room.
+// One room of nine is lit. Cells in the middle of a dark room are dark, but cells at a wall thinner
+// than they are lie half in the lit room.
 Leak sealed_leak(double thickness, float cell, int& dark_cells) {
   Stage stage(make_sealed_cells({.thickness = thickness}), 16, 12);
   const IndirectVolume volume = stage.bake(cell, 32);
@@ -79,7 +79,7 @@ TEST(VolumeFailures, CellsCoarserThanAWallLeak) {
 
 // --- Steps on round things
 
-constexpr double kDomeScale = 0.5;  // with cells of 25 cm: as the whole dome with 50 cm
+constexpr double kDomeScale = 0.5;  // with cells of 25 cm, like the full dome with 50 cm
 
 Scene small_dome(bool sealed) {
   Scene scene = make_thin_dome({.thickness = 0.005, .sealed = sealed});
@@ -92,8 +92,8 @@ Scene small_dome(bool sealed) {
   return scene;
 }
 
-// What changes from row to row faster than over `window` rows, as a part of the mean: root mean
-// square over the picture's columns.
+// Change from row to row that is faster than `window` rows, relative to the mean: root mean square
+// over the picture's columns.
 double banding(const FloatImage& image, std::uint32_t window) {
   double sum = 0, mean = 0;
   std::size_t count = 0;
@@ -162,7 +162,7 @@ Scene room(bool with_table) {
   return scene;
 }
 
-// Root mean square difference over the pixels of a mesh.
+// Root mean square difference over the pixels that show an instance.
 double error_on(const FloatImage& image, const FloatImage& truth, const FloatImage& ids,
                 float instance) {
   double sum = 0, count = 0;
@@ -177,8 +177,8 @@ double error_on(const FloatImage& image, const FloatImage& truth, const FloatIma
   return std::sqrt(sum / count);
 }
 
-// The floor under a table that the volume knows nothing of, against rays that end at the first hit
-// in a volume that knows it.
+// The floor under a table that the volume does not know, compared with rays that end at the first
+// hit in a volume that does.
 TEST(VolumeFailures, DynamicObjectsNeedRays) {
   Stage baked(room(false));
   const IndirectVolume volume = baked.bake(0.25f, 128);
@@ -203,8 +203,8 @@ TEST(VolumeFailures, DynamicObjectsNeedRays) {
 
 // --- What is right
 
-// Gathered light of a constant field is the ambient visibility times the field, noise apart: the
-// two take different random numbers. [effects-spec B5.3, E.4]
+// Light gathered in a constant field is the field times the ambient visibility, apart from noise:
+// the two use different random numbers. [effects-spec B5.3, E.4]
 TEST(VolumeFailures, AConstantFieldHasNone) {
   constexpr std::uint32_t kRays = 256;
   constexpr float kRadius = 3;
@@ -218,7 +218,8 @@ TEST(VolumeFailures, AConstantFieldHasNone) {
     if (stage.ids.values[i * stage.ids.channels] == 0) continue;
     const double p = open.values[i];
     const double difference = gathered.values[4 * i] / 0.5 - p;
-    // Of two means of independent rays; these are spread more evenly than that.
+    // The variance of the difference of two means of independent rays. These rays are more evenly
+    // spread.
     const double of_pixel = 2 * std::max(p * (1 - p), 1.0 / kRays) / kRays;
     far += difference * difference > 4 * of_pixel;
     sum += difference;
@@ -232,13 +233,14 @@ TEST(VolumeFailures, AConstantFieldHasNone) {
 
 // --- Where rays end
 
-// A floor under a ceiling, both of albedo 0.5, in a volume of light 1: a ray that hits the ceiling
-// brings 0.5, one that ends before it 1, and the hits in a ray's last fifth fade into that.
+// A floor under a ceiling, both of albedo 0.5, in a volume of light 1. A ray that hits the ceiling
+// returns 0.5, and one that ends before it 1; hits in a ray's last fifth fade from one to the
+// other.
 double brought_back(double distance, double length, bool fades) {
   constexpr int kSteps = 4000;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
-    const double cosine_squared = (i + 0.5) / kSteps;  // cosine-weighted: even in it
+    const double cosine_squared = (i + 0.5) / kSteps;  // uniform for cosine-weighted directions
     const double t = distance / std::sqrt(cosine_squared);
     const double at = std::clamp((t / length - 0.8) / 0.2, 0.0, 1.0);
     const double far = t >= length ? 1 : fades ? at * at * (3 - 2 * at) : 0;
@@ -278,8 +280,8 @@ TEST(VolumeFailures, NoShellWhereRaysEnd) {
 
 // --- Light from one side
 
-// A mean and a slope cannot hold a narrow beam: they would be negative where it does not come from.
-// [effects-spec B5.5: SH ringing]
+// A mean and a slope cannot represent a narrow beam: they would be negative in the directions away
+// from it. [effects-spec B5.5: SH ringing]
 TEST(VolumeFailures, NarrowLightRings) {
   Scene scene = small_scene(0.0f);
   Light lamp;
@@ -307,7 +309,7 @@ TEST(VolumeFailures, NarrowLightRings) {
   std::printf("ringing: %d of %d negative, %.4f to %.4f\n", negative, all, least, brightest);
   EXPECT_GT(negative, 100);
   EXPECT_LT(least, -0.1 * brightest);
-  // Shaders clamp it away.
+  // Shaders clamp the negative values.
   for (const IndirectMode way : {IndirectMode::kDirect, IndirectMode::kHitBlack}) {
     const FloatImage image = stage.gather(volume, mode(way), 64);
     for (const float value : image.values) ASSERT_GE(value, 0.0f);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Volumes in files.
+// Reads and writes volumes as files.
 #include <cstring>
 #include <type_traits>
 
@@ -22,7 +22,7 @@ struct Header {
   std::uint32_t padding;
   std::uint64_t brick_count;
   std::uint64_t cell_count;
-  std::uint64_t checksum;  // of everything behind the header
+  std::uint64_t checksum;  // of everything after the header
 };
 static_assert(sizeof(Header) == 80);
 

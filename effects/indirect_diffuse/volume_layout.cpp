@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which bricks a volume has.
+// Decides which bricks a volume has.
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::uint64_t kMaxCells = 1u << 24;
 
-// Calls `visit` with the brick coordinates that the box [low, high] touches.
+// Calls `visit` with the coordinates of every brick that the box [low, high] touches.
 template <class Visit>
 void for_bricks(const IndirectVolume& volume, const glm::dvec3& low, const glm::dvec3& high,
                 Visit visit) {
   const double size = static_cast<double>(volume.cell) * kBrickCells;
   const glm::ivec3 last = glm::ivec3(volume.bricks) - 1;
-  // A cell more to each side: surfaces look half a cell off themselves, and between cells.
+  // One more cell on each side, because surfaces look up half a cell away and between cells.
   const glm::dvec3 margin(2.0 * volume.cell);
   const glm::ivec3 from = glm::clamp(glm::ivec3(glm::floor((low - margin - volume.origin) / size)),
                                      glm::ivec3(0), last);
@@ -34,7 +34,7 @@ std::size_t brick_index(const IndirectVolume& volume, const glm::uvec3& brick) {
   return (std::size_t{brick.z} * volume.bricks.y + brick.y) * volume.bricks.x + brick.x;
 }
 
-// Marks the bricks of one instance's triangles.
+// Marks the bricks that the triangles of an instance touch.
 void mark_instance(const Scene& scene, const Instance& instance, IndirectVolume& volume) {
   const Mesh& mesh = scene.meshes[instance.mesh];
   for (const Geometry& geometry : mesh.geometries) {
@@ -73,7 +73,7 @@ std::vector<glm::dvec3> IndirectVolume::cell_centers() const {
 
 namespace {
 
-// The bricks, without the memory of their cells, which are counted.
+// Lays out the bricks and counts their cells, without allocating them.
 Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std::uint64_t& cells) {
   cells = 0;
   IndirectVolume volume;
@@ -84,7 +84,7 @@ Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std:
   const glm::dvec3 margin(2.0 * cell_metres);
   volume.origin = bounds.min - margin;
   const glm::dvec3 count = glm::ceil((bounds.max + margin - volume.origin) / size);
-  // A scene of many kilometres may have few bricks, but its grid must stay small too.
+  // A scene that spans many kilometres may have few bricks, but its grid must stay small too.
   if (!(count.x * count.y * count.z < static_cast<double>(kMaxCells))) {
     return Status::failure("a volume with cells of " + std::to_string(cell_metres) +
                            " m would need a grid of " + std::to_string(count.x) + " x " +

@@ -12,11 +12,11 @@ namespace kaamos::effects {
 
 namespace {
 
-// More than a sun as a point has (3e27 cd). With it the square of a range is still a float.
+// More than the sun as a point light (3e27 cd). Up to this, the square of a range is still a float.
 constexpr float kStrongestIntensity = 1e30f;
 
-// A light without a radius is taken for one that small against its range, so that it is not
-// infinite in its own place: the range is that of 1e-3 lux where a scene names none, so this is
+// The least radius relative to the range, so that a light without a radius is not infinite at its
+// own position. Where a scene gives no range, the range is where 1e-3 lux arrive, so the limit is
 // 1e11 lux.
 constexpr float kLeastRadius = 1e-7f;
 
@@ -30,8 +30,8 @@ bool is_whole(const LightConstants& light) {
          std::isfinite(light.spot_offset);
 }
 
-// Makes a light dark that a broken number would make shine everywhere and as nothing. It stays in
-// the list: shadow maps go by places in it. [effects-spec E.1]
+// Turns a light dark if a broken number would make it shine everywhere, or as NaN. It stays in the
+// list, because shadow maps are found by the light's index. [effects-spec E.1]
 void darken(LightConstants& light) {
   light.position = light.intensity = glm::vec3(0.0f);
   light.direction = glm::vec3(0, -1, 0);
@@ -49,16 +49,17 @@ void set_cone(LightConstants& out, const Light& light) {
   out.spot_scale = 1.0f / std::max(1e-3f, inner - outer);
   out.spot_offset = -outer * out.spot_scale;
   out.is_spot = 1;
-  out.cos_outer = std::max(outer, 0.05f);  // flat maps do not reach a half space
+  out.cos_outer = std::max(outer, 0.05f);  // a flat map cannot cover a half space
 }
 
-// What follows from the rest and no shader should find out again at every point.
+// Computes what follows from the rest, so that shaders need not compute it at every point.
 void derive(LightConstants& light) {
-  constexpr float kLeast = std::numeric_limits<float>::min();  // 1 / that is a float
+  constexpr float kLeast = std::numeric_limits<float>::min();  // 1 / kLeast is still a float
   light.over_range = 1.0f / std::max(light.range, kLeast);
   light.over_least_distance = 1.0f / std::max({light.radius, kLeastRadius * light.range, kLeast});
   if (light.is_spot == 0) {
-    // An octahedral map covers 4 pi with its texels; the mean is good to a factor of two.
+    // An octahedral map covers 4 pi with its texels; a single texel differs from the mean by up to
+    // two times.
     light.map_texel = std::sqrt(4.0f * std::numbers::pi_v<float>) / kShadowTile;
     return;
   }
@@ -85,7 +86,7 @@ std::vector<LightConstants> light_constants(const Scene& scene, const glm::dvec3
     out.radius = std::isfinite(light.radius) ? std::max(light.radius, 0.0f) : light.radius;
     const float strongest =
         std::max({out.intensity.x, out.intensity.y, out.intensity.z, kCutOffIlluminance});
-    // At the strongest, strongest / cut-off is still a float.
+    // At the strongest intensity, strongest / cut-off is still a float.
     out.range = light.range > 0 && std::isfinite(light.range)
                     ? light.range
                     : std::sqrt(strongest / kCutOffIlluminance);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Local lights as shaders read them. [Northlight deck: Lighting Data]
+// Local lights in the format that shaders read. [Northlight deck: Lighting Data]
 #pragma once
 
 #include <cstdint>

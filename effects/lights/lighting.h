@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Local lights of a frame: lists by cluster and an atlas of shadow maps, made anew each frame, and
-// bound to every pass whose shaders include hit_lighting.hlsli.
+// The local lights of a frame: light lists per cluster and an atlas of shadow maps. Both are made
+// anew each frame and bound to every pass whose shaders include hit_lighting.hlsli.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes what hit_lighting.hlsli reads: the lists of lights by cluster, and the lights' shadow maps,
-// rendered by rays from the lights through the scene that everything else sees.
+// Prepares what hit_lighting.hlsli reads: the lists of lights per cluster, and the lights' shadow
+// maps, which rays from the lights render from the same top level that all other rays see.
 #include "alpha_test.hlsli"
 #include "hit_lighting.hlsli"
 
@@ -10,7 +10,7 @@ float DistanceSquared(float3 low, float3 high, float3 p) {
   return dot(d, d);
 }
 
-// A map's cone ends at this cosine; the light's may be wider. [light_constants.cpp]
+// A map's cone ends at this cosine; the light's own cone may be wider. [light_constants.cpp]
 static const float kWidestMap = 0.05;
 
 struct Sphere {
@@ -18,8 +18,9 @@ struct Sphere {
   float radius;
 };
 
-// The least sphere about all that a light reaches. A spot's cone ends in a cap: a narrow one's sphere
-// goes through its tip and the cap's rim, a wide one's has the rim for its equator.
+// The smallest sphere around all that a light reaches. A spot's cone ends in a cap. If the cone is
+// narrow, the sphere passes through its tip and the rim of the cap; if it is wide, the rim is the
+// sphere's equator.
 Sphere ReachOf(LightConstants light) {
   Sphere reach;
   reach.center = light.position;
@@ -32,18 +33,19 @@ Sphere ReachOf(LightConstants light) {
   return reach;
 }
 
-// Whether a sphere lies beside a spot's cone: its middle is further from the cone's side than its
-// radius. `tip` and `axis` are in the sphere's space. What is no number is not beside.
+// Whether a sphere lies beside a spot's cone, that is, whether its centre is further from the
+// cone's side than its radius. `tip` and `axis` are in the sphere's space. NaN counts as not
+// beside.
 bool IsBesideCone(float3 tip, float3 axis, float cosine, float3 center, float radius) {
   const float3 d = center - tip;
   const float along = dot(d, axis);
   const float across = sqrt(max(dot(d, d) - along * along, 0.0));
   const float sine = sqrt(1.0 - cosine * cosine);
-  return across * cosine - along * sine > radius + 1e-3 * length(d);  // rounding: a little more
+  return across * cosine - along * sine > radius + 1e-3 * length(d);  // a margin for rounding
 }
 
-// One thread per cluster: its x, then y and z one behind the other. Lights stand in ascending order, so
-// that a sum over a cluster adds up in the order of a sum over all.
+// One thread per cluster: id.x is the cell's x, id.y holds y and z. Lights are listed in ascending
+// order, so that a sum over a cluster adds in the same order as a sum over all lights.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void BuildClusters(uint3 id : SV_DispatchThreadID) {
@@ -55,7 +57,7 @@ void BuildClusters(uint3 id : SV_DispatchThreadID) {
   for (uint i = 0; i < frame.light_count; ++i) {
     const LightConstants light = lights[i];
     const Sphere reach = ReachOf(light);
-    // Rounding of positions and bounds: a little more.
+    // A margin for the rounding of positions and bounds.
     const float radius = reach.radius * 1.0001 + 1e-4 * length(reach.center);
     if (DistanceSquared(low, high, ClusterSpace(reach.center)) > radius * radius) continue;
     if (light.is_spot != 0 && light.cos_outer > kWidestMap &&
@@ -70,11 +72,11 @@ void BuildClusters(uint3 id : SV_DispatchThreadID) {
 }
 
 struct OccluderPayload {
-  float4 occluder;  // as shadow_atlas has it
+  float4 occluder;  // in the format of shadow_atlas
 };
 
-// At this cosine a plane is taken for one that faces the light: seen more aslant, its texel does not
-// tell where it is.
+// Below this cosine, the plane is replaced by one that faces the light: seen so obliquely, a texel
+// no longer tells where the plane is.
 static const float kLeastCosine = 0.02;
 
 [shader("miss")]
@@ -113,7 +115,7 @@ void ShadowAtlasRayGen() {
   RayDesc ray;
   ray.Origin = light.position;
   ray.Direction = ShadowMapDirection(light, uv);
-  // What lies in the light's own sphere is the lamp itself.
+  // Whatever lies inside the light's own sphere is the lamp itself.
   ray.TMin = min(light.radius, light.range);
   ray.TMax = light.range;
   OccluderPayload payload;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Local lights: no light is lost by the clusters, shadow maps and contact shadows agree with where
-// shadows are.
+// Local lights: clusters lose no light, and shadow maps and contact shadows agree with the true
+// shadows.
 #include "effects/lights/lighting.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::uint32_t kWidth = 48, kHeight = 32;
 
-// A scene's G-buffer and its local lights.
+// A scene with its G-buffer and its local lights.
 struct Stage {
   explicit Stage(Scene given) : scene(std::move(given)) {
     device = rtapi::CreateDevice().value();
@@ -54,7 +54,7 @@ struct Stage {
     return read_picture(device, queue, direct.direct()).value();
   }
 
-  // Samples of the visibility of the strongest point light, mean.
+  // Mean visibility of the strongest point light over the samples.
   FloatImage contact(float length, std::uint32_t samples) {
     const rtapi::Texture picture =
         frame.create_picture(device, "contact", rtapi::Format::kR32G32B32A32Float).value();
@@ -140,7 +140,7 @@ bool reaches(const LightConstants& light, const glm::vec3& p) {
              0;
 }
 
-// What derive() adds is what the shaders would compute.
+// The values that derive() adds are those that shaders would compute.
 TEST(LightConstants, HoldWhatFollowsFromTheRest) {
   Scene scene;
   Light light = point_light({1, 2, 3}, 8);
@@ -151,13 +151,13 @@ TEST(LightConstants, HoldWhatFollowsFromTheRest) {
   light.direction = glm::normalize(glm::vec3(1, -2, 0.5f));
   light.outer_cone_angle = 0.6f;
   scene.lights.push_back(light);
-  light.outer_cone_angle = 0;  // lights nothing, and divides by nothing
+  light.outer_cone_angle = 0;  // must light nothing and divide by nothing
   light.range = 1e-39f;
   scene.lights.push_back(light);
   const std::vector<LightConstants> lights = light_constants(scene, {0, 0, 0});
   EXPECT_FLOAT_EQ(lights[0].over_range, 1 / 8.0f);
   EXPECT_FLOAT_EQ(lights[0].over_least_distance, 4);
-  // Squares of texels of equal area, on the mean.
+  // If all texels had the same area; true on average.
   EXPECT_NEAR(lights[0].map_texel * lights[0].map_texel * kShadowTile * kShadowTile, 12.56637,
               1e-4);
   EXPECT_FLOAT_EQ(lights[1].over_least_distance, 1 / 8e-7f);
@@ -174,8 +174,8 @@ TEST(LightConstants, HoldWhatFollowsFromTheRest) {
   EXPECT_GT(lights[2].map_texel, 0);
 }
 
-// Points anywhere about the camera, behind it too: each light that reaches one, by its range and by
-// its cone, is in its list.
+// For points anywhere around the camera, also behind it: every light that reaches the point by its
+// range and cone is in its cluster's list.
 TEST(Clusters, NoLightIsLost) {
   Stage stage(scene_of_many_lights(100, 30));
   std::vector<std::byte> bytes =
@@ -208,8 +208,8 @@ TEST(Clusters, NoLightIsLost) {
   std::uniform_real_distribution<float> place(-40, 40);
   for (int i = 0; i < 20'000; ++i) expect_listed({place(random), place(random), place(random)});
   EXPECT_GT(in_range, 500u);
-  EXPECT_LT(listed, 20'000u * 100 / 4);  // and they do leave most out
-  // Where spots end: the rims of their caps.
+  EXPECT_LT(listed, 20'000u * 100 / 4);  // most lights are left out
+  // Points on the rims of the spots' caps, where their reach ends.
   for (const LightConstants& light : stage.lights) {
     if (light.is_spot == 0) continue;
     const glm::vec3 x = glm::normalize(glm::cross(light.direction, glm::vec3(0.3f, 0.2f, 0.9f)));
@@ -225,7 +225,7 @@ TEST(Clusters, NoLightIsLost) {
   }
 }
 
-// The same bits as the loop over all lights, which an overflow of every cluster means.
+// The same bits as a loop over all lights, which is what overflowing clusters do.
 TEST(Clusters, GiveTheSumOverAllLights) {
   Stage stage(scene_of_many_lights(100, 8));
   const FloatImage clustered = stage.light();
@@ -264,7 +264,7 @@ TEST(Clusters, ThatOverflowLoseNothing) {
     sum += many.values[i];
     expected += single.values[i];
   }
-  EXPECT_NEAR(sum / expected, 1, 0.05);  // they lie along two metres
+  EXPECT_NEAR(sum / expected, 1, 0.05);  // the lamps are spread over two metres
 }
 
 // A lamp over a sphere over a plane: the shadow on the plane is a disk of known radius.
@@ -274,7 +274,8 @@ Scene lamp_over_sphere() {
   return scene;
 }
 
-// Where the plane is lit: tan of the cone that touches the sphere, times the lamp's height.
+// Radius of the shadow on the plane: the tangent of the cone that touches the sphere, times the
+// height of the lamp.
 double shadow_radius() {
   const double distance = 5 - 1.5;
   return 5 * 1.0 / std::sqrt(distance * distance - 1.0);
@@ -294,7 +295,7 @@ TEST(ShadowMaps, DarkenTheDiskUnderTheSphere) {
           eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
       if (std::abs(p.y) > 1e-3) continue;  // the sphere itself
       const double r = std::hypot(p.x, p.z);
-      // A texel of the map is 0.2 m wide down there.
+      // A texel of the map is 0.2 m wide at that distance.
       if (r < shadow_radius() - 0.5) {
         EXPECT_EQ(image.at(x, y), 0) << r;
         ++dark;
@@ -308,8 +309,8 @@ TEST(ShadowMaps, DarkenTheDiskUnderTheSphere) {
   EXPECT_GT(lit, 50);
 }
 
-// An empty room shadows nothing: not its walls' edges, where texels of one wall stand beside texels
-// of another, nor far corners, which the lamp sees aslant. The lamp stands close to two walls.
+// An empty room has no shadows: neither at the edges of its walls, where texels of two walls meet,
+// nor in far corners, which the lamp sees at a slant. The lamp is close to two walls.
 TEST(ShadowMaps, LeaveNoShadowsInTheCornersOfARoom) {
   constexpr float kAlbedo = 0.8f;
   for (const bool spot : {false, true}) {
@@ -351,7 +352,7 @@ TEST(ShadowMaps, LeaveNoShadowsInTheCornersOfARoom) {
         const glm::dvec3 p =
             eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
         const glm::dvec3 to_lamp = lamp.position - p;
-        // The wall is the one that is nearest.
+        // The wall is the one that the point is closest to.
         const glm::dvec3 beyond = glm::abs(p) / glm::dvec3(2, 1.5, 6);
         const int axis = beyond.x > beyond.y && beyond.x > beyond.z ? 0
                          : beyond.y > beyond.z                      ? 1
@@ -361,7 +362,7 @@ TEST(ShadowMaps, LeaveNoShadowsInTheCornersOfARoom) {
                         std::cos(0.85) * glm::length(to_lamp)) {
           continue;
         }
-        // A rough surface sends a little more than a diffuse one, none less.
+        // A rough surface reflects a little more than a diffuse one, never less.
         const double diffuse =
             kAlbedo / 3.14159265 * lamp.intensity * cosine / glm::dot(to_lamp, to_lamp);
         EXPECT_GT(image.at(x, y, 0), 0.9 * diffuse)
@@ -386,7 +387,7 @@ TEST(ContactShadows, OfNoLengthAreNone) {
   }
 }
 
-// Rays as long as the way to the lamp: the exact hard shadow of a lamp without size.
+// With rays that reach the lamp, contact shadows are the exact hard shadow of a lamp without size.
 TEST(ContactShadows, AtFullLengthAreTheShadow) {
   Stage stage(lamp_over_sphere());
   const FloatImage image = stage.contact(1e3f, 1);
@@ -398,7 +399,7 @@ TEST(ContactShadows, AtFullLengthAreTheShadow) {
     for (std::uint32_t x = 0; x < kWidth; ++x) {
       if (ids.at(x, y, 0) != 1.0f) continue;
       const double r = std::hypot(eye.x + position.at(x, y, 0), eye.z + position.at(x, y, 2));
-      if (std::abs(r - shadow_radius()) < 0.02) continue;  // the sphere is made of triangles
+      if (std::abs(r - shadow_radius()) < 0.02) continue;  // the sphere consists of triangles
       ++count;
       const bool expected_dark = r < shadow_radius();
       dark += expected_dark;
@@ -410,7 +411,7 @@ TEST(ContactShadows, AtFullLengthAreTheShadow) {
   EXPECT_GT(count, 200);
 }
 
-// A lamp of 0.5 m: behind the sphere's edge its visible part falls from 1 to 0.
+// A lamp of 0.5 m radius: behind the edge of the sphere, its visible fraction falls from 1 to 0.
 TEST(ContactShadows, AreSoftByTheLightsRadius) {
   Scene scene = lamp_over_sphere();
   scene.lights.front().radius = 0.5f;

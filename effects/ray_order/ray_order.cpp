@@ -16,7 +16,7 @@ constexpr std::uint32_t kTileHeight = 128;
 constexpr std::uint32_t kLargestSide = 65535;
 constexpr std::uint32_t kDirectionBits = 8;
 
-/// Mirrors SortConstants of ray_order.hlsl.
+/// Mirrors SortConstants in ray_order.hlsl.
 struct SortConstants {
   std::uint32_t width;
   std::uint32_t height;
@@ -33,7 +33,7 @@ rtapi::Result<Buffer> create_words(const Device& device, const Frame& frame, con
   return device.CreateBuffer(desc);
 }
 
-// `from`: null for the first pass.
+// `from` is null for the first pass.
 rtapi::Result<PassViews> create_views(const Device& device, const Frame& frame, const Buffer* from,
                                       const Buffer& to) {
   auto views = frame.create_pass_views(device);
@@ -57,7 +57,8 @@ rtapi::Result<ShaderLibrary> ray_order_library() {
 rtapi::Result<RaySorter> RaySorter::create(const Device& device, const Frame& frame,
                                            const ShaderLibrary& library) {
   if (frame.width() > kLargestSide || frame.height() > kLargestSide) {
-    return Error{"", ErrorCode::kInvalidArgument,
+    return Error{{},
+                 ErrorCode::kInvalidArgument,
                  "rays of a picture of " + std::to_string(frame.width()) + " x " +
                      std::to_string(frame.height()) + " pixels cannot be sorted: " +
                      std::to_string(kLargestSide) + " are allowed on a side"};
@@ -101,12 +102,12 @@ void RaySorter::sort(CommandList& list, const Frame& frame, RayOrder order) cons
                           rtapi::ResourceStates to) {
     list.ResourceBarrier(rtapi::ResourceBarrier::Transition(buffer, from, to));
   };
-  // The pass that wrote the keys has the order among its views, as every ray pass of the frame.
+  // Like every ray pass of the frame, the pass that wrote the keys has the order among its views.
   change(order_, kRead, kWrite);
   if (order == RayOrder::kDirection) {
     record(once_, 0, 1);
   } else {
-    // Stable: what a later pass finds equal stays in the order of the pass before.
+    // The sort is stable: pixels with equal keys keep the order of the previous pass.
     record(first_, 0, 1);
     change(between_, kWrite, kRead);
     record(second_, kDirectionBits, 0);

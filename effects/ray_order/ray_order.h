@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The order in which a dispatch takes the pixels of a frame: by direction or origin of their rays.
-// A permutation: the picture stays the same, bit for bit. [effects-spec A21, B1.5]
+// The order in which a dispatch takes the pixels of a frame: by the direction or origin of their
+// rays. It is a permutation, so the picture stays the same, bit for bit. [effects-spec A21, B1.5]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -37,9 +37,9 @@ class RaySorter {
   rtapi::Buffer order_;
   rtapi::Buffer between_;  // after the first of two passes
   ComputePass pass_;
-  PassViews once_;    // to order_
-  PassViews first_;   // to between_
-  PassViews second_;  // between_ to order_
+  PassViews once_;    // writes to order_
+  PassViews first_;   // writes to between_
+  PassViews second_;  // reads between_, writes to order_
 };
 
 }  // namespace kaamos::effects

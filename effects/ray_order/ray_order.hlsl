@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Sorts the pixels of each tile by eight bits of their rays' keys: a stable counting sort, so that a
-// second pass sorts by sixteen. The result is the same on every run.
+// Sorts the pixels of each tile by eight bits of their rays' keys. The counting sort is stable, so
+// a second pass makes it sixteen bits, and the result is the same on every run.
 #include "frame.hlsli"
 
 static const uint2 kTile = uint2(64, 128);
-static const uint kBlock = 16;  // places in a dispatch that run together
+static const uint kBlock = 16;  // side of a block of pixels that a dispatch runs together
 static const uint kBins = 256;
 static const uint kThreads = 16;
 static const uint kPixelsOfThread = 512;  // kTile.x * kTile.y / kThreads
@@ -15,16 +15,16 @@ RWStructuredBuffer<uint> pixels_sorted : register(u0, space3);
 struct SortConstants {
   uint width;
   uint height;
-  uint shift;  // of the key's eight bits
-  uint first;  // 1: no pass went before this one
+  uint shift;  // lowest of the key's eight bits
+  uint first;  // 1: first pass, so pixels_before is empty
 };
 ConstantBuffer<SortConstants> constants : register(b0, space3);
 
 groupshared uint g_counts[kBins * kThreads];  // by bin, then by thread
 groupshared uint g_sums[kThreads];
 
-// Place `slot` of a tile of `size`: blocks of kBlock x kBlock one after the other, so that what
-// follows in order is close in a dispatch too.
+// Pixel of place `slot` in a tile of `size`. Places fill one block of kBlock x kBlock after
+// another, so that neighbours in the order are neighbours in a dispatch too.
 uint2 PlaceInTile(uint slot, uint2 size) {
   const uint strip = slot / (kBlock * size.x);
   const uint in_strip = slot - strip * kBlock * size.x;
@@ -53,7 +53,7 @@ void SortRays(uint3 group : SV_GroupID, uint thread : SV_GroupIndex) {
   }
   GroupMemoryBarrierWithGroupSync();
 
-  // Where each thread's pixels of each bin begin.
+  // Prefix sum: where each thread's pixels of each bin begin.
   const uint run = kBins;  // counts per thread
   uint sum = 0;
   for (uint i = 0; i < run; ++i) {

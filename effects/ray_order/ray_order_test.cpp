@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorted rays give the picture that unsorted ones give, and they are sorted.
+// Sorting rays does not change the picture, and the rays really are sorted.
 #include "effects/ray_order/ray_order.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@
 namespace kaamos::effects {
 namespace {
 
-// Neither tiles nor blocks fit: 2 x 2 tiles, the last ones cut.
+// No multiple of a tile or block: 2 x 2 tiles, the last ones cut off.
 constexpr std::uint32_t kWidth = 91;
 constexpr std::uint32_t kHeight = 139;
 
@@ -58,8 +58,8 @@ struct Bench {
     queue.ExecuteAndWait(list).value();
   }
 
-  // What two samples of the pass give in two bands of rows. `constants`: of a pass that writes u0
-  // of space3; null: `of_frame` is what it writes.
+  // Two samples of the pass, in two bands of rows. `constants` is for a pass that writes u0 of
+  // space3; if it is null, the pass writes `of_frame`.
   template <class Constants>
   FloatImage run(const RayPassDesc& desc, const Constants* constants, FrameTexture of_frame,
                  RayOrder order, const RaySorter& sorter) {
@@ -151,7 +151,7 @@ TEST(RayOrder, CheckedModeFindsNothing) {
   for (const std::string& text : told) ADD_FAILURE() << text;
 }
 
-// The order that a sort made of keys: `words` are what it sorts by, one per pixel.
+// The order that sorting by `words`, one per pixel, results in.
 std::vector<std::uint32_t> sorted_pixels(Bench& bench, const std::vector<std::uint32_t>& words,
                                          RayOrder order) {
   const RaySorter sorter =
@@ -172,7 +172,7 @@ std::vector<std::uint32_t> sorted_pixels(Bench& bench, const std::vector<std::ui
   return pixels;
 }
 
-// Of the pixels of a tile, in the order in which blocks of 16 x 16 places run.
+// The pixels of one tile, in the order in which its blocks of 16 x 16 places run.
 std::vector<std::uint32_t> in_tile(const std::vector<std::uint32_t>& pixels, std::uint32_t left,
                                    std::uint32_t top) {
   const std::uint32_t right = std::min(left + 64, kWidth);

@@ -20,7 +20,7 @@ RayPassDesc reflections_pass(rtapi::ShaderLibrary library) {
   desc.hit[kRayTypeSurface] = {"ReflectionAnyHit", "ReflectionClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
   desc.payload_bytes = 16;
-  desc.max_recursion_depth = 2;  // the sun's ray at a hit
+  desc.max_recursion_depth = 2;  // a hit traces a shadow ray to the sun
   return desc;
 }
 

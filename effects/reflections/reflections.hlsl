@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT
-// Opaque reflections: one ray per sample in a direction that GGX's facets as seen by the camera
-// choose, shaded where it hits. [effects-spec B4.10; Control]
+// Opaque reflections: one ray per sample, in a direction drawn from the GGX facets that the camera
+// sees, shaded where it hits. [effects-spec B4.10; Control]
 #include "hit_indirect.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
-// Sums over the samples: radiance over the specular albedo, and the ray's length (0: no ray).
+// Sums over samples: radiance / specular albedo, and the length of the ray (0: no ray).
 RWTexture2D<float4> reflection : register(u0, space3);
 
 struct ReflectionConstants {
-  float longest;        // metres, of a mirror's rays
-  float shortest;       // metres, of a rough surface's
-  float length_jitter;  // part of the length that varies from ray to ray
-  float firefly_limit;  // luminance that a sample is clamped to; 0: none
+  float longest;        // metres, for a mirror
+  float shortest;       // metres, for a rough surface
+  float length_jitter;  // fraction of the length that varies from ray to ray
+  float firefly_limit;  // samples are clamped to this luminance; 0: no clamping
   uint sun_at_hits;     // 1: a shadow ray per hit
-  uint single_length;   // 1: `longest` for all, for reference
+  uint single_length;   // 1: `longest` for all rays, as a reference
 };
 ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
 static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
-// From here on reflections are noise that is filtered, and one cell of the volume a ray adds little to
-// it; a mirror's picture would show it. Between two values of 8 bits (53.55 of 255), as g_material holds
-// them, so that rounding never decides.
+// Above this roughness reflections are noisy and filtered anyway, so reading a single cell of the
+// volume per ray adds little noise. In a mirror it would show. The value lies between two of the
+// 8-bit values in g_material (53.55 of 255), so rounding never decides.
 static const float kNoisyRoughness = 0.21;
 
 struct ReflectionPayload {
   float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;  // of the hit, metres; negative: none
+  float distance;  // of the hit, metres; negative: a miss
 };
 
 [shader("miss")]
 void ReflectionMiss(inout ReflectionPayload payload) {
-  // Where the ray ends, not where it would have hit: the volume knows what comes from there on.
+  // At the end of the ray: the volume holds the light that arrives from beyond.
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
   payload.radiance = VolumeRadiance(end, payload.radiance, WorldRayDirection());
   payload.distance = -1.0;
@@ -53,7 +53,7 @@ void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleInt
   payload.distance = RayTCurrent();
 }
 
-// The rays alone, nothing of what they meet: what a shader costs is measured against this.
+// Traces the rays without any shading, to measure what shading costs.
 [shader("miss")]
 void ReflectionTraceMiss(inout ReflectionPayload payload) {
   payload.distance = -1.0;
@@ -64,7 +64,8 @@ void ReflectionTraceHit(inout ReflectionPayload payload, in BuiltInTriangleInter
   payload.distance = RayTCurrent();
 }
 
-// Rough surfaces see far things as a blur that the fallback gives too. [Control: 200 m to 3 m]
+// Rough surfaces blur what is far away, and the volume gives such a blur too, so their rays can be
+// shorter. [Control: 200 m to 3 m]
 float ReflectionLength(float roughness, float u) {
   const float longest = Contain(constants.longest, kLongestRay);
   if (constants.single_length != 0 || longest == 0.0) return longest;
@@ -73,7 +74,7 @@ float ReflectionLength(float roughness, float u) {
   return length * (1.0 - Contain(constants.length_jitter, 1.0) * u);
 }
 
-// What a pixel's rays have in common.
+// What the rays of a pixel have in common.
 struct ReflectionPoint {
   float3 origin;
   float3 normal;
@@ -98,7 +99,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   return point;
 }
 
-// In the surface's frame.
+// In the surface's own frame, about +Z.
 float3 SampleHalfVector(ReflectionPoint point, float2 u) {
   if (point.roughness <= kMirrorRoughness) return float3(0, 0, 1);
   return SampleGgxHalfVector(u, point.local_view, point.brdf.alpha);
@@ -126,7 +127,7 @@ void ReflectionRayGen() {
     const float3 weight = GgxSampleWeight(point.brdf, point.cosine_view, local_light.z,
                                           dot(point.local_view, half_vector));
     const float3 direction = ToWorld(local_light, point.shading_normal);
-    // Under the surface, the true one or the bent one: no light comes from there.
+    // Below the surface, either the geometric or the normal-mapped one, there is no light.
     if (!(local_light.z > 0.0) || !(dot(direction, point.normal) > 0.0)) continue;
     const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, frame.seed);
     RayDesc ray;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reflections against answers that are known.
+// Reflections against known answers.
 #include "effects/reflections/reflections.h"
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::uint32_t kSize = 16;
 
-// A plane alone, of metal that reflects everything, under a sky of 1 everywhere; the camera looks
-// at it at `angle` from its normal, through a narrow field so that every pixel has that angle.
+// A lone plane of perfectly reflecting metal under a sky of 1. The camera looks at it at `angle`
+// from its normal, through a field so narrow that the angle holds for every pixel.
 Scene furnace(double angle, float alpha) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.instances.resize(1);
@@ -79,7 +79,7 @@ Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionCon
   return out;
 }
 
-// SpecularAlbedo of brdf.hlsli for f0 = 1: what the picture was divided by.
+// SpecularAlbedo of brdf.hlsli for f0 = 1, by which the picture was divided.
 double albedo_of_white(double roughness, double cosine) {
   const double r[4] = {1 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness,
                        -0.04 + 0.022 * roughness};
@@ -87,8 +87,8 @@ double albedo_of_white(double roughness, double cosine) {
   return (-1.04 * a + r[2]) + (1.04 * a + r[3]);
 }
 
-// Single scattering loses light that facets send on to other facets: known from quadrature.
-// [effects-spec B0.4]
+// Single scattering loses the light that microfacets reflect onto others. The exact loss is known
+// from quadrature. [effects-spec B0.4]
 TEST(Reflections, WhiteFurnace) {
   struct {
     float alpha;
@@ -129,7 +129,7 @@ TEST(Reflections, MirrorsHitWhereTheyMust) {
       const glm::dvec3 to_center = glm::dvec3(0, 1.5, 0) - p;
       const double along = glm::dot(to_center, direction);
       const double aside = glm::length(to_center - along * direction);
-      if (std::abs(aside - 1) < 0.02) continue;  // a sphere of triangles
+      if (std::abs(aside - 1) < 0.02) continue;  // the sphere consists of triangles
       const double expected = aside < 1 ? along - std::sqrt(1 - aside * aside) : 200;
       ASSERT_NEAR(result.sum.at(x, y, 3), expected, aside < 1 ? 0.05 : 45) << x << "," << y;
       hits += aside < 1;
@@ -138,8 +138,8 @@ TEST(Reflections, MirrorsHitWhereTheyMust) {
   EXPECT_GT(hits, 3);
 }
 
-// A white mirror sees a white metal ball under a sky of 1: it sends back what it gets, and is as
-// bright as the sky beside it. The volume, which has nothing stored here, gives the sky.
+// A white mirror shows a white metal ball under a sky of 1. The ball reflects all it receives, so
+// it is as bright as the sky beside it. The volume stores nothing here and returns the sky.
 TEST(Reflections, MirrorsInMirrorsAreNotBlack) {
   Scene scene = furnace(0, 0);
   scene.instances = make_sphere_oracle(1.0, 1.5).instances;
@@ -150,14 +150,15 @@ TEST(Reflections, MirrorsInMirrorsAreNotBlack) {
     for (std::uint32_t x = 0; x < kSize; ++x) {
       if (result.ids.at(x, y, 0) != 1.0f) continue;  // the plane
       for (std::uint32_t c = 0; c < 3; ++c) EXPECT_NEAR(result.sum.at(x, y, c), 1, 0.05);
-      hits += result.sum.at(x, y, 3) < 100;  // the ball, not the end of a ray
+      hits += result.sum.at(x, y, 3) < 100;  // rays that hit the ball rather than end
     }
   }
   EXPECT_GT(hits, 3);
 }
 
-// A ball whose shining checks are smaller than a pixel far away, seen in a mirror beside it: they
-// are one grey there, since the pixel's cone comes from the camera and not from the mirror.
+// A ball with bright checks that are smaller than a pixel at that distance, seen in a mirror beside
+// it. They must average to one grey, because the pixel's cone starts at the camera, not at the
+// mirror.
 TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(0.0f);
@@ -173,12 +174,12 @@ TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
   scene.materials.push_back(ball);
   Mesh& mesh = scene.meshes[scene.instances[1].mesh];
   for (Geometry& geometry : mesh.geometries) geometry.material = 1;
-  for (Vertex& vertex : mesh.vertices) {  // 8 mm a texel
+  for (Vertex& vertex : mesh.vertices) {  // 8 mm per texel
     vertex.uv = glm::vec2(vertex.position.x, vertex.position.z) * 2.0f;
   }
   Camera& camera = scene.cameras.front();
   camera.camera_to_world = look_at(glm::dvec3(41.5, 40, 0), glm::dvec3(1.5, 0, 0));
-  camera.vertical_fov = 0.01;  // 36 mm a pixel, at the mirror; from there to the ball 1 mm more
+  camera.vertical_fov = 0.01;  // 36 mm per pixel at the mirror; at the ball 1 mm more
   const Reflected result = reflect(scene, 1, {});
   for (std::uint32_t i = 0; i < kSize; ++i) {
     ASSERT_LT(result.sum.at(i, i, 3), 5) << "the ball must be hit";
@@ -186,7 +187,7 @@ TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
   }
 }
 
-// The clamp takes energy and nothing else; the picture says how much.
+// Clamping removes energy and does nothing else; the picture shows how much.
 TEST(Reflections, TheFireflyLimitOnlyDarkens) {
   Scene scene = furnace(0.5, 0.5f);
   scene.sky.zenith = glm::vec3(8.0f);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What moves in a scene: a hierarchy of nodes, skins whose joints are nodes, and animations of the
-// nodes' translations, rotations and scales. The host evaluates poses; vertices are deformed on the
-// device. [glTF 2.0: Skins, Animations]
+// nodes' translation, rotation and scale. The host evaluates poses; the device deforms the
+// vertices. [glTF 2.0: Skins, Animations]
 #pragma once
 
 #include <cstdint>

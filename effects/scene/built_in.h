@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes made by code, by the names that programs take.
+// The scenes made by code, by the names that programs accept.
 #pragma once
 
 #include <span>

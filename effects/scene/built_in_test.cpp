@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes made by code: valid, named, and closed where they say so.
+// Scenes made by code are valid, have names, and are closed where they claim to be.
 #include "effects/scene/built_in.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(BuiltInScenes, AreValidAndFoundByName) {
 
 using Point = std::tuple<float, float, float>;
 
-// Edges that not exactly two triangles share, one in each direction.
+// Number of edges that are not shared by exactly two triangles, one in each direction.
 int open_edges(const Mesh& mesh) {
   std::map<std::pair<Point, Point>, int> edges;
   for (const Geometry& geometry : mesh.geometries) {
@@ -51,7 +51,7 @@ int open_edges(const Mesh& mesh) {
   return open;
 }
 
-// The shell's only open edges are its two feet, which stand below the floor.
+// The only open edges of the shell are its two feet, which are below the floor.
 TEST(ThinDome, ShellIsClosedButForItsFeet) {
   for (const bool sealed : {false, true}) {
     for (const double thickness : {0.0005, 0.005, 0.05}) {

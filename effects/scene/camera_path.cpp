@@ -11,12 +11,12 @@
 namespace kaamos::effects {
 namespace {
 
-constexpr double kSeconds = 2.0;  // of the built-in paths
+constexpr double kSeconds = 2.0;  // length of the built-in paths
 constexpr int kOrbitKeys = 9;
 constexpr double kLargest = 1e9;  // metres, seconds
 
-// What the camera looks at: the point of its axis nearest to the middle of the scene, or a step
-// ahead where that lies behind it.
+// Distance to what the camera looks at: to the point on its axis closest to the centre of the
+// scene, or a step ahead if that point is behind the camera.
 double distance_to_subject(const Scene& scene, const Camera& camera) {
   const Bounds bounds = scene_bounds(scene);
   if (bounds.empty()) return 1.0;
@@ -49,7 +49,7 @@ std::vector<CameraKey> orbit(const Scene& scene, const Camera& camera) {
   std::vector<CameraKey> out;
   for (int i = 0; i < kOrbitKeys; ++i) {
     const double part = static_cast<double>(i) / (kOrbitKeys - 1);
-    // In the lounge towards the table as well: the room has walls.
+    // In the lounge, also move towards the table, because the room has walls.
     const double angle = (lounge ? 0.35 : 0.6) * part;
     const double nearer = lounge ? 1.0 - 0.3 * part : 1.0;
     const glm::dvec3 from = eye - target;
@@ -77,7 +77,7 @@ bool parse_number(std::string_view text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::abs(value) <= kLargest;
 }
 
-// The text of what is wrong, or nothing.
+// Returns what is wrong with the words, or an empty text.
 std::string parse_key(const std::vector<std::string_view>& words, CameraKey& key) {
   double numbers[7];
   if (words.size() < std::size(numbers)) {
@@ -108,8 +108,8 @@ std::string parse_key(const std::vector<std::string_view>& words, CameraKey& key
   return {};
 }
 
-// A cubic curve through b and c whose slope at each is that between its neighbours; a and d stand
-// for b and c where there is none. [Catmull & Rom 1974, times not evenly spaced]
+// A cubic curve through b and c, whose slope at each is that between its neighbours. Where there is
+// no neighbour, a equals b and d equals c. [Catmull & Rom 1974, with uneven times]
 template <class T>
 T curve(const T& a, const T& b, const T& c, const T& d, const double (&t)[4], double at) {
   const double h = t[2] - t[1], u = (at - t[1]) / h;
@@ -195,7 +195,7 @@ Camera evaluate_camera(const CameraPath& path, const Camera& scene_camera, doubl
   const glm::dvec3 eye = at([](const CameraKey& k) { return k.eye; });
   const glm::dvec3 target = at([](const CameraKey& k) { return k.target; });
   camera.vertical_fov = std::clamp(at(fov), 1e-3, glm::pi<double>() - 1e-3);
-  // Curves may meet where their keys do not.
+  // The two curves may cross where their keys do not.
   if (eye != target) camera.camera_to_world = look_at(eye, target);
   return camera;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a camera moves: positions at certain times, and smooth curves between them.
+// Camera paths: positions at certain times, joined by smooth curves.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -68,7 +68,7 @@ TEST(CameraPath, FilesAreRead) {
   EXPECT_LT(glm::length(at(1.5).position() - glm::dvec3(3, 1, 5)), 0.2);
   EXPECT_NEAR(at(2).vertical_fov, std::acos(0.0), 1e-12);
   EXPECT_NEAR(at(1).vertical_fov, 0.5, 1e-12);
-  // Before the cut it stands, then it is elsewhere.
+  // The camera stands still before the cut and is elsewhere after it.
   EXPECT_LT(glm::length(at(2.9).position() - glm::dvec3(4, 1, 5)), 1e-12);
   EXPECT_LT(glm::length(at(3.5).position() - glm::dvec3(0, 3.5, 0)), 1e-12);
   EXPECT_NEAR(at(3.5).forward().z, 1, 1e-12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A texture for tests of levels of detail: black and white texels in turn, whose mean is grey.
+// A texture for tests of levels of detail: alternating black and white texels, whose mean is grey.
 #pragma once
 
 #include "effects/scene/texture_image.h"

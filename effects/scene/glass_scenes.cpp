@@ -40,7 +40,7 @@ void add(Scene& scene, std::string name, Shape shape, std::uint32_t material,
   scene.instances.push_back(std::move(instance));
 }
 
-// About the origin, its front towards +z at z = 0.
+// Centred at the origin; the front faces +z at z = 0.
 Shape pane_shape(double half_width, double half_height, double thickness) {
   if (thickness > 0.0) {
     Shape shape;
@@ -77,7 +77,7 @@ glm::vec3 hue(double h) {
   return {channel(0.0), channel(-1.0 / 3), channel(1.0 / 3)};
 }
 
-// Six walls of glass, two shelves of glass, and balls on them.
+// Six walls and two shelves of glass, with balls on the shelves.
 void add_cabinet(Scene& scene, const glm::dvec3& at) {
   const std::uint32_t glass = add_material(scene, "cabinet glass", {0.7f, 0.8f, 0.75f, 0.12f}, 0);
   scene.materials[glass].constants.flags |= kMaterialDoubleSided;
@@ -122,7 +122,7 @@ void add_stack(Scene& scene, const GlassStackDesc& desc) {
         add_material(scene, "pane " + std::to_string(i),
                      glm::vec4(hue(part * 0.8), static_cast<float>(0.1 + 0.8 * part)), 0.0f);
     if (desc.thick) scene.materials[glass].constants.flags |= kMaterialDoubleSided;
-    // In a row, each higher than the one before it; or crossed about one vertical axis.
+    // Either in a row, each pane higher than the one before, or crossed about one vertical axis.
     glm::dmat4 place = translate({-1.2 + 0.12 * i, 0.5 + 0.06 * i, 1.0 - 0.28 * i});
     if (desc.crossed) {
       place = translate({-0.8, 0.7, 0.0}) *
@@ -150,7 +150,7 @@ Scene make_pane_oracle(std::span<const Pane> panes, const glm::vec3& background)
     MaterialConstants& glass = scene.materials[id].constants;
     glass.emissive = pane.emissive;
     glass.flags = kMaterialBlend | (pane.double_sided ? kMaterialDoubleSided : 0u);
-    // Wider than the view, at each distance.
+    // At any distance wider than the view.
     const double half = 2.0 * pane.distance;
     add(scene, name, pane_shape(half, half, pane.thickness), id,
         translate({0, 0, -pane.distance}) * rotate_y(pane.turned));
@@ -176,7 +176,7 @@ Scene make_glass_stack(const GlassStackDesc& desc) {
     add(scene, "prop " + std::to_string(i), box({0.15, 0.2 + 0.12 * i, 0.15}), paint,
         translate({-1.9 + 0.55 * i, 0.2 + 0.12 * i, -2.2}) * rotate_y(0.4 * i));
   }
-  // Behind the camera: seen in the glass only.
+  // Behind the camera, so that only the glass shows it.
   const std::uint32_t lit = add_material(scene, "sign", {0.1f, 0.1f, 0.1f, 1.0f}, 0.9f);
   scene.materials[lit].constants.emissive = glm::vec3(12.0f, 4.0f, 1.0f);
   add(scene, "sign", box({0.6, 0.25, 0.05}), lit, translate({-1.8, 0.8, 6.0}));

@@ -47,7 +47,7 @@ TEST(MirrorHall, IsValidAndHasItsStrip) {
     ++strips;
   }
   EXPECT_EQ(strips, kMirrorHallSteps);
-  // The props behind the camera and above the picture are outside its view.
+  // The props behind the camera and above the picture must be out of its view.
   const Camera& camera = scene.cameras.front();
   const glm::dmat4 to_camera = glm::inverse(camera.camera_to_world);
   int hidden = 0;
@@ -100,7 +100,7 @@ TEST(MaterialOverride, SaysWhatIsWrong) {
   EXPECT_NE(missing.error().find("\"pane 0\""), std::string::npos) << missing.error();
 }
 
-// A mesh that is glass in part is taken apart; opaque again, its instances are too.
+// A mesh that becomes glass in part is split; instances that are opaque again lose the glass mask.
 TEST(MaterialOverride, MakesGlass) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   Material lens = scene.materials[0];

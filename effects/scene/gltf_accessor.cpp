@@ -10,9 +10,9 @@
 namespace kaamos::effects {
 namespace {
 
-/// A checked run of elements in a buffer: reading element i < count stays inside.
+/// A checked range of elements in a buffer: reading any element i < count stays inside.
 struct ElementView {
-  const std::uint8_t* data = nullptr;  ///< null: all elements are zero
+  const std::uint8_t* data = nullptr;  ///< null if all elements are zero
   std::size_t stride = 0;
   std::size_t count = 0;
   int component_type = 0;
@@ -96,8 +96,8 @@ Status fail(const std::string& where, const std::string& what) {
   return Status::failure(where + ": " + what);
 }
 
-/// Checks that `view.count` elements from `offset` on lie in the buffer view and points view.data
-/// at the first.
+/// Checks that `view.count` elements from `offset` lie in the buffer view, and points view.data at
+/// the first.
 Status place(const tinygltf::Model& model, int buffer_view, std::size_t offset,
              const std::string& where, ElementView& view) {
   const Result<std::span<const std::uint8_t>> bytes = buffer_view_bytes(model, buffer_view, where);
@@ -139,7 +139,7 @@ Status locate(const tinygltf::Model& model, int id, const std::string& where, El
   return place(model, a.bufferView, a.byteOffset, where, view);
 }
 
-/// Replaces the elements that a sparse accessor names. `store(index, pointer to the value)`.
+/// Replaces the elements that a sparse accessor lists. Calls `store(index, pointer to the value)`.
 template <class Store>
 Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
                     const ElementView& base, const std::string& where, Store store) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Typed reads of a glTF file's buffers. Every read is checked against the size of its buffer view
-// and buffer before a byte is touched, because files are input and input may be broken.
+// Typed reads from the buffers of a glTF file. Files may be broken, so every read is checked
+// against the size of its buffer view and buffer before a byte is touched.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ class Model;
 
 namespace kaamos::effects {
 
-/// Most elements that an accessor may have.
+/// Largest number of elements in an accessor.
 inline constexpr std::size_t kMaxAccessorElements = std::size_t{1} << 27;
-/// The same for one without a buffer view: it is all zeros, so a file of 200 bytes could ask for
-/// any amount of memory.
+/// The limit for an accessor without a buffer view. Its elements are all zero, so without a limit a
+/// file of 200 bytes could request any amount of memory.
 inline constexpr std::size_t kMaxZeroElements = std::size_t{1} << 22;
 
 /// Elements of an accessor as floats, `components` per element. Integers are converted, normalised
@@ -38,7 +38,7 @@ Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, in
 Result<std::span<const std::uint8_t>> buffer_view_bytes(const tinygltf::Model& model, int view,
                                                         const std::string& where);
 
-/// Components of an accessor's type: 1 for SCALAR .. 16 for MAT4; 0 where the id is out of range.
+/// Components of an accessor's type: 1 for SCALAR .. 16 for MAT4; 0 if the id is out of range.
 std::uint32_t accessor_components(const tinygltf::Model& model, int accessor);
 
 }  // namespace kaamos::effects

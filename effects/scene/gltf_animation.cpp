@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Animations of a glTF file. [glTF 2.0: Animations]
+// Reads the animations of a glTF file. [glTF 2.0: Animations]
 #include <algorithm>
 
 #include "effects/scene/gltf_accessor.h"
@@ -21,7 +21,7 @@ bool path_of(const std::string& name, ChannelPath& path) {
   return true;
 }
 
-/// Also the rules that evaluate_nodes relies on.
+/// Also checks what evaluate_nodes relies on.
 Status read_sampler(const GltfReader& reader, const tinygltf::AnimationSampler& sampler,
                     const std::string& where, Channel& channel) {
   channel.interpolation = sampler.interpolation == "STEP"          ? Interpolation::kStep
@@ -57,12 +57,12 @@ Status read_animation(GltfReader& reader, const tinygltf::Animation& from, const
                   "\" is none of translation, rotation and scale and is left out");
       continue;
     }
-    if (part.target_node < 0) continue;  // nothing, or of an extension
+    if (part.target_node < 0) continue;  // no target, or one of an extension
     const std::size_t node = static_cast<std::size_t>(part.target_node);
     if (node >= reader.node_ids.size())
       return Status::failure(place + ": names node " + std::to_string(node) + " of " +
                              std::to_string(reader.node_ids.size()));
-    if (reader.node_ids[node] == kNoIndex) continue;  // of a scene that is not shown
+    if (reader.node_ids[node] == kNoIndex) continue;  // in a scene that is not shown
     channel.node = static_cast<std::uint32_t>(reader.node_ids[node]);
     if (part.sampler < 0 || static_cast<std::size_t>(part.sampler) >= from.samplers.size())
       return Status::failure(place + ": names sampler " + std::to_string(part.sampler) + " of " +

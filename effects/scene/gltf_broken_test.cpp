@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Broken files: the error says what and where, and nothing crashes.
+// Broken files: the error says what is wrong and where, and nothing crashes.
 #include <gtest/gtest.h>
 
 #include "effects/common/sampling.h"

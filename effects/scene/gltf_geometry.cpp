@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meshes of a glTF file: one mesh with one geometry per primitive.
+// Reads the meshes of a glTF file: one mesh with one geometry per primitive.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace kaamos::effects {
 namespace {
 
-/// Triangles of one primitive, before they become a geometry.
+/// The triangles of one primitive, before they become a geometry.
 struct Piece {
   std::vector<Vertex> vertices;
   std::vector<SkinVertex> skin;  // empty, or one per vertex
@@ -31,7 +31,7 @@ Status count_error(const std::string& where, const char* name, std::size_t actua
                          " elements, POSITION has " + std::to_string(expected));
 }
 
-/// Reads an optional attribute. `values` stays empty where the primitive has none.
+/// Reads an optional attribute. `values` stays empty if the primitive does not have it.
 Status optional_attribute(const GltfReader& reader, const tinygltf::Primitive& primitive,
                           const char* name, std::uint32_t components, std::size_t count,
                           const std::string& where, std::vector<float>& values) {
@@ -100,7 +100,7 @@ Status read_vertices(const GltfReader& reader, const tinygltf::Primitive& primit
   return {};
 }
 
-/// Indices of a triangle list, from a list, a strip or a fan. [glTF 2.0: primitive.mode]
+/// Converts a list, strip or fan to the indices of a triangle list. [glTF 2.0: primitive.mode]
 std::vector<std::uint32_t> as_list(const std::vector<std::uint32_t>& in, int mode) {
   std::vector<std::uint32_t> out;
   if (mode == TINYGLTF_MODE_TRIANGLES) {
@@ -109,7 +109,7 @@ std::vector<std::uint32_t> as_list(const std::vector<std::uint32_t>& in, int mod
   }
   for (std::size_t i = 0; i + 2 < in.size(); ++i) {
     if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-      // Every second triangle of a strip turns; its last two corners change places.
+      // Every second triangle of a strip is reversed, so its last two corners are swapped.
       out.insert(out.end(), {in[i], in[i + 1 + i % 2], in[i + 2 - i % 2]});
     } else {
       out.insert(out.end(), {in[i + 1], in[i + 2], in[0]});
@@ -141,7 +141,7 @@ Status read_triangles(const GltfReader& reader, const tinygltf::Primitive& primi
 
 Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& primitive,
                         const std::string& where, Piece& piece) {
-  // The default material stands after those of the file.
+  // The default material comes after the file's materials.
   const std::size_t count = reader.model.materials.size();
   if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= count)
     return Status::failure(where + ": names material " + std::to_string(primitive.material) +
@@ -173,7 +173,7 @@ bool is_triangles(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// Weighted joints of each vertex, applied in place. [glTF 2.0: Skins]
+/// Applies the weighted joints to each vertex in place. [glTF 2.0: Skins]
 Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
             const std::vector<glm::dmat4>& joints, const std::string& where, Piece& piece) {
   std::vector<float> ids, weights;
@@ -213,8 +213,8 @@ Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
   return {};
 }
 
-/// Joints and weights as they are; weights are made to sum to 1. Vertices without any go with the
-/// first joint.
+/// Reads joints and weights, and scales the weights to a sum of 1. Vertices without weights follow
+/// the first joint.
 Status read_skin(const GltfReader& reader, const tinygltf::Primitive& primitive,
                  const std::string& where, Piece& piece) {
   std::vector<float> ids, weights;
@@ -268,7 +268,7 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
     if (!status.ok()) return status;
     if (!piece.indices.empty()) finish(reader.scene, piece, mesh);
   }
-  if (mesh.skin.size() != mesh.vertices.size()) mesh.skin.clear();  // not all pieces have one
+  if (mesh.skin.size() != mesh.vertices.size()) mesh.skin.clear();  // some pieces have none
   return mesh;
 }
 

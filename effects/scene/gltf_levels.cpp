@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Levels of detail of a glTF node. [MSFT_lod]
+// Reads the levels of detail of a glTF node. [MSFT_lod]
 #include <algorithm>
 #include <string>
 
@@ -14,8 +14,8 @@ bool same_place(const tinygltf::Node& a, const tinygltf::Node& b) {
          a.scale == b.scale;
 }
 
-// One number per level, each from 0 to 1 and none above the one before; empty where the file has
-// none that can be used. A last number, below which nothing would be shown, is not read.
+// One number per level, from 0 to 1 and none larger than the one before; empty if the file has no
+// usable ones. A last number, below which nothing would be shown, is ignored.
 std::vector<float> coverages(GltfReader& reader, const tinygltf::Node& node,
                              const std::string& where, std::size_t levels) {
   if (!node.extras.IsObject() || !node.extras.Has("MSFT_screencoverage")) return {};

@@ -19,12 +19,12 @@ constexpr std::array<std::string_view, 5> kKnownExtensions = {
     "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_emissive_strength",
     "KHR_mesh_quantization", "MSFT_lod"};
 
-/// Depth of nested arrays and objects that is read: far more than glTF has, and little enough for
-/// the parser's recursion over extensions.
+/// How deep arrays and objects may nest: far deeper than glTF needs, and shallow enough for the
+/// parser, which recurses over extensions.
 constexpr int kMaxJsonDepth = 128;
 
-/// Keeps the encoded bytes of images that come by URI, undecoded. For those in a buffer view
-/// nothing is touched: the pointer handed in there is not checked against the buffer.
+/// Keeps the encoded bytes of images that come by URI, and decodes nothing. It does not touch
+/// images in buffer views, because their pointer is not checked against the buffer.
 bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
                   const unsigned char* bytes, int size, void* user) {
   auto& kept = *static_cast<std::vector<std::vector<std::uint8_t>>*>(user);
@@ -40,7 +40,7 @@ bool is_glb(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-/// True where no array or object stands deeper than kMaxJsonDepth.
+/// True if no array or object is nested deeper than kMaxJsonDepth.
 bool shallow(std::string_view json) {
   int depth = 0;
   bool in_string = false;
@@ -66,7 +66,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// The JSON text of a file: all of a .gltf, the first chunk of a .glb.
+/// The JSON text of a file: all of a .gltf, or the first chunk of a .glb.
 Result<std::string_view> json_text(std::span<const std::uint8_t> bytes) {
   const auto view = [&](std::size_t offset, std::size_t size) {
     return std::string_view(reinterpret_cast<const char*>(bytes.data()) + offset, size);
@@ -102,8 +102,8 @@ Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tin
   std::string error, warning;
   bool parsed = false;
   if (is_glb(bytes)) {
-    // The binary chunk's check in tinygltf 2.7 leaves out the chunk header's 8 bytes, so a cut file
-    // is read that far past its end.
+    // tinygltf 2.7 forgets the 8 bytes of the chunk header when it checks the binary chunk, so it
+    // reads that far past the end of a truncated file. Padding keeps the read inside.
     std::vector<std::uint8_t> padded(bytes.begin(), bytes.end());
     padded.resize(bytes.size() + 16, 0);
     parsed = loader.LoadBinaryFromMemory(&model, &error, &warning, padded.data(),
@@ -130,7 +130,7 @@ float luminance(const glm::vec3& c) {
   return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-/// Sun, sky, camera and exposure where the file says nothing of them.
+/// Adds sun, sky, camera and exposure where the file has none.
 void complete(Scene& scene) {
   const auto sun = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
     return light.type == LightType::kDirectional && light.intensity > 0.0f &&
@@ -141,7 +141,8 @@ void complete(Scene& scene) {
   if (sun != scene.lights.end()) {
     scene.sun->direction_to_sun = -sun->direction;
     scene.sun->irradiance = sun->color * sun->intensity;
-    // Files give lux or any other unit: the sky follows the sun, and the exposure takes both back.
+    // Files use lux or any other unit, so the sky is scaled with the sun and the exposure takes
+    // both back.
     const float scale = luminance(scene.sun->irradiance) / luminance(default_sun().irradiance);
     scene.sky.zenith *= scale;
     scene.sky.horizon *= scale;
@@ -152,8 +153,8 @@ void complete(Scene& scene) {
   if (scene.cameras.empty()) scene.cameras.push_back(default_camera(scene));
 }
 
-/// Drops meshes that no instance shows: those of other scenes of the file, and the bind poses of
-/// skinned ones.
+/// Drops meshes that no instance shows: those of other scenes in the file, and bind poses of
+/// skinned meshes.
 void drop_unused_meshes(Scene& scene) {
   std::vector<std::uint32_t> new_id(scene.meshes.size(), 0);
   std::vector<bool> used(scene.meshes.size(), false);
@@ -218,7 +219,7 @@ Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const 
   const auto failed = [&](const std::string& text) {
     return Status::failure("cannot load \"" + name + "\": " + text);
   };
-  // The parser throws on JSON of the wrong kind and when memory runs out.
+  // The parser throws if the JSON has the wrong types, and if memory runs out.
   try {
     Result<LoadedScene> loaded = load(bytes, name, folder, options);
     if (!loaded.ok()) return failed(loaded.error());

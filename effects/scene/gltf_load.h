@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0 files (.gltf with its parts, .glb) as scenes.
+// Loads glTF 2.0 files (.gltf with its parts, or .glb) as scenes.
 //
-// Read: triangle lists, strips and fans, indexed or not, with every component type, normalised and
-// sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
-// KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; skins in the pose of
-// the file, or, where it is asked for, skins and animations as they are. What is left out (points,
-// lines, morph targets, vertex colours) is named in the warnings.
+// It reads triangle lists, strips and fans, indexed or not, with every component type, normalised
+// and sparse; node hierarchies; metallic-roughness materials with KHR_texture_transform and
+// KHR_materials_emissive_strength; KHR_lights_punctual; perspective cameras; and skins, either in
+// the pose of the file or, on request, as skins and animations. Whatever it ignores (points, lines,
+// morph targets, vertex colours) is named in the warnings.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samplers, pictures and materials of a glTF file.
+// Reads the samplers, pictures and materials of a glTF file.
 #include <stb/stb_image.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace kaamos::effects {
 namespace {
 
-/// Largest side of a picture: what GPUs of today take, and a bound on what a broken header can ask.
+/// Largest side of a picture. Current GPUs take as much, and it bounds what a broken header can
+/// request.
 constexpr int kMaxImageSide = 16384;
 
 Wrap wrap_of(int mode) {
@@ -159,7 +160,8 @@ Result<std::int32_t> MaterialReader::image(int source, bool srgb, const std::str
   return image_ids_[key] = static_cast<std::int32_t>(reader_.scene.images.size() - 1);
 }
 
-/// The extension may name another set than the texture itself. [KHR_texture_transform: texCoord]
+/// The extension may select another UV set than the texture itself. [KHR_texture_transform:
+/// texCoord]
 int MaterialReader::tex_coord_of(const TextureUse& use) {
   const auto found = use.extensions.find("KHR_texture_transform");
   if (found == use.extensions.end() || !found->second.IsObject()) return use.tex_coord;
@@ -274,8 +276,8 @@ Status MaterialReader::run() {
   }
   Material fallback;
   fallback.name = "default";
-  // glTF's default material is fully metallic; under a sky that shows as black, so what has no
-  // material is shown as plain white plaster.
+  // glTF's default material is fully metallic and would look black under a sky, so geometry without
+  // a material is shown as white plaster.
   fallback.constants.base_color = glm::vec4(0.8f, 0.8f, 0.8f, 1.0f);
   reader_.scene.materials.push_back(fallback);
   make_mips();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The node hierarchy of a glTF file: instances, lights and cameras with world transforms.
+// Reads the node hierarchy of a glTF file: instances, lights and cameras with world transforms.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -40,7 +40,7 @@ class NodeReader {
   std::vector<glm::dmat4> world_;
   std::vector<bool> visited_;
   std::vector<std::size_t> order_;
-  std::vector<bool> moves_;  // by the first animation, itself or a node above; where `animated`
+  std::vector<bool> moves_;  // set if `animated`: the first animation moves the node or a parent
   std::vector<std::int32_t> skin_ids_;
 };
 
@@ -53,7 +53,7 @@ bool in_range(int id, std::size_t count) {
   return id >= 0 && static_cast<std::size_t>(id) < count;
 }
 
-/// The axis without its length; `fallback` where it has none.
+/// The normalised axis, or `fallback` if its length is zero.
 glm::dvec3 axis(const glm::dmat4& m, int column, const glm::dvec3& fallback) {
   const glm::dvec3 v(m[column]);
   const double length = glm::length(v);
@@ -68,7 +68,7 @@ Status NodeReader::roots(std::vector<int>& out) const {
     out = model_.scenes[static_cast<std::size_t>(id)].nodes;
     return {};
   }
-  // Without a scene everything is shown: all nodes that are nobody's child.
+  // Without a scene, everything is shown: all nodes that are no node's child.
   std::vector<bool> child(model_.nodes.size(), false);
   for (const tinygltf::Node& node : model_.nodes)
     for (const int id : node.children)
@@ -111,7 +111,8 @@ Status NodeReader::local_transform(const tinygltf::Node& node, const std::string
   return {};
 }
 
-/// Fills world_ and order_, parents first. No recursion: a deep chain must not end the stack.
+/// Fills world_ and order_, parents first. It does not recurse, so that a deep chain cannot
+/// overflow the stack.
 Status NodeReader::walk(const std::vector<int>& start) {
   struct Step {
     int id;
@@ -142,7 +143,7 @@ Status NodeReader::walk(const std::vector<int>& start) {
   return {};
 }
 
-/// Glass is kept apart from what shadow and occlusion rays meet.
+/// Glass gets a mask of its own, so that shadow and occlusion rays miss it.
 std::uint8_t mask_of(const Scene& scene, const Mesh& mesh) {
   for (const Geometry& geometry : mesh.geometries) {
     const std::uint32_t flags = scene.materials[geometry.material].constants.flags;
@@ -204,7 +205,8 @@ Status NodeReader::inverse_binds(const tinygltf::Skin& skin, const std::string& 
   return {};
 }
 
-// The nodes of the scene, parents first, and which of them the first animation moves.
+// Keeps the nodes of the scene, parents first, and finds out which of them the first animation
+// moves.
 void NodeReader::keep_nodes() {
   reader_.node_ids.assign(model_.nodes.size(), kNoIndex);
   moves_.assign(model_.nodes.size(), false);
@@ -222,7 +224,7 @@ void NodeReader::keep_nodes() {
     Node& to = reader_.scene.nodes[static_cast<std::size_t>(reader_.node_ids[id])];
     to.name = from.name.empty() ? where(id) : from.name;
     if (!from.matrix.empty()) {
-      // local_transform has looked at it.
+      // local_transform has checked it already.
       if (local_transform(from, to.name, to.matrix.emplace(1.0)).ok()) moves_[id] = false;
     } else {
       for (int c = 0; c < 3; ++c) {
@@ -248,7 +250,7 @@ void NodeReader::keep_nodes() {
   }
 }
 
-// The instance keeps its skin: the mesh stays in its bind pose.
+// The instance keeps its skin, and the mesh stays in its bind pose.
 Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& where,
                                  const std::vector<glm::dmat4>& binds) {
   const tinygltf::Skin& from = model_.skins[static_cast<std::size_t>(node.skin)];
@@ -261,7 +263,7 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
     skin.inverse_binds = binds;
     for (const int joint : from.joints) {
       std::int32_t& to = reader_.node_ids[static_cast<std::size_t>(joint)];
-      // A joint outside of the scene that is shown does not move.
+      // A joint outside the shown scene does not move.
       if (to == kNoIndex) {
         to = static_cast<std::int32_t>(scene.nodes.size());
         scene.nodes.emplace_back().name = "joint " + std::to_string(joint);
@@ -335,8 +337,8 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
   to.vertical_fov = fov;
   if (from.perspective.znear > 0.0 && std::isfinite(from.perspective.znear))
     to.near_plane = from.perspective.znear;
-  // Scale and shear of the parents must not reach the picture: the view is built anew from where
-  // the camera looks.
+  // Rebuild the view from eye and direction, so that scale and shear of the parents do not affect
+  // it.
   const glm::dvec3 eye(world[3]);
   to.camera_to_world = look_at(eye, eye - axis(world, 2, {0, 0, 1}), axis(world, 1, {0, 1, 0}));
   reader_.scene.cameras.push_back(to);

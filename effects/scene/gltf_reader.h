@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stages of the glTF loader. Only gltf_*.cpp include this.
+// The stages of the glTF loader; only gltf_*.cpp include it.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -13,18 +13,18 @@
 
 namespace kaamos::effects {
 
-/// What the stages share: the parsed file, the scene that grows, what was left out.
+/// What the stages share: the parsed file, the scene under construction, and the warnings.
 struct GltfReader {
   const tinygltf::Model& model;
-  /// Per image of the file: its still encoded bytes where it came by URI, else empty.
+  /// Per image of the file: its encoded bytes if it came by URI, else empty.
   const std::vector<std::vector<std::uint8_t>>& encoded_images;
   Scene& scene;
   std::vector<std::string>& warnings;
-  /// Per mesh of the file: its place in Scene::meshes, or -1 where it has no triangles.
+  /// Per mesh of the file: its index in Scene::meshes, or -1 if it has no triangles.
   std::vector<int> mesh_ids = {};
-  /// Keep what moves, instead of the pose of the file.
+  /// Keep what moves instead of the file's pose.
   bool animated = false;
-  /// Per node of the file: its place in Scene::nodes, or kNoIndex where the scene does not have it.
+  /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
   std::vector<std::int32_t> node_ids = {};
 
   void warn(std::string text) { warnings.push_back(std::move(text)); }
@@ -33,20 +33,20 @@ struct GltfReader {
 /// `noun 3 "name"`, as messages name a part of a file.
 std::string gltf_part(const char* noun, std::size_t index, const std::string& name);
 
-/// Scene::materials holds one per material of the file, then the default material.
+/// Reads one material per material of the file, and adds the default material.
 Status read_gltf_materials(GltfReader& reader);
-/// One mesh per mesh of the file that has triangles.
+/// Reads each mesh of the file that has triangles.
 Status read_gltf_meshes(GltfReader& reader);
-/// Instances, lights and cameras of the default scene's nodes.
+/// Reads instances, lights and cameras of the default scene's nodes.
 Status read_gltf_nodes(GltfReader& reader);
 
-/// The levels of detail that the node names for its instance.
+/// Reads the levels of detail that the node names for its instance.
 Status read_gltf_levels(GltfReader& reader, const tinygltf::Node& node, const std::string& where,
                         Instance& instance);
-/// Where `animated`: Scene::animations, one per animation of the file.
+/// If `animated`, reads one animation per animation of the file.
 Status read_gltf_animations(GltfReader& reader);
 
-/// A mesh in the pose that the joints have in the file, in world space. `joints` are the nodes'
+/// Reads a mesh in the pose that the file's joints have, in world space. `joints` are the nodes'
 /// object-to-world transforms times the inverse bind matrices.
 Result<Mesh> read_skinned_mesh(GltfReader& reader, int mesh, const std::vector<glm::dmat4>& joints);
 

@@ -41,7 +41,8 @@ TEST(GltfLoad, NonIndexedStripsAndFans) {
     const Scene scene =
         triangles(std::string(R"({"attributes":{"POSITION":0},"mode":)") + mode + "}");
     ASSERT_EQ(unique_triangle_count(scene), 2u);
-    // The strip 0 1 2 3 of the quad turns the same way throughout; the fan's second triangle folds.
+    // The strip 0 1 2 3 of the quad winds the same way throughout; the fan's second triangle folds
+    // over.
     const Mesh& mesh = scene.meshes[0];
     EXPECT_EQ(mesh.corner(mesh.geometries[0], 0, 0).normal.z, 1.0f);
     EXPECT_EQ(mesh.corner(mesh.geometries[0], 1, 0).normal.z, mode[0] == '5' ? 1.0f : -1.0f);
@@ -59,7 +60,7 @@ TEST(GltfLoad, PointsAreLeftOutWithAWarning) {
   EXPECT_NE(loaded.value().warnings[0].find("points or lines"), std::string::npos);
 }
 
-/// Positions given with one integer component type, normalised or not.
+/// Reads positions of one integer component type, normalised or not.
 template <class T>
 glm::vec3 largest_position(int component_type, bool normalized) {
   Glb glb;
@@ -130,7 +131,7 @@ TEST(GltfLoad, NodeTransformsMultiply) {
   ASSERT_TRUE(loaded.ok()) << loaded.error();
   ASSERT_EQ(loaded.value().scene.instances.size(), 2u);
   const Instance& first = loaded.value().scene.instances[0];
-  // (1,1,0) -> scaled (2,-3,0) -> moved (3,-3,0) -> turned a quarter (3,3,0) -> moved (13,3,0).
+  // (1,1,0) -> scale (2,-3,0) -> move (3,-3,0) -> quarter turn (3,3,0) -> move (13,3,0).
   const glm::dvec4 p = first.transform * glm::dvec4(1, 1, 0, 1);
   EXPECT_NEAR(p.x, 13.0, 1e-6);
   EXPECT_NEAR(p.y, 3.0, 1e-6);
@@ -176,7 +177,7 @@ TEST(GltfLoad, MaterialsAndTextures) {
   EXPECT_EQ(sampler.wrap_v, Wrap::kMirror);
   EXPECT_EQ(sampler.mag_filter, Filter::kNearest);
   EXPECT_FALSE(sampler.mipmapped);
-  // A quarter turn maps u to -v: (1, 0) scaled to (2, 0) becomes (0, -2).
+  // A quarter turn maps u to -v: (1, 0), scaled to (2, 0), becomes (0, -2).
   const glm::vec4& t = m.uv_matrix[kBaseColorTexture];
   EXPECT_NEAR(t.x, 0.0f, 1e-6f);
   EXPECT_NEAR(t.z, -2.0f, 1e-6f);
@@ -228,7 +229,7 @@ TEST(GltfLoad, CamerasAndLights) {
   EXPECT_EQ(scene.cameras[0].vertical_fov, 0.7);
   EXPECT_EQ(scene.cameras[0].position(), glm::dvec3(0, 2, 9));
   EXPECT_NEAR(scene.cameras[0].forward().z, -1.0, 1e-9);
-  // Light travels along -z, turned by -90 degrees about x: downwards.
+  // Light travels along -z; rotated by -90 degrees about x, that is downwards.
   EXPECT_NEAR(scene.sun->direction_to_sun.y, 1.0f, 1e-6f);
   EXPECT_EQ(scene.sun->irradiance, glm::vec3(5, 2.5f, 1.25f));
   ASSERT_EQ(scene.lights.size(), 1u);
@@ -240,7 +241,7 @@ TEST(GltfLoad, CamerasAndLights) {
 TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
   Glb glb;
   glb.add(kQuad);
-  // The lower two vertices go with joint 0, the upper two half with each.
+  // The lower two vertices follow joint 0, the upper two follow both joints in equal parts.
   const std::size_t joints =
       glb.add(std::vector<std::uint8_t>{0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
   const std::size_t weights =
@@ -263,7 +264,8 @@ TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
   const auto loaded = load(file("[1,2]"));
   ASSERT_TRUE(loaded.ok()) << loaded.error();
   const Bounds box = scene_bounds(loaded.value().scene);
-  // The node's own transform does not count. Upper vertices: mean of (y+0, 1) and (y+4, 0).
+  // The node's own transform does not apply. The upper vertices are the mean of (y+0, 1) and (y+4,
+  // 0).
   EXPECT_EQ(box.min, glm::dvec3(0, 0, 0.5));
   EXPECT_EQ(box.max, glm::dvec3(1, 3, 1));
   EXPECT_EQ(loaded.value().scene.meshes.size(), 1u) << "the bind pose is not kept";
@@ -271,7 +273,8 @@ TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
   expect_error(load(file("[1,9]")), "names joint node 9 of 3");
 }
 
-// The quad above, its second joint lifted by 2 m in a second; a second node turns with a parent.
+// The same quad, whose second joint rises by 2 m in one second; a second node rotates with its
+// parent.
 TEST(GltfLoad, SkinsAndAnimationsAreKept) {
   Glb glb;
   glb.add(kQuad);
@@ -315,7 +318,7 @@ TEST(GltfLoad, SkinsAndAnimationsAreKept) {
   EXPECT_EQ(scene.animations.at(0).duration, 1.0);
   const Bounds box = scene_bounds(scene);
   EXPECT_EQ(box.min, glm::dvec3(0, 0, 0));
-  EXPECT_EQ(box.max, glm::dvec3(8, 5, 1));  // the second quad, on the second joint
+  EXPECT_EQ(box.max, glm::dvec3(8, 5, 1));  // the second quad follows the second joint
   for (const double seconds : {0.0, 0.5, 1.75}) {
     const auto states = evaluate_instances(scene, seconds);
     const double lift = 4 + 2 * (seconds - std::floor(seconds));
@@ -334,7 +337,7 @@ TEST(GltfLoad, SkinsAndAnimationsAreKept) {
   ASSERT_TRUE(stepped.ok()) << stepped.error();
   EXPECT_EQ(evaluate_instances(stepped.value().scene, 0.9)[1].transform[3].y, 4.0);
 
-  // Cut and changed files are refused or valid.
+  // Truncated or altered files are either refused or valid.
   const std::vector<std::uint8_t> good = file(R"({"input":3,"output":4})");
   int refused = 0;
   for (std::uint32_t i = 0; i < 3000; ++i) {

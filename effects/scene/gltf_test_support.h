@@ -14,7 +14,7 @@
 
 namespace kaamos::effects {
 
-/// A small .glb put together by hand: `json` with its bytes as buffer 0.
+/// A small .glb put together by hand: `json`, with its bytes as buffer 0.
 class Glb {
  public:
   /// Appends values at a multiple of 4 bytes and returns the offset.
@@ -72,14 +72,14 @@ inline void expect_error(const Result<LoadedScene>& result, const std::string& p
 
 inline const std::vector<float> kQuad = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
 
-/// One quad; what varies are the JSON of its accessors and what stands beside them.
+/// One quad, with parts of its JSON that tests replace.
 struct QuadFile {
   std::string positions = R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})";
   std::string indices = R"({"bufferView":1,"componentType":5121,"count":6,"type":"SCALAR"})";
   std::string views = R"({"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":6})";
   std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
   std::string nodes = R"([{"mesh":0}])";
-  std::string more;  ///< further members, each with a comma before it
+  std::string more;  ///< further members, each preceded by a comma
 
   std::vector<std::uint8_t> bytes() const {
     Glb glb;

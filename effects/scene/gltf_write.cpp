@@ -159,8 +159,8 @@ int Writer::texture_of(const MaterialConstants& constants, std::uint32_t slot) {
   return static_cast<int>(model_.textures.size()) - 1;
 }
 
-/// glTF knows a transform as scale, rotation and offset. Any matrix without shear splits into
-/// those.
+/// glTF describes a transform by scale, rotation and offset. Any matrix without shear can be split
+/// that way.
 template <class Info>
 void Writer::set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot) {
   if (constants.image[slot] == kNoTexture) return;
@@ -185,7 +185,7 @@ void Writer::add_material(const Material& material) {
                                              from.base_color.b, from.base_color.a};
   to.pbrMetallicRoughness.metallicFactor = from.metallic;
   to.pbrMetallicRoughness.roughnessFactor = from.roughness;
-  // glTF wants factors of 0..1; what is brighter goes to the strength.
+  // glTF wants factors in 0..1; the excess goes into the strength.
   const double strength = std::max({1.0f, from.emissive.r, from.emissive.g, from.emissive.b});
   to.emissiveFactor = {from.emissive.r / strength, from.emissive.g / strength,
                        from.emissive.b / strength};
@@ -246,7 +246,7 @@ void Writer::add_light(const Light& light) {
           {"light", tinygltf::Value(static_cast<int>(model_.lights.size()) - 1)}});
 }
 
-// The finest mesh at the node, the others at nodes that no scene shows. [MSFT_lod]
+// Puts the finest mesh at the node itself and the others at nodes that no scene shows. [MSFT_lod]
 void Writer::add_levels(int node, const Instance& instance) {
   tinygltf::Value::Array ids, coverages;
   for (const Level& level : instance.levels) {

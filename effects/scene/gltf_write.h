@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes as .glb files that any glTF viewer reads.
+// Writes scenes as .glb files that any glTF viewer reads.
 #pragma once
 
 #include <cstdint>

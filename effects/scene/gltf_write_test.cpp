@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes written and loaded again, and real files.
+// Scenes survive writing and loading; real files load.
 #include "effects/scene/gltf_write.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(GltfWrite, RefusesABrokenSceneAndKeepsTheEarlierFile) {
   std::filesystem::remove(path);
 }
 
-/// A real file of the folder beside the repository, which the project does not need.
+/// A real file in the folder beside the repository. The project does not depend on it.
 class RealScene : public ::testing::TestWithParam<std::pair<const char*, int>> {};
 
 TEST_P(RealScene, LoadsWithItsTriangles) {

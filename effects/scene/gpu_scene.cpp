@@ -31,7 +31,7 @@ rtapi::Result<Buffer> create_scratch_buffer(const Device& device, std::uint64_t 
 }
 
 static RaytracingGeometryFlags geometry_flags(const Geometry& geometry, bool glass) {
-  // Layers of glass are counted in any-hit shaders, each once.
+  // Any-hit shaders count layers of glass, so each hit must invoke them only once.
   if (glass) return RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
   return geometry.alpha_tested ? RaytracingGeometryFlags::kNone : RaytracingGeometryFlags::kOpaque;
 }
@@ -57,7 +57,7 @@ double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Builds and waits; `bytes` grows by the result's size.
+// Builds and waits; adds the size of the result to `bytes`.
 rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
                             const BuildRaytracingAccelerationStructureInputs& inputs,
                             std::string name, std::uint64_t& bytes) {
@@ -80,7 +80,7 @@ rtapi::Result<Buffer> build(const Device& device, CommandQueue& queue,
   return result;
 }
 
-// Meshes that are glass somewhere.
+// Which meshes have glass in some instance.
 std::vector<bool> glass_meshes(const Scene& scene) {
   std::vector<bool> glass(scene.meshes.size());
   for (const Instance& instance : scene.instances) {
@@ -89,7 +89,7 @@ std::vector<bool> glass_meshes(const Scene& scene) {
   return glass;
 }
 
-// Buffers of one mesh, and the records' arguments of its geometries.
+// Creates the buffers of one mesh and the record arguments of its geometries.
 rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t mesh_id, bool glass,
                        GpuScene& out) {
   const Mesh& mesh = scene.meshes[mesh_id];
@@ -118,7 +118,8 @@ rtapi::Status add_mesh(const Device& device, const Scene& scene, std::uint32_t m
   return {};
 }
 
-// `first_record`: of the mesh's geometries in out.geometries; goes on to the next mesh's.
+// `first_record` is the index of the mesh's first geometry in out.geometries, and is advanced to
+// the next mesh.
 rtapi::Status add_bottom_level(const Device& device, CommandQueue& queue, const Mesh& mesh,
                                std::size_t& first_record, GpuScene& out) {
   std::vector<RaytracingGeometryDesc> descs;
@@ -159,7 +160,8 @@ std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const Gpu
     desc.InstanceMask = instance.mask;
     desc.InstanceContributionToHitGroupIndex =
         (first_geometry[instance.mesh] * kRayTypeCount) & 0xFFFFFFu;
-    // Opaque instances never look for an any-hit shader. [Northlight deck: FORCE_OPAQUE]
+    // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:
+    // FORCE_OPAQUE]
     desc.Flags = opaque[instance.mesh] && !(instance.mask & kMaskTransparent)
                      ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
                      : 0u;

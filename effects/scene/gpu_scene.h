@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene on a device: its buffers and textures, one bottom level per mesh, one top level, and what
-// the records of a hit group table hold.
+// A scene on a device: its buffers and textures, one bottom level per mesh, one top level, and the
+// contents of the hit group table's records.
 #pragma once
 
 #include <rtapi/rtapi.h>

@@ -59,7 +59,8 @@ void add_camera(Scene& scene, const char* name, const glm::dvec3& eye, const glm
   scene.cameras.push_back(camera);
 }
 
-// From below the floor up the outside and down the inside; an open one has an edge at the opening.
+// From below the floor up the outside and down the inside. The open dome has an edge at its
+// opening.
 Shape shell(const ThinDomeDesc& desc) {
   const double outer = kDomeRadius + desc.thickness, foot = -0.05;
   const double top = desc.sealed ? 0.5 * kPi : std::acos(kOculusRadius / kDomeRadius);
@@ -75,7 +76,7 @@ Shape shell(const ThinDomeDesc& desc) {
   return revolve(profile, kDomeSegments);
 }
 
-// Half the thickness of a rib lies in the shell.
+// Half the thickness of a rib is inside the shell.
 Shape rib(const ThinDomeDesc& desc, double azimuth) {
   const double radius = kDomeRadius + desc.thickness + 0.02;
   std::vector<glm::dvec3> path;
@@ -116,7 +117,7 @@ Scene make_sealed_cells(const SealedCellsDesc& desc) {
   const std::uint32_t wall = add_material(scene, "wall", glm::vec3(0.7f, 0.65f, 0.6f));
   add_box(scene, "floor", {-half, -t, -half}, {half, 0, half}, grey);
   add_box(scene, "roof", {-half, height, -half}, {half, height + t, half}, grey);
-  // They end within the floor and the roof, so that no edge is shared.
+  // The walls end inside the floor and the roof, so that no edges have to match.
   for (int i = 0; i < 4; ++i) {
     const double at = (i - 1.5) * pitch;
     add_box(scene, "wall x" + std::to_string(i), {at - 0.5 * t, -0.5 * t, -half},

@@ -12,7 +12,7 @@
 namespace kaamos::effects {
 namespace {
 
-// Boxes of radius 1 in `count` levels, seen from `distance` along z by a camera of 90 degrees.
+// A box of radius 1 in `count` levels, seen from `distance` along z by a camera of 90 degrees.
 Scene boxes(std::size_t count, double distance) {
   Scene scene;
   scene.name = "boxes";
@@ -57,7 +57,7 @@ TEST(Levels, FartherIsCoarser) {
     EXPECT_EQ(scene.instances[0].mesh, level);
     EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
   }
-  // As far as it is now, not as far as it was.
+  // What counts is its present distance, not the original one.
   const Scene scene = boxes(4, 1);
   const std::vector<glm::dmat4> away = {look_at(glm::dvec3(0, 0, -5), glm::dvec3(0, 0, -6))};
   EXPECT_EQ(select_levels(scene, scene.cameras[0], away), std::vector<std::uint32_t>{2u});

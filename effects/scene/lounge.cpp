@@ -39,7 +39,7 @@ double speckle(std::uint32_t x, std::uint32_t y, std::uint32_t seed) {
   return unit_float(hash_combine(x + 4096u * y, seed));
 }
 
-/// Stone tiles, 2 x 2 in a picture that covers 1.2 m, with joints.
+/// Joints between stone tiles, 2 x 2 in a picture that covers 1.2 m.
 bool joint(std::uint32_t x, std::uint32_t y) {
   return x % 256 < 3 || y % 256 < 3;
 }
@@ -154,8 +154,8 @@ void add_things(Scene& scene) {
   add_instance(scene, "room", add_mesh(scene, room()), {0, 0, 0});
   add_instance(scene, "dome", add_mesh(scene, dome()), {0, 0, 0});
   add_instance(scene, "rug", add_mesh(scene, rug()), {0, 0, 0});
-  // Round sofas on both sides of the table under the dome, open towards the camera and away from
-  // it.
+  // Round sofas on both sides of the table under the dome: one open towards the camera, one away
+  // from it.
   const std::uint32_t round = add_mesh(scene, round_sofa());
   add_instance(scene, "round sofa left", round, {0, 0.012, 0}, -2.35);
   add_instance(scene, "round sofa right", round, {0, 0.012, 0}, 0.85);

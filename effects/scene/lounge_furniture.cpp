@@ -15,7 +15,7 @@ double square(double x) {
   return x * x;
 }
 
-/// A cushion about the origin: rounded, and thicker in the middle than at its edges.
+/// A cushion centred at the origin: rounded, and thicker in the middle than at its edges.
 Shape cushion(const glm::dvec3& half, double radius, double bulge) {
   Shape shape = rounded_box(half, radius, 5, {10, 1, 6});
   deform(shape, [=](const glm::dvec3& p) {
@@ -25,7 +25,7 @@ Shape cushion(const glm::dvec3& half, double radius, double bulge) {
   return shape;
 }
 
-/// A cushion that stands: thick along z.
+/// An upright cushion, thick along z.
 Shape standing_cushion(const glm::dvec3& half, double radius, double bulge) {
   Shape shape;
   append(shape, cushion({half.x, half.z, half.y}, radius, bulge), rotate_x(0.5 * kPi));
@@ -40,19 +40,20 @@ Shape leg(const glm::dvec3& top, const glm::dvec3& bottom, double top_radius, do
       path, [=](double t) { return glm::mix(top_radius, bottom_radius, t); }, sides);
 }
 
-/// Upper edge of the chair's shell at an angle from the back (0) to the arms: high back, low arms.
+/// Upper edge of the chair's shell by the angle from the back (0) to the arms: a high back and low
+/// arms.
 double shell_top(double angle) {
   const double t = 0.5 + 0.5 * std::cos(std::min(std::abs(angle) / 1.95, 1.0) * kPi);
   return 0.56 + 0.24 * t;
 }
 
 glm::dvec3 shell_point(double angle, double radius, double height) {
-  // Leans back with height; angle 0 is -z.
+  // Leans back with height; angle 0 points to -z.
   const double lean = 1.0 + 0.22 * std::max(0.0, height - 0.38);
   return {std::sin(angle) * radius * lean, height, -std::cos(angle) * radius * lean};
 }
 
-/// The chair's back: a flat plate bent round the seat.
+/// The chair's back: a flat plate bent around the seat.
 Shape chair_shell() {
   constexpr double kReach = 1.95, kThickness = 0.022;
   Shape shape =
@@ -62,7 +63,7 @@ Shape chair_shell() {
     const double height = glm::mix(0.36, shell_top(p.x), v);
     return shell_point(p.x, 0.285 - p.z, height);
   });
-  // The tub's floor, under the cushion.
+  // The floor of the tub, under the cushion.
   const std::vector<glm::dvec2> floor = {{0.0, 0.345},   {0.27, 0.345}, {0.285, 0.352},
                                          {0.285, 0.366}, {0.27, 0.373}, {0.0, 0.373}};
   append(shape, revolve(floor, 64));
@@ -100,7 +101,7 @@ Shape chair_cushion() {
   return revolve(profile, 72);
 }
 
-/// A ring sector: x of the part becomes the angle, z the radius.
+/// Bends a shape into a ring sector: x becomes the angle, z is added to the radius.
 void bend_round(Shape& shape, double radius) {
   deform(shape, [=](const glm::dvec3& p) {
     const double r = radius + p.z, angle = p.x / radius;
@@ -121,7 +122,7 @@ Mesh chair() {
       append(feet, leg(glm::mix(foot, top, 0.02), foot * glm::dvec3(1, 0.15, 1), 0.014, 0.015, 20));
     }
   }
-  // A ring under the seat ties the legs together.
+  // A ring under the seat connects the legs.
   std::vector<glm::dvec3> ring;
   for (int i = 0; i <= 64; ++i) {
     const double angle = 2.0 * kPi * (i % 64) / 64;
@@ -153,7 +154,7 @@ Mesh small_sofa() {
     for (const double z : {-1.0, 1.0})
       append(legs, leg({0.72 * side, 0.18, 0.3 * z}, {0.76 * side, 0.003, 0.33 * z}, 0.016, 0.011));
   }
-  // The back plate that the standing cushions lean on.
+  // The back plate that the upright cushions lean on.
   append(frame, rounded_box({0.86, 0.28, 0.03}, 0.025, 4),
          translate({0, 0.55, -0.38}) * rotate_x(-0.16));
   add_shape(mesh, fabric, kSandFabric);
@@ -251,8 +252,9 @@ Mesh table() {
 Mesh magazine() {
   Mesh mesh;
   mesh.name = "magazine";
-  // 12 sheets of 0.1 mm bent up from the spine at x = 0, the covers outermost; each sheet stands a
-  // little higher than the one below. Lengths along a sheet stay, so the far edges fan out.
+  // 12 sheets of 0.1 mm bend up from the spine at x = 0, with the covers outermost; each sheet is a
+  // little higher than the one below. Lengths along a sheet are preserved, so the far edges fan
+  // out.
   Shape pages, cover;
   constexpr double kWidth = 0.21, kDepth = 0.29, kSheet = 0.0006;
   for (int i = 0; i < 12; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The meshes of the lounge. Only lounge*.cpp include this.
+// The meshes of the lounge; only lounge*.cpp include it.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace kaamos::effects::lounge {
 
-/// Materials by their place in Scene::materials.
+/// Materials, in the order of Scene::materials.
 enum MaterialId : std::uint32_t {
   kFloor,
   kWall,
@@ -36,11 +36,11 @@ enum MaterialId : std::uint32_t {
   kMaterialCount
 };
 
-/// Room inside: x -6..6, z -5..5, y 0..4.
+/// Inside of the room: x -6..6, z -5..5, y 0..4.
 inline constexpr double kRoomX = 6.0;
 inline constexpr double kRoomZ = 5.0;
 inline constexpr double kRoomHeight = 4.0;
-/// Opening in the ceiling under the dome.
+/// Radius of the opening in the ceiling under the dome.
 inline constexpr double kDomeRadius = 2.3;
 
 Mesh room();

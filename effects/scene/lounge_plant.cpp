@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A pot plant: alpha-tested leaf cards on stems, after monstera, whose leaves have cuts and holes.
+// A pot plant of alpha-tested leaf cards on stems, after monstera, whose leaves have cuts and
+// holes.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -13,19 +14,18 @@ namespace {
 
 constexpr double kPi = glm::pi<double>();
 
-/// Evenly spread numbers that differ from leaf to leaf and are the same at every call.
+/// Uniform random numbers that differ from leaf to leaf and are the same at every call.
 double random(std::uint32_t leaf, std::uint32_t use) {
   return unit_float(hash_combine(leaf * 16u + use, 77u));
 }
 
-/// A leaf lying along +z from the origin, 1 long, bent down towards its tip and folded up along its
-/// rib.
+/// A leaf along +z from the origin, 1 long, bent down towards its tip and folded up along its rib.
 Shape leaf_blade(double droop, double fold) {
   Shape shape = patch({-0.5, 0.0, 1.0}, {1, 0, 0}, {0, 0, -1}, 8, 14);
   deform(shape, [=](const glm::dvec3& p) {
     const double bend = droop * p.z, x = p.x * 0.86;
     const double y = fold * std::abs(x) * (1.0 - 0.5 * p.z) + 0.03 * std::sin(9.0 * p.z) * x;
-    // Along an arc: length along the rib stays.
+    // Bend along an arc, which preserves the length of the rib.
     const double s = std::abs(bend) < 1e-6 ? p.z : std::sin(bend) / droop;
     const double fall = std::abs(bend) < 1e-6 ? 0.0 : (1.0 - std::cos(bend)) / droop;
     return glm::dvec3(x, y * std::cos(bend) - fall, s + y * std::sin(bend));
@@ -57,7 +57,7 @@ Mesh plant() {
   Shape stems, leaves;
   constexpr std::uint32_t kLeaves = 64;
   for (std::uint32_t i = 0; i < kLeaves; ++i) {
-    // Golden-angle turns; inner leaves rise, outer ones hang.
+    // Each leaf is turned by the golden angle; inner leaves rise, outer ones hang.
     const double t = (i + 0.5) / kLeaves;
     const double azimuth = i * 2.39996323 + 0.5 * random(i, 0);
     const double reach = 0.12 + 0.5 * t + 0.1 * random(i, 1);
@@ -68,7 +68,7 @@ Mesh plant() {
     std::vector<glm::dvec3> path;
     for (int k = 0; k <= 14; ++k) {
       const double s = k / 14.0;
-      // First up, then outwards: a quadratic curve with its middle point over the root.
+      // First up, then outwards: a quadratic curve whose control point is above the root.
       const glm::dvec3 middle = glm::mix(root, tip, 0.25) + glm::dvec3(0, 0.45 * height, 0);
       path.push_back(root * (1 - s) * (1 - s) + middle * 2.0 * s * (1 - s) + tip * s * s);
     }
@@ -97,11 +97,12 @@ TextureImage leaf_texture() {
   image.mips.emplace_back(std::size_t{kSize} * kSize * 4);
   for (std::uint32_t py = 0; py < kSize; ++py) {
     for (std::uint32_t px = 0; px < kSize; ++px) {
-      // u across, v along the leaf: v = 1 is the picture's bottom and the patch's far edge.
+      // u runs across, v along the leaf: v = 1 is the bottom of the picture and the far edge of the
+      // patch.
       const double x = 2.0 * (px + 0.5) / kSize - 1.0;
       const double along = (py + 0.5) / kSize;
       const double ax = std::abs(x);
-      // A heart: wide near the stem, a point at the tip, a notch where the stem joins.
+      // A heart shape: wide near the stem, a point at the tip, a notch where the stem joins.
       const double half = 0.93 * std::pow(std::sin(kPi * std::pow(along, 0.62)), 0.75);
       double inside = half - ax;
       inside = std::min(inside, along - 0.02 - 0.10 * std::exp(-ax * 7.0));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What does not move: walls, ceiling, dome, rug. All closed solids, so that nothing leaks where
+// The static parts: walls, ceiling, dome, rug. All are closed solids, so that nothing leaks where
 // they meet.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -17,7 +17,7 @@ void add_box(Shape& shape, const glm::dvec3& low, const glm::dvec3& high) {
   append(shape, box(0.5 * (high - low)), translate(0.5 * (low + high)));
 }
 
-/// The window in the +x wall: z range, sill and head.
+/// The window in the +x wall: its z range, sill and head.
 constexpr double kWindowZ0 = -3.9, kWindowZ1 = 2.1, kSill = 0.35, kHead = 3.35;
 
 Shape walls() {
@@ -26,7 +26,7 @@ Shape walls() {
   add_box(shape, {-x - t, -t, -z - t}, {x + t, h, -z});
   add_box(shape, {-x - t, -t, z}, {x + t, h, z + t});
   add_box(shape, {-x - t, -t, -z - t}, {-x, h, z + t});
-  // The window's wall in four parts; they overlap, so no edge has to fit.
+  // The window's wall consists of four overlapping parts, so no edges have to match.
   add_box(shape, {x, -t, -z - t}, {x + t, h, kWindowZ0});
   add_box(shape, {x, -t, kWindowZ1}, {x + t, h, z + t});
   add_box(shape, {x, -t, kWindowZ0 - 0.1}, {x + t, kSill, kWindowZ1 + 0.1});
@@ -49,15 +49,15 @@ Shape window_frame() {
 Shape woodwork() {
   Shape shape;
   const double x = kRoomX, z = kRoomZ;
-  // Skirting along all walls.
+  // Skirting boards along all walls.
   add_box(shape, {-x, 0.0, -z - 0.01}, {x, 0.11, -z + 0.02});
   add_box(shape, {-x, 0.0, z - 0.02}, {x, 0.11, z + 0.01});
   add_box(shape, {-x - 0.01, 0.0, -z}, {-x + 0.02, 0.11, z});
   add_box(shape, {x - 0.02, 0.0, -z}, {x + 0.01, 0.11, z});
-  // A wide sill in the window.
+  // A wide window sill.
   append(shape, rounded_box({0.19, 0.02, 0.5 * (kWindowZ1 - kWindowZ0) + 0.06}, 0.012, 4),
          translate({x + 0.06, kSill + 0.015, 0.5 * (kWindowZ0 + kWindowZ1)}));
-  // Slats before the far wall: rows of small gaps that only occlusion shows.
+  // Slats in front of the far wall: rows of small gaps that only occlusion reveals.
   for (int i = 0; i < 96; ++i) {
     const double at = -x + 0.1 + (2.0 * x - 0.2) * (i + 0.5) / 96;
     append(shape, rounded_box({0.032, 1.4, 0.022}, 0.006, 2), translate({at, 1.62, -z + 0.03}));
@@ -65,8 +65,8 @@ Shape woodwork() {
   return shape;
 }
 
-/// Rectangle with a round hole, at height y: the way from the hole's circle to the room's edge.
-/// `up` gives the side that shows.
+/// A rectangle with a round hole at height y, meshed from the circle to the room's edge. `up`
+/// selects the side that is visible.
 Shape ceiling_plane(double y, double half_x, double half_z, bool up) {
   constexpr int kSegments = 256, kRings = 12;
   Shape shape;
@@ -99,13 +99,13 @@ Shape ceiling() {
   const double y0 = kRoomHeight, y1 = kRoomHeight + 0.3;
   Shape shape = ceiling_plane(y0, kRoomX + 0.15, kRoomZ + 0.15, false);
   append(shape, ceiling_plane(y1, kRoomX + 0.15, kRoomZ + 0.15, true));
-  // The hole's side, from top to bottom: it shows towards the axis.
+  // The inside of the hole, from top to bottom, facing the axis.
   const std::vector<glm::dvec2> side = {{kDomeRadius, y1}, {kDomeRadius, y0}};
   append(shape, revolve(side, 256));
   return shape;
 }
 
-/// Height of the dome over its rim at a distance from the axis (a flattened sphere).
+/// A point of the dome, which is a flattened sphere, above its rim.
 glm::dvec3 dome_point(double polar, double azimuth, double inset = 0.0) {
   const double r = kDomeRadius - 0.03 - inset, rise = 1.45 - inset;
   return {std::sin(polar) * r * std::sin(azimuth), kRoomHeight + 0.3 + std::cos(polar) * rise,
@@ -116,7 +116,7 @@ glm::dvec3 dome_normal(const glm::dvec3& p) {
   return glm::normalize(glm::dvec3(p.x, (p.y - kRoomHeight - 0.3) * 1.5, p.z));
 }
 
-/// Bars in both turning directions: a net of thin geometry.
+/// Bars in both diagonal directions: a net of thin geometry.
 Shape dome_lattice() {
   constexpr int kBars = 24, kSteps = 40;
   Shape shape;
@@ -127,7 +127,7 @@ Shape dome_lattice() {
         const double t = static_cast<double>(i) / kSteps;
         const double polar = glm::mix(0.5 * kPi, 0.2, t);
         const double azimuth = 2.0 * kPi * b / kBars + turn * 1.1 * t;
-        // The two nets lie one on the other instead of through each other.
+        // The two nets lie on top of each other rather than cross.
         path.push_back(dome_point(polar, azimuth, turn > 0.0 ? 0.0 : 0.018));
       }
       append(shape, bar(path, 0.014, 0.016, [&](std::size_t i) { return dome_normal(path[i]); }));
@@ -145,7 +145,7 @@ Shape dome_ring(double polar, double radius, double inset) {
 }
 
 /// A thin closed band at the foot of the dome, 4 mm of sheet metal. It reaches into the ceiling, so
-/// that no light comes in beside it.
+/// that no light enters beside it.
 Shape dome_band() {
   std::vector<glm::dvec2> profile;
   for (int side = 0; side < 2; ++side)
@@ -168,7 +168,7 @@ Mesh room() {
   Shape floor = patch({-x - 0.1, 0.0, z + 0.1}, {2 * x + 0.2, 0, 0}, {0, 0, -2 * z - 0.2}, 48, 40);
   for (Vertex& vertex : floor.vertices)
     vertex.uv = glm::vec2(vertex.position.x, vertex.position.z) / 1.2f;
-  // Under the floor lies a slab: light from below has no way in.
+  // A slab under the floor keeps out light from below.
   Shape slab;
   add_box(slab, {-x - 0.3, -0.3, -z - 0.3}, {x + 0.3, -0.02, z + 0.3});
   Shape terrace;

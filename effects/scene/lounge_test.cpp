@@ -65,7 +65,7 @@ TEST(Lounge, LeafTextureHasHoles) {
   const float coverage = alpha_coverage(image, 0, 0.5f);
   EXPECT_GT(coverage, 0.3f);
   EXPECT_LT(coverage, 0.8f);
-  // Small mips must not thin out.
+  // Leaves must not thin out in small mips.
   EXPECT_NEAR(alpha_coverage(image, 3, 0.5f), coverage, 0.03f);
 }
 
@@ -90,7 +90,7 @@ TEST(Lounge, NormalsAndTangentsAreUnitVectors) {
       std::uint32_t bad = 0;
       for (const Vertex& v : std::span(mesh.vertices).subspan(g.first_vertex, g.vertex_count)) {
         const glm::vec3 t(v.tangent);
-        // Written so that NaN counts.
+        // Written so that NaN counts as bad.
         bad += !(std::abs(glm::dot(v.normal, v.normal) - 1.0f) < 1e-4f &&
                  std::abs(glm::dot(t, t) - 1.0f) < 1e-4f &&
                  std::abs(glm::dot(t, v.normal)) < 1e-3f && std::abs(v.tangent.w) == 1.0f);

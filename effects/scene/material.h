@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Materials, textures and samplers as the effects' shaders read them: bindless, one element of a
-// structured buffer per material, textures in an unbounded array. [Northlight deck: Bindless Access
-// to Materials]
+// Materials, textures and samplers as the effects' shaders read them. They are bindless: one
+// element of a structured buffer per material, and an unbounded array of textures. [Northlight
+// deck: Bindless Access to Materials]
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 namespace kaamos::effects {
 namespace {
 
-constexpr std::size_t kMostNames = 40;  // that an error lists
+constexpr std::size_t kMostNames = 40;  // names that an error lists at most
 
 struct Key {
   const char* name;
@@ -21,7 +21,7 @@ void set_flag(MaterialConstants& material, std::uint32_t flag, bool on) {
   material.flags = on ? material.flags | flag : material.flags & ~flag;
 }
 
-// Glass of even coverage, or opaque: the holes of a texture end with either.
+// Makes glass of uniform coverage, or an opaque material; either drops the alpha test of a texture.
 void set_alpha(MaterialConstants& material, float value) {
   material.base_color.a = value;
   set_flag(material, kMaterialMask | kMaterialAlphaTested, false);
@@ -62,7 +62,7 @@ std::string range_of(const Key& key) {
   return key.high == kAny ? "0 or more" : "0 to 1";
 }
 
-// One KEY=VALUE.
+// Parses one KEY=VALUE.
 Status parse_value(const std::string& text, std::string_view part, MaterialOverride& out) {
   const std::size_t equals = part.find('=');
   if (equals == std::string_view::npos) {
@@ -91,8 +91,8 @@ bool is_glass(const Scene& scene, const Geometry& geometry) {
   return (flags & kMaterialBlend) && !(flags & kMaterialAlphaTested);
 }
 
-// Moves the glass pieces of a mesh, where there are others too, to a mesh of their own. The buffers
-// are copied: pieces name ranges of them.
+// If a mesh has both glass and opaque pieces, moves the glass to a new mesh. The buffers are
+// copied, because pieces name ranges of them.
 bool split_glass(Scene& scene, std::uint32_t mesh_id) {
   const auto glass = [&](const Geometry& geometry) { return is_glass(scene, geometry); };
   Mesh& mesh = scene.meshes[mesh_id];
@@ -106,7 +106,7 @@ bool split_glass(Scene& scene, std::uint32_t mesh_id) {
   return true;
 }
 
-// An instance's mask says whether it is glass; only meshes that are glass all over can be.
+// An instance's mask says whether it is glass, so a mesh must be either all glass or none.
 void sort_glass(Scene& scene) {
   const std::size_t mesh_count = scene.meshes.size();
   for (std::uint32_t id = 0; id < mesh_count; ++id) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Other materials than a file says: the glass of many scenes carries no alpha.
+// Overrides materials of a file, for example because the glass of many scenes carries no alpha.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A mesh: what becomes one bottom-level acceleration structure. Its geometries are the pieces of
-// one material each, as the chairs of the Northlight demo have five.
+// A mesh, which becomes one bottom-level acceleration structure. Each of its geometries is a piece
+// of one material, like the five of the chairs in the Northlight demo.
 #pragma once
 
 #include <cstddef>

@@ -76,7 +76,7 @@ void add_hidden_props(Scene& scene) {
   }
 }
 
-// From pillars that are one pixel wide in a picture of 720 rows at their distance.
+// Rods that are one pixel wide at their distance, in a picture of 720 rows.
 void add_rods(Scene& scene, double camera_z) {
   for (int i = 0; i < 5; ++i) {
     const double z = -1.5 - 0.5 * i;
@@ -97,8 +97,8 @@ void add_bulb(Scene& scene) {
   }
   add(scene, "bulb", revolve(profile, 24), {glm::vec3(0.0f), 0.0f, 1.0f, glm::vec3(1e4f)}, at);
   scene.instances.back().mask = kMaskEmissiveProxy;
-  // The light that such a bulb gives: radiance times the disk that is seen of it. Its sphere holds
-  // the bulb, which then casts no shadow of its own.
+  // The light that such a bulb gives: its radiance times the area of its visible disk. The light's
+  // sphere encloses the bulb, so the bulb casts no shadow of its own.
   Light light;
   light.name = "bulb";
   light.intensity = static_cast<float>(1e4 * glm::pi<double>() * radius * radius);

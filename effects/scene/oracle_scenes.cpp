@@ -47,7 +47,7 @@ void add_camera(Scene& scene, const glm::dvec3& eye, const glm::dvec3& target) {
   scene.cameras.push_back(camera);
 }
 
-/// Flat rectangle facing +y.
+/// A flat rectangle facing +y.
 Shape floor(double x0, double x1, double half_z) {
   return patch({x0, 0, half_z}, {x1 - x0, 0, 0}, {0, 0, -2.0 * half_z}, 1, 1);
 }
@@ -71,7 +71,7 @@ double clamped_acos(double x) {
 Scene make_sphere_oracle(double radius, double height) {
   Scene scene = empty_scene("sphere-oracle");
   add(scene, "plane", floor(-100.0 * height, 100.0 * height, 100.0 * height));
-  // 512 x 256 faces lie at most 2e-5 radii inside the sphere: far below the noise of 4096 rays.
+  // 512 x 256 faces are at most 2e-5 radii inside the sphere, far below the noise of 4096 rays.
   add(scene, "sphere", sphere(radius, 512, 256), {0, height, 0});
   add_camera(scene, {0, 4.0 * height, 5.0 * height}, {0, 0.3 * height, 0});
   return scene;
@@ -83,8 +83,8 @@ double sphere_occlusion(double radius, double height, double x) {
 
 Scene make_wall_oracle(double height) {
   Scene scene = empty_scene("wall-oracle");
-  // The ends beyond take x h^2 / (3 pi z^3) of the hemisphere: below 1e-6. A longer wall would cost
-  // more, by the rounding of its upper edge: one of 4 km is off by 1.7e-4.
+  // The missing ends of the wall cover x h^2 / (3 pi z^3) of the hemisphere, below 1e-6. A longer
+  // wall would be worse because its upper edge is rounded: one of 4 km is off by 1.7e-4.
   const double half_z = 50.0 * height;
   add(scene, "plane", floor(0.0, 100.0 * height, half_z));
   // Faces +x.
@@ -109,8 +109,8 @@ Scene make_penumbra_oracle(double height, double angular_radius) {
   add(scene, "edge", floor(-size, 0.0, size), {0, height, 0});
   scene.sun->direction_to_sun = glm::vec3(0, 1, 0);
   scene.sun->angular_radius = static_cast<float>(angular_radius);
-  // From the lit side, under the sheet's height, so that the sheet hides nothing of the edge's
-  // shadow.
+  // Seen from the lit side and from below the sheet, so that the sheet does not hide the edge of
+  // its shadow.
   add_camera(scene, {2.0 * height, 0.8 * height, 0}, {0, 0, 0});
   return scene;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes with a known answer: what an effect must compute, in closed form. [effects-spec B0.7]
+// Scenes with a known answer in closed form, to test effects against. [effects-spec B0.7]
 #pragma once
 
 #include "effects/scene/scene.h"

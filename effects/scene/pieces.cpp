@@ -12,7 +12,7 @@ struct Triangle {
   std::uint32_t geometry;
   std::uint32_t index;
   glm::vec3 centre;
-  float size;  // the longest side of its box
+  float size;  // longest side of its bounds
 };
 
 std::vector<Triangle> triangles_of(const Mesh& mesh) {
@@ -30,10 +30,10 @@ std::vector<Triangle> triangles_of(const Mesh& mesh) {
   return out;
 }
 
-// One large triangle would make a large box of a piece of small ones: they go apart.
+// A large triangle would enlarge the bounds of a piece of small ones, so large ones are kept apart.
 constexpr double kLargePart = 1.0 / 8;  // of the mesh's longest side
 
-// Parts of at most `most` triangles; appends where each ends.
+// Splits into parts of at most `most` triangles, and appends where each part ends.
 void split(std::vector<Triangle>& triangles, double mesh_size, std::uint32_t most,
            std::vector<std::size_t>& ends) {
   const auto large = std::partition(
@@ -56,8 +56,8 @@ void split(std::vector<Triangle>& triangles, double mesh_size, std::uint32_t mos
     }
     const glm::dvec3 size = box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    // By number where centres are equal, so that any library gives the same pieces; a centre that
-    // is no number goes last.
+    // Equal centres are ordered by number, so that any standard library makes the same pieces; NaN
+    // centres go last.
     const auto before = [axis](const Triangle& a, const Triangle& b) {
       const bool a_lost = !(a.centre[axis] == a.centre[axis]);
       const bool b_lost = !(b.centre[axis] == b.centre[axis]);
@@ -76,7 +76,7 @@ void split(std::vector<Triangle>& triangles, double mesh_size, std::uint32_t mos
 }
 
 Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number) {
-  // In the order of the mesh: what lay close in memory stays close.
+  // Keep the mesh's order, so that what was close in memory stays close.
   std::sort(part.begin(), part.end(), [](const Triangle& a, const Triangle& b) {
     return std::pair(a.geometry, a.index) < std::pair(b.geometry, b.index);
   });
@@ -87,7 +87,7 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
     const Geometry& geometry = mesh.geometries[id];
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::unordered_map<std::uint32_t, std::uint32_t> place;  // of a vertex of the mesh
+    std::unordered_map<std::uint32_t, std::uint32_t> place;  // from a vertex of the mesh
     for (; i < part.size() && part[i].geometry == id; ++i) {
       for (std::uint32_t c = 0; c < 3; ++c) {
         const std::uint32_t from = mesh.index(geometry, 3 * part[i].index + c);
@@ -102,7 +102,7 @@ Mesh make_piece(const Mesh& mesh, std::vector<Triangle> part, std::size_t number
   return piece;
 }
 
-// Meshes that must stay whole.
+// Marks the meshes that must not be split.
 std::vector<bool> whole_meshes(const Scene& scene) {
   std::vector<bool> whole(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Large meshes in pieces, each with a bottom level of its own, so that a room of one mesh is not
-// one box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
+// Splits large meshes into pieces with a bottom level each, so that a room made of one mesh is not
+// a single box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
 #pragma once
 
 #include <cstddef>

@@ -12,8 +12,7 @@
 namespace kaamos::effects {
 namespace {
 
-// Corners in the world, material and alpha test of all triangles that the scene shows, in an order
-// of their own.
+// World-space corners, material and alpha test of all visible triangles, in a canonical order.
 using WorldTriangle = std::array<double, 11>;
 std::vector<WorldTriangle> world_triangles(const Scene& scene) {
   std::vector<WorldTriangle> out;
@@ -51,7 +50,7 @@ TEST(Pieces, AreSmallAndLoseNothing) {
   EXPECT_EQ(world_triangles(scene), before);
 }
 
-// A piece is a small part of the room, or nothing is gained; large triangles are in one of their
+// Splitting pays only if a piece is a small part of the room; large triangles get a piece of their
 // own.
 TEST(Pieces, AreCloseTogether) {
   Scene scene = make_lounge();

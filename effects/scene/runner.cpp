@@ -14,17 +14,17 @@ namespace kaamos::effects {
 namespace {
 
 constexpr double kPi = glm::pi<double>();
-constexpr int kKeys = 128;       // of the circle
-constexpr double kSteps = 8.0;   // double steps in it
-constexpr double kCircle = 1.4;  // metres
+constexpr int kKeys = 128;       // keyframes of the circle
+constexpr double kSteps = 8.0;   // double steps in the circle
+constexpr double kCircle = 1.4;  // radius in metres
 
-// The figure looks along +Z; +X is its left. Metres.
+// The figure faces +Z, and +X is its left. Metres.
 struct Bone {
   const char* name;
   int parent;
   glm::dvec3 offset;  // from the parent's joint
-  glm::dvec3 tail;    // from its own
-  double radius;      // 0: no capsule
+  glm::dvec3 tail;    // from its own joint
+  double radius;      // 0: the bone has no capsule
 };
 
 constexpr int kHips = 0, kSpine = 1, kChest = 2, kHead = 4, kCape = 19;
@@ -58,7 +58,7 @@ glm::dvec3 joint_position(int bone) {
   return at;
 }
 
-/// About the joint of a bone, in the direction of its tail.
+/// A capsule from the bone's joint along its tail.
 Shape capsule(const Bone& bone) {
   const double length = glm::length(bone.tail);
   std::vector<glm::dvec2> profile;
@@ -91,7 +91,7 @@ SkinVertex weights(int a, int b, double share_of_b) {
   return v;
 }
 
-/// Bones of `from`..`to`, each bent towards its parent's over its first quarter.
+/// The bones `from`..`to`, each blended with its parent over its first quarter.
 void add_bones(Mesh& mesh, int from, int to, std::uint32_t material) {
   Shape shape;
   for (int i = from; i <= to; ++i) {
@@ -112,7 +112,7 @@ void add_bones(Mesh& mesh, int from, int to, std::uint32_t material) {
 void add_cape(Mesh& mesh, std::uint32_t material) {
   const Bone& bone = kBones[kCape];
   const glm::dvec3 top = joint_position(kCape);
-  // Its front is towards -Z.
+  // The front of the cape faces -Z.
   Shape shape = patch(top + bone.tail + glm::dvec3(0.32, 0, 0), {-0.64, 0, 0}, -bone.tail, 10, 14);
   for (const Vertex& v : shape.vertices) {
     const double along =
@@ -139,7 +139,7 @@ Channel channel(int node, ChannelPath path, const F& value) {
   return out;
 }
 
-/// `turn` of the circle: 0..2 pi.
+/// The walk; `turn` is the angle on the circle, 0..2 pi.
 Animation walk(int way) {
   Animation out;
   out.name = "walk";
@@ -160,7 +160,7 @@ Animation walk(int way) {
   for (int side = 0; side < 2; ++side) {
     const double shift = side == 0 ? 0.0 : kPi;
     const int arm = side == 0 ? 5 : 8, leg = side == 0 ? 11 : 15;
-    // A turn about +X by a positive angle takes a hanging limb back.
+    // A positive rotation about +X swings a hanging limb backwards.
     swing(arm, [=](double p) { return 0.45 * std::sin(p + shift); });
     swing(arm + 1, [=](double p) { return -0.5 + 0.2 * std::sin(p + shift); });
     swing(leg, [=](double p) { return -0.45 * std::sin(p + shift); });
@@ -168,7 +168,7 @@ Animation walk(int way) {
     swing(leg + 2, [=](double p) { return 0.2 * std::sin(p + shift); });
   }
   swing(kCape, [](double p) { return 0.25 + 0.15 * std::sin(2 * p); });
-  // Round a circle about the node's origin, looking along it.
+  // A circle about the node's origin, facing along it.
   out.channels.push_back(channel(way, ChannelPath::kTranslation, [](double turn) {
     return glm::vec4(kCircle * std::sin(turn), 0.0f, kCircle * std::cos(turn), 0.0f);
   }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The skinned runner: a figure of capsules on a 20-bone skeleton that walks in a circle, a cape on
-// its back, and a crowd of the same. [effects-spec SC7]
+// The skinned runner: a figure of capsules on a 20-bone skeleton that walks in a circle, with a
+// cape on its back, and a crowd of the same figure. [effects-spec SC7]
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ bool unit(const glm::vec3& v) {
 
 glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction) {
   if (direction.y >= 0.0f) {
-    // The square root keeps the bright band near the horizon narrow, as real skies have it.
+    // The square root keeps the bright band at the horizon narrow, as in a real sky.
     return glm::mix(sky.horizon, sky.zenith, std::sqrt(std::min(direction.y, 1.0f)));
   }
   return glm::mix(sky.horizon, sky.ground, std::min(1.0f, -direction.y * 8.0f));
@@ -34,7 +34,7 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
   back = distance > 0.0 ? back / distance : glm::dvec3(0, 0, 1);
   glm::dvec3 right = glm::cross(up, back);
   if (glm::length(right) < 1e-9) {
-    // The view runs along `up`: any other axis tells which way the picture's right is.
+    // The view direction is along `up`, so any other axis may define the right of the picture.
     right = glm::cross(std::abs(back.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1), back);
   }
   right = glm::normalize(right);
@@ -46,7 +46,7 @@ glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target, const glm::d
 glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin) {
   glm::dmat4 m = instance.transform;
   m[3] -= glm::dvec4(origin, 0.0);
-  // glm's mat3x4 has three columns of four: its columns are the rows that are wanted.
+  // glm's mat3x4 has three columns of four elements; its columns are the rows that we need.
   return glm::mat3x4(glm::transpose(m));
 }
 
@@ -92,7 +92,7 @@ Bounds scene_bounds(const Scene& scene) {
 
 namespace {
 
-/// Collects where a check stands, so that each message names its place.
+/// Keeps track of where a check is, so that each message names the place.
 class Checker {
  public:
   explicit Checker(const Scene& scene) : scene_(scene) {}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. Plain data on the
-// host; acceleration structures and buffers are made from it later. Right-handed, +Y up, metres,
-// linear colours. World positions and transforms are double, because the scene is made relative to
-// the camera before it is rounded to float.
+// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. It is plain data
+// on the host, from which acceleration structures and buffers are made. Right-handed, +Y up,
+// metres, linear colours. World positions and transforms are doubles, because they are made
+// relative to the camera before they are rounded to float.
 #pragma once
 
 #include <cstdint>

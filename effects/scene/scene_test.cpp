@@ -167,7 +167,7 @@ TEST(Instance, TransformRowsAreRelativeToTheOrigin) {
 }
 
 TEST(Tangents, FollowTheTexture) {
-  // uv of a picture on a wall that faces +z: u to the right, v down.
+  // The uv of a picture on a wall facing +z: u to the right, v down.
   Shape shape = patch({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 2, 2);
   for (Vertex& vertex : shape.vertices) vertex.uv.y = 1.0f - vertex.uv.y;
   make_tangents(shape.vertices, shape.indices);
@@ -201,7 +201,7 @@ TEST(Tangents, SmoothNormalsOfASphereAreRadial) {
   EXPECT_GT(glm::dot(equator.normal, glm::normalize(equator.position)), 0.99f);
 }
 
-/// Volume enclosed by a closed surface; negative where it is turned inside out.
+/// Volume enclosed by a closed surface; negative if it is inside out.
 double volume(const Shape& shape) {
   double sum = 0.0;
   for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
@@ -218,7 +218,7 @@ TEST(Shapes, AreClosedAndFaceOutside) {
   EXPECT_NEAR(volume(box({1, 2, 3})), 48.0, 1e-5);
   const double r = 0.2;
   const glm::dvec3 core(0.8, 1.8, 2.8);
-  // Minkowski sum of the core box and a ball.
+  // The Minkowski sum of the core box and a ball.
   const double rounded = 8 * core.x * core.y * core.z +
                          8 * r * (core.x * core.y + core.y * core.z + core.z * core.x) +
                          2 * kPi * r * r * (core.x + core.y + core.z) + 4.0 / 3 * kPi * r * r * r;
@@ -254,7 +254,7 @@ TEST(Oracle, ScenesAreValidAndSeenByTheirCamera) {
 }
 
 TEST(Oracle, FormulasAgreeWithIntegration) {
-  // Cosine-weighted share of directions that meet the sphere, the wall, the sheet.
+  // Fraction of cosine-weighted directions that hit the sphere, the wall, the sheet.
   constexpr std::uint32_t kCount = 1u << 16;
   std::uint32_t sphere = 0, wall = 0, bounded = 0, lit = 0;
   for (std::uint32_t i = 0; i < kCount; ++i) {
@@ -277,7 +277,7 @@ TEST(Oracle, FormulasAgreeWithIntegration) {
   EXPECT_EQ(penumbra_visibility(1.0, 0.05, -1.0), 0.0);
 }
 
-/// Distance at which a ray meets a triangle's plane inside it, in float as an intersector works.
+/// Whether a ray hits the triangle, computed in float as an intersector would.
 bool hits(const glm::vec3& o, const glm::vec3& d, const glm::vec3& a, const glm::vec3& b,
           const glm::vec3& c) {
   const glm::vec3 e1 = b - a, e2 = c - a, p = glm::cross(d, e2);
@@ -290,7 +290,8 @@ bool hits(const glm::vec3& o, const glm::vec3& d, const glm::vec3& a, const glm:
   return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && glm::dot(e2, q) / det > 0.0f;
 }
 
-/// Share of rays spawned on random triangles that hit their own triangle again, and mean offset.
+/// Fraction of rays spawned on random triangles that hit their own triangle again, and the mean
+/// offset.
 std::pair<double, double> self_hits(double distance, double scale, bool with_offset) {
   std::uint32_t count = 0, bad = 0;
   double offsets = 0.0;

@@ -24,8 +24,8 @@ void add_vertex(Shape& shape, const glm::dvec3& position, const glm::dvec3& norm
   shape.vertices.push_back(vertex);
 }
 
-/// Two triangles of a grid cell with corners a (u,v), b (u+1,v), c (u,v+1), d (u+1,v+1); the front
-/// is towards cross(u, v). Triangles without area (at poles) are left out.
+/// The two triangles of a grid cell with corners a (u,v), b (u+1,v), c (u,v+1), d (u+1,v+1). The
+/// front faces cross(u, v). Triangles without area, as at poles, are left out.
 void add_cell(Shape& shape, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
   const auto triangle = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const glm::dvec3 p(shape.vertices[i].position);
@@ -46,13 +46,13 @@ void add_grid_cells(Shape& shape, std::uint32_t first, int u_steps, int v_steps)
     }
 }
 
-/// Coordinates along one axis of a rounded box: fine over the rounding, coarse between.
+/// Coordinates along one axis of a rounded box: fine over the rounding, coarse in between.
 std::vector<double> axis_steps(double half, double radius, int round_steps, int flat_steps) {
   std::vector<double> out;
   const double inner = half - radius;
   for (int i = 0; i < round_steps; ++i) {
     const double angle = 0.25 * glm::pi<double>() * i / round_steps;
-    // Points on the face of the enclosing cube that project to even angles on the rounding.
+    // Points on a face of the enclosing cube that project to equal angles on the rounding.
     out.push_back(-inner - radius * std::tan(0.25 * glm::pi<double>() - angle));
   }
   for (int i = 0; i <= flat_steps; ++i) out.push_back(-inner + 2.0 * inner * i / flat_steps);
@@ -73,7 +73,7 @@ glm::dvec3 direction_at(std::span<const glm::dvec3> path, std::size_t i, bool cl
   return glm::normalize(after - before);
 }
 
-/// Closes a ring of vertices with a fan. `out` is the direction it faces.
+/// Closes a ring of vertices with a fan. `out` is the direction that the cap faces.
 void add_cap(Shape& shape, std::span<const glm::dvec3> ring, const glm::dvec3& out, bool reversed) {
   const std::uint32_t first = static_cast<std::uint32_t>(shape.vertices.size());
   for (const glm::dvec3& p : ring) add_vertex(shape, p, out, glm::dvec2(0.0));
@@ -114,7 +114,7 @@ void deform(Shape& shape, const std::function<glm::dvec3(const glm::dvec3&)>& ma
       step[axis] = kStep;
       derivative[axis] = (map(p + step) - map(p - step)) / (2.0 * kStep);
     }
-    // Cofactors instead of the inverse: they exist for flattening maps as well.
+    // Cofactors instead of the inverse, because they exist for flattening maps too.
     const glm::dvec3 n(vertex.normal);
     const glm::dvec3 moved = glm::cross(derivative[1], derivative[2]) * n.x +
                              glm::cross(derivative[2], derivative[0]) * n.y +
@@ -214,7 +214,7 @@ Shape revolve(std::span<const glm::dvec2> profile, int segments, double crease) 
       for (int s = 0; s <= segments; ++s) {
         // The last column repeats the first bit for bit, so that no crack opens at the seam.
         const double angle = s == segments ? 0.0 : kTwoPi * s / segments;
-        // Angles run so that u to the right and v up face outwards.
+        // The angle increases such that the surface with u to the right and v up faces outwards.
         const glm::dvec3 radial(std::sin(angle), 0.0, std::cos(angle));
         add_vertex(shape, radial * p.x + glm::dvec3(0, p.y, 0),
                    radial * n.x + glm::dvec3(0, n.y, 0),

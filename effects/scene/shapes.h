@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Building blocks of the scenes made by code. All front faces are counter-clockwise seen from
-// outside, normals are unit and point outside, uv are in metres along the surface unless a shape
+// Building blocks for scenes made by code. Front faces are counter-clockwise seen from outside,
+// normals are unit vectors pointing outside, and uv are in metres along the surface unless a shape
 // says otherwise.
 #pragma once
 

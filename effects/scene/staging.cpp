@@ -26,7 +26,8 @@ void each_triangle(const Scene& scene, Visit visit) {
   }
 }
 
-/// A few rays against all triangles: once per scene, so no acceleration structure is worth it.
+/// A few rays against all triangles. Each scene needs them once, so an acceleration structure would
+/// not pay.
 struct Probe {
   glm::dvec3 direction;
   double distance = std::numeric_limits<double>::infinity();
@@ -62,7 +63,7 @@ std::vector<Probe> cube_probes() {
 
 Camera interior_camera(const Scene& scene) {
   const Bounds bounds = scene_bounds(scene);
-  // A little above the middle, where furniture seldom reaches.
+  // A little above the centre, where there is seldom furniture.
   const glm::dvec3 middle = bounds.center() + glm::dvec3(0.0, 0.05 * bounds.size().y, 0.0);
   std::vector<Probe> corners;
   for (const double x : {1.0, -1.0})
@@ -90,7 +91,7 @@ Camera framing_camera(const Bounds& bounds) {
   camera.vertical_fov = 0.75;
   const glm::dvec3 center = bounds.empty() ? glm::dvec3(0.0) : bounds.center();
   const glm::dvec3 direction = glm::normalize(glm::dvec3(0.55, 0.42, 1.0));
-  // As near as all corners of the box allow in a picture of 16:9, and 4 % farther.
+  // As close as possible with all corners of the bounds in a 16:9 picture, plus 4 %.
   const glm::dmat3 view = glm::transpose(glm::dmat3(look_at(direction, glm::dvec3(0.0))));
   const double slope = std::tan(0.5 * camera.vertical_fov);
   double distance = 1e-6;
@@ -117,13 +118,13 @@ bool is_interior(const Scene& scene) {
   for (const Probe& probe : probes) {
     const bool hit = probe.front && std::isfinite(probe.distance);
     closed += hit;
-    // The hall within a house is closed in as well, but the house is what the file shows: walls,
-    // floor and ceiling of a room stand where the scene ends.
+    // A hall inside a house is enclosed too, but there the file shows the house. In a room, walls,
+    // floor and ceiling are where the scene ends.
     for (int axis = 0; axis < 3; ++axis)
       near += hit && std::abs(probe.direction[axis]) > 0.99 &&
               probe.distance < 0.25 * bounds.size()[axis];
   }
-  // One near hit may be a thing in the middle of the room.
+  // One near hit may be an object in the middle of the room.
   return closed >= 22 && near <= 1;
 }
 
@@ -154,7 +155,8 @@ bool needs_ground(const Scene& scene) {
   double covered = 0.0;
   each_triangle(scene, [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     if (std::max({a.y, b.y, c.y}) > limit) return;
-    // The upward part of the area vector is the area of the triangle's outline seen from above.
+    // The upward component of the area vector is the area of the triangle's outline seen from
+    // above.
     covered += std::max(0.0, 0.5 * glm::cross(b - a, c - a).y);
   });
   return covered < size.x * size.z / 3.0;

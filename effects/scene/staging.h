@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a scene file often does not say: camera, sun, sky, ground.
+// What scene files often lack: camera, sun, sky, ground.
 #pragma once
 
 #include "effects/scene/scene.h"

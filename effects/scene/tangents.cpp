@@ -6,7 +6,7 @@
 namespace kaamos::effects {
 namespace {
 
-/// Cross product in double: float loses small triangles far from the origin.
+/// Cross product in double, because float loses small triangles far from the origin.
 glm::dvec3 area_normal(const Vertex& a, const Vertex& b, const Vertex& c) {
   const glm::dvec3 origin(a.position);
   return glm::cross(glm::dvec3(b.position) - origin, glm::dvec3(c.position) - origin);
@@ -63,12 +63,12 @@ void make_tangents(std::span<Vertex> vertices, std::span<const std::uint32_t> in
     const double area = d1.x * d2.y - d2.x * d1.y;
     if (area == 0.0 || !std::isfinite(area)) continue;
     const double sign = area > 0.0 ? 1.0 : -1.0;
-    // Not divided by the uv area: the triangle's weight is then its size in both spaces, and tiny
-    // uv areas do not blow up.
+    // Not divided by the uv area, so that a triangle is weighted by its size in both spaces and
+    // tiny uv areas do not blow up.
     const glm::dvec3 tangent = (e1 * d2.y - e2 * d1.y) * sign;
     for (std::size_t k = 0; k < 3; ++k) {
       along_u[indices[i + k]] += tangent;
-      // v grows downwards in the picture while the bitangent points up in it, hence the minus.
+      // v grows downwards in the picture but the bitangent points up, hence the minus.
       handedness[indices[i + k]] -= sign * glm::length(tangent);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Normals and tangents for vertices that come without.
+// Computes normals and tangents for vertices that lack them.
 #pragma once
 
 #include <cstdint>

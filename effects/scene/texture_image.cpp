@@ -26,8 +26,8 @@ std::uint8_t to_byte(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
-/// First and one-past-last source texel that a destination texel covers when a side is halved. With
-/// an odd side the last texel takes three, so that nothing of the source is dropped.
+/// First and one-past-last source texel that a destination texel covers when a side is halved. If
+/// the side is odd, the last texel takes three, so that no source texel is dropped.
 struct Footprint {
   std::uint32_t begin, end;
 };
@@ -66,8 +66,8 @@ std::vector<std::uint8_t> downsample(const TextureImage& image, std::uint32_t le
   return out;
 }
 
-/// Scale of alpha that brings the coverage of `level` to `wanted`, by bisection: coverage never
-/// falls while the scale grows.
+/// Finds the scale of alpha that brings the coverage of `level` to `wanted`, by bisection: coverage
+/// never falls as the scale grows.
 float coverage_scale(const TextureImage& image, std::uint32_t level, float cutoff, float wanted) {
   float low = 0.0f, high = 8.0f;
   for (int step = 0; step < 16; ++step) {
@@ -122,7 +122,8 @@ void generate_mips(TextureImage& image, std::optional<float> alpha_cutoff) {
   for (std::uint32_t level = 0; (longest >> level) > 1; ++level)
     image.mips.push_back(downsample(image, level));
   if (!alpha_cutoff || !has_alpha(image)) return;
-  // Alpha is scaled only after all levels are averaged: scaling must not feed into the next level.
+  // Scale alpha only after all levels are averaged, so that the scaling does not feed into the next
+  // level.
   const float wanted = alpha_coverage(image, 0, *alpha_cutoff);
   for (std::uint32_t level = 1; level < image.mips.size(); ++level) {
     const float scale = coverage_scale(image, level, *alpha_cutoff, wanted);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Any-hit shaders: holes in leaves and fences. Opaque geometry never gets here.
+// Alpha test for any-hit shaders: holes in leaves and fences. Opaque geometry never runs it.
 #ifndef KAAMOS_ALPHA_TEST_HLSLI
 #define KAAMOS_ALPHA_TEST_HLSLI
 
 #include "frame.hlsli"
 
-// True where the surface is open. Level 0 of the texture: shadows of a leaf do not depend on how far
-// the camera is.
+// True where the surface has a hole. Reads level 0 of the texture, because the shadow of a leaf
+// must not depend on how far away the camera is.
 bool IsOpenAt(float2 barycentrics) {
   const MaterialConstants material = materials[hit_constants.material_id];
   float alpha = 1.0;

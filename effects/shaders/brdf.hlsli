@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The one material model of every hit: Lambert and GGX. [Northlight deck: unified simplified PBR]
-// Vectors are unit and point away from the surface. [effects-spec B0.4]
+// The one material model, used at every hit: Lambert plus GGX. [Northlight deck: unified simplified
+// PBR] Vectors have unit length and point away from the surface. [effects-spec B0.4]
 #ifndef KAAMOS_BRDF_HLSLI
 #define KAAMOS_BRDF_HLSLI
 
 static const float kBrdfPi = 3.14159265f;
-// Below this roughness a surface is a mirror: GGX's peak would leave the range of floats.
+// Smoother surfaces are treated as mirrors: the peak of GGX would exceed the range of floats.
 static const float kMirrorRoughness = 0.03f;
 
 struct Brdf {
@@ -36,18 +36,19 @@ float GgxDensity(float alpha, float cosine_half) {
   return a2 / (kBrdfPi * d * d);
 }
 
-// cosine * (1 + 2 Lambda), Lambda as of Smith, without a division that fails at grazing angles.
+// cosine * (1 + 2 Lambda) with Smith's Lambda, written without a division, which would fail at
+// grazing angles.
 float GgxShadowing(float alpha, float cosine) {
   const float a2 = alpha * alpha;
   return sqrt(a2 + (1.0f - a2) * (cosine * cosine));
 }
 
-// Where a surface is seen from, and what of its reflectance all lights have in common.
+// The view direction at a surface, and the part of its reflectance that all lights share.
 struct BrdfView {
   float3 normal;
   float3 direction;  // towards the eye
-  float cosine;      // with the normal, a little above 0 at least
-  float shadowing;   // GgxShadowing of that
+  float cosine;      // with the normal; at least 1e-4
+  float shadowing;   // GgxShadowing of the view direction
 };
 
 BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
@@ -59,9 +60,9 @@ BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
   return view;
 }
 
-// Reflectance times cosine: what a surface sends towards `view` of irradiance 1 that arrives, on a
-// surface that faces it, from `light`. GGX's density times Smith's visibility, whose divisor, 4 n_v
-// n_l (1 + Lambda(n_v) + Lambda(n_l)), is that of both directions' shadowing.
+// BRDF times cosine: the radiance sent towards `view` per unit of irradiance (measured facing the
+// light) from direction `light`. The specular part is GGX's density times Smith's height-correlated
+// visibility, whose divisor 4 n_v n_l (1 + Lambda(n_v) + Lambda(n_l)) is twice `both`.
 float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
   const float n_l = dot(view.normal, light);
   if (!(n_l > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
@@ -73,8 +74,9 @@ float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
   return (brdf.diffuse * (1.0f / kBrdfPi) + fresnel * specular) * n_l;
 }
 
-// A half vector with the density that GGX's facets have as seen from `view`, all about +Z.
-// [Dupuy & Benyoub 2023, spherical caps]
+// Samples a half vector about +Z with the density of the GGX microfacets that `view` sees: map
+// `view` to the hemisphere configuration, sample a spherical cap, map back. [Dupuy & Benyoub 2023,
+// Sampling Visible GGX Normals with Spherical Caps]
 float3 SampleGgxHalfVector(float2 u, float3 view, float alpha) {
   const float3 w = normalize(float3(alpha * view.x, alpha * view.y, view.z));
   const float phi = 2.0f * kBrdfPi * u.x;
@@ -84,9 +86,9 @@ float3 SampleGgxHalfVector(float2 u, float3 view, float alpha) {
   return normalize(float3(alpha * h.x, alpha * h.y, max(h.z, 0.0f)));
 }
 
-// Reflectance over density of a direction that was mirrored at such a half vector: F G2 / G1, which is
-// F (1 + Lambda(n_v)) / (1 + Lambda(n_v) + Lambda(n_l)). At most 1. Zero under the surface: that light
-// is lost, not drawn anew. [effects-spec B0.4]
+// BRDF times cosine over density for a direction mirrored at such a half vector: F G2 / G1, which
+// is F (1 + Lambda(n_v)) / (1 + Lambda(n_v) + Lambda(n_l)), at most 1. It is zero below the
+// surface: that light is lost rather than sampled again. [effects-spec B0.4]
 float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float cosine_half_view) {
   if (!(cosine_light > 0.0f)) return float3(0.0f, 0.0f, 0.0f);
   const float view = GgxShadowing(brdf.alpha, cosine_view);
@@ -95,9 +97,9 @@ float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float c
          (cosine_light * (view + cosine_view) / (cosine_light * view + cosine_view * light));
 }
 
-// Reflectance of the specular part under light from everywhere, about: what a signal is divided by
-// before a filter and multiplied with behind it, so that only its ratio to the truth matters little.
-// [Karis 2014, after Lazarov 2013]
+// Approximate reflectance of the specular part under uniform light. A signal is divided by it
+// before a filter and multiplied by it afterwards, so the error of the approximation largely
+// cancels. [Karis 2014, after Lazarov 2013]
 float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
   const float4 c0 = float4(-1.0f, -0.0275f, -0.572f, 0.022f);
   const float4 c1 = float4(1.0f, 0.0425f, 1.04f, -0.04f);

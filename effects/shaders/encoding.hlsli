@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How values stand in the frame's pictures.
+// How values are stored in the frame's pictures.
 #ifndef KAAMOS_ENCODING_HLSLI
 #define KAAMOS_ENCODING_HLSLI
 
-// Unit vectors as two numbers in [-1, 1]. [Cigolle et al. 2014, A Survey of Efficient
-// Representations for Independent Unit Vectors]
+// Unit vectors as two numbers in [-1, 1]: project onto an octahedron and unfold it. [Cigolle et al.
+// 2014, A Survey of Efficient Representations for Independent Unit Vectors]
 float2 OctahedralEncode(float3 n) {
   const float3 p = n * (1.0f / (abs(n.x) + abs(n.y) + abs(n.z)));
   if (p.z >= 0.0f) return p.xy;
@@ -21,8 +21,8 @@ float3 OctahedralDecode(float2 p) {
   return normalize(n);
 }
 
-// Linear colours, 0..1, in bytes: by their square roots. As fine as sRGB (the largest step is 1/128
-// instead of 1/112), without its power functions, which a UAV does not have built in either.
+// Linear colours in 0..1 are stored in bytes as square roots. That is about as fine as sRGB (the
+// largest step is 1/128 instead of 1/112) and needs no power function; UAVs have no sRGB formats.
 float3 EncodeColor(float3 c) { return sqrt(c); }
 float3 DecodeColor(float3 e) { return e * e; }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Reading a geometry in a hit shader: two root SRVs (indices, vertices) and root constants, as in
-// the Northlight deck ("Root SRVs and Constants for Vertex Data"). The layout is that of
-// effects/scene/mesh.h.
+// Reads a geometry in a hit shader: two root SRVs (indices, vertices) and root constants, as in the
+// Northlight deck ("Root SRVs and Constants for Vertex Data"). effects/scene/mesh.h has the layout.
 #ifndef KAAMOS_GEOMETRY_HLSLI
 #define KAAMOS_GEOMETRY_HLSLI
 
-// Root constants of a hit record, 32 bytes. Positions stand at offset 0 of a vertex.
+// Root constants of a hit record, 32 bytes. A vertex begins with its position.
 struct HitConstants {
   uint vertex_stride;
   uint normal_offset;
@@ -17,8 +16,8 @@ struct HitConstants {
   uint geometry_id;
 };
 
-// The three vertices of a triangle. 16-bit triangles are 6 bytes long, so every second one starts in
-// the middle of a word.
+// The vertex numbers of a triangle. Triangles with 16-bit indices are 6 bytes long, so every second
+// one starts in the middle of a word.
 uint3 LoadTriangle(ByteAddressBuffer indices, uint index_size_bytes, uint primitive) {
   if (index_size_bytes == 4u) return indices.Load3(primitive * 12u);
   const uint first = primitive * 6u;
@@ -59,7 +58,7 @@ float2 LoadUv(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_verti
       barycentrics);
 }
 
-// Object space, not unit.
+// The interpolated normal in object space, not of unit length.
 float3 LoadNormal(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_vertices,
                   float2 barycentrics) {
   return Interpolate(
@@ -69,7 +68,8 @@ float3 LoadNormal(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_v
       barycentrics);
 }
 
-// Object space; w is the handedness: bitangent = w * cross(normal, tangent).
+// The interpolated tangent in object space; w is the handedness: bitangent = w * cross(normal,
+// tangent).
 float4 LoadTangent(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_vertices,
                    float2 barycentrics) {
   return Interpolate(
@@ -79,21 +79,21 @@ float4 LoadTangent(ByteAddressBuffer vertices, HitConstants hit, uint3 triangle_
       barycentrics);
 }
 
-// A normal of object space in world space, unit. Normals go with the inverse transpose.
+// Transforms a normal to world space by the inverse transpose, and normalises it.
 float3 NormalToWorld(float3 normal, float3x4 world_to_object) {
   return normalize(mul(normal, (float3x3)world_to_object));
 }
 
-// A point of a triangle in world space and how far it may be off.
+// A point on a triangle in world space, with a bound of its rounding error.
 struct SpawnPoint {
   float3 position;
-  float3 normal;  // unit, of the triangle; zero where the triangle has no area
-  float offset;   // along the normal, metres
+  float3 normal;  // of the triangle, unit; zero if the triangle has no area
+  float offset;   // metres along the normal
 };
 
-// Bounds the point's rounding error instead of taking a fixed epsilon. [effects-spec B0.5, method 1:
-// error bound of Waechter, van Antwerpen and Klehm 2023] effects/common/ray_origin.h is the same for
-// the host.
+// Instead of a fixed epsilon, bounds the rounding error of this very point. [effects-spec B0.5,
+// method 1: error bound of Waechter, van Antwerpen and Klehm 2023] effects/common/ray_origin.h is
+// the same for the host.
 SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
                           float3x4 object_to_world, float3x4 world_to_object) {
   const float c0 = 5.9604644775390625e-8f;   // 2^-24
@@ -107,8 +107,9 @@ SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
   const float3 a2 = abs(e2);
   const float3 extents = a1 + a2 + abs(a1 - a2);
   const float extent = max(max(extents.x, extents.y), extents.z);
-  // The normal's squared length is of the fourth power of the edges: it would vanish below 1e-10 m
-  // and overflow above 1e9 m. A power of two, 1 / extent by its exponent, changes no digit.
+  // The normal's squared length grows with the fourth power of the edges: it would underflow for
+  // edges below 1e-10 m and overflow above 1e9 m. Scaling them by 1 / extent, reduced to a power of
+  // two, changes no digit.
   const float power = asfloat((254u << 23) - (asuint(extent) & 0x7F800000u));
   precise const float3 n = cross(e1 * power, e2 * power);
   float3 object_error = c0 * abs(v0) + c1 * extent;
@@ -140,7 +141,7 @@ SpawnPoint MakeSpawnPoint(float3 v0, float3 v1, float3 v2, float2 barycentrics,
   return result;
 }
 
-// Origin of a ray towards `direction`: on that side of the triangle. The ray's TMin is 0.
+// Origin of a ray towards `direction`, on that side of the triangle. With it, TMin can be 0.
 float3 SpawnOrigin(SpawnPoint point_, float3 direction) {
   const float side = dot(point_.normal, direction) >= 0.0f ? 1.0f : -1.0f;
   return point_.position + point_.normal * (side * point_.offset);

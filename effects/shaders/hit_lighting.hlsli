@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Local lights at any point of the scene, on the picture or off it: found through a grid of clusters
-// about the camera, shadowed by maps in an atlas. Every pass that shades hits includes this.
-// [Northlight deck: Light Culling, Lighting Data; effects-spec B1.3]
+// Local lights at any point of the scene, visible or not. A grid of clusters about the camera finds
+// the lights, and shadow maps in an atlas tell whether they are visible. Every pass that shades
+// hits includes this. [Northlight deck: Light Culling, Lighting Data; effects-spec B1.3]
 #ifndef KAAMOS_HIT_LIGHTING_HLSLI
 #define KAAMOS_HIT_LIGHTING_HLSLI
 
@@ -9,36 +9,37 @@
 #include "encoding.hlsli"
 #include "frame.hlsli"
 
-// effects/lights/lighting.h binds these for a pass, and holds the same numbers.
-// What a light sees through a texel: the plane that it met, all p from the light with dot(xyz, p) = 1,
-// and 1 over how far away that was, metres. Nothing: 0.
+// effects/lights/lighting.h binds these for a pass and holds the same numbers. A texel of the atlas
+// stores the plane that the light sees there: all p, relative to the light, with dot(xyz, p) = 1.
+// w is 1 / distance of the hit, in 1/metres. All are 0 if nothing was hit.
 RWTexture2D<float4> shadow_atlas : register(u16, space3);
 RWStructuredBuffer<uint> cluster_counts : register(u17, space3);
 RWStructuredBuffer<uint> cluster_lights : register(u18, space3);
 
 static const uint kClusterCells = 32;        // per axis
-static const uint kClusterCapacity = 64;     // lights of a cluster
-static const float kClusterInnerSize = 0.5;  // metres, of the cells about the camera
-// A cluster with more lights than it can hold: all lights of the scene are looked at, none is lost.
+static const uint kClusterCapacity = 64;     // lights in a cluster
+static const float kClusterInnerSize = 0.5;  // metres, of the cells next to the camera
+// Marks a cluster with more lights than it can hold. There all lights of the scene are evaluated,
+// so none is lost.
 static const uint kClusterOverflow = 0xFFFFFFFF;
 
-static const uint kShadowTile = 128;         // texels, of a light's map
+static const uint kShadowTile = 128;         // texels along a side of a light's map
 static const uint kShadowTilesPerRow = 32;
-static const float kShadowOffset = 1.5;      // texels, of a point along its normal
-static const float kShadowTolerance = 0.5;   // texels, behind an occluder that count as before it
+static const float kShadowOffset = 1.5;      // texels that a point is moved along its normal
+static const float kShadowTolerance = 0.5;   // texels behind an occluder that still count as lit
 
-// Cells grow with the distance from the camera, two for each doubling of 1 + distance / inner size; the
-// outermost reach to infinity, so that every point lies in one, also behind the camera: rays hit what
-// the camera does not see.
+// Cells grow with the distance from the camera, two per doubling of 1 + distance / inner size. The
+// outermost cells reach to infinity, so every point lies in a cell, also behind the camera: rays
+// hit what the camera does not see.
 int ClusterCoordinate(float x) {
-  // The exponent and the first bit behind it: twice the whole part of the logarithm to base 2, and
-  // which half it is.
+  // The exponent and the first mantissa bit: twice the integer part of log2, plus which half of the
+  // octave it is.
   const int halves = int(asuint(1.0 + abs(x) / kClusterInnerSize) >> 22) - 254;
   const int cell = min(halves, int(kClusterCells) / 2 - 1);
   return int(kClusterCells) / 2 + (x < 0.0 ? -1 - cell : cell);
 }
 
-// The sides of a cell along an axis: coordinate c holds ClusterLow(c) <= x <= ClusterHigh(c).
+// Bounds of a cell along an axis: coordinate c contains ClusterLow(c) <= x <= ClusterHigh(c).
 float ClusterDistance(int cells) { return (asfloat(uint(cells + 254) << 22) - 1.0) * kClusterInnerSize; }
 
 float ClusterLow(int coordinate) {
@@ -55,7 +56,7 @@ float ClusterHigh(int coordinate) {
                                  : ClusterDistance(coordinate + 1 - half_cells);
 }
 
-// The grid's axes are the camera's.
+// The grid is aligned with the camera's axes.
 float3 ClusterSpace(float3 position) {
   return float3(dot(position, frame.camera_right) * frame.over_right,
                 dot(position, frame.camera_up) * frame.over_up, dot(position, frame.camera_forward));
@@ -71,8 +72,8 @@ float RadianceLuminance(float3 radiance) {
   return dot(radiance, float3(0.2126, 0.7152, 0.0722));
 }
 
-// Where a point at a distance from a light stands in its map, 0..1: spots see their cone, points
-// everything.
+// Where a direction from the light falls on its shadow map, 0..1. A spot's map covers its cone in
+// perspective, a point light's covers all directions as an octahedron.
 float2 ShadowMapUv(LightConstants light, float3 direction, float distance) {
   if (light.is_spot == 0) {
     return OctahedralEncode(direction) * 0.5 + 0.5;
@@ -81,12 +82,12 @@ float2 ShadowMapUv(LightConstants light, float3 direction, float distance) {
   return float2(dot(direction, light.map_right), dot(direction, light.map_up)) * (0.5 / along) + 0.5;
 }
 
-// The direction of a point of a light's map: the inverse.
+// The inverse: the direction of a point of a light's map.
 float3 ShadowMapDirection(LightConstants light, float2 uv) {
   if (light.is_spot == 0) {
     return OctahedralDecode(uv * 2.0 - 1.0);
   }
-  // The axes are as long as 1 over the cone's tangent.
+  // The length of the axes is 1 / the tangent of the cone's half angle.
   const float2 p = (uv * 2.0 - 1.0) / dot(light.map_right, light.map_right);
   return normalize(light.direction + p.x * light.map_right + p.y * light.map_up);
 }
@@ -95,18 +96,19 @@ uint2 ShadowTileOrigin(uint light) {
   return uint2(light % kShadowTilesPerRow, light / kShadowTilesPerRow) * kShadowTile;
 }
 
-// Whether a point, given from the light, lies behind what a texel saw. Planes are compared, not
-// distances: where a wall is seen aslant its distance changes by much over a texel, its plane does
-// not, so that no wall shadows itself, nor another one in the corner that they share. A plane is
-// good for the surroundings of its texel only: within a factor of two of the distance.
+// Whether a point, given relative to the light, lies behind what a texel saw. The test compares
+// planes instead of distances: on a wall seen at a slant the distance changes a lot within a texel
+// but the plane does not, so no wall shadows itself or its neighbour in a corner. A plane is valid
+// only near its texel, so its distance is kept within a factor of two of the one stored.
 bool IsBehind(float4 occluder, float3 from_light, float receiver, float tolerance) {
   const float ratio = receiver * occluder.w;
   const float along = clamp(dot(occluder.xyz, from_light), 0.5 * ratio, 2.0 * ratio);
   return along * receiver > receiver + tolerance * along;
 }
 
-// Visibility of a light by its map, four texels weighted. The point moves along its normal by a part
-// of what a texel covers there: round things lie behind the planes beside them. [effects-spec B2.1]
+// Visibility of a light by its shadow map: four texels, bilinearly weighted. The point is first
+// moved along its normal by a few texels' size, because a curved surface lies behind the tangent
+// planes next to it. [effects-spec B2.1]
 float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3 normal) {
   const float texel = length(position - light.position) * light.map_texel;
   const float3 from_light = position + normal * (kShadowOffset * texel) - light.position;
@@ -128,7 +130,7 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
   return visible;
 }
 
-// What one light sends by a surface towards `view`, without shadow.
+// Radiance of one light reflected towards `view`, without shadow.
 float3 LightRadiance(LightConstants light, Brdf brdf, BrdfView view, float3 position) {
   const LightSample s = SampleLight(light, position);
   if (!any(s.irradiance > 0.0)) return float3(0, 0, 0);
@@ -143,10 +145,10 @@ float3 ShadowedLightRadiance(uint id, Brdf brdf, BrdfView view, float3 position,
   return radiance * ShadowMapVisibility(id, light, position, geometric_normal);
 }
 
-// What a loop over a cluster's lights visits; ClusterLight names each.
+// The lights that a loop over a cluster visits; ClusterLight returns each.
 struct ClusterRange {
   uint count;
-  uint first;  // of cluster_lights; kClusterOverflow: all lights of the scene
+  uint first;  // into cluster_lights; kClusterOverflow: all lights of the scene
 };
 
 ClusterRange ClusterLights(float3 position) {
@@ -166,7 +168,7 @@ uint ClusterLight(ClusterRange range, uint index) {
   return cluster_lights[range.first + index];
 }
 
-// All local lights at a point, with their shadow maps.
+// Reflected radiance of all local lights at a point, with their shadow maps.
 float3 LocalLights(Brdf brdf, BrdfView view, float3 position, float3 geometric_normal) {
   const ClusterRange range = ClusterLights(position);
   float3 sum = float3(0, 0, 0);
@@ -176,7 +178,7 @@ float3 LocalLights(Brdf brdf, BrdfView view, float3 position, float3 geometric_n
   return sum;
 }
 
-// What all local lights send onto a point of a surface, with their shadow maps: irradiance.
+// Irradiance of all local lights at a point of a surface, with their shadow maps.
 float3 LocalIrradiance(float3 position, float3 normal) {
   const ClusterRange range = ClusterLights(position);
   float3 sum = float3(0, 0, 0);

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Light that comes from everywhere, stored in cells of a sparse volume: per cell and colour a mean
-// and a slope over directions (spherical harmonics to degree 1). [effects-spec B5.1]
+// Indirect light, stored in the cells of a sparse volume: per cell and colour a mean and a slope
+// over directions (spherical harmonics up to degree 1). [effects-spec B5.1]
 #ifndef KAAMOS_INDIRECT_VOLUME_HLSLI
 #define KAAMOS_INDIRECT_VOLUME_HLSLI
 
 #include "frame.hlsli"
 
-// effects/indirect_diffuse/volume.h holds the same layouts, and binds all three to a pass.
+// effects/indirect_diffuse/volume.h has the same layouts and binds all three buffers to a pass.
 struct VolumeConstants {
-  float3 origin;    // of cell (0, 0, 0)'s corner, relative to the camera
+  float3 origin;    // of the corner of cell (0, 0, 0), relative to the camera
   float cell;       // metres
-  uint3 bricks;     // of the grid, along each axis
+  uint3 bricks;     // along each axis of the grid
   uint enabled;     // 0: there is no volume
   float over_cell;  // 1 / cell
 };
 
-// Radiance towards a unit direction d, by colour: mean + slope.x d.x + slope.y d.y + slope.z d.z.
-// Kept short, because rays that end anywhere read cells from memory: 32 bytes, two to a cache line.
-// The upper 21 bits of a word are those of a float of red (or green), the lower 11 one half of blue's
-// upper 22: sign, exponent and 12 or 13 bits more. The sign of red's mean, which light does not have,
-// marks a cell in a solid. effects/indirect_diffuse/packed_cell.h has the same for the host.
+// Radiance from a unit direction d, per colour: mean + slope.x d.x + slope.y d.y + slope.z d.z.
+//
+// A cell has 32 bytes, two to a cache line, because rays end anywhere and read cells from memory.
+// The upper 21 bits of a word are the top of a red (or green) float; the lower 11 bits are one half
+// of blue's upper 22: sign, exponent and 12 or 13 bits of mantissa. Light is never negative, so the
+// sign of red's mean marks a cell inside a solid. effects/indirect_diffuse/packed_cell.h is the
+// same for the host.
 static const uint kUpper = 0xFFFFF800;
 struct VolumeCell {
   uint4 red;    // mean, slope
@@ -30,24 +32,24 @@ float4 CellRed(VolumeCell cell) { return asfloat(cell.red & kUpper); }
 float4 CellGreen(VolumeCell cell) { return asfloat(cell.green & kUpper); }
 float4 CellBlue(VolumeCell cell) { return asfloat(cell.red << 21 | (cell.green & ~kUpper) << 10); }
 
-// Sums over cells: mean and slope of each colour.
+// Weighted sums over cells: mean and slope of each colour.
 struct VolumeLight {
   float4 red;
   float4 green;
   float4 blue;
-  float weight;  // what the sums are to be divided by; 0: nothing is known here
+  float weight;  // divide the sums by it; 0: nothing is stored here
 };
 
-StructuredBuffer<uint> volume_bricks : register(t0, space3);  // where a brick's cells start; kNoBrick
+StructuredBuffer<uint> volume_bricks : register(t0, space3);  // a brick's first cell, or kNoBrick
 StructuredBuffer<VolumeCell> volume_cells : register(t1, space3);
 StructuredBuffer<VolumeConstants> volume_constants : register(t2, space3);
 
 static const uint kBrickCells = 8;  // along each axis
 static const uint kNoBrick = 0xFFFFFFFF;
 
-// Two neighbours along an axis: what they add to the number of their brick and to their place in it,
-// and how much they count. Outside the grid, where a cell below zero lies as a large one does, that
-// is nothing.
+// Two neighbouring cells along an axis: their terms of the brick's index and of the place within
+// the brick, and their weights. The weight is 0 outside the grid; negative coordinates wrap to
+// large ones and are outside too.
 struct CellPair {
   uint2 brick;
   uint2 place;
@@ -65,7 +67,7 @@ CellPair CellsAlong(int low, float part, uint bricks, uint brick_step, uint cell
   return pair;
 }
 
-// Eight cells about a point, those in solids and those not stored left out.
+// Trilinear interpolation of the eight cells about a point, without those in solids or not stored.
 VolumeLight SampleVolume(float3 position) {
   VolumeLight sum;
   sum.red = sum.green = sum.blue = float4(0, 0, 0, 0);
@@ -100,12 +102,12 @@ VolumeLight SampleVolume(float3 position) {
     sum.blue += w * CellBlue(cell);
     sum.weight += w;
   }
-  // Only weights that are more than rounding are worth dividing by.
+  // A weight that is mere rounding error must not become a divisor.
   if (sum.weight < 1e-3) sum.weight = 0.0;
   return sum;
 }
 
-// The cell about a point alone; weight 0 if it is in a solid, not stored or outside.
+// Only the cell that contains the point; weight 0 if it is in a solid, not stored or outside.
 VolumeLight SampleVolumeCell(float3 position) {
   VolumeLight light;
   light.red = light.green = light.blue = float4(0, 0, 0, 0);
@@ -114,7 +116,7 @@ VolumeLight SampleVolumeCell(float3 position) {
   if (volume.enabled == 0) return light;
   const float3 at = floor((position - volume.origin) * volume.over_cell);
   if (any(abs(at) > 1e6)) return light;
-  const uint3 cell = uint3(int3(at));  // below zero: a large one
+  const uint3 cell = uint3(int3(at));  // negative ones wrap to large ones
   if (any(cell >= volume.bricks * kBrickCells)) return light;
   const uint3 brick = cell / kBrickCells;
   const uint3 place = cell % kBrickCells;
@@ -131,11 +133,12 @@ VolumeLight SampleVolumeCell(float3 position) {
   return light;
 }
 
-// What is sent towards a direction, times `slope_scale` of what depends on it; the sky's where
-// nothing is stored. `jitter`, evenly from -0.5 to 0.5 along each axis, chooses one cell as often as the
-// eight would weigh it; where it holds nothing all eight are read. On average over jitters that is
-// what all eight give, for a quarter of the work. [Pharr et al. 2024, stochastic texture filtering]
-static const float3 kEveryCell = float3(1, 1, 1);  // as a jitter: all eight, for what has no noise
+// Light stored for `direction`: the mean plus `slope_scale` times the directional part, or the
+// sky's where nothing is stored. `jitter`, uniform in -0.5..0.5 along each axis, picks a single
+// cell with the probability of its trilinear weight; if that cell is empty, all eight are read.
+// Averaged over jitters the result is that of all eight cells, for a quarter of the work. [Pharr et
+// al. 2024, Filtering After Shading with Stochastic Texture Filtering]
+static const float3 kEveryCell = float3(1, 1, 1);  // as a jitter: reads all eight, without noise
 
 float3 VolumeTowards(float3 position, float3 jitter, float3 direction, float slope_scale) {
   VolumeLight light;
@@ -155,12 +158,13 @@ float3 VolumeRadiance(float3 position, float3 jitter, float3 direction) {
   return VolumeTowards(position, jitter, direction, 1.0);
 }
 
-// Irradiance over pi on a surface: what a white diffuse surface sends back.
+// Irradiance / pi on a surface, which is what a white diffuse surface reflects. The cosine keeps
+// 2/3 of the slope. [Ramamoorthi & Hanrahan 2001]
 float3 VolumeIrradiance(float3 position, float3 jitter, float3 normal) {
   return VolumeTowards(position, jitter, normal, 2.0 / 3.0);
 }
 
-// The same two of a surface: half a cell off it, so that the cells behind it count less.
+// The same two for a surface. They read half a cell off it, so that cells behind it count less.
 float3 VolumeIrradianceAt(float3 position, float3 jitter, float3 normal) {
   return VolumeIrradiance(position + normal * (0.5 * volume_constants[0].cell), jitter, normal);
 }

@@ -13,23 +13,23 @@ struct LightConstants {
   float spot_scale;
   float spot_offset;
   uint is_spot;
-  float cos_outer;  // of a spot's cone; its map ends there
+  float cos_outer;  // of a spot's cone, where its map ends
   float over_range;  // 1 / range
-  // A spot's map: a direction d stands at dot(d, axis) / dot(d, direction), from -1 to 1.
+  // Axes of a spot's map: direction d falls at dot(d, axis) / dot(d, direction), from -1 to 1.
   float3 map_right;
-  float over_least_distance;  // 1 / metres: nearer points are lit as one that near
+  float over_least_distance;  // 1 / metres; closer points are lit as if at that distance
   float3 map_up;
   float map_texel;  // radians that a texel of the map covers
 };
 
 struct LightSample {
   float3 direction;    // towards the light, unit
-  float distance;      // metres, to its centre
+  float distance;      // metres to its centre
   float3 irradiance;   // on a surface that faces the light
 };
 
-// Inverse square law, cut off at the range smoothly. A point inside the light's sphere sees it from
-// its surface. [KHR_lights_punctual; effects-spec B1.3]
+// Inverse square law with a smooth cutoff at the range. Inside the light's sphere, a point is lit
+// as if it were on the sphere. [KHR_lights_punctual; effects-spec B1.3]
 LightSample SampleLight(LightConstants light, float3 position) {
   const float3 to_light = light.position - position;
   const float distance_squared = dot(to_light, to_light);
@@ -43,7 +43,7 @@ LightSample SampleLight(LightConstants light, float3 position) {
   const float window = saturate(1.0f - ratio_squared * ratio_squared);
   const float cone =
       saturate(dot(-result.direction, light.direction) * light.spot_scale + light.spot_offset);
-  // Most lights that are near a point do not reach it.
+  // Most lights of a cluster do not reach the point.
   if (!(window * cone > 0.0f)) return result;
   const float root = window * cone * min(over_distance, light.over_least_distance);
   result.irradiance = light.intensity * (root * root);

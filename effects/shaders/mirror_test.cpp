@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shared HLSL compiled as C++, with GLM in the part of HLSL's vectors: every function must give
-// the values of its twin on the host, every struct must have the layout of its twin.
+// The shared HLSL compiled as C++, with GLM in place of HLSL's vectors. Every function must return
+// the values of its twin on the host, and every struct must have the layout of its twin.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -58,7 +58,7 @@ glm::vec<N, float> asfloat(const glm::vec<N, uint>& bits) {
   return out;
 }
 
-/// Rows of HLSL's floatRxC.
+/// The rows of HLSL's floatRxC.
 struct float3x3 {
   std::array<float3, 3> rows;
 };
@@ -85,7 +85,7 @@ float3 mul(const float3& v, const float3x3& m) {
   return m.rows[0] * v.x + m.rows[1] * v.y + m.rows[2] * v.z;
 }
 
-/// Reads past the end give 0, as a view's do.
+/// Reads past the end return 0, as through a view.
 class ByteAddressBuffer {
  public:
   ByteAddressBuffer(const void* data, std::size_t size)
@@ -171,7 +171,7 @@ TEST(HlslMirror, RayOrigins) {
         hlsl::MakeSpawnPoint(a, b, c, bary, {{to[0], to[1], to[2]}}, {{back[0], back[1], back[2]}});
     ASSERT_EQ(shader.position, host.position);
     ASSERT_NEAR(glm::distance(shader.normal, host.normal), 0.0f, 1e-6f);
-    // Sums of the bound may be taken in another order.
+    // The terms of the bound may be added in another order.
     ASSERT_NEAR(shader.offset, host.offset, 1e-5f * host.offset);
     const glm::vec3 d(r(14), r(15), r(16));
     ASSERT_NEAR(glm::distance(hlsl::SpawnOrigin(shader, d), spawn_origin(host, d)), 0.0f,
@@ -189,7 +189,7 @@ TEST(HlslMirror, TrianglesAndAttributes) {
       vertices[v].tangent = glm::vec4(6, 7, 8, static_cast<float>(v));
       vertices[v].uv = glm::vec2(static_cast<float>(v), 9);
     }
-    // An odd number of triangles: the last 16-bit one ends in the middle of a word.
+    // With an odd number of triangles, the last 16-bit one ends in the middle of a word.
     const std::vector<std::uint32_t> indices = {0, 1, 2, 4, 3, 2, count - 1, 0, 4};
     mesh.add_geometry(vertices, indices, 0, false);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What rays are sorted by, so that neighbours in a dispatch go the same way: 8 bits of direction, 8
+// Keys to sort rays by, so that neighbours in a dispatch go the same way: 8 bits of direction, 8
 // bits of origin. [effects-spec B1.5]
 #ifndef KAAMOS_RAY_KEY_HLSLI
 #define KAAMOS_RAY_KEY_HLSLI
@@ -7,9 +7,9 @@
 #include "frame.hlsli"
 
 static const float kOriginCell = 0.5;  // metres
-static const uint kNoRayKey = 0xFFFF;  // behind all rays
+static const uint kNoRayKey = 0xFFFF;  // sorts after all rays
 
-// Bits of `x` and `y` in turn: near numbers are near places. 4 bits each.
+// Interleaves 4 bits of `x` and `y` (Morton order), so that close keys are mostly close in space.
 uint InterleaveBits(uint x, uint y) {
   uint key = 0;
   [unroll] for (uint bit = 0; bit < 4; ++bit) {
@@ -24,7 +24,7 @@ uint DirectionKey(float3 direction) {
   return InterleaveBits(cell.x, cell.y);
 }
 
-// Cells repeat at 4 m, and at 2 m upwards: what lies that far apart does not share a tile often.
+// Cells repeat every 4 m, vertically every 2 m. Points that far apart rarely share a tile.
 uint OriginKey(float3 origin) {
   const int3 cell = int3(floor(origin / kOriginCell));
   const uint3 low = uint3(cell & int3(7, 3, 7));

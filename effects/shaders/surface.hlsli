@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
-// What a closest-hit shader knows of the surface that was hit: G-buffer, reflections and indirect
+// What a closest-hit shader knows about the surface it hit. G-buffer, reflections and indirect
 // light all read it here.
 #ifndef KAAMOS_SURFACE_HLSLI
 #define KAAMOS_SURFACE_HLSLI
 
 #include "frame.hlsli"
 
-static const float kLargestRadiance = 65504.0;  // of 16 bits: what a picture of halves can hold
+static const float kLargestRadiance = 65504.0;  // the largest half float
 
 struct Surface {
   float3 position;        // relative to the camera
-  float offset;           // a ray starts that far from it, along `normal`, so as not to meet it again
-  float3 normal;          // of the triangle, towards where the ray came from
-  float3 shading_normal;  // towards there too
-  float3 base_color;      // linear, 0..1, as metallic and roughness
+  float offset;           // along `normal`: a ray that starts this far off misses its own surface
+  float3 normal;          // of the triangle, towards the ray's origin
+  float3 shading_normal;  // also towards the ray's origin
+  float3 base_color;      // linear, 0..1; metallic and roughness too
   float opacity;
   float3 emissive;
   float roughness;
   float metallic;
-  bool back_face;  // the ray came from behind
+  bool back_face;  // the ray hit the back of the triangle
 };
 
 static const float kFinestLevel = -1e30;
 
-// A texture of the material, or 1 where it has none. `level`: of detail, against that at which the
-// texture is one texel; kFinestLevel: level 0.
+// Samples a texture of the material; 1 if it has none. `level` is relative to the level of detail
+// at which the texture is one texel; kFinestLevel reads level 0.
 float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float level) {
   if (!HasTexture(material, slot)) {
     return float4(1, 1, 1, 1);
@@ -36,9 +36,10 @@ float4 SampleMaterial(MaterialConstants material, uint slot, float2 uv, float le
       max(0.0, material.one_texel_level[slot] + level));
 }
 
-// The level of detail of every texture on a triangle for a cone that is `width` metres across at the
-// hit, against that at which the texture is one texel: half the logarithm of the part of its area that
-// the cone sees. [Akenine-Moller et al. 2019, ray cones]
+// Level of detail of every texture on a triangle for a ray cone `width` metres wide at the hit,
+// relative to the level at which the texture is one texel: half the log2 of the fraction of the
+// texture that the cone covers. [Akenine-Moller et al. 2019, Texture Level of Detail Strategies for
+// Real-Time Ray Tracing]
 float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, float2 uv2, float facing,
                    float width) {
   const float3x3 to_world = (float3x3)ObjectToWorld3x4();
@@ -50,23 +51,22 @@ float RayConeLevel(float3 p0, float3 p1, float3 p2, float2 uv0, float2 uv1, floa
   return 0.5 * log2(uv_area * (width * width) / (max(world_area, 1e-20) * (slant * slant)));
 }
 
-// How wide a pixel's cone is at the hit, metres: of a ray from the camera, or of one that starts where
-// such a ray ended, since a flat mirror shows things as large as they are that far from the camera.
+// Width of the pixel's cone at the hit, in metres. For a secondary ray, its origin's distance from
+// the camera counts too: a flat mirror shows things at the size they have at the total distance.
 float ConeWidth() {
   const float way = length(WorldRayOrigin()) + RayTCurrent() * length(WorldRayDirection());
   return way * frame.pixel_angle;
 }
 
-// The triangle that was hit, and the point on it. Everything is seen from the side that the ray comes
-// from.
+// The triangle that was hit and the point on it, seen from the side that the ray comes from.
 struct HitPoint {
-  uint3 corners;  // their numbers
-  float3 p0;      // their positions, object space
+  uint3 corners;  // vertex numbers
+  float3 p0;      // vertex positions, object space
   float3 p1;
   float3 p2;
-  SpawnPoint spawn;  // `spawn.normal` has the side of the triangle
+  SpawnPoint spawn;  // `spawn.normal` is the triangle's own
   float3 direction;  // of the ray, unit
-  float side;        // 1: the ray came from the normal's side; -1: from behind
+  float side;        // 1: the ray came from the normal's side; -1: from the back
 };
 
 HitPoint LoadHitPoint(HitConstants layout, float2 barycentrics) {
@@ -82,13 +82,14 @@ HitPoint LoadHitPoint(HitConstants layout, float2 barycentrics) {
   return hit;
 }
 
-// Where textures are read at a hit, and at which level of detail.
+// Where to read textures at a hit, and at which level of detail.
 struct HitTexel {
   float2 uv;
   float level;
 };
 
-// `cone_width`: of the ray's cone at the hit, metres; 0 reads level 0. [Northlight deck: texture LOD]
+// `cone_width` is the width of the ray's cone at the hit in metres; 0 reads level 0. [Northlight
+// deck: texture LOD]
 HitTexel LoadHitTexel(HitConstants layout, HitPoint hit, float2 barycentrics, float cone_width) {
   const float2 uv0 =
       LoadVertexFloat2(vertices, layout.vertex_stride, layout.uv_offset, hit.corners.x);
@@ -106,7 +107,7 @@ HitTexel LoadHitTexel(HitConstants layout, HitPoint hit, float2 barycentrics, fl
   return texel;
 }
 
-// `cone_width`: as above.
+// `cone_width`: as in LoadHitTexel.
 Surface LoadSurface(float2 barycentrics, float cone_width) {
   const HitConstants layout = hit_constants;
   const MaterialConstants material = materials[layout.material_id];
@@ -131,7 +132,7 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
                            material.normal_scale, shading_normal, world_tangent, tangent.w);
   }
   shading_normal *= dot(shading_normal, hit.spawn.normal) * hit.side >= 0.0 ? 1.0 : -1.0;
-  // A shading normal that looks away from where the ray came from lights nothing that is seen.
+  // A shading normal that faces away from the ray's origin would reflect no visible light.
   surface.shading_normal = dot(shading_normal, hit.direction) < 0.0 ? shading_normal : surface.normal;
 
   const float4 base_color =
@@ -147,10 +148,10 @@ Surface LoadSurface(float2 barycentrics, float cone_width) {
   return surface;
 }
 
-// What a diffuse ray's closest-hit shader knows of it: a colour, the same from everywhere. What metals
-// mirror they send everywhere alike, too.
+// What a diffuse ray's closest-hit shader needs: a colour that is the same from all directions.
+// Metals count as matte too, so they spread the light that they would mirror.
 struct MatteSurface {
-  float3 position;  // as of Surface
+  float3 position;  // as in Surface
   float offset;
   float3 normal;
   float3 base_color;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Deforming the vertices of skinned meshes by a compute shader. Indices are not touched, so that an
-// acceleration structure can be updated.
+// Deforms the vertices of skinned meshes by a compute shader. It leaves the indices alone, so that
+// acceleration structures can be updated.
 #pragma once
 
 #include <rtapi/rtapi.h>

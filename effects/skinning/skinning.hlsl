@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Skinned vertices: one thread for each, whatever triangles share it. effects/scene/animation.h has
-// the same for the host. [Northlight deck: Skinned Meshes]
+// Skins vertices, one thread per vertex. effects/scene/animation.h is the same for the host.
+// [Northlight deck: Skinned Meshes]
 
 struct SkinningConstants {
   uint vertex_count;
-  uint keep_history;  // 0 where there is no frame before: the previous position is the new one
+  uint keep_history;  // 0: no previous frame, so the previous position is the new one
 };
 
 ConstantBuffer<SkinningConstants> constants : register(b0);
 ByteAddressBuffer bind_vertices : register(t0);  // Vertex of effects/scene/mesh.h
 ByteAddressBuffer skin : register(t1);           // SkinVertex
 ByteAddressBuffer joints : register(t2);         // three float4 rows each
-// Vertex, then the previous position; holds the frame before.
+// Vertex, followed by its previous position. Holds the previous frame when the pass starts.
 RWByteAddressBuffer deformed : register(u0);
 
 static const uint kBindStride = 48;
@@ -42,7 +42,7 @@ void SkinVertices(uint3 thread : SV_DispatchThreadID) {
 
   const float4 bind = float4(asfloat(bind_vertices.Load3(from)), 1.0);
   const float3 position = float3(dot(row0, bind), dot(row1, bind), dot(row2, bind));
-  // Normals go with the cofactors, which need no inverse.
+  // Normals are transformed by the matrix of cofactors, which needs no inverse.
   const float3 c0 = cross(row1.xyz, row2.xyz);
   const float3 c1 = cross(row2.xyz, row0.xyz);
   const float3 c2 = cross(row0.xyz, row1.xyz);

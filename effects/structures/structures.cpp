@@ -79,7 +79,8 @@ rtapi::Result<StructureManager> StructureManager::create(const Device& device, C
   return manager;
 }
 
-// All in one list with one barrier at its end: scratch memory of their own lets them overlap.
+// All builds are in one list with one barrier at its end; scratch memory of their own lets them
+// overlap.
 rtapi::Status StructureManager::build_static(const Device& device, CommandQueue& queue,
                                              const Scene& scene) {
   std::vector<bool> wanted(scene.meshes.size(), false);
@@ -184,13 +185,13 @@ rtapi::Status StructureManager::add_instances(const Device& device, const Scene&
   return {};
 }
 
-// The body of that pose, made where there is none yet.
+// Returns the body of that pose, and creates it if there is none yet.
 rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, const Scene& scene,
                                                        const Instance& instance) {
   Body body;
   body.mesh = instance.mesh;
   body.motion = instance.motion;
-  body.motion.node = kNoIndex;  // moves the instance, not the shape
+  body.motion.node = kNoIndex;  // moves the instance, not its shape
   if (instance.build_class != BuildClass::kStatic) body.build_class = instance.build_class;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const Body& other = bodies_[i];
@@ -218,7 +219,7 @@ rtapi::Result<std::int32_t> StructureManager::add_body(const Device& device, con
                                 bind_skins_[body.mesh].GetGPUVirtualAddress(), body.joint_count);
   if (!skinned) return skinned.error();
   body.skinned = *skinned;
-  // Records of its own: the same indices and materials, other vertices.
+  // A body has records of its own: the same indices and materials, but other vertices.
   body.first_record = gpu_.geometries.size();
   const std::size_t bind_record = first_record(scene, body.mesh);
   for (std::size_t i = 0; i < mesh.geometries.size(); ++i) {

@@ -82,31 +82,31 @@ class StructureManager {
   rtapi::Buffer skinned_vertices(std::uint32_t instance) const;
 
  private:
-  // Skinned instances in the same pose: deformed vertices and their structure.
+  // Skinned instances in the same pose share a body: deformed vertices and their structure.
   struct Body {
     std::uint32_t mesh = 0;
     Motion motion;
     BuildClass build_class = BuildClass::kDeformable;
-    std::uint32_t rank = 0;  // among those of its class
+    std::uint32_t rank = 0;  // within its build class
     std::uint32_t joint_count = 0;
     std::size_t first_record = 0;
     SkinnedMesh skinned;
     std::vector<rtapi::RaytracingGeometryDesc> geometries;
     rtapi::Buffer structure;
     rtapi::Buffer scratch;
-    std::vector<JointMatrix> joints;  // of the last frame; empty before the first
+    std::vector<JointMatrix> joints;  // in the last frame; empty before the first
     std::uint32_t updates = 0;        // since it was built
     bool moved = false;
-    bool has_history = false;  // vertices hold the frame before
+    bool has_history = false;  // the vertices hold the previous positions
   };
   struct MeshRecords {
     std::size_t first = 0;
-    bool opaque = true;  // no geometry of it is alpha-tested
+    bool opaque = true;  // no geometry is alpha-tested
   };
   struct Placement {
     std::int32_t body = kNoIndex;
-    glm::dmat4 transform{1.0};  // of the last frame
-    std::uint32_t mesh = 0;     // that it showed
+    glm::dmat4 transform{1.0};  // in the last frame
+    std::uint32_t mesh = 0;     // shown in the last frame
   };
 
   rtapi::Status build_static(const rtapi::Device& device, rtapi::CommandQueue& queue,
@@ -135,7 +135,7 @@ class StructureManager {
   std::vector<Placement> placements_;
   std::vector<Body> bodies_;
   std::optional<SkinningPass> skinning_;
-  std::vector<rtapi::Buffer> bind_skins_;  // per mesh; empty handles where it has none
+  std::vector<rtapi::Buffer> bind_skins_;  // per mesh; empty handles for meshes without a skin
   rtapi::Buffer top_scratch_;
   glm::dvec3 previous_origin_{0.0};
   std::uint32_t frame_ = 0;

@@ -21,7 +21,8 @@ bool same(const std::vector<JointMatrix>& a, const std::vector<JointMatrix>& b) 
 }
 
 Error mismatch(const std::string& what, std::size_t actual, std::size_t wanted) {
-  return Error{"", ErrorCode::kInvalidArgument,
+  return Error{{},
+               ErrorCode::kInvalidArgument,
                what + ": " + std::to_string(actual) + " given, " + std::to_string(wanted) +
                    " expected; take the states of evaluate_instances for the same scene"};
 }
@@ -63,7 +64,7 @@ rtapi::Status StructureManager::execute(const Device& device, CommandQueue& queu
                [&](CommandList& l) { record_top_level(l, states, origin); });
 }
 
-// Which bodies moved; their joints go to the device.
+// Finds out which bodies moved and uploads their joints.
 rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> states) {
   if (states.size() != placements_.size()) {
     return mismatch("states of instances", states.size(), placements_.size());
@@ -72,7 +73,8 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
     const std::uint32_t mesh = mesh_of(i, states[i]);
     if (placements_[i].body == kNoIndex &&
         (mesh >= gpu_.bottom_levels.size() || !gpu_.bottom_levels[mesh])) {
-      return Error{"", ErrorCode::kInvalidArgument,
+      return Error{{},
+                   ErrorCode::kInvalidArgument,
                    "instance \"" + instances_[i].name + "\": mesh " + std::to_string(mesh) +
                        " is to be shown, and is none of its levels of detail; take what "
                        "select_levels says"};
@@ -139,8 +141,8 @@ void StructureManager::record_skinning(CommandList& list) {
   list.EndEvent();
 }
 
-// Staggered by rank, so that not all are built in the same frame. One that was skipped in its frame
-// has its turn with its next change.
+// Rebuilds are staggered by rank, so that not all fall in the same frame. A body that was skipped
+// in its frame is rebuilt with its next change.
 bool StructureManager::must_rebuild(const Body& body) const {
   if (!body.has_history || body.build_class == BuildClass::kEveryFrame) return true;
   const std::uint32_t period =
@@ -202,7 +204,8 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     const std::size_t first_record = body ? body->first_record : meshes_[now.mesh].first;
     desc.InstanceContributionToHitGroupIndex =
         static_cast<std::uint32_t>(first_record * kRayTypeCount) & 0xFFFFFFu;
-    // Opaque instances never look for an any-hit shader. [Northlight deck: FORCE_OPAQUE]
+    // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:
+    // FORCE_OPAQUE]
     desc.Flags = meshes_[now.mesh].opaque && !(now.mask & kMaskTransparent)
                      ? static_cast<std::uint32_t>(RaytracingInstanceFlags::kForceOpaque)
                      : 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A figure that walks: its vertices against the host's, updated structures against new ones, motion
-// against the host's projection; what did not move costs nothing.
+// A walking figure: its vertices against the host's, updated structures against new ones, and
+// motion vectors against the host's projection. What did not move costs nothing.
 #include "effects/structures/structures.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint32_t kEachFrame = 1, kNever = 0;
 
-// A scene in motion and its G-buffer.
+// A moving scene and its G-buffer.
 struct Stage {
   Stage(const std::string& backend, Scene given, const StructureOptions& options = {},
         std::uint32_t width = 96, std::uint32_t height = 64)
@@ -42,7 +42,7 @@ struct Stage {
             .value();
   }
 
-  // The next frame. All in one list, as a renderer does it.
+  // Renders the next frame, all in one list as a renderer does.
   void go(double seconds, bool rays = true) {
     previous_states = states;
     states = evaluate_instances(scene, seconds);
@@ -136,8 +136,8 @@ TEST_P(Structures, VerticesAreThoseOfTheHost) {
   }
 }
 
-// The walk's first frames by updates alone, and built anew in each: the same triangles, so the same
-// hits. 10^5 rays. [effects-spec B1.1 (a)]
+// The first frames of the walk, once by updates alone and once rebuilt in each frame: the triangles
+// are the same, so the hits must be. 10^5 rays. [effects-spec B1.1 (a)]
 TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {
   const bool vulkan = GetParam() == "vulkan";
   StructureOptions updated, rebuilt;
@@ -169,7 +169,7 @@ TEST_P(Structures, UpdatedStructuresGiveTheHitsOfNewOnes) {
   }
   EXPECT_GT(figures, za.values.size() / 20);
   EXPECT_EQ(other_instance, 0u);
-  // On an edge that two triangles share either may be first.
+  // On an edge shared by two triangles, either may be hit first.
   EXPECT_LE(other_triangle, za.values.size() / 10000);
 }
 
@@ -182,7 +182,7 @@ TEST_P(Structures, WhatDidNotMoveIsSkipped) {
   EXPECT_EQ(s.skinned, 3u);
   EXPECT_EQ(s.rebuilt, 3u);
   EXPECT_EQ(s.barriers, 4u);
-  EXPECT_EQ(s.moved_instances, 0u);  // nothing was before
+  EXPECT_EQ(s.moved_instances, 0u);  // there is no earlier frame
   stage.go(0.6);
   EXPECT_EQ(s.skinned, 3u);
   EXPECT_EQ(s.rebuilt + s.updated, 3u);
@@ -191,11 +191,11 @@ TEST_P(Structures, WhatDidNotMoveIsSkipped) {
   stage.go(0.6);
   EXPECT_EQ(s.skipped, 3u);
   EXPECT_EQ(s.skinned + s.rebuilt + s.updated, 0u);
-  EXPECT_EQ(s.barriers, 1u);  // the top level's
+  EXPECT_EQ(s.barriers, 1u);  // for the top level
   EXPECT_EQ(s.moved_instances, 0u);
   EXPECT_EQ(stage.read(kViewZ).values, before.values);
   for (const float value : stage.read(kMotion).values) ASSERT_NEAR(value, 0.0f, 1e-6);
-  // The pose before the pause is the history of the one after it.
+  // The pose before the pause is the history of the pose after it.
   stage.go(0.7, false);
   const std::vector<Vertex> pose =
       skin_vertices(stage.scene.meshes[1], stage.previous_states[1].joints);
@@ -229,8 +229,8 @@ glm::dvec3 project(const FrameConstants& c, const glm::dvec3& p, bool previous) 
           0.5 - 0.5 * glm::dot(p, up) / glm::dot(up, up) / z, z};
 }
 
-// Barycentrics of a point by its triangle; the last is its distance from the plane or, outside,
-// more.
+// Barycentrics of a point in a triangle; the third value is its distance from the plane, and more
+// if it is outside.
 glm::dvec3 locate(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                   const glm::dvec3& c) {
   const glm::dvec3 n = glm::cross(b - a, c - a);
@@ -242,7 +242,8 @@ glm::dvec3 locate(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
   return {v, w, std::abs(glm::dot(p - a, n)) / std::sqrt(area) + outside};
 }
 
-// Where a point of an instance was, if it lies in triangle `primitive` of one of its geometries.
+// Where a point of an instance was before, if it lies in triangle `primitive` of one of its
+// geometries.
 bool previous_of(const Mesh& mesh, const std::vector<Vertex>& now,
                  const std::vector<Vertex>& before, std::uint32_t primitive,
                  const glm::dvec3& object, glm::dvec3& out) {
@@ -263,7 +264,7 @@ bool previous_of(const Mesh& mesh, const std::vector<Vertex>& now,
   return best < 1e-4;
 }
 
-// Figures walk, and the camera moves and turns, far from the origin too.
+// Figures walk while the camera moves and turns, near the origin and far from it.
 TEST_P(Structures, MotionIsWhereTheHostProjectsThePreviousPosition) {
   for (const double away : {0.0, 1e5}) {
     Scene scene = make_runner_scene({.crowd = 4, .crowd_poses = 2});
@@ -341,13 +342,13 @@ TEST_P(Structures, StaticScenesAreThoseOfCreateGpuScene) {
   EXPECT_EQ(s.barriers, 1u);
 }
 
-// What the state names is what rays meet.
+// Rays hit the level of detail that the state names.
 TEST_P(Structures, LevelsOfDetailAreWhatRaysMeet) {
   Scene scene = make_runner_scene({.crowd = 1, .crowd_poses = 1});
   std::size_t fixed = 0;
   while (scene.instances[fixed].motion.skin != kNoIndex) ++fixed;
   Instance& instance = scene.instances[fixed];
-  // The coarse level is the same mesh with its last geometry's last triangles left out.
+  // The coarse level is the same mesh without the last triangles.
   Mesh coarse = scene.meshes[instance.mesh];
   coarse.name += " coarse";
   coarse.geometries.resize(1);
@@ -422,7 +423,7 @@ TEST(Runner, IsValidAndWalksInACircle) {
     EXPECT_NEAR(start[1].transform[3][c], end[1].transform[3][c], 1e-9);
   }
   EXPECT_NEAR(glm::length(start[1].transform[3] - half[1].transform[3]), 2.8, 0.01);
-  // Feet stand on the floor: never far under or over it.
+  // The feet are on the floor, never far below or above it.
   for (double t = 0; t < kRunnerSeconds; t += 0.1) {
     const auto states = evaluate_instances(scene, t);
     double lowest = 1e9;

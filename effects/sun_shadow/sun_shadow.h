@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadow of a sun with an area: kSunVisibilitySum grows by the number of samples that see it.
+// Shadow of a sun with an area. The pass adds the number of samples that see it to
+// kSunVisibilitySum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"

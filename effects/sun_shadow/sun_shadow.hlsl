@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Visible part of the sun's disk. [effects-spec B2.11]
+// The visible fraction of the sun's disk, by rays to random points of it. [effects-spec B2.11]
 #include "visibility.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
@@ -26,7 +26,7 @@ void SunShadowRayGen() {
   float visible = 0.0;
   for (uint i = 0; i < count; ++i) {
     const float3 direction = SunDirection(tile, pass_constants.first_sample + i);
-    // A surface that faces away from the point of the sun needs no ray to be dark.
+    // A surface that faces away from this point of the sun is dark without a ray.
     if (dot(direction, normal) > 0.0) {
       visible += TraceVisibility(origin, direction, kSunDistance);
     }

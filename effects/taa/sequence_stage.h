@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For tests: a scene in motion, rendered frame by frame as a program would do it.
+// For tests: renders a moving scene frame by frame, as a program would.
 #pragma once
 
 #include <rtapi/upload.h>
@@ -44,7 +44,7 @@ class SequenceStage {
     composite = CompositePass::create(device, frame, composite_library().value()).value();
   }
 
-  // The scene at a time, seen from `camera` through `jitter`.
+  // Starts the frame at `seconds`, seen from `camera` through `jitter`.
   void begin(double seconds, const glm::vec2& jitter = glm::vec2(0.0f)) {
     rtapi::CommandList list = device.CreateCommandList().value();
     manager.record(list, evaluate_instances(scene, seconds), camera.position()).value();
@@ -59,7 +59,7 @@ class SequenceStage {
     previous_camera = camera;
     previous_jitter = jitter;
   }
-  // Ambient occlusion, sun and radiance; `samples` go on where those of the frame before ended.
+  // Ambient occlusion, sun and radiance; `samples` continue the previous frame's sequence.
   void light(std::uint32_t samples) {
     rtapi::CommandList list = device.CreateCommandList().value();
     frame.clear(list, kAmbientOcclusionSum);
@@ -75,7 +75,7 @@ class SequenceStage {
     queue.ExecuteAndWait(list).value();
     ++index;
   }
-  // Radiance without noise: no rays but those of the G-buffer, the sky's light everywhere.
+  // Radiance without noise: the sky lights everything, and only the G-buffer needs rays.
   void light_by_the_sky() {
     run([&](rtapi::CommandList& list) { composite.dispatch(list, frame, {}); });
     ++index;

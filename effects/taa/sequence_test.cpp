@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Whole sequences: the same on any number of threads, and histories that follow what moves.
+// Whole sequences: the same on any number of threads, with histories that follow what moves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kFrameSeconds = 1.0 / 30.0;
 
-// A signal of the frame's and its denoiser.
+// A signal of the frame with its denoiser.
 struct Filtered {
   Filtered(SequenceStage& stage, FrameTexture sum, const DenoiseDesc& desc) {
     const DenoiseLibraries libraries = denoise_libraries().value();
@@ -39,7 +39,7 @@ struct Filtered {
   Denoiser denoiser;
 };
 
-// Some frames of everything that has a history.
+// Renders some frames with every effect that has a history.
 std::vector<float> frames(const Scene& scene, const std::string& path_name, std::uint32_t threads,
                           std::uint32_t count = 6, const std::string& backend = "embree") {
   SequenceStage stage(scene, 64, 36, threads, backend);
@@ -95,13 +95,13 @@ TEST(Sequence, VulkanGivesTheSameFrames) {
   }
   const double rmse = std::sqrt(squares / static_cast<double>(embree.size()));
   RecordProperty("rmse", std::to_string(rmse));
-  // Rays that graze an edge meet another side of it on the other backend.
+  // Rays that graze an edge may hit its other side on the other backend.
   EXPECT_LT(rmse, 0.02);
   EXPECT_LT(static_cast<double>(apart), 0.01 * static_cast<double>(embree.size()));
 }
 
-// A figure on its way, its ambient occlusion accumulated at a ray per pixel: with the motion of its
-// vertices, and as if nothing moved.
+// A walking figure, whose ambient occlusion accumulates at one ray per pixel: once with the motion
+// of its vertices, and once as if nothing moved.
 TEST(Sequence, HistoryFollowsASkinnedFigure) {
   Scene scene = make_runner_scene({.crowd = 0});
   scene.cameras.front().camera_to_world = look_at({0.8, 1.5, 3.6}, {0.8, 0.9, 0});
@@ -130,7 +130,7 @@ TEST(Sequence, HistoryFollowsASkinnedFigure) {
     without = still.run(stage, 1);
   }
   const FloatImage ids = stage.read(kIds);
-  // The last frame's own ambient occlusion.
+  // Ambient occlusion of the last frame alone, as the reference.
   stage.light(512);
   FloatImage reference = stage.read(kAmbientOcclusionSum);
   for (float& v : reference.values) v /= 512;

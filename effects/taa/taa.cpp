@@ -20,7 +20,7 @@ float radical_inverse(std::uint32_t base, std::uint32_t index) {
 }  // namespace
 
 glm::vec2 taa_jitter(std::uint32_t index) {
-  const std::uint32_t i = index % kTaaJitterPeriod + 1;  // point 0 is a corner
+  const std::uint32_t i = index % kTaaJitterPeriod + 1;  // point 0 is a corner of the pixel
   return {radical_inverse(2, i) - 0.5f, radical_inverse(3, i) - 0.5f};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Temporal antialiasing of the frame's radiance: each frame looks through another point of its
-// pixels, and what the frames before it saw is carried along with the surfaces. [effects-spec B7.1]
+// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
+// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -52,7 +52,7 @@ class TemporalAntialiasing {
   TaaConstants constants_;
   ComputePass pass_;
   std::array<rtapi::Texture, 2> pictures_, surfaces_;
-  std::array<PassViews, 2> views_;  // by the picture that is written
+  std::array<PassViews, 2> views_;  // indexed by the picture that is written
   std::uint32_t written_ = 0;
   std::uint32_t frames_ = 0;  // since the last cut
 };

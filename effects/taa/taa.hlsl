@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Temporal antialiasing: the frame's jittered radiance into what the frames before it added up to.
+// Temporal antialiasing: blends the frame's jittered radiance into the accumulated history.
 // [effects-spec B7.1]
 #include "frame.hlsli"
 
-// effects/taa/taa.h: TaaConstants.
+// Mirrors TaaConstants in effects/taa/taa.h.
 struct TaaConstants {
   float alpha;            // least weight of the new frame
-  float clip_gamma;       // history stays within mean +- gamma deviations of 3 x 3; 0: anywhere
+  float clip_gamma;       // clips history to mean +- gamma deviations of 3 x 3; 0: no clipping
   float depth_tolerance;  // relative
-  uint history_valid;     // 0: there is no frame before
+  uint history_valid;     // 0: there is no previous frame
 };
 ConstantBuffer<TaaConstants> taa : register(b0, space3);
 
-RWTexture2D<float4> history : register(u0, space3);  // rgb, frames in it
+RWTexture2D<float4> history : register(u0, space3);  // rgb, and the number of frames in it
 RWTexture2D<float4> result : register(u1, space3);
-// Of the frame before and of this one: motion in pixels, view depth, 0 nothing.
+// For the previous and this frame: motion in pixels, and view depth (0: no surface).
 RWTexture2D<float4> previous_surface : register(u2, space3);
 RWTexture2D<float4> next_surface : register(u3, space3);
 
 static const float kFar = 1e30;
-static const float kSameMotion = 0.25;  // pixels a frame
+static const float kSameMotion = 0.25;  // pixels per frame
 static const float kLeastWeight = 0.05;
 
 bool IsFinite(float3 color) { return isfinite(color.x) && isfinite(color.y) && isfinite(color.z); }
@@ -38,8 +38,9 @@ float3 FromYCoCg(float3 c) {
   return float3(t + c.y, c.x + c.z, t - c.y);
 }
 
-// The new frame about a pixel. All relative to the largest value in it, so that neither very bright
-// nor very dark frames leave the range of floats, and exposure changes nothing.
+// Mean and deviation of the new frame around a pixel, relative to the largest value there. That
+// keeps very bright and very dark frames in the range of floats and makes the result independent of
+// exposure.
 struct Neighbourhood {
   float scale;
   float3 mean;  // YCoCg
@@ -57,7 +58,7 @@ Neighbourhood LookAround(int2 pixel, int2 size) {
     colors[i] = c;
     if (IsFinite(c)) n.scale = max(n.scale, Largest(c));
   }
-  if (n.scale == 0.0) return n;  // black, or nothing finite
+  if (n.scale == 0.0) return n;  // black, or nothing is finite
   float count = 0.0;
   for (int j = 0; j < 9; ++j) {
     if (!IsFinite(colors[j])) continue;
@@ -75,8 +76,8 @@ Neighbourhood LookAround(int2 pixel, int2 size) {
   return n;
 }
 
-// Where the surface that a pixel belongs to was one frame ago: pixels from here, and its depth then.
-// At a silhouette that is the nearest surface of 3 x 3, so that its edge is smooth in motion too.
+// Where the pixel's surface was in the previous frame: offset in pixels, and its depth then. At a
+// silhouette it is the nearest surface in 3 x 3 pixels, so that the edge stays smooth in motion.
 struct Source {
   float2 offset;
   float view_z;  // kFar: sky
@@ -100,7 +101,7 @@ Source FindSource(int2 pixel, int2 size) {
     source.offset = motion.xy * float2(size);
     source.view_z = nearest_z + motion.z;
   } else {
-    // The sky is as far as a direction: only the camera's turn moves it.
+    // The sky is infinitely far away; only the camera's rotation moves it.
     const float2 ndc = (float2(pixel) + 0.5) / float2(size) * 2.0 - 1.0;
     const float3 direction = frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
     const float along = dot(direction, frame.previous_forward);
@@ -115,8 +116,9 @@ Source FindSource(int2 pixel, int2 size) {
   return source;
 }
 
-// Whether what stood at a pixel hid that surface and has left it since. What moves as the surface
-// does is still there: too thin for each frame's rays to meet.
+// Whether the pixel showed something in front of the surface that has moved away since. A thing
+// that moves with the surface is still there; it may be too thin for the rays of every frame to hit
+// it.
 bool WasHidden(int2 pixel, Source source) {
   const float4 before = previous_surface[pixel];
   if (before.z == 0.0 || before.z >= source.view_z * (1.0 - taa.depth_tolerance)) return false;
@@ -124,7 +126,7 @@ bool WasHidden(int2 pixel, Source source) {
   return max(apart.x, apart.y) > kSameMotion;
 }
 
-// Cubic weights through the four values about a place `t` behind the second. [Catmull & Rom 1974]
+// Catmull-Rom weights of four values, for a place `t` after the second. [Catmull & Rom 1974]
 void CubicWeights(float t, out float weights[4]) {
   weights[0] = t * (-0.5 + t * (1.0 - 0.5 * t));
   weights[1] = 1.0 + t * t * (-2.5 + 1.5 * t);
@@ -140,7 +142,7 @@ float3 SampleCubic(float2 at, int2 size) {
   float3 color = float3(0, 0, 0);
   for (int y = 0; y < 4; ++y) {
     for (int x = 0; x < 4; ++x) {
-      // Exactly on a pixel the others are not asked: huge values there would round it away.
+      // Exactly on a pixel, skip the others: huge values there would round it away.
       const float weight = wx[x] * wy[y];
       if (weight == 0.0) continue;
       color += weight * history[Clamped(int2(corner) + int2(x - 1, y - 1), size)].rgb;
@@ -149,8 +151,8 @@ float3 SampleCubic(float2 at, int2 size) {
   return max(color, float3(0, 0, 0));
 }
 
-// History at a place between pixels, and the frames in it; 0 frames: nothing is known. Where some of
-// the four pixels about it showed what hid the surface, the others have to do.
+// History between pixels, and the number of frames in it (0: unknown). If some of the four pixels
+// showed what hid the surface, only the others are used.
 float4 SampleHistory(Source source, float2 at, int2 size) {
   const float2 corner = floor(at);
   const float2 part = at - corner;
@@ -178,7 +180,8 @@ float4 SampleHistory(Source source, float2 at, int2 size) {
   return float4(all_known ? SampleCubic(at, size) : known.rgb / weights, known.w);
 }
 
-// Moves a history outside of the box towards its middle until it is inside.
+// Clips a history outside the box of neighbouring colours: moves it towards the centre to the
+// boundary.
 float3 Clip(float3 color, Neighbourhood n) {
   const float3 from_mean = ToYCoCg(color) - n.mean;
   const float3 box = taa.clip_gamma * n.deviation + 1e-6;
@@ -199,7 +202,7 @@ void Resolve(uint3 id : SV_DispatchThreadID) {
   next_surface[pixel] = float4(motion, g_view_z[pixel], 0.0);
   const Neighbourhood around = LookAround(pixel, size);
   float3 color = radiance[pixel].rgb;
-  // What is no number is what its neighbours are.
+  // Replace NaN by the mean of the neighbours.
   if (!IsFinite(color)) color = max(FromYCoCg(around.mean), float3(0, 0, 0)) * around.scale;
   result[pixel] = float4(color, 1.0);
   if (taa.history_valid == 0) return;
@@ -210,7 +213,7 @@ void Resolve(uint3 id : SV_DispatchThreadID) {
   if (before.w == 0.0 || !IsFinite(before.rgb)) return;
   float3 old = before.rgb;
   if (taa.clip_gamma > 0.0) {
-    // In the dark there is only the dark.
+    // In black surroundings, the history is dropped.
     old = around.scale > 0.0 ? Clip(old / around.scale, around) * around.scale : float3(0, 0, 0);
     if (!IsFinite(old)) return;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What standing pictures converge to, what moving ones leave behind, and input that is none.
+// What static pictures converge to, what moving ones leave behind, and broken input.
 #include "effects/taa/taa.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ double error(const FloatImage& picture, const FloatImage& reference,
   return measure(rgb(picture), rgb(reference), mask).value().rmse;
 }
 
-// A figure that stands still before floor and sky: edges of all slopes.
+// A static figure in front of floor and sky: it has edges of all slopes.
 class Taa : public testing::Test {
  protected:
   Taa() : stage_(make_runner_scene({.crowd = 3}), kWidth, kHeight) {}
@@ -52,11 +52,11 @@ class Taa : public testing::Test {
     stage_.run([&](rtapi::CommandList& list) { taa.dispatch(list, stage_.frame); });
     return stage_.read(taa.result());
   }
-  // Mean of what `count` jittered frames from here see.
+  // The mean of the next `count` jittered frames.
   FloatImage supersampled(std::uint32_t count) {
     FloatImage sum(kWidth, kHeight, 4);
     for (std::uint32_t i = 0; i < count; ++i) {
-      // Another sequence than the one under test. [Roberts 2018: R2]
+      // A different sequence from the one under test. [Roberts 2018: R2]
       render({std::fmod(0.5 + 0.7548776662 * i, 1.0) - 0.5,
               std::fmod(0.5 + 0.5698402910 * i, 1.0) - 0.5});
       const FloatImage one = stage_.read(kRadiance);
@@ -130,7 +130,7 @@ TEST_F(Taa, StandingSceneConvergesToTheSupersampledPicture) {
   EXPECT_LT(mean_of(3, 5), 0.75 * errors[0]) << errors[0];
   EXPECT_LT(mean_of(12, 20), 0.55 * errors[0]) << errors[0];
   EXPECT_LT(mean_of(56, 64), 0.5 * errors[0]) << errors[0];
-  // Without clipping and with equal weights it is the mean, whose error falls further.
+  // Without clipping and with equal weights the result is the mean, whose error keeps falling.
   TemporalAntialiasing plain = make({.alpha = 0.0f, .clip_gamma = 0.0f});
   FloatImage out;
   for (std::uint32_t i = 0; i < 64; ++i) {
@@ -141,10 +141,10 @@ TEST_F(Taa, StandingSceneConvergesToTheSupersampledPicture) {
   EXPECT_EQ(out.at(3, 3, 3), 64.0f);
 }
 
-// The camera passes the figures: what they covered a moment ago must show nothing of them.
+// The camera passes the figures: nothing of them may remain where they were a moment ago.
 TEST_F(Taa, MovingCameraLeavesNoTrail) {
   TemporalAntialiasing taa = make();
-  // No clipping, no motion, nothing is ever hidden: what a plain mean over frames would do.
+  // No clipping, no motion vectors, no occlusion test: what a plain mean over frames would give.
   TemporalAntialiasing naive = make({.alpha = 0.1f, .clip_gamma = 0.0f, .depth_tolerance = 2.0f});
   TemporalAntialiasing unclipped = make({.clip_gamma = 0.0f});
   FloatImage ids, raw, out, naive_out, unclipped_out;
@@ -168,7 +168,7 @@ TEST_F(Taa, MovingCameraLeavesNoTrail) {
       }
     }
   }
-  // Not at edges, where one look through each pixel is wrong by more than a trail is bright.
+  // Leave out edges, where a single sample per pixel has a larger error than a trail is bright.
   for (std::uint32_t k = 0; k < uncovered.size(); ++k) {
     const std::uint32_t x = k % kWidth, y = k / kWidth;
     for (std::uint32_t i = 0; i < 9 && uncovered[k] != 0; ++i) {
@@ -188,7 +188,7 @@ TEST_F(Taa, MovingCameraLeavesNoTrail) {
   RecordProperty("all", std::to_string(error(out, reference)));
   RecordProperty("all_raw", std::to_string(error(raw, reference)));
   EXPECT_LT(trail, 0.15 * naive_trail);
-  // Motion and the depth test alone do most of it.
+  // Motion vectors and the depth test alone do most of it.
   EXPECT_LT(error(unclipped_out, reference, uncovered), 0.5 * naive_trail);
   EXPECT_LT(error(out, reference), error(raw, reference));
 }
@@ -207,7 +207,7 @@ TEST_F(Taa, TurningCameraCarriesTheSkyAlong) {
   for (std::uint32_t x = 0; x < kWidth / 2; ++x) {
     if (ids.at(x, 1, 0) != 0) continue;
     ++sky;
-    EXPECT_EQ(out.at(x, 1, 3), kFrames) << x;  // never lost
+    EXPECT_EQ(out.at(x, 1, 3), kFrames) << x;  // the history is never lost
   }
   EXPECT_GT(sky, 30);
 }
@@ -233,7 +233,7 @@ TEST_F(Taa, WhatIsNotFiniteIsGoneAfterAFrame) {
   for (const float v : out.values) ASSERT_TRUE(std::isfinite(v));
   for (std::uint32_t y = 0; y < kHeight; ++y) {
     for (std::uint32_t x = 0; x < kWidth; ++x) {
-      // No further than the clip box reaches, and where it was no number not even there.
+      // No further than the clip box reaches, and where it was NaN not even there.
       const auto away = [](std::uint32_t at) { return (at + 4) % 7 > 1 && (at + 4) % 7 < 6; };
       const bool far = away(x) || away(y);
       const bool no_number = x % 7 == 3 && y % 7 == 3 && x / 7 % 6 < 3;
@@ -283,7 +283,7 @@ TEST_F(Taa, ExposureChangesNothing) {
     ASSERT_EQ(results[2].values[k], one * 0x1p+40f) << k;
     ASSERT_NEAR(results[3].values[k], one * 1e6f, 2e-4f * one * 1e6f + 1e-3f) << k;
   }
-  // Exposure 0: black behind light is black at once.
+  // Exposure 0 turns the frame black; no history may shine through.
   TemporalAntialiasing taa = make();
   render(taa_jitter(0));
   resolve(taa);
@@ -311,7 +311,7 @@ TEST_F(Taa, MotionThatLeadsNowhereStartsAnew) {
   for (const float v : out.values) ASSERT_TRUE(std::isfinite(v));
   for (std::uint32_t y = 1; y + 1 < kHeight; ++y) {
     for (std::uint32_t x = 0; x < kWidth; ++x) {
-      if (ids.at(x, y, 0) == 0 || ids.at(x, y - 1, 0) == 0) continue;  // the sky turns
+      if (ids.at(x, y, 0) == 0 || ids.at(x, y - 1, 0) == 0) continue;  // the sky: it turns
       ASSERT_EQ(out.at(x, y), input.at(x, y)) << x << "," << y;
     }
   }

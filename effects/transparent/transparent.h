@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Glass: its light, what it mirrors, and what it lets through. [effects-spec B4.12, B4.13]
+// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12, B4.13]
 #pragma once
 
 #include <cstdint>

@@ -1,51 +1,51 @@
 // SPDX-License-Identifier: MIT
-// Glass in front of what the G-buffer holds: the first layers one by one, with a mirrored ray each;
-// those behind them in one ray whose any-hit shader blends them without an order.
-// [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
+// Glass in front of the G-buffer's surfaces. The first layers are traced one by one, some with a
+// mirror ray each; all layers behind them take one ray, whose any-hit shader blends them without an
+// order. [effects-spec B4.12, B4.13; Control; Northlight deck: Transparent]
 #include "hit_indirect.hlsli"
 
 // Radiance of the glass, and the view depth of its first layer, metres (0: no glass).
 RWTexture2D<float4> glass_radiance : register(u0, space3);
-// What it lets through by colour, and how many layers were traced one by one.
+// Transmittance per colour, and the number of layers that were traced one by one.
 RWTexture2D<float4> glass_transmittance : register(u1, space3);
 
 struct TransparentConstants {
-  uint reflecting_layers;   // with a mirrored ray
-  uint sorted_layers;       // traced one by one, with or without; at most kMaxSortedLayers
-  uint weight_kind;         // of blending without order
+  uint reflecting_layers;   // first layers with a mirror ray
+  uint sorted_layers;       // layers traced one by one, mirrored or not; at most kMaxSortedLayers
+  uint weight_kind;         // weight function of the blend without order
   uint sun;                 // 1: a shadow ray per layer and per reflection
   float reflection_length;  // metres
-  float fade;               // last part of that length, over which the sky takes over
-  uint full_reflection;     // 1: reflections of thin coverage keep their strength
-  float depth_scale;        // view depths are multiplied with it before they are weighted
+  float fade;               // fraction of that length, at its end, over which the sky takes over
+  uint full_reflection;     // 1: reflections keep their strength where coverage is thin
+  float depth_scale;        // factor on view depths before they are weighted
 };
 ConstantBuffer<TransparentConstants> constants : register(b0, space3);
 
 static const uint kMaskGlass = 0x02;  // [effects/scene/scene.h: InstanceMask]
 static const uint kMaxSortedLayers = 8;
 
-// Nearer to an edge than that, in barycentrics, a neighbour may be met too, at a distance that is
-// the same but for rounding.
+// Closer to an edge than this, in barycentrics, a ray may hit the neighbour as well, at the same
+// distance but for rounding.
 static const float kEdge = 1e-5;
 static const float kSameDistance = 1e-6;
 static const uint kNoInstance = 0xFFFFFFFF;
 
-// What a ray is for.
+// Kinds of rays.
 static const uint kLayerRay = 0;
 static const uint kReflectingLayerRay = 1;
 static const uint kMirrorRay = 2;
 static const uint kBlendRay = 3;
 
 struct GlassPayload {
-  float3 radiance;       // of a layer, of what a mirrored ray meets; weighted sum of a blend
-  float distance;        // along the ray; negative: nothing was met
-  float3 transmittance;  // of a layer; x: product of a blend
-  float weight;          // sum of a blend
+  float3 radiance;       // of a layer, or of a mirror ray's hit; in a blend the weighted sum
+  float distance;        // along the ray; negative: a miss
+  float3 transmittance;  // of a layer; in a blend the product, in x
+  float weight;          // sum of weights in a blend
   uint kind;
-  uint instance;         // of the layer before, which the ray must not meet again
+  uint instance;         // of the previous layer, which the ray must not hit again
   uint primitive;
-  float met;             // at this distance
-  float sun_visibility;  // at the layer before: any-hit shaders cannot trace a ray
+  float met;             // distance at which that layer was hit
+  float sun_visibility;  // of the previous layer, because any-hit shaders cannot trace rays
 };
 
 float3 Contain(float3 x) { return Contain(x, kLargestRadiance); }
@@ -55,7 +55,8 @@ float Coverage(float opacity) {
   return opacity < 1.0 ? opacity : 1.0;
 }
 
-// Coverage where a ray meets glass, 0 where it goes by: holes, and the backs of single-sided glass.
+// Coverage of the glass at a hit; 0 where the ray passes: in holes and at the back of single-sided
+// glass.
 float GlassCoverage(float2 barycentrics) {
   const MaterialConstants material = materials[hit_constants.material_id];
   const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
@@ -73,7 +74,7 @@ float GlassCoverage(float2 barycentrics) {
   return Coverage(alpha);
 }
 
-// Two triangles that share an edge can both be met on it: one layer all the same.
+// A ray on the edge of two triangles can hit both; that is still one layer.
 bool IsMetAgain(GlassPayload payload, bool on_edge) {
   if (InstanceIndex() != payload.instance) return false;
   return PrimitiveIndex() == payload.primitive ||
@@ -90,8 +91,8 @@ void Remember(inout GlassPayload payload) {
   payload.met = RayTCurrent();
 }
 
-// Light that a layer sends to the camera without its mirror image, and how much of the sun reaches
-// it: known only where a ray may be traced.
+// Light that a layer sends to the camera, apart from the mirror image. The caller provides the
+// sun's visibility, because an any-hit shader cannot trace a ray.
 float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibility) {
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 light = surface.emissive;
@@ -104,7 +105,8 @@ float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibi
   return light;
 }
 
-// [McGuire and Bavoil 2013, equations 7 to 10; effects-spec B4.13]
+// The weights of weighted blended order-independent transparency. [McGuire and Bavoil 2013,
+// equations 7 to 10; effects-spec B4.13]
 float BlendWeight(float alpha, float view_z) {
   const float z = view_z * constants.depth_scale;
   const float far = z / 200.0;
@@ -120,7 +122,7 @@ float BlendWeight(float alpha, float view_z) {
   }
   if (constants.weight_kind == 3) return alpha * clamp(0.03 / (1e-5 + far_squared * far_squared), 1e-2, 3e3);
   if (constants.weight_kind == 4) {
-    // 1 - d of a depth buffer that is 1 far away: near / z.
+    // 1 - d for a depth buffer that is 1 at infinity: near / z.
     const float nearness = saturate(frame.near_plane / max(view_z, frame.near_plane));
     return alpha * max(3e3 * nearness * nearness * nearness, 1e-2);
   }
@@ -165,10 +167,10 @@ void TransparentMiss(inout GlassPayload payload) {
   }
 }
 
-// What the glass mirrors, by the way that light takes from a flat pane: roughness is left out.
+// What the glass mirrors, as a flat pane would: roughness is ignored.
 float3 MirrorImage(Surface surface, float3 direction) {
   float3 mirrored = reflect(direction, surface.shading_normal);
-  // A bent normal can send the ray into the pane.
+  // A normal-mapped direction can point into the pane.
   if (!(dot(mirrored, surface.normal) > 0.0)) mirrored = reflect(direction, surface.normal);
   RayDesc ray;
   ray.Origin = SurfaceOrigin(surface, mirrored);
@@ -189,7 +191,7 @@ float3 MirrorImage(Surface surface, float3 direction) {
   TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
            payload);
   if (payload.distance < 0.0) return payload.radiance;
-  // No seam where the rays end.
+  // Fade to the sky, so that no seam shows where the rays end.
   const float start = longest * (1.0 - Contain(constants.fade, 1.0));
   const float far = saturate((payload.distance - start) / max(longest - start, 1e-6 * longest));
   if (far == 0.0) return payload.radiance;
@@ -244,7 +246,7 @@ void TransparentRayGen() {
   g_view_z.GetDimensions(width, height);
   const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
   const float opaque_z = g_view_z[pixel];
-  // As long as the G-buffer's rays: t is the view depth.
+  // The same unnormalised direction as in the G-buffer: t is the view depth.
   RayDesc ray;
   ray.Origin = float3(0, 0, 0);
   ray.TMin = 0.0;
@@ -277,7 +279,8 @@ void TransparentRayGen() {
       through *= payload.transmittance;
       if (layers == 0) first = payload.distance;
       ++layers;
-      // Strictly behind this one: a pane in the same place is taken for the same.
+      // Continue strictly behind this layer. A second pane at the same distance counts as the same
+      // layer.
       ray.TMin = payload.distance;
       more = max(through.x, max(through.y, through.z)) > 0.0;
     }
@@ -301,7 +304,7 @@ void TransparentRayGen() {
   glass_transmittance[pixel] = float4(through, float(layers));
 }
 
-// Puts the glass before what the pixel holds.
+// Puts the glass in front of what the pixel holds.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void TransparentCompose(uint3 id : SV_DispatchThreadID) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Glass against answers that are known.
+// Glass against known answers.
 #include "effects/transparent/transparent.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ struct Seen {
   FloatImage behind, whole;  // without the glass and with it
 };
 
-// Every setting on one device: most of the time goes into pipelines.
+// Runs all settings on one device, because making pipelines takes most of the time.
 std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstants>& settings,
                        std::uint32_t size = 8, std::uint32_t threads = 0) {
   rtapi::DeviceDesc device_desc;
@@ -78,7 +78,7 @@ std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstant
   return out;
 }
 
-// Layers take their reflection with their coverage: then the over operator says it all.
+// Reflections are scaled by coverage here, so the over operator describes everything.
 TransparentConstants plain(std::uint32_t reflecting, std::uint32_t sorted,
                            BlendWeight weight = BlendWeight::kSquare) {
   TransparentConstants constants;
@@ -92,9 +92,9 @@ TransparentConstants plain(std::uint32_t reflecting, std::uint32_t sorted,
 constexpr BlendWeight kWeights[] = {BlendWeight::kNone, BlendWeight::kSquare, BlendWeight::kCube,
                                     BlendWeight::kFar, BlendWeight::kDepth};
 
-const glm::vec3 kBehind(0.5f, 0.25f, 1.0f);  // exact in 16 bits
+const glm::vec3 kBehind(0.5f, 0.25f, 1.0f);  // exact in 16-bit floats
 
-// From the farthest to the nearest. Panes stand in any order.
+// Composites from the farthest pane to the nearest. The panes may come in any order.
 glm::dvec3 over(std::vector<Pane> panes, glm::dvec3 behind) {
   std::sort(panes.begin(), panes.end(),
             [](const Pane& a, const Pane& b) { return a.distance > b.distance; });
@@ -145,7 +145,7 @@ TEST(Transparent, AlphaZeroHasNoEffectExactly) {
   }
 }
 
-// Whatever the weight and the depth: one layer has nothing to be weighed against.
+// A single layer has nothing to be weighed against, whatever its weight and depth.
 TEST(Transparent, OneLayerIsTheOverOperator) {
   struct {
     float alpha, radiance;
@@ -164,7 +164,7 @@ TEST(Transparent, OneLayerIsTheOverOperator) {
   }
 }
 
-// [effects-spec B4.13: error of two layers, red before blue, all weights alike]
+// [effects-spec B4.13: error of two layers, red in front of blue, all weights equal]
 TEST(Transparent, TwoLayersErrByWhatIsKnown) {
   struct {
     float alpha;
@@ -183,7 +183,7 @@ TEST(Transparent, TwoLayersErrByWhatIsKnown) {
   }
 }
 
-// [McGuire and Bavoil 2013: equations 7 to 10], without the factor alpha; `near`: of the camera.
+// [McGuire and Bavoil 2013: equations 7 to 10], without the factor alpha. `near` is the camera's.
 double paper_weight(BlendWeight kind, double z, double near) {
   const auto bounded = [](double w) { return std::clamp(w, 1e-2, 3e3); };
   switch (kind) {
@@ -228,7 +228,7 @@ TEST(Transparent, WeightsAreThoseOfThePaper) {
 std::vector<Pane> eight_panes() {
   std::vector<Pane> panes;
   for (int i = 0; i < 8; ++i) {
-    // Not in the order of their depth.
+    // The panes are not listed in the order of their depth.
     panes.push_back({.distance = 1.0 + 0.7 * ((i * 3) % 8),
                      .alpha = 0.1f + 0.1f * i,
                      .emissive = glm::vec3(0.1f * i, 1.0f - 0.1f * i, 0.5f * (i % 3))});
@@ -245,7 +245,7 @@ TEST(Transparent, SortedLayersAreTheOverOperator) {
   }
 }
 
-// What shows of the background does not depend on an order. [effects-spec B4.13]
+// How much of the background is visible does not depend on the order. [effects-spec B4.13]
 TEST(Transparent, CoverageIsExactWithoutAnOrder) {
   const std::vector<Pane> panes = eight_panes();
   double open = 1;
@@ -267,7 +267,7 @@ TEST(Transparent, EqualColoursNeedNoOrder) {
   }
 }
 
-// Many bright layers at depth 0 and far away: sums stay finite.
+// Many bright layers, at depth 0 and far away: the sums stay finite.
 TEST(Transparent, SumsDoNotOverflow) {
   std::vector<Pane> panes;
   for (int i = 0; i < 64; ++i) {
@@ -283,7 +283,7 @@ TEST(Transparent, SumsDoNotOverflow) {
   }
 }
 
-// A material that is broken darkens its own layer and nothing else.
+// A broken material darkens its own layer and nothing else.
 TEST(Transparent, BrokenMaterialsAreContained) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<Pane> panes = {{.distance = 1, .alpha = 0.5f, .emissive = glm::vec3(nan)},
@@ -302,7 +302,8 @@ TEST(Transparent, BrokenMaterialsAreContained) {
   }
 }
 
-// Panes in one place: rays behind the first start strictly behind it, and the loop ends.
+// Several panes at the same distance: each ray starts strictly behind the previous layer, so the
+// loop ends.
 TEST(Transparent, CoincidentPanesEnd) {
   const Pane pane{.distance = 2, .alpha = 0.5f, .emissive = glm::vec3(1, 0, 0)};
   std::vector<Pane> panes(4, pane);
@@ -310,11 +311,12 @@ TEST(Transparent, CoincidentPanesEnd) {
   const std::vector<Seen> seen = look(make_pane_oracle(panes, kBehind), {plain(8, 8), plain(0, 0)});
   expect_everywhere(seen[0].whole, over({pane, panes.back()}, kBehind), 1e-5);
   EXPECT_EQ(seen[0].transmittance.at(3, 3, 3), 2.0f);
-  // Without an order each counts: nothing has to be told apart.
+  // Without an order every pane counts, since none has to be told from the others.
   expect_everywhere(seen[1].transmittance, glm::dvec3(0.75 / 16), 1e-5);
 }
 
-// A closed pane has two sides; single-sided glass shows the first only; from inside the way out.
+// A closed pane has two sides. Double-sided glass shows both; single-sided glass shows only the
+// front, so nothing from inside.
 TEST(Transparent, SidesOfThickGlass) {
   for (const bool double_sided : {true, false}) {
     const Pane pane{.distance = 1,
@@ -342,8 +344,8 @@ double schlick(double cosine) {
   return 0.04 + 0.96 * std::pow(1 - cosine, 5);
 }
 
-// A bright wall behind the camera, seen in a pane at 1 m: within 48 m whole, at 54 m half, behind
-// 60 m not at all. The second layer reflects only where it is asked to.
+// A bright wall behind the camera, mirrored in a pane at 1 m: fully visible up to 48 m, half at 54
+// m, gone beyond 60 m. The second layer reflects only if it is asked to.
 TEST(Transparent, MirrorRaysEndAtSixtyMetres) {
   struct {
     double distance, part;
@@ -371,14 +373,15 @@ TEST(Transparent, MirrorRaysEndAtSixtyMetres) {
     const std::vector<Seen> seen = look(scene, {one, deck_layers(2)}, 4);
     const double f = schlick(1), mirrored = 3 * f * row.part;
     expect_everywhere(seen[0].glass, glm::dvec3(mirrored), 2e-3);
-    // The wall stands half a metre farther from the second pane.
+    // The wall is half a metre further from the second pane.
     const double second_part = row.part == 0.5 ? 0.5 - 0.5 / 12 : row.part;
     expect_everywhere(seen[1].glass, glm::dvec3(mirrored + 0.75 * (1 - f) * 3 * f * second_part),
                       2e-3);
   }
 }
 
-// More layers with their own rays: nearer to the reference. [Northlight deck: Transparent]
+// The more layers have mirror rays, the closer the result is to the reference. [Northlight deck:
+// Transparent]
 TEST(Transparent, MoreLayersAreNearerToTheReference) {
   const Scene scene = make_glass_stack({.panes = 6});
   const std::vector<Seen> seen = look(
@@ -394,7 +397,7 @@ TEST(Transparent, MoreLayersAreNearerToTheReference) {
   EXPECT_GT(rms_difference(seen[0].whole, seen[0].behind), 0.01);
 }
 
-// The scene elsewhere, as large as `scale` says; `move` is rigid.
+// The scene at another place and scale; `move` is rigid.
 Scene moved(Scene scene, const glm::dmat4& move, double scale) {
   const glm::dmat4 grow{glm::dmat3(scale)};
   for (Instance& instance : scene.instances) instance.transform = move * grow * instance.transform;
@@ -418,11 +421,11 @@ Scene moved(Scene scene, const glm::dmat4& move, double scale) {
   return scene;
 }
 
-// [effects-spec E.1: turned, moved, far from the origin, small and large]
+// [effects-spec E.1: rotated, moved, far from the origin, small and large]
 TEST(Transparent, ThePlaceOfTheSceneDoesNotMatter) {
   constexpr std::uint32_t kSize = 32;
   const Scene scene = make_glass_stack({.panes = 4, .thick = true});
-  // Texels of a lamp's shadow map lie along the world's axes: turned scenes do without.
+  // The texels of a lamp's shadow map follow the world's axes, so rotated scenes have no lamps.
   Scene dark = scene;
   dark.lights.clear();
   const Seen lit_here = look(scene, {deck_layers(2)}, kSize)[0];
@@ -455,7 +458,7 @@ TEST(Transparent, ThePlaceOfTheSceneDoesNotMatter) {
       }
       different += !same;
     }
-    // Edges that pass through the centre of a pixel.
+    // Only pixels whose centre lies on an edge differ.
     EXPECT_LE(different, kSize * kSize / 100) << "scale " << row.scale << " angle " << row.angle;
   }
 }

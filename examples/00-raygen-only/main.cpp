@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The smallest DXR program: a root signature, a state object, a shader table of one record,
+// The smallest DXR program: a root signature, a state object, a shader table with one record,
 // DispatchRays.
 #include <shaders/raygen.h>
 

@@ -9,7 +9,7 @@
 
 using namespace rtapi;
 
-// Memory for an acceleration structure: it is in its state for its whole life.
+// Memory for an acceleration structure. Such a buffer stays in its one state for its whole life.
 static Buffer CreateAccelerationStructureBuffer(const Device& device, uint64_t bytes,
                                                 const char* name) {
   return device
@@ -87,7 +87,8 @@ static Texture Render(const example::Setup& setup) {
     table->Build(device).value();
   }
 
-  // A barrier stands between a build and what reads its result, and where scratch is used again.
+  // A barrier separates a build from whatever reads its result, and two uses of the same scratch
+  // memory.
   CommandList list = device.CreateCommandList().value();
   list.BuildRaytracingAccelerationStructure(
       {.DestAccelerationStructureData = bottom_level.GetGPUVirtualAddress(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ray for each pixel, one triangle: a hit is coloured by its barycentrics, a miss by the sky.
+// One ray for each pixel, one triangle: hits are coloured by barycentrics, misses by the sky.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWTexture2D<float4> image : register(u0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many instances of one bottom level; InstanceMask and InstanceInclusionMask choose who is seen.
+// Many instances of one bottom level; InstanceMask and InstanceInclusionMask choose which ones rays
+// see.
 #include <shaders/masks.h>
 
 #include <cmath>
@@ -17,7 +18,8 @@ static Texture Render(const example::Setup& setup) {
       {0, 4, 1, 1, 4, 2, 2, 4, 3, 3, 4, 0});
   const Buffer bottom_level = example::BuildBottomLevel(setup, {pyramid.geometry});
 
-  // A 5 x 5 field, mask 1 and 2 like the squares of a chess board, each turned a little further.
+  // A 5 x 5 field with masks 1 and 2 like the squares of a chess board, each instance turned a bit
+  // more.
   std::vector<RaytracingInstanceDesc> instances;
   for (uint32_t i = 0; i < 25; ++i) {
     const float angle = 0.25f * static_cast<float>(i);
@@ -28,7 +30,7 @@ static Texture Render(const example::Setup& setup) {
     instance.Transform[0][2] = std::sin(angle);
     instance.Transform[2][0] = -std::sin(angle);
     instance.Transform[2][2] = std::cos(angle);
-    instance.InstanceID = i;  // 24 bits that are the application's own
+    instance.InstanceID = i;  // 24 bits for the application to use as it likes
     instance.InstanceMask = i % 2 == 0 ? 1 : 2;
     instances.push_back(instance);
   }

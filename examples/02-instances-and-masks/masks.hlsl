@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One pyramid, placed many times. The picture has three parts: in the left one rays see instances
-// of mask 1 only, in the middle those of mask 2, on the right both.
+// One pyramid, placed many times. The picture has three parts: rays on the left see only instances
+// with mask 1, in the middle only those with mask 2, on the right both.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWTexture2D<float4> image : register(u0);
@@ -44,7 +44,7 @@ void Miss(inout Payload payload) {
 
 [shader("closesthit")]
 void ClosestHit(inout Payload payload, in BuiltInTriangleIntersectionAttributes attributes) {
-  // The faces of the pyramid are lit by their number, the colour is the instance's own.
+  // Each face of the pyramid is lit by its number; the colour is the instance's.
   const float light = 0.45 + 0.55 * frac(float(PrimitiveIndex()) * 0.37 + 0.2);
   payload.color = color_of(InstanceID()) * light;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Holes cut by an any-hit shader, for camera rays and for shadow rays: two ray types, so two records
+// An any-hit shader cuts holes, for camera rays and for shadow rays: two ray types, so two records
 // for each geometry.
 
 RaytracingAccelerationStructure scene : register(t0);
@@ -16,8 +16,8 @@ struct ShadowPayload {
   float visibility;
 };
 
-// A leaf on each square: 1 where there is something, 0 where there is a hole. A quad's two triangles
-// share their corners 0 and 2.
+// The texture coordinates of a hit on a quad, whose two triangles share corners 0 and 2; is_hole()
+// leaves a leaf standing in each square.
 float2 quad_uv(float2 barycentrics, uint primitive) {
   const float b1 = barycentrics.x;
   const float b2 = barycentrics.y;

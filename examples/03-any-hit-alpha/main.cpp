@@ -13,7 +13,7 @@ static Texture Render(const example::Setup& setup) {
   const std::vector<uint32_t> quad = {0, 1, 2, 0, 2, 3};
   const example::Mesh floor = example::CreateMesh(setup, {-9, 0, -9, -9, 0, 9, 9, 0, 9, 9, 0, -9},
                                                   quad, RaytracingGeometryFlags::kOpaque);
-  // Not opaque: its any-hit shader runs for every possible hit.
+  // Not opaque, so its any-hit shader runs for every potential hit.
   const example::Mesh screen =
       example::CreateMesh(setup, {-2, 0.3f, 0, -2, 2.6f, 0.6f, 2, 2.6f, 0.6f, 2, 0.3f, 0}, quad,
                           RaytracingGeometryFlags::kNone);
@@ -33,11 +33,11 @@ static Texture Render(const example::Setup& setup) {
                         .ClosestHitShaderImport = "LeafClosestHit"});
   desc.Add(HitGroupDesc{.HitGroupExport = "LeafShadow", .AnyHitShaderImport = "LeafAnyHitShadow"});
   desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 12});
-  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 2});  // a closest hit traces a shadow
+  desc.Add(RaytracingPipelineConfig{.MaxTraceRecursionDepth = 2});  // hit shaders trace a shadow
   desc.Add(GlobalRootSignature{root_signature});
   const StateObject pipeline = device.CreateStateObject(desc).value();
 
-  // Record = ray type + ray types * geometry, as the arguments of TraceRay say.
+  // The record is ray type + ray types * geometry, as TraceRay's arguments say.
   ShaderTable raygen_table(pipeline), miss_table(pipeline), hit_table(pipeline);
   raygen_table.AddRecord("RayGen").value();
   miss_table.AddRecord("PrimaryMiss").value();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Spheres that are no triangles: the application gives boxes, an intersection shader says where in a
-// box a ray hits.
+// Spheres without triangles: the application provides boxes, and an intersection shader says where
+// in a box a ray hits.
 
 RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<float4> spheres : register(t1);  // centre, radius
@@ -10,12 +10,12 @@ struct Payload {
   float3 color;
 };
 
-// What an intersection shader hands to the hit shaders: up to 32 bytes.
+// What an intersection shader passes to the hit shaders: at most 32 bytes.
 struct SphereAttributes {
   float3 normal;
 };
 
-static const uint kEntering = 0;  // hit kinds 0 to 127 are the application's own
+static const uint kEntering = 0;  // hit kinds 0 to 127 are the application's
 static const uint kLeaving = 1;
 
 [shader("raygeneration")]
@@ -49,7 +49,7 @@ void SphereIntersection() {
   SphereAttributes attributes;
   const float near = (-b - root) / a;
   attributes.normal = (to_origin + near * direction) / sphere.w;
-  // False if the point lies outside of (RayTMin, RayTCurrent): then the far side is tried.
+  // False if the hit lies outside (RayTMin, RayTCurrent); then try the far side.
   if (!ReportHit(near, kEntering, attributes)) {
     const float far = (-b + root) / a;
     attributes.normal = -(to_origin + far * direction) / sphere.w;

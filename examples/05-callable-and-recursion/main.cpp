@@ -6,7 +6,7 @@
 
 using namespace rtapi;
 
-// A box with the four triangles of one axis after those of the other, front faces outside.
+// A box with its triangles grouped by axis, four for each; front faces point outwards.
 static example::Mesh MakeBox(const example::Setup& setup, float x0, float y0, float z0, float x1,
                              float y1, float z1) {
   const std::vector<float> corners = {x0, y0, z0, x1, y0, z0, x0, y1, z0, x1, y1, z0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mirrors that see each other: closest-hit shaders trace further rays. What a surface looks like is
-// asked from a callable shader, chosen by a number in the hit group's record.
+// Mirrors that see each other: closest-hit shaders trace further rays. A callable shader, chosen by
+// a number in the hit group's record, says what a surface looks like.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWTexture2D<float4> image : register(u0);
@@ -8,7 +8,7 @@ RWTexture2D<float4> image : register(u0);
 struct SurfaceIndex {
   uint callable;
 };
-ConstantBuffer<SurfaceIndex> surface_index : register(b0, space1);  // local: one in each record
+ConstantBuffer<SurfaceIndex> surface_index : register(b0, space1);  // local: each record has one
 
 static const uint kMaxDepth = 6;  // RayGen's ray is depth 1
 
@@ -17,7 +17,7 @@ struct Payload {
   uint depth;
 };
 
-// In: where. Out: what is there.
+// In: the place. Out: the surface there.
 struct Surface {
   float3 position;
   float3 albedo;
@@ -50,7 +50,7 @@ void Miss(inout Payload payload) {
   payload.color = sky(WorldRayDirection());
 }
 
-// The face of an axis-aligned box that a point lies on: where the other two coordinates vary.
+// The normal of the face of an axis-aligned box that was hit.
 float3 box_normal(uint primitive, float3 direction) {
   const uint axis = primitive / 4;
   float3 normal = float3(0, 0, 0);

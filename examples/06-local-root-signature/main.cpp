@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A torus three times; each instance has a record of its own with vertices, indices and a material.
+// A torus three times; each instance has its own record with vertices, indices and a material.
 #include <shaders/records.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ static Texture Render(const example::Setup& setup) {
   for (uint32_t i = 0; i < 3; ++i) {
     instances.push_back(
         example::Instance(bottom_level, -2.2f + 2.2f * static_cast<float>(i), 0, 0));
-    instances.back().InstanceContributionToHitGroupIndex = i;  // record i
+    instances.back().InstanceContributionToHitGroupIndex = i;  // selects record i
   }
   const Buffer top_level = example::BuildTopLevel(setup, instances);
 
@@ -97,7 +97,8 @@ static Texture Render(const example::Setup& setup) {
   }
 
   GpuVirtualAddressRangeAndStride hit_groups = hit_table.GetTable();
-  // A classic: the stride of records without arguments. Checked mode says what it should be.
+  // A classic mistake: the stride of records without arguments. Checked mode says what it should
+  // be.
   if (setup.broken == "stride") hit_groups.StrideInBytes = kShaderIdentifierSizeInBytes;
 
   CommandList list = device.CreateCommandList().value();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a hit group's record holds: a constant buffer's worth of constants, and addresses of the
+// What a hit group's record holds: root constants as a constant buffer, and the addresses of the
 // geometry's own vertices and indices.
 
 RaytracingAccelerationStructure scene : register(t0);
@@ -14,7 +14,7 @@ struct Material {
   float roughness;
 };
 
-// The same three registers for each record, other data behind them.
+// Each record binds other data to the same three registers.
 StructuredBuffer<Vertex> vertices : register(t0, space1);
 ByteAddressBuffer indices : register(t1, space1);
 ConstantBuffer<Material> material : register(b0, space1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bottom level is compacted, and updated after its vertices have moved.
+// Compacts a bottom level, then updates it after its vertices have moved.
 #include <shaders/wave.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ static Texture Render(const example::Setup& setup) {
                                                 .Name = "compacted size"})
                                  .value();
 
-  // Build, and ask how small it can get.
+  // Build, and query the compacted size.
   const RaytracingAccelerationStructurePostbuildInfoDesc compacted_size = {
       size_result.GetGPUVirtualAddress()};
   CommandList list = device.CreateCommandList().value();
@@ -86,7 +86,8 @@ static Texture Render(const example::Setup& setup) {
               static_cast<unsigned long long>(sizes.ResultDataMaxSizeInBytes),
               static_cast<unsigned long long>(compacted_bytes));
 
-  // Copy into a buffer of that size. The vertices move, and a second copy is updated in place.
+  // Copy into a buffer of that size. The vertices have moved: an update of the original goes into
+  // another buffer.
   const Buffer compacted = CreateAccelerationStructure(device, compacted_bytes, "compacted");
   const Buffer updated =
       CreateAccelerationStructure(device, sizes.ResultDataMaxSizeInBytes, "updated");

@@ -35,7 +35,7 @@ void Miss(inout Payload payload) {
   payload.color = float3(0.9, 0.9, 0.92);
 }
 
-// Lines of equal height, and the two triangles of each square in different shades.
+// Lines of equal height; the two triangles of each square have different shades.
 [shader("closesthit")]
 void ClosestHit(inout Payload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const float height = WorldRayOrigin().y + RayTCurrent() * WorldRayDirection().y;

@@ -24,7 +24,7 @@ static const int kGroup = 64;
 static const int kMaxRadius = 32;
 groupshared float3 row[kGroup + 2 * kMaxRadius];
 
-// Each thread loads its pixel, some also one of the border; behind the barrier all can be read.
+// Each thread loads its pixel, some also a border pixel; after the barrier all of them can be read.
 [shader("compute")]
 [numthreads(kGroup, 1, 1)]
 void BlurRows(uint3 id : SV_DispatchThreadID, uint3 group : SV_GroupID, uint thread : SV_GroupIndex) {
@@ -35,7 +35,7 @@ void BlurRows(uint3 id : SV_DispatchThreadID, uint3 group : SV_GroupID, uint thr
   }
   GroupMemoryBarrierWithGroupSync();
 
-  // Nothing is blurred on the left edge of the picture, all of `radius` on the right one.
+  // No blur at the left edge of the picture, the full `radius` at the right one.
   const int reach = min(kMaxRadius, radius * int(id.x) / int(size.x));
   float3 sum = float3(0, 0, 0);
   for (int offset = -reach; offset <= reach; ++offset) {

@@ -10,7 +10,7 @@ static Texture Render(const example::Setup& setup) {
   const Device& device = setup.device;
   const example::Image image = example::CreateImage(setup);
 
-  // Opaque triangles are committed without asking; the fence and the boxes are asked about.
+  // Opaque triangles are committed directly; the fence and the boxes become candidates.
   const std::vector<uint32_t> two_triangles = {0, 1, 2, 0, 2, 3};
   const example::Mesh ground =
       example::CreateMesh(setup, {-20, 0, -20, -20, 0, 20, 20, 0, 20, 20, 0, -20}, two_triangles);
@@ -26,7 +26,7 @@ static Texture Render(const example::Setup& setup) {
   const Buffer fence_level = example::BuildBottomLevel(setup, {fence.geometry});
   const Buffer sphere_level = example::BuildBottomLevel(setup, {sphere});
 
-  // InstanceID says what it is; nothing else is known of a hit.
+  // InstanceID says what was hit; a query knows nothing else about it.
   std::vector<RaytracingInstanceDesc> instances = {example::Instance(ground_level, 0, 0, 0),
                                                    example::Instance(fence_level, 0, 0, -1)};
   instances[1].InstanceID = 1;

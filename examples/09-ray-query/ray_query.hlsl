@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ray tracing without a ray tracing pipeline: a compute shader asks the scene itself.
+// Ray tracing without a ray tracing pipeline: a compute shader traces rays itself.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWTexture2D<float4> image : register(u0);
@@ -10,12 +10,12 @@ cbuffer Constants : register(b0) {
 static const uint kGround = 0, kFence = 1, kSpheres = 2;  // InstanceID
 static const float3 kSun = normalize(float3(-0.5, 0.9, -0.55));
 
-// Slats: what stands between them is not there.
+// Slats; the spaces between them are gaps.
 bool is_slat(float3 p) {
   return frac(p.x * 2.5) < 0.55 || frac(p.y * 0.8) < 0.15;
 }
 
-// The unit sphere in its box, in object space; t is that of the world, negative for none.
+// The unit sphere in its box, in object space. t is the same as in world space; negative: no hit.
 float hit_sphere(float3 origin, float3 direction) {
   const float a = dot(direction, direction);
   const float b = dot(origin, direction);
@@ -23,7 +23,7 @@ float hit_sphere(float3 origin, float3 direction) {
   return discriminant < 0 ? -1 : (-b - sqrt(discriminant)) / a;
 }
 
-// What hit groups decide in a pipeline is decided in this loop.
+// This loop decides what hit groups decide in a pipeline.
 void search(RayQuery<RAY_FLAG_NONE> query) {
   while (query.Proceed()) {
     if (query.CandidateType() == CANDIDATE_PROCEDURAL_PRIMITIVE) {

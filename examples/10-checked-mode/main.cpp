@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Five classic mistakes. Each is made once, and checked mode's message is printed; then it is
-// mended, and there is nothing to say.
+// fixed, and checked mode is silent.
 #include <shaders/mistakes.h>
 
 #include <cstdio>
@@ -16,7 +16,7 @@ struct World {
   example::Setup setup;
   RootSignature root_signature;
   StateObject pipeline;
-  StateObject other_pipeline;  // of the same shaders, made a second time
+  StateObject other_pipeline;  // made from the same shaders a second time
   example::Mesh mesh, front;
   Buffer bottom_level;
   Buffer top_level;
@@ -48,7 +48,7 @@ World CreateWorld(const example::Setup& setup) {
   w.other_pipeline = CreatePipeline(setup.device, w.root_signature);
   w.mesh = example::CreateMesh(setup, {-1, -1, 0, 1, -1, 0, 0, 1, 0}, {});
   w.front = example::CreateMesh(setup, {-1, -1, -0.5f, 1, -1, -0.5f, 0, 1, -0.5f}, {});
-  // Two geometries: with a multiplier of 1 they take records 0 and 1. The ray hits the second.
+  // Two geometries: with a multiplier of 1 they use records 0 and 1. The ray hits the second.
   w.bottom_level = example::BuildBottomLevel(setup, {w.mesh.geometry, w.front.geometry});
   w.top_level = example::BuildTopLevel(setup, {example::Instance(w.bottom_level, 0, 0, 0)});
   w.results =
@@ -96,20 +96,20 @@ void Dispatch(const World& w, const DispatchRaysDesc& desc) {
   queue.ExecuteAndWait(list).value();
 }
 
-// The stride of the hit group table is that of a record without arguments.
+// The hit group table has the stride of records without arguments.
 void Stride(World& w, bool mended) {
   Tables tables = CreateTables(w, 2);
   if (!mended) tables.desc.HitGroupTable.StrideInBytes = 32;
   Dispatch(w, tables.desc);
 }
 
-// There is a record for each instance, but the instance has two geometries.
+// There is one record for each instance, but the instance has two geometries.
 void MissingRecord(World& w, bool mended) {
   const Tables tables = CreateTables(w, mended ? 2 : 1);
   Dispatch(w, tables.desc);
 }
 
-// The pipeline was made again, and the table is still that of the old one.
+// The pipeline was created again, but the table still holds the old one's identifiers.
 void OldIdentifier(World& w, bool mended) {
   World now = w;
   if (!mended) now.pipeline = w.other_pipeline;
@@ -117,7 +117,7 @@ void OldIdentifier(World& w, bool mended) {
   Dispatch(now, tables.desc);
 }
 
-// What is needed for a build, in one list with what reads the result.
+// Records everything for a build, in the same list as whatever reads the result.
 void RecordTopLevel(World& w, CommandList& list, const Buffer& instances, const Buffer& scratch) {
   BuildRaytracingAccelerationStructureInputs inputs;
   inputs.NumDescs = 1;
@@ -135,7 +135,7 @@ Buffer CreateScratch(const World& w) {
       .value();
 }
 
-// A dispatch right behind the build of its top level.
+// A dispatch directly after its top level's build.
 void Barrier(World& w, bool mended) {
   const Tables tables = CreateTables(w, 2);
   const Buffer instances =
@@ -154,7 +154,7 @@ void Barrier(World& w, bool mended) {
   queue.ExecuteAndWait(list).value();
 }
 
-// The bottom level is built again, its top level is not.
+// The bottom level is rebuilt, but its top level is not.
 void StaleTopLevel(World& w, bool mended) {
   const Tables tables = CreateTables(w, 2);
   const RaytracingGeometryDesc geometries[] = {w.mesh.geometry, w.front.geometry};
@@ -194,16 +194,16 @@ struct Mistake {
 
 constexpr Mistake kMistakes[] = {
     {"the stride leaves no room for the local root arguments", Stride,
-     "StrideInBytes is that of the records: 32 bytes of identifier, the arguments, up to a "
-     "multiple of 32. ShaderTable::GetTable() knows it."},
+     "StrideInBytes is the size of a record: a 32-byte identifier and the arguments, rounded up to "
+     "a multiple of 32. ShaderTable::GetTable() knows it."},
     {"a geometry has no record", MissingRecord,
      "one record for each geometry of an instance, times the ray types."},
     {"the table holds identifiers of another pipeline", OldIdentifier,
-     "after CreateStateObject write the tables anew, with its GetShaderIdentifier."},
+     "after CreateStateObject, write the tables again with the new object's GetShaderIdentifier."},
     {"no UAV barrier between a build and the dispatch", Barrier,
      "ResourceBarrier::Uav(top level) after the build."},
-    {"a bottom level was built again, and its top level was not", StaleTopLevel,
-     "build or update every top level that refers to it, after it."},
+    {"a bottom level was rebuilt, but its top level was not", StaleTopLevel,
+     "afterwards, build or update every top level that refers to it."},
 };
 
 }  // namespace
@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    // Messages of one list come before ExecuteAndWait returns.
+    // A list's messages arrive before ExecuteAndWait returns.
     std::vector<std::string> said;
     DeviceDesc desc;
     desc.Backend = backend;
@@ -239,7 +239,7 @@ int main(int argc, char** argv) {
       world = CreateWorld(setup);
       said.clear();
       mistake.run(world, true);
-      std::printf("   Cure: %s\n   Mended, checked mode says %s.\n\n", mistake.cure,
+      std::printf("   Cure: %s\n   Once fixed, checked mode says %s.\n\n", mistake.cure,
                   said.empty() ? "nothing" : said.front().c_str());
       as_expected = as_expected && said.empty();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ray: a hit gives the number in the record, a miss 0. The mistakes are all in main.cpp.
+// One ray: a hit gives the number in the record, a miss 0. All mistakes are in main.cpp.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWByteAddressBuffer results : register(u0);

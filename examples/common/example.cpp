@@ -27,13 +27,13 @@ bool ParseSize(const std::string& text, uint32_t& width, uint32_t& height) {
   return true;
 }
 
-// What a pixel holds, for one who compares backends.
+// Prints a pixel's value, for comparing backends.
 int PrintPixel(const char* name, const Setup& setup, const std::string& text,
                const kaamos::effects::ByteImage& image) {
   unsigned x = 0;
   unsigned y = 0;
   if (std::sscanf(text.c_str(), "%u,%u", &x, &y) != 2 || x >= image.width || y >= image.height) {
-    std::fprintf(stderr, "%s: --pixel %s is none of the picture's: give x,y within %ux%u\n", name,
+    std::fprintf(stderr, "%s: --pixel %s is outside the picture: give x,y within %ux%u\n", name,
                  text.c_str(), image.width, image.height);
     return 2;
   }
@@ -84,15 +84,15 @@ int Main(int argc, char** argv, const char* name, Body body,
   app.add_option("--size", size, "width and height of the picture")->capture_default_str();
   app.add_option("--out", out, "the picture file, a PNG")->capture_default_str();
   app.add_option("--pixel", pixel, "x,y: print that pixel instead of writing the picture");
-  app.add_flag("--unchecked", unchecked, "without checked mode: faster, and says nothing");
+  app.add_flag("--unchecked", unchecked, "turn checked mode off: faster, but reports nothing");
   if (!breakable.empty()) {
-    app.add_option("--break", broken, "do that wrong, to see what checked mode says")
+    app.add_option("--break", broken, "make this mistake, to see what checked mode says")
         ->check(CLI::IsMember(breakable));
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;  // 0: --help
+    return app.exit(error) == 0 ? 0 : 2;  // --help gives 0
   }
 
   Setup setup;
@@ -117,7 +117,7 @@ int Main(int argc, char** argv, const char* name, Body body,
     setup.queue = setup.device.CreateCommandQueue().value();
     const Texture picture = body(setup);
     if (findings > 0) {
-      std::fprintf(stderr, "%s: stopped, checked mode found the above\n", name);
+      std::fprintf(stderr, "%s: stopped because of what checked mode reported above\n", name);
       return 1;
     }
     const std::vector<std::byte> texels =

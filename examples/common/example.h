@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What stands around an example and is not DXR: the command line, the device, building an
-// acceleration structure in one call, and the picture file.
+// Everything in an example that is not DXR: the command line, the device, building an acceleration
+// structure in one call, and the picture file.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -17,21 +17,20 @@ struct Setup {
   rtapi::CommandQueue queue;
   uint32_t width = 0;
   uint32_t height = 0;
-  std::string broken;  // what to do wrong, of the names given to Main; "" for nothing
+  std::string broken;  // which of the mistakes given to Main to make; "" means none
 };
 
-// Renders into a texture of Setup's size, format kR8G8B8A8Unorm. Errors leave as
-// rtapi::ResultError.
+// Renders into a texture of Setup's size with format kR8G8B8A8Unorm. Throws rtapi::ResultError.
 using Body = rtapi::Texture (*)(const Setup&);
 
 // Parses `--backend NAME --size WxH --out FILE`, runs `body` and writes its picture to
 // "<name>.png"; with `--pixel X,Y` it prints that pixel instead. The device is in checked mode
-// (`--unchecked` turns it off): what it finds is printed and makes the exit code 1, as does an
-// error. With `breakable` there is also `--break WHAT`. Returns the exit code.
+// (`--unchecked` turns it off): what checked mode reports is printed and makes the exit code 1, as
+// an error does. With `breakable` there is also `--break WHAT`. Returns the exit code.
 int Main(int argc, char** argv, const char* name, Body body,
          const std::vector<std::string>& breakable = {});
 
-// A texture that a shader can write, and a heap whose descriptor 0 is its unordered access view.
+// A texture that shaders can write, and a heap whose descriptor 0 is its unordered access view.
 struct Image {
   rtapi::Texture texture;
   rtapi::DescriptorHeap heap;
@@ -39,14 +38,14 @@ struct Image {
 Image CreateImage(const Setup& setup, uint32_t descriptors = 1);
 
 // Builds a bottom level of `geometries`, or a top level of `instances`, and waits. 01-triangle
-// shows the calls behind it.
+// shows the calls behind this.
 rtapi::Buffer BuildBottomLevel(const Setup& setup,
                                const std::vector<rtapi::RaytracingGeometryDesc>& geometries);
 rtapi::Buffer BuildTopLevel(const Setup& setup,
                             const std::vector<rtapi::RaytracingInstanceDesc>& instances);
 
-// A geometry of float3 vertices, and 32-bit indices unless `indices` is empty. The buffers live as
-// long as the result.
+// A geometry with float3 vertices, and with 32-bit indices unless `indices` is empty. The buffers
+// live as long as the result.
 struct Mesh {
   rtapi::Buffer vertices;
   rtapi::Buffer indices;
@@ -56,7 +55,7 @@ Mesh CreateMesh(const Setup& setup, const std::vector<float>& positions,
                 const std::vector<uint32_t>& indices,
                 rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
 
-// An instance of `bottom_level` at a place.
+// An instance of `bottom_level` at a position.
 rtapi::RaytracingInstanceDesc Instance(const rtapi::Buffer& bottom_level, float x, float y, float z,
                                        float scale = 1);
 

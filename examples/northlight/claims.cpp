@@ -20,12 +20,12 @@ using namespace kaamos::effects;
 
 namespace {
 
-// What is timed, each once a round.
+// The costs that are timed, each once per round.
 enum Cost : std::size_t {
   kAo1,
   kAo16,
   kAoFilter,
-  kSunRay,  // per traced ray, as kAoRay
+  kSunRay,  // per traced ray, like kAoRay
   kAoRay,
   kContactTrace,
   kContactFilter,
@@ -40,16 +40,16 @@ enum Cost : std::size_t {
   kCosts
 };
 
-// Milliseconds (kSunRay, kAoRay: per ray) of one round; negative: not in this scene.
+// Milliseconds of one round (kSunRay, kAoRay: per ray); negative: this scene has no such cost.
 using Round = std::array<double, kCosts>;
 
-constexpr std::uint32_t kManyRays = 4;  // a pixel, where single rays are compared
+constexpr std::uint32_t kManyRays = 4;  // per pixel, where the costs of single rays are compared
 
 rtapi::Error failure(const std::string& text) {
   return {"claims", rtapi::ErrorCode::kFailed, text};
 }
 
-// SVGF of what a setting's run has summed up.
+// SVGF over what a setting's run has summed up.
 class Filter {
  public:
   rtapi::Status create(Stage& stage, const ShaderLibraries& libraries, const Setting& setting,
@@ -166,7 +166,7 @@ rtapi::Result<Round> run_round(Stage& stage, Plan& plan) {
   return round;
 }
 
-// The median over the rounds of what `value` makes of one; none where a cost is missing.
+// The median over the rounds of value(round); empty if a cost is missing.
 template <class Value>
 std::optional<double> over(const std::vector<Round>& rounds, std::initializer_list<Cost> needs,
                            Value value) {
@@ -184,7 +184,7 @@ std::optional<double> ratio(const std::vector<Round>& rounds, Cost a, Cost b, do
   return over(rounds, {a, b}, [=](const Round& round) { return scale * round[a] / round[b]; });
 }
 
-// Every claim's number on one backend, in the order of kTexts.
+// The number of every claim on one backend, in the order of kTexts.
 std::vector<std::optional<double>> numbers(const std::vector<Round>& rounds) {
   std::vector<std::optional<double>> out = {
       ratio(rounds, kAo16, kAo1, 1.0 / 16), ratio(rounds, kSunRay, kAoRay),
@@ -214,8 +214,8 @@ std::vector<std::optional<double>> numbers(const std::vector<Round>& rounds) {
   return out;
 }
 
-// What the seeds say: of Control, for the frames 1 and 2 of its Table 1. [GDC 2018 talk; Northlight
-// deck; survey: Table 1]
+// What the sources say. Control's shares are those of frames 1 and 2 in its Table 1. [GDC 2018
+// talk; Northlight deck; survey: Table 1]
 constexpr std::pair<const char*, const char*> kTexts[] = {
     {"AO: 16 rays a pixel / 16 x 1 ray (0.85 to 1.15)", "1.00: 80 ms / 16 x 5 ms"},
     {"a sun ray / an AO ray of 4 m", "below 1: coherent"},
@@ -245,7 +245,7 @@ rtapi::Result<std::vector<Round>> run_rounds(const Options& options, const Scene
   auto plan = make_plan(**stage, options, libraries);
   if (!plan) return plan.error();
   std::vector<Round> rounds;
-  // One before the first that counts: pipelines, caches and histories are there then.
+  // One uncounted round first, so that pipelines, caches and histories exist.
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
     const auto round = run_round(**stage, *plan);
     if (!round) return round.error();
@@ -277,7 +277,7 @@ rtapi::Result<ClaimTable> measure_claims(const Options& options, const Scene& sc
   if (failed) return failure("cannot make the folder " + cache + ": " + failed.message());
   ClaimTable table;
   for (const auto& [text, seed] : kTexts) table.claims.push_back({text, seed, {}});
-  // In this order: the volume that the first one bakes is there for the second.
+  // In this order, so that the second run finds the volume that the first one bakes.
   for (const std::string& backend : {std::string("embree"), std::string("vulkan")}) {
     if (backend == "vulkan" && !has_vulkan()) continue;
     Options own = options;

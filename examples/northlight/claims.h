@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// northlight --claims: what the talk, the deck and the survey say of costs, beside what is measured
-// here on each backend.
+// northlight --claims: what the talk, the deck and the survey say about costs, beside what is
+// measured here on each backend.
 #pragma once
 
 #include <atomic>
@@ -17,22 +17,23 @@ namespace northlight {
 // One claim: a ratio of two costs, or a share of a sum of costs.
 struct Claim {
   std::string text;
-  std::string seed;  // as it stands there
-  // By backend; none where the scene or the machine has no case for it.
+  std::string seed;  // the source's own wording
+  // By backend; empty if the scene or the machine has no case for it.
   std::vector<std::optional<double>> here;
 };
 
 struct ClaimTable {
-  std::vector<std::string> backends;  // name and size
+  std::vector<std::string> backends;  // name and picture size
   std::vector<Claim> claims;
 };
 
 std::string as_text(const ClaimTable& table);
 kaamos::effects::Table as_csv(const ClaimTable& table);
 
-// On Embree, and, a quarter as wide and high, on Vulkan where the machine has it: medians over
-// options.repeats of ratios within one round. Where the scene lacks what a claim is about, it has
-// no number. An error with an empty id: `stop` was set.
+// Measures on Embree and, if the machine has it, on Vulkan at a quarter of the width and height.
+// The numbers are medians over options.repeats rounds of ratios within a round; a claim about
+// something that the scene lacks has no number. An error with an empty id means that `stop` was
+// set.
 rtapi::Result<ClaimTable> measure_claims(const Options& options,
                                          const kaamos::effects::Scene& scene,
                                          const ShaderLibraries& libraries,

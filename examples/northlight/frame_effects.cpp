@@ -21,7 +21,7 @@ namespace {
 
 constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
 
-// An empty id would mean that somebody stopped it.
+// An empty id would mean that the user stopped the program.
 rtapi::Error failure(const std::string& text) {
   return {"effects", rtapi::ErrorCode::kFailed, text};
 }
@@ -94,7 +94,7 @@ rtapi::Status FrameEffects::create(const rtapi::Device& device, rtapi::CommandQu
     has_glass_ = has_glass_ || options.keep_glass;
     if (!has_glass_) left_out_.push_back("glass: the scene has none");
   }
-  // Hits of reflections and of indirect rays see the volume too.
+  // Hits of reflections and of indirect rays read the volume too.
   rtapi::CommandList list = device.CreateCommandList().value();
   lighting_->update(list, frame);
   if (const auto s = queue.ExecuteAndWait(list); !s) return s;
@@ -163,7 +163,7 @@ rtapi::Status FrameEffects::create_filters() {
   }
   std::vector<Signal*> alike;
   for (const auto& signal : signals_) {
-    // Only reflections tell how far away their hits are.
+    // Only reflections store the distance to their hits.
     if (desc.method == DenoiseMethod::kControl && signal->name == "reflection") {
       DenoiseDesc of_lobes = desc;
       of_lobes.constants.lobe_scale = 1;
@@ -262,7 +262,7 @@ rtapi::Status FrameEffects::add_reflections() {
                     steps_.back().pixel_step);
 }
 
-// One ray a pixel and no noise: nothing to denoise.
+// One ray per pixel without noise, so there is nothing to denoise.
 rtapi::Status FrameEffects::add_transparent() {
   const Frame& frame = *given_.frame;
   const auto glass = frame.create_picture(given_.device, "glass", kSignalFormat);
@@ -388,9 +388,9 @@ std::uint64_t FrameEffects::compose_bytes() const {
 std::vector<FrameEffects::Layer> FrameEffects::layers() const {
   std::vector<Layer> out;
   for (const auto& signal : signals_) {
-    // The raw ones of ambient occlusion and the sun are layers of every frame.
+    // Every frame already has the raw sums of ambient occlusion and the sun as layers.
     if (signal->sum.GetDesc().Format == kSignalFormat) {
-      const bool half = signal->pixel_step != 1;  // the sum has holes
+      const bool half = signal->pixel_step != 1;  // the sum has gaps
       out.push_back({signal->name, half ? signal->mean : signal->sum,
                      half ? 1.0f : 1.0f / static_cast<float>(signal->samples)});
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The effects of the whole frame besides ambient occlusion and the sun: local lights with contact
-// shadows, indirect diffuse light, reflections; their denoising and their composition.
+// The whole frame's effects besides ambient occlusion and the sun: local lights with contact
+// shadows, indirect diffuse light and reflections, with their denoising and composition.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -26,7 +26,7 @@
 
 namespace northlight {
 
-// The shader libraries of a frame; built in, or compiled at run time.
+// The shader libraries of a frame, built in or compiled at run time.
 struct ShaderLibraries {
   rtapi::ShaderLibrary gbuffer;
   rtapi::ShaderLibrary ambient_occlusion;
@@ -45,12 +45,12 @@ struct ShaderLibraries {
 };
 rtapi::Result<ShaderLibraries> built_in_libraries();
 
-// A ray tracing pass of the frame, with what only it reads and writes.
+// A ray tracing pass of the frame, and the resources that only it uses.
 struct RayStep {
   kaamos::effects::RayPassDesc desc;
   std::uint32_t samples = 1;
   kaamos::effects::PassArguments arguments;
-  std::vector<kaamos::effects::FrameTexture> writes = {};  // of the frame's pictures
+  std::vector<kaamos::effects::FrameTexture> writes = {};  // pictures of the frame
   std::uint32_t pixel_step = 1;                            // 2: at half resolution
 };
 
@@ -60,8 +60,8 @@ class FrameEffects {
   FrameEffects(const FrameEffects&) = delete;  // steps point into it
   FrameEffects& operator=(const FrameEffects&) = delete;
 
-  // Makes pictures and pipelines of the effects that `options` names and the scene needs. The
-  // volume of indirect light is loaded or baked.
+  // Makes the pictures and pipelines of the effects that `options` names and the scene needs. Loads
+  // or bakes the volume of indirect light.
   rtapi::Status create(const rtapi::Device& device, rtapi::CommandQueue& queue,
                        const kaamos::effects::Frame& frame, const kaamos::effects::GpuScene& gpu,
                        const kaamos::effects::Scene& scene, const Options& options,
@@ -69,51 +69,51 @@ class FrameEffects {
                        const std::function<void(double)>& bake_progress,
                        const std::atomic<bool>& stop);
 
-  // Goes on to a frame whose camera stands at `origin`. `cut`: it has nothing to do with the frame
-  // before.
+  // Moves on to a frame whose camera is at `origin`. `cut`: the frame is unrelated to the previous
+  // one.
   void begin_frame(const glm::dvec3& origin, bool cut);
-  // Lights' lists and maps and the main lighting: behind the G-buffer.
+  // Light lists, shadow maps and the main lighting; runs after the G-buffer.
   void light(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
   const std::vector<RayStep>& steps() const { return steps_; }
-  // Denoises what the steps wrote: signals that are filtered alike, together.
+  // Denoises what the steps wrote; signals with the same filter are filtered together.
   struct Filter {
     std::string name;
     std::function<void(rtapi::CommandList&)> record;
-    std::uint64_t bytes = 0;  // of its pictures
+    std::uint64_t bytes = 0;  // size of its pictures
   };
   std::vector<Filter> filters(const kaamos::effects::Frame& frame);
-  // Puts the frame together.
+  // Composes the frame.
   void compose(rtapi::CommandList& list, const kaamos::effects::Frame& frame) const;
-  // Bytes of what light() and compose() read and write besides the frame's pictures.
+  // Bytes that light() and compose() read and write, not counting the frame's pictures.
   std::uint64_t light_bytes() const;
   std::uint64_t compose_bytes() const;
 
-  // What a denoiser takes and gives, for each of them.
+  // The input and output pictures of each denoiser.
   struct SignalPictures {
     std::string name;
     rtapi::Texture raw, denoised;
   };
   std::vector<SignalPictures> signals() const;
-  // Pictures for files: a name, the picture, and what its values are divided by.
+  // Pictures for files: name, picture, and the divisor for its values.
   struct Layer {
     std::string name;
     rtapi::Texture picture;
     float scale = 1;
   };
   std::vector<Layer> layers() const;
-  // What was left out because the scene or the options have no use for it.
+  // What was left out because the scene or the options do not need it.
   const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
   struct Signal {
     std::string name;
-    rtapi::Texture sum;   // what the step adds to
+    rtapi::Texture sum;   // the step adds to it
     rtapi::Texture mean;  // the denoiser's input
     std::uint32_t samples = 1;
     std::uint32_t pixel_step = 1;
     std::size_t filter = 0, index = 0;  // signal `index` of filters_[filter]
   };
-  // Signals that are filtered alike.
+  // Signals with the same filter.
   struct SignalFilter {
     std::string name;
     kaamos::effects::Denoiser denoiser;
@@ -136,7 +136,7 @@ class FrameEffects {
       const std::atomic<bool>& stop);
   const rtapi::Texture* denoised(const std::string& name) const;
 
-  // What create was given, for its parts.
+  // The arguments of create(), for its parts.
   struct Given {
     rtapi::Device device;
     rtapi::CommandQueue queue;

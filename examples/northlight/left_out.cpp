@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRounds = 5;
 
-// A part that a scene may do without, and the scene or the options that bring it back.
+// A part that a scene may not need, and the scene or the options that bring it back.
 struct Part {
   std::string name;
   Scene scene;
@@ -34,7 +34,7 @@ bool has_alpha_test(const Scene& scene) {
 std::vector<Part> parts_left_out(const Options& options, const Scene& scene) {
   std::vector<Part> out;
   {
-    // What a scene without FORCE_OPAQUE and opaque geometries costs: any-hit shaders run for all.
+    // The cost without FORCE_OPAQUE and opaque geometries: any-hit shaders run for everything.
     Part part{
         has_alpha_test(scene) ? "any-hit shaders of what is not alpha-tested" : "any-hit shaders",
         scene, options};
@@ -56,7 +56,7 @@ std::vector<Part> parts_left_out(const Options& options, const Scene& scene) {
   return out;
 }
 
-// One scene on a device of its own, ready to be rendered again and again.
+// One scene on a device of its own that can be rendered again and again.
 struct Run {
   std::unique_ptr<Renderer> renderer;
   std::vector<double> ms;

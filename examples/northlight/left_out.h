@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parts would cost that a scene has no use for: each is put back in turn, and the frame
-// timed against the one without.
+// What the parts that a scene does not need would cost: each is put back in turn, and the frame is
+// timed against the one without it.
 #pragma once
 
 #include <atomic>
@@ -10,9 +10,9 @@
 
 namespace northlight {
 
-// Renders the scene kRounds times as it is and with each part, in turn, and returns a table: part,
-// milliseconds of the frame without and with it (medians), what was saved. An empty error id:
-// `stop` was set.
+// Renders the scene kRounds times as it is and with each part, in turn, and returns a table: the
+// part, the frame's milliseconds without and with it (medians), and the saving. An error with an
+// empty id means that `stop` was set.
 rtapi::Result<std::string> measure_left_out(const Options& options,
                                             const kaamos::effects::Scene& scene,
                                             const ShaderLibraries& libraries,

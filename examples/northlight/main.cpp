@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The demo: Northlight's ray traced effects over a scene, one frame or a sequence of them.
+// The demo: Northlight's ray traced effects over a scene, as one frame or a sequence.
 #include <unistd.h>
 
 #include <atomic>
@@ -31,7 +31,7 @@ namespace {
 using namespace northlight;
 using kaamos::effects::Scene;
 
-constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells have it
+constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells report it
 
 std::atomic<bool> stop_requested{false};
 void on_interrupt(int) {
@@ -56,12 +56,12 @@ bool load_scene(const Options& options, Scene& scene) {
     std::fprintf(stderr, "northlight: warning: %s\n", warning.c_str());
   }
   scene = std::move(loaded.value().scene);
-  // A tree on its own has nothing to cast its shadow on.
+  // A tree alone has nothing to cast its shadow on.
   if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
   return true;
 }
 
-// What the program makes of a scene before it is uploaded.
+// Prepares a scene for upload.
 void prepare_geometry(const Options& options, Scene& scene) {
   if (options.frames == 0) kaamos::effects::show_levels(scene, scene.cameras.front());
   if (options.piece_triangles == 0) return;
@@ -87,7 +87,7 @@ bool override_materials(const Options& options, Scene& scene) {
   return true;
 }
 
-// A bar on a terminal, nothing in a log.
+// A progress bar on a terminal, nothing in a log.
 void show_progress(const std::string& pass, double done) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!terminal) return;
@@ -100,10 +100,10 @@ void show_progress(const std::string& pass, double done) {
 }
 
 int report(const rtapi::Error& error, const Options& options) {
-  if (error.id.empty()) {
+  if (error.id.number == 0) {
     std::fprintf(stderr, "\n");
     say_error("interrupted: nothing was written, earlier results in " + options.out +
-              " are as they were");
+              " are unchanged");
     return kInterrupted;
   }
   say_error(error.message);
@@ -188,7 +188,7 @@ int split(const Options& options, const Scene& scene) {
   return done ? 0 : report(done.error(), options);
 }
 
-// Until Ctrl-C: an error in a shader is shown, and the next change tried.
+// Runs until Ctrl-C: shows errors in shaders and waits for the next change.
 int watch(Renderer& renderer, const Options& options, const Scene& scene) {
   const auto folder = find_effects_folder();
   if (folder.empty()) {

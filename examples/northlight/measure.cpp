@@ -30,7 +30,7 @@ std::string cache_folder(const Options& options) {
   return options.out + "/measure-cache";
 }
 
-// What one run of a setting told.
+// The results of one run of a setting.
 struct Record {
   std::vector<double> ms;
   double traced = 0;
@@ -63,8 +63,8 @@ rtapi::Result<Target> make_target(Stage& stage, const MeasurePlan& plan,
     target->mask = *mask;
     if (std::find(mask->begin(), mask->end(), 1) == mask->end()) {
       return failure(
-          "no pixel shows glass: choose another scene, as glass-stack, or make glass of "
-          "a material, as in --material NAME:alpha=0.3,roughness=0");
+          "no pixel shows glass: choose another scene, such as glass-stack, or turn a "
+          "material into glass, as in --material NAME:alpha=0.3,roughness=0");
     }
   } else {
     target = make_reference(stage, reference.setting, options.measure_reference, reference.name,
@@ -128,7 +128,7 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
                                                   options.measure_reference, target->own_rmse)));
     targets.emplace(reference.name, std::move(*target));
   }
-  // One run of all before the first that counts: pipelines and caches are warm then.
+  // One uncounted run of everything first, which warms up pipelines and caches.
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
     if (const auto s = stage.set_seed(options.seed + repeat); !s) return s.error();
@@ -213,7 +213,7 @@ std::string as_text(const MeasuredTable& table) {
         row.label, row.rays, row.traced, row.ms, row.ms_min, e.rmse, e.relative_mse, e.psnr, e.ssim,
         e.flip, e.energy_ratio, e.bias_squared, e.variance);
     if (row.flicker >= 0) out += fmt::format("  flicker {:.4f}", row.flicker);
-    if (e.not_finite > 0) out += fmt::format("  {} values are no numbers", e.not_finite);
+    if (e.not_finite > 0) out += fmt::format("  {} values are not finite", e.not_finite);
     out += "\n";
   }
   return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// northlight --measure EFFECT: time against error over the quality settings of an effect.
+// northlight --measure EFFECT: time against error over an effect's quality settings.
 #pragma once
 
 #include <atomic>
@@ -15,45 +15,45 @@
 
 namespace northlight {
 
-// A setting that is measured.
+// A setting to measure.
 struct MeasuredSetting {
-  std::string group;  // settings that differ in one thing only; a line of the plot
+  std::string group;  // settings that differ in one thing only; one line of the plot
   std::string label;
   Setting setting;
-  std::string reference;  // which of the plan's
+  std::string reference;  // name of one of the plan's references
   bool steps = true;      // the group's settings are steps of one scale
 };
 
 struct MeasurePlan {
   std::string title;
-  std::string signal;  // what is compared
+  std::string signal;  // the signal to compare
   struct Reference {
-    std::string name;   // of the file too
+    std::string name;   // also of its file
     std::string about;  // what it is
     Setting setting;
-    bool light = false;  // radiance, tone mapped to be looked at; else a visibility of 0..1
-    bool exact = false;  // no noise: one run tells all
+    bool light = false;  // radiance, tone mapped for viewing; otherwise a visibility of 0..1
+    bool exact = false;  // without noise: one run is enough
   };
   std::vector<Reference> references;
   std::vector<MeasuredSetting> settings;
   Stage::Needs needs;
 };
 
-// The effects' names for --measure, in the order of --help.
+// The names of effects for --measure, in the order of --help.
 const std::vector<std::string>& measured_effects();
-// The size that is measured where none is given: each takes a few minutes on two cores.
+// The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
 // Not for svgf.
 MeasurePlan measure_plan(const Options& options);
 
-// One line of the table.
+// One row of the table.
 struct MeasuredRow {
   std::string group, label, reference;
-  std::uint32_t rays = 0;  // per pixel, as the setting says
-  double traced = 0;       // per pixel, with those of hit shading
+  std::uint32_t rays = 0;  // per pixel, as the setting asks for
+  double traced = 0;       // per pixel, including those of hit shading
   double ms = 0;           // median
   double ms_min = 0;
-  double filter_ms = 0;  // of it: the denoiser's
+  double filter_ms = 0;  // the denoiser's part of ms
   double flicker = -1;   // negative: not measured
   Errors::Summary errors;
   double reference_rmse = 0;
@@ -71,7 +71,7 @@ kaamos::effects::Table as_csv(const MeasuredTable& table);
 std::string as_text(const MeasuredTable& table);
 kaamos::effects::Plot as_plot(const MeasuredTable& table);
 
-// An error with an empty id: `stop` was set.
+// An error with an empty id means that `stop` was set.
 rtapi::Result<MeasuredTable> measure_effect(const Options& options,
                                             const kaamos::effects::Scene& scene,
                                             const ShaderLibraries& libraries,
@@ -83,13 +83,13 @@ rtapi::Result<MeasuredTable> measure_denoisers(const Options& options,
                                                const StageProgress& progress,
                                                const std::atomic<bool>& stop);
 
-// Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References stay in
+// Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References are kept in
 // its folder measure-cache.
 rtapi::Status run_measure(const Options& options, const kaamos::effects::Scene& scene,
                           const ShaderLibraries& libraries, const StageProgress& progress,
                           const std::atomic<bool>& stop);
 
-// The middle one; of an even number the lower of the two.
+// The middle value; for an even number of values, the lower of the middle two.
 double median(std::vector<double> values);
 
 }  // namespace northlight

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// northlight --measure svgf: denoisers, whose bias and variance stand apart. [effects-spec B0.6]
+// northlight --measure svgf: denoisers, with bias and variance separated. [effects-spec B0.6]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using namespace kaamos::effects;
 
 namespace {
 
-// Frames of one camera that stands still: history has what it keeps after some of them.
+// Frames of a camera at rest; the history needs some of them to settle.
 constexpr std::uint32_t kFrames = 8;
 
 rtapi::Error failure(const std::string& text) {
@@ -57,10 +57,10 @@ struct Subject {
   const Method* method = nullptr;
   Denoiser denoiser;
   Place first, last;
-  FloatImage before;  // the frame before the last
+  FloatImage before;  // the second last frame
 };
 
-// A signal with its denoisers, all of which see the same frames.
+// A signal and its denoisers, which all see the same frames.
 class Signal {
  public:
   Signal(Stage& stage, const Options& options, const ShaderLibraries& libraries)
@@ -88,7 +88,7 @@ class Signal {
   Target target_;
   rtapi::Texture mean_;
   std::vector<Subject> subjects_;
-  std::vector<std::pair<std::uint32_t, Place>> raw_;  // by rays
+  std::vector<std::pair<std::uint32_t, Place>> raw_;  // by number of rays
   std::vector<double> trace_ms_;
 };
 
@@ -178,7 +178,7 @@ rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double 
 
 rtapi::Status Signal::run_frame(std::uint32_t frame) {
   Setting setting = setting_;
-  setting.first_sample = frame;  // sequences go on in their pixels' sample sequences
+  setting.first_sample = frame;  // each frame continues its pixels' sample sequences
   const auto ran = stage_.run(setting);
   if (!ran) return ran.error();
   trace_ms_.push_back(ran->ms);

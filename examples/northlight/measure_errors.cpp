@@ -27,7 +27,7 @@ FloatImage as_seen(const FloatImage& image, float exposure) {
   for (std::size_t pixel = 0; pixel < out.values.size() / 3; ++pixel) {
     const float* in = &image.values[pixel * image.channels];
     for (std::uint32_t c = 0; c < 3; ++c) {
-      // Two visibilities have no colors: their mean.
+      // Two visibilities have no colors; show their mean.
       const float value = image.channels == 3   ? in[c]
                           : image.channels == 2 ? 0.5f * (in[0] + in[1])
                                                 : in[0];
@@ -62,7 +62,7 @@ std::string Errors::add(const FloatImage& image, const Target& target) {
   sum_.resize(image.values.size());
   squares_.resize(image.values.size());
   for (std::size_t i = 0; i < image.values.size(); ++i) {
-    // Differences: they lose no digits where a picture hardly varies.
+    // Summing differences loses no digits where a picture hardly varies.
     const double d = static_cast<double>(image.values[i]) - target.image.values[i];
     sum_[i] += d;
     squares_[i] += d * d;
@@ -93,7 +93,7 @@ Errors::Summary Errors::summary(const Target& target) const {
     const double mean = sum_[i] / n;
     const double v = std::max(0.0, (squares_[i] - n * mean * mean) / (n - 1));
     variance += v;
-    bias_squared += mean * mean - v / n;  // the mean of few runs varies itself
+    bias_squared += mean * mean - v / n;  // the mean of a few runs has variance of its own
     ++count;
   }
   out.bias_squared = count > 0 ? bias_squared / static_cast<double>(count) : 0;

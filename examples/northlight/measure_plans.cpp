@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which settings of an effect are measured, and against what. [effects-spec B8, E.3]
+// Which settings of an effect are measured, and against which reference. [effects-spec B8, E.3]
 #include <fmt/format.h>
 
 #include "measure.h"
@@ -163,7 +163,7 @@ const std::vector<std::string>& measured_effects() {
 
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect) {
   if (effect == "transparent") return {320, 180};
-  return {96, 54};  // all alike: what denoisers are compared with are the effects' references
+  return {96, 54};  // all at the same size: denoisers are compared with the effects' references
 }
 
 MeasurePlan measure_plan(const Options& options) {

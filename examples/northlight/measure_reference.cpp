@@ -16,7 +16,7 @@ using namespace kaamos::effects;
 namespace {
 
 constexpr std::uint32_t kProbeSeed = 0x0B5E55ED;
-constexpr std::uint32_t kPartSeed = 0x5EED0000;  // no other run's
+constexpr std::uint32_t kPartSeed = 0x5EED0000;  // no other run uses it
 
 std::uint64_t hash_of(const FloatImage& image, std::uint64_t hash) {
   for (const float value : image.values) {
@@ -36,12 +36,12 @@ rtapi::Result<std::string> probe(Stage& stage, Setting setting, std::uint32_t sa
   return fmt::format("{:016x}", hash_of(*image, 0xCBF29CE484222325u + samples));
 }
 
-// Parts that an earlier run has finished.
+// The parts that an earlier run has finished.
 std::vector<FloatImage> kept_parts(const std::string& path) {
   std::vector<FloatImage> out;
   if (!std::filesystem::exists(path)) return out;
   auto file = read_exr(path);
-  if (!file.ok()) return out;  // damaged: it is made anew
+  if (!file.ok()) return out;  // damaged: render it again
   for (std::uint32_t part = 0; part < kReferenceParts; ++part) {
     const ExrLayer* layer = find_layer(file.value(), fmt::format("part{}", part));
     if (layer == nullptr) break;
@@ -57,7 +57,7 @@ rtapi::Status keep_parts(const std::string& path, const std::vector<FloatImage>&
     file.layers.push_back(std::move(layer));
   }
   if (const auto written = write_exr(path, file); !written.ok()) {
-    return rtapi::Error{"measure", rtapi::ErrorCode::kFailed, written.error()};
+    return rtapi::Error{{}, rtapi::ErrorCode::kFailed, written.error()};
   }
   return {};
 }

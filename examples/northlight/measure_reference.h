@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// References: what an effect converges to, by many samples, kept in files.
+// References: what an effect converges to with many samples, kept in files.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace northlight {
 
-// Independent scramblings that a reference is the mean of: from how they differ follows how far the
-// mean is from the truth.
+// A reference is the mean of this many independent scramblings; the spread between them says how
+// far the mean is from the true value.
 inline constexpr std::uint32_t kReferenceParts = 4;
 
-// Takes `samples` in all, or what a file in `cache` holds of them: each part is written when it is
-// complete, so an interrupted run goes on where it was. A file counts as long as a probe with few
-// samples gives the same numbers: a change of the scene, of a shader or of a setting is seen.
-// `name`: of the file, and for the progress. The mask is left to the caller.
+// Takes `samples` in total, reusing what a file in `cache` already holds: each part is written when
+// it is complete, so an interrupted run continues there. A file is valid as long as a probe with
+// few samples gives the same numbers, which detects changes of the scene, of shaders and of
+// settings. `name` names the file and shows in the progress. The caller fills in the mask.
 rtapi::Result<Target> make_reference(Stage& stage, const Setting& setting, std::uint32_t samples,
                                      const std::string& name, const std::string& cache,
                                      const StageProgress& progress);
 
-// The mean of pictures of equal size, and its standard error over the pixels that count.
+// The mean of pictures of equal size, and its standard error over the pixels in the mask.
 Target mean_of(const std::vector<kaamos::effects::FloatImage>& parts,
                const std::vector<std::uint8_t>& mask);
 

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t kMaxSamples = 65536;
 constexpr std::uint32_t kMaxFrames = 100000;
-constexpr std::uint32_t kMaxSide = 16384;  // of a texture [D3D12: resource limits]
+constexpr std::uint32_t kMaxSide = 16384;  // limit of a texture [D3D12: resource limits]
 
 std::string parse_size(const std::string& text, Options& options) {
   unsigned width = 0;
@@ -73,7 +73,7 @@ std::string parse_effects(const std::string& text, Options& options) {
              "and all, as in ao,sun";
     }
   }
-  options.local = options.local || options.contact;  // it shades what local lights light
+  options.local = options.local || options.contact;  // contact shadows need local lights
   return {};
 }
 
@@ -98,7 +98,7 @@ CLI::Validator parsed_by(Parse parse, Options& options) {
 
 void add_engine(CLI::App& app, Options& options) {
   app.add_option("--sort-rays", options.sort_rays,
-                 "the order of rays: by direction or by origin; the picture stays the same")
+                 "sort rays by direction or by origin; the picture stays the same")
       ->check(CLI::IsMember({"direction", "origin"}));
   app.add_option("--texture-lod", options.texture_lod,
                  "level of detail of textures: by ray cones (cone), or always 0 (zero)")
@@ -108,8 +108,9 @@ void add_engine(CLI::App& app, Options& options) {
                  "split meshes of more triangles than this; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0u, 1u << 29));
-  app.add_flag("--measure-left-out", options.measure_left_out,
-               "print what the parts cost that the scene has no use for, instead of writing files");
+  app.add_flag(
+      "--measure-left-out", options.measure_left_out,
+      "print what parts that the scene does not need would cost, instead of writing files");
 }
 
 void add_sequence(CLI::App& app, Options& options) {
@@ -117,7 +118,7 @@ void add_sequence(CLI::App& app, Options& options) {
                                 "render a sequence: frame_0000.png ..., the last one's layers")
                      ->check(CLI::Range(1u, kMaxFrames));
   app.add_option("--camera-path", options.camera_path,
-                 std::string("of a sequence: ") + kaamos::effects::kCameraPaths +
+                 std::string("camera of a sequence: ") + kaamos::effects::kCameraPaths +
                      "; or a file, lines of seconds, eye x y z, target x y z [fov=DEGREES] [cut]; "
                      "default: still where something moves, else dolly")
       ->needs(frames);
@@ -128,15 +129,15 @@ void add_sequence(CLI::App& app, Options& options) {
   app.add_flag("--taa", options.taa, "antialiasing over the frames of a sequence")->needs(frames);
 }
 
-// What shows one frame only, or renders anew for ever; what looks for a pixel at its place in a
-// dispatch.
+// Options that show a single frame or render forever exclude --frames; options that look for a
+// pixel at its place in a dispatch exclude --sort-rays.
 std::string conflict(const Options& options) {
   if (!options.sort_rays.empty() &&
       (options.explain || options.pixel || !options.heatmap.empty())) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
   }
-  // Each is printed or written instead of all else.
+  // Each of these prints or writes something instead of everything else.
   std::string instead;
   for (const auto& [name, chosen] : {std::pair("--pixel", options.pixel.has_value()),
                                      std::pair("--tables", !options.tables.empty()),
@@ -185,14 +186,14 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
          "built in: " + kaamos::effects::built_in_scene_names() + "; or a .gltf or .glb file")
       ->capture_default_str();
   app.add_option("--material", options.materials,
-                 "changes a material, as in Window:alpha=0.3,roughness=0; can be given again")
+                 "change a material, as in Window:alpha=0.3,roughness=0; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--backend", options.backend, "the backend that runs the shaders: embree, vulkan")
       ->capture_default_str();
-  app.add_flag("--checked", options.checked, "checked mode: says what DXR leaves undefined");
+  app.add_flag("--checked", options.checked, "checked mode: report what DXR leaves undefined");
   app.add_option("--precision", options.precision,
-                 "of ray and triangle tests on embree: fast, robust, exact")
+                 "precision of ray-triangle tests on embree: fast, robust, exact")
       ->capture_default_str()
       ->check(CLI::IsMember({"fast", "robust", "exact"}));
   app.add_option("--size", size, "width and height in pixels")
@@ -213,20 +214,20 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
   auto* angle = app.add_option("--sun-angle", sun_angle,
-                               "how large the sun is in the sky, in degrees "
+                               "angular size of the sun, in degrees "
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
   app.add_option("--denoise", options.denoise,
-                 "of the whole frame's effects: none, gaussian, bilateral, temporal, svgf, "
+                 "denoiser for the whole frame: none, gaussian, bilateral, temporal, svgf, "
                  "control")
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
   app.add_option("--denoise-passes", options.denoise_passes,
                  "passes of svgf's wavelet filter, each twice as wide as the one before "
-                 "(5; 3 where four frames of a sequence stand behind)")
+                 "(5; 3 once a sequence has four frames of history)")
       ->check(CLI::Range(0u, 8u));
   app.add_option("--half-resolution", options.half_resolution,
-                 "of the whole frame: effects that trace a quarter of the pixels, comma-separated: "
+                 "effects of the whole frame that trace a quarter of the pixels, comma-separated: "
                  "ao, sun, contact, gi, reflections; or all")
       ->delimiter(',')
       ->check(CLI::IsMember({"ao", "sun", "contact", "gi", "reflections", "all"}));
@@ -234,7 +235,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "contact shadow rays per pixel and light")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--contact-length", options.contact_length, "of these rays, in metres")
+  app.add_option("--contact-length", options.contact_length, "length of these rays, in metres")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));
   app.add_option("--gi-mode", options.gi_mode,
@@ -252,7 +253,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
   app.add_option("--gi-volume", options.gi_volume,
-                 "file of the volume: read if it is there, else baked and written");
+                 "file of the volume: read if it exists, otherwise baked and written");
   app.add_option("--reflection-samples", options.reflection_samples, "reflection rays per pixel")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
@@ -293,7 +294,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::IsMember({"anyhit", "candidates", "depth", "rays"}));
   app.add_flag("--list-devices", options.list_devices, "print the devices of every backend");
   app.add_option("--reference", options.reference,
-                 "add the layers NAME_reference: each effect with so many samples, not denoised")
+                 "add layers NAME_reference: each effect with this many samples, not denoised")
       ->check(CLI::Range(1u, kMaxSamples));
   app.add_option("--split", options.split,
                  "settings side by side in one picture: ao (1, 4, 16 rays), gi (the volume x AO "
@@ -304,20 +305,22 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "time against error over an effect's quality settings, as a table, a CSV file and "
                  "a plot: ao, sun, contact, reflections, transparent, gi, svgf")
       ->check(CLI::IsMember(measured_effects()));
-  app.add_flag("--claims", options.claims,
-               "what the talk, the deck and the survey say of costs, beside what they are here on "
-               "each backend, as a table and a CSV file");
+  app.add_flag(
+      "--claims", options.claims,
+      "what the talk, the deck and the survey say about costs, beside measurements on each "
+      "backend, as a table and a CSV file");
   app.add_option("--measure-reference", options.measure_reference,
-                 "samples per pixel of what --measure compares with; kept in OUT/measure-cache")
+                 "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
       ->capture_default_str()
       ->check(CLI::Range(4u, 1u << 24));
   app.add_option("--repeats", options.repeats,
                  "runs of each setting that --measure and --claims time")
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u));
-  app.add_option("--clock", clock,
-                 "of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
-                 "that has other work too)")
+  app.add_option(
+         "--clock", clock,
+         "clock of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
+         "that does other work too)")
       ->capture_default_str()
       ->check(CLI::IsMember({"wall", "cpu"}));
   app.add_option("--seeds", options.seeds, "independent runs that --measure svgf takes")
@@ -334,8 +337,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     if (!*chosen || ((*chosen)->first < options.width && (*chosen)->second < options.height)) {
       continue;
     }
-    std::fprintf(stderr, "northlight: %s %s is outside of the picture (%ux%u)\n", name,
-                 text->c_str(), options.width, options.height);
+    std::fprintf(stderr, "northlight: %s %s is outside the picture (%ux%u)\n", name, text->c_str(),
+                 options.width, options.height);
     exit_code = 2;
     return std::nullopt;
   }
@@ -355,7 +358,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   }
   if (options.claims) {
     if (app.count("--size") == 0) std::tie(options.width, options.height) = std::pair(320u, 180u);
-    // What a cell holds does not change what reading it costs.
+    // The time does not depend on what the cells hold.
     if (app.count("--gi-bake-samples") == 0) options.gi_bake_samples = 16;
   }
   if (angle->count() != 0) options.sun_angle_degrees = sun_angle;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A normal in octahedral form as a colour: each axis from -1..1 to 0..1; black where nothing is.
+// An octahedral normal as a colour: maps each axis from -1..1 to 0..1; black without a surface.
 FloatImage normal_picture(const FloatImage& encoded, const FloatImage& ids) {
   FloatImage out(encoded.width, encoded.height, 3);
   for (std::uint32_t y = 0; y < encoded.height; ++y) {
@@ -47,7 +47,7 @@ FloatImage normal_picture(const FloatImage& encoded, const FloatImage& ids) {
   return out;
 }
 
-// A colour of its own for each instance.
+// Each instance gets its own colour.
 FloatImage id_picture(const FloatImage& ids) {
   FloatImage out(ids.width, ids.height, 3);
   for (std::uint32_t y = 0; y < ids.height; ++y) {
@@ -63,7 +63,7 @@ FloatImage id_picture(const FloatImage& ids) {
   return out;
 }
 
-// Near is white, far is black: how much of the frame's depth range lies behind a pixel.
+// Near is white, far is black, relative to the frame's depth range.
 FloatImage distance_picture(const FloatImage& view_z) {
   float nearest = 1e30f;
   for (const float z : view_z.values) {
@@ -280,7 +280,7 @@ std::string describe(const Renderer& renderer, const FrameResult& result) {
                        pass.bytes == 0 ? "" : fmt::format("{:.1f}", mebibytes(pass.bytes)));
   }
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
-  if (!result.left_out.empty()) out += "what that saves: --measure-left-out\n";
+  if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
   return out;
 }
 

@@ -13,8 +13,8 @@
 
 namespace northlight {
 
-// Files that wait beside the results until all of them are there: a full disk or Ctrl-C must not
-// leave half of a new run over the old one. What was not published goes with this object.
+// Files that wait beside the results until all of them are complete: a full disk or Ctrl-C must not
+// leave half of a new run over the old one. The destructor deletes what was not published.
 class StagedFiles {
  public:
   explicit StagedFiles(const std::string& folder);
@@ -22,13 +22,13 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  // Error texts are empty on success.
+  // These return an error text, empty on success.
   std::string create();
   std::string add(const std::string& name, const std::vector<std::uint8_t>& bytes);
   std::string add(const std::string& name, const kaamos::effects::ByteImage& image);
-  // For what writes its file itself: where to, before it is published.
+  // For code that writes its own file: the path to use before publishing.
   std::string add_path(const std::string& name);
-  // Renames all of them into the folder.
+  // Renames all files into the folder.
   std::string publish();
 
  private:
@@ -36,29 +36,29 @@ class StagedFiles {
   std::vector<std::string> names_;
 };
 
-// Makes the folder and sees that files can be written there, before hours of rendering. The error
-// text is empty on success.
+// Makes the folder and checks that files can be written there, before hours of rendering. Returns
+// an error text, empty on success.
 std::string prepare_folder(const std::string& folder);
 
-// Writes frame.png, frame.exr, a PNG for each layer and stats.json into options.out. Either all of
-// them are written or none is touched; the error text is empty on success.
+// Writes frame.png, frame.exr, a PNG for each layer and stats.json into options.out. Either writes
+// all of them or touches none; returns an error text, empty on success.
 std::string write_results(const Options& options, const kaamos::effects::Scene& scene,
                           const Renderer& renderer, const FrameResult& result);
-// The same into `files`, which may hold others; `sequence` becomes a part of stats.json.
+// Adds the same to `files`, which may hold others; `sequence` becomes a part of stats.json.
 std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
                         const Renderer& renderer, const FrameResult& result,
                         const nlohmann::ordered_json& sequence, StagedFiles& files);
-// What frame.png shows.
+// The picture in frame.png.
 kaamos::effects::ByteImage frame_picture(const kaamos::effects::FloatImage& radiance,
                                          float exposure);
 
-// What each layer holds at a pixel, a line for each.
+// Each layer's value at a pixel, one per line.
 std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint32_t y);
 
-// One line for each device of each backend; --backend takes the first word.
+// One line for each device of each backend; its first word is the value for --backend.
 std::string list_devices();
 
-// The table that a person sees at the end.
+// The table printed at the end.
 std::string describe(const Renderer& renderer, const FrameResult& result);
 
 }  // namespace northlight

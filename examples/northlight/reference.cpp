@@ -9,7 +9,7 @@ namespace northlight {
 
 namespace {
 
-// Layers without noise have no reference of their own: the G-buffer's.
+// Layers without noise, those of the G-buffer, have no reference of their own.
 constexpr const char* kSignals[] = {"ao",         "sun",          "contact", "indirect",
                                     "reflection", "local_lights", "glass",   "glass_transmittance"};
 
@@ -22,7 +22,7 @@ Options reference_options(const Options& options) {
   out.denoise = "none";
   out.firefly_limit = 0;
   out.glass_layers = kaamos::effects::kMaxSortedLayers;
-  // Random numbers that the frame itself has not seen.
+  // Random numbers that the frame itself has not used.
   out.seed = options.seed ^ 0x5EED0000u;
   return out;
 }

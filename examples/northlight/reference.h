@@ -13,12 +13,12 @@
 
 namespace northlight {
 
-// The options of the reference frame: N samples of each effect, nothing denoised, each layer of
-// glass in its order.
+// The options of the reference frame: N samples for each effect, no denoising, each layer of glass
+// in order.
 Options reference_options(const Options& options);
 
-// Renders that frame and adds its layers to `result` as NAME_reference: of each effect that
-// `result` has, and the whole as radiance_reference.
+// Renders that frame and adds its layers to `result` as NAME_reference, one for each effect in
+// `result`, and the whole frame as radiance_reference.
 rtapi::Status add_reference(const Options& options, const kaamos::effects::Scene& scene,
                             const ShaderLibraries& libraries, const Progress& progress,
                             const std::atomic<bool>& stop,

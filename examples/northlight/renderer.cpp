@@ -19,12 +19,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Samples that a pixel takes in one dispatch at most.
+// The most samples that a pixel takes in one dispatch.
 constexpr std::uint32_t kSamplesPerDispatch = 64;
-// A dispatch should not take longer, so that progress moves and Ctrl-C is heard.
+// A dispatch should not take longer, so that progress shows and Ctrl-C gets a response.
 constexpr double kDispatchSeconds = 0.25;
 
-// Pictures of the frame that a pass writes, and what its own registers name.
+// Size of the frame's pictures that a pass writes and of its own resources.
 std::uint64_t bytes_of(const RayStep& step, const Frame& frame) {
   std::uint64_t sum = step.arguments.views ? step.arguments.views->bytes() : 0;
   for (const FrameTexture texture : step.writes) sum += picture_bytes(frame.texture(texture));
@@ -84,7 +84,7 @@ rtapi::Status Renderer::create_scene() {
   if (!frame) return frame.error();
   frame_ = std::move(*frame);
   if (!structures_) return {};
-  FrameResult ignored;  // what is baked later meets the scene as it is at the beginning
+  FrameResult ignored;  // what is baked later needs the scene in its initial state
   return begin_frame(moment_, ignored);
 }
 
@@ -190,8 +190,8 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
                                  const std::atomic<bool>& stop, FrameResult& result) {
   const std::string& name = pass.step.desc.name;
   const std::uint32_t samples = pass.step.samples;
-  // Each frame of a sequence goes on in each pixel's sequence of samples: over frames it covers
-  // what it samples as evenly as over the samples of one frame.
+  // Each frame of a sequence continues each pixel's sample sequence, so that samples are spread as
+  // evenly over several frames as within one.
   const std::uint32_t first = moment_.index * samples;
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
@@ -208,7 +208,7 @@ rtapi::Status Renderer::run_pass(const Pass& pass, const Progress& progress,
     constants.radius = options_.ao_radius;
     constants.pixel_step = step;
     constants.accumulate = sample > 0 ? 1 : 0;
-    // The order is one of all pixels.
+    // Sorting orders all pixels, so it does not apply at half resolution.
     if (pass.keys && step == 1) {
       if (const auto sorted = sort_rays(pass, constants, order_ms); !sorted) return sorted;
       constants.sorted = 1;
@@ -362,7 +362,7 @@ rtapi::Status Renderer::read_layers(FrameResult& result) {
     for (float& value : image->values) {
       value *= layer.scale;
     }
-    // As it is stored, by EncodeColor; alpha is 1. [effects/shaders/encoding.hlsli]
+    // In its stored form, as EncodeColor makes it; alpha is 1. [effects/shaders/encoding.hlsli]
     if (layer.texture == kBaseColor) {
       for (float& value : image->values) value *= value;
     }

@@ -34,7 +34,7 @@ Result<CameraPath> choose_path(const Options& options, const Scene& scene) {
 // Follows pictures of the frame from one frame to the next.
 class FlickerMeter {
  public:
-  // `cut`: nothing is compared with the frame before.
+  // `cut`: do not compare with the previous frame.
   rtapi::Status measure(Renderer& renderer, bool cut) {
     struct Pair {
       std::string name;
@@ -81,7 +81,7 @@ class FlickerMeter {
  private:
   struct Track {
     FlickerLine line;
-    FloatImage raw, filtered;  // of the frame before
+    FloatImage raw, filtered;  // of the previous frame
   };
 
   rtapi::Status follow(Renderer& renderer, const rtapi::Texture& picture,
@@ -102,7 +102,7 @@ class FlickerMeter {
   FloatImage previous_view_z_;
 };
 
-// One line for the whole sequence; what a pass says of itself is a part of its frame.
+// One progress line for the whole sequence; a pass's progress counts as part of its frame.
 Progress progress_of_frame(const Progress& progress, std::uint32_t index, std::uint32_t count) {
   return [&progress, index, count](const std::string& pass, double) {
     progress(fmt::format("{:.20}", fmt::format("{}/{} {}", index + 1, count, pass)),

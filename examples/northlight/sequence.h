@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames one after the other: a camera on its path, figures in motion, histories of denoisers and
-// antialiasing carried on.
+// Renders frames one after the other: a camera on a path, figures in motion, histories of denoisers
+// and antialiasing carried over.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace northlight {
 struct SequenceFrame {
   double ms = 0;
   std::vector<PassStatistics> passes;
-  std::optional<kaamos::effects::StructureStatistics> structures;  // none: nothing moves
+  std::optional<kaamos::effects::StructureStatistics> structures;  // empty if nothing moves
   bool cut = false;
 };
 
@@ -38,24 +38,24 @@ struct SequenceResult {
   FrameResult last;  // with its layers
 };
 
-// Renders options.frames frames and puts frame_0000.png ... into `files`, which publish nothing
-// yet. Errors: the path's, those of rendering (an empty id: `stop` was set), those of files.
+// Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
+// Errors: those of the path, of rendering (an empty id means that `stop` was set), and of files.
 rtapi::Result<SequenceResult> render_sequence(Renderer& renderer, const ShaderLibraries& libraries,
                                               const Options& options,
                                               const kaamos::effects::Scene& scene,
                                               const Progress& progress,
                                               const std::atomic<bool>& stop, StagedFiles& files);
 
-// Adds what a still writes, of the last frame; stats.json gets a table with a line for each frame.
-// The error text is empty on success.
+// Adds what a still writes, for the last frame; stats.json gets a table with a row for each frame.
+// Returns an error text, empty on success.
 std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
                         const Renderer& renderer, const SequenceResult& sequence,
                         StagedFiles& files);
 
-// The tables that a person sees at the end: passes, structures, flicker.
+// The tables printed at the end: passes, structures, flicker.
 std::string describe(const Renderer& renderer, const SequenceResult& sequence);
 
-// Removes the frames that a longer sequence left in the folder behind the last of this one.
+// Removes frames that a longer sequence left in the folder after the last frame of this one.
 void remove_later_frames(const std::string& folder, std::uint32_t count);
 
 }  // namespace northlight

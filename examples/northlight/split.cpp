@@ -16,18 +16,18 @@ using namespace kaamos::effects;
 
 namespace {
 
-// Rays per pixel where the noise is not what is compared.
+// Rays per pixel where noise is not what is compared.
 constexpr std::uint32_t kQuietSamples = 16;
 
 rtapi::Error failure(const std::string& text) {
   return {"split", rtapi::ErrorCode::kFailed, text};
 }
 
-// One of the settings that are compared.
+// One of the compared settings.
 struct Part {
   std::string name;
   Options options;
-  bool times_ao = false;  // of the indirect light
+  bool times_ao = false;  // multiply the indirect light with ambient occlusion
 };
 
 Options only(const Options& base, std::initializer_list<bool Options::*> effects) {
@@ -94,7 +94,7 @@ ByteImage picture_of(const Part& part, const Options& options, const FrameResult
     const FloatImage open = first_three(frame.layers.at("ao_denoised"));
     for (std::size_t i = 0; i < light.values.size(); ++i) light.values[i] *= open.values[i];
   }
-  // The sun's direct light, which the exposure is made for, is missing.
+  // The sun's direct light, which the exposure is meant for, is missing.
   return tonemap(light, 1.5f * exposure);
 }
 

@@ -15,12 +15,13 @@
 
 namespace northlight {
 
-// ao: 1, 4 and 16 rays per pixel. gi: the volume at the surface, times ambient occlusion, against
-// gathered by rays. near-field: hit = black against lit hits. denoise: the whole frame at a ray per
-// pixel, raw against denoised.
+// ao: 1, 4 and 16 rays per pixel. gi: the volume at the surface times ambient occlusion, against
+// gathering with rays. near-field: hits taken as black against lit hits. denoise: the whole frame
+// at one ray per pixel, raw against denoised.
 const std::vector<std::string>& split_names();
 
-// Strips of equal width of pictures of one size: strip i of picture i, a thin line between them.
+// Strips of equal width from pictures of equal size: strip i from picture i, with a thin line
+// between.
 kaamos::effects::ByteImage side_by_side(const std::vector<kaamos::effects::ByteImage>& pictures);
 
 // Renders what options.split names and writes split-NAME.png into options.out.

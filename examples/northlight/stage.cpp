@@ -23,14 +23,15 @@ namespace {
 
 constexpr rtapi::Format kSumFormat = rtapi::Format::kR32G32B32A32Float;
 constexpr std::uint32_t kBackgroundSamples = 16;
-// A dispatch should not take longer, so that progress moves and Ctrl-C is heard.
+// A dispatch should not take longer, so that progress shows and Ctrl-C gets a response.
 constexpr double kDispatchSeconds = 0.3;
 
 rtapi::Error failure(const std::string& text) {
   return {"measure", rtapi::ErrorCode::kFailed, text};
 }
 
-// What the volume follows from; the program's own time, since its shaders are part of it.
+// Everything that the volume depends on, including the program's own timestamp, since its shaders
+// are part of it.
 std::string volume_key(const Options& options) {
   std::error_code ignored;
   std::string text = fmt::format("{} {} {} {}", options.scene, options.gi_cell.value_or(0),
@@ -320,7 +321,7 @@ void Stage::clear(rtapi::CommandList& list, const Pass& pass, Effect effect) con
 }
 
 rtapi::Result<double> Stage::execute(const std::function<void(rtapi::CommandList&)>& record) {
-  if (stop_) return rtapi::Error{"", rtapi::ErrorCode::kFailed, "interrupted"};
+  if (stop_) return rtapi::Error{{}, rtapi::ErrorCode::kFailed, "interrupted"};
   if (const auto reset = list_.Reset(); !reset) return reset.error();
   record(list_);
   const double start = clock_ms(options_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame of which single effects run again and again, with any settings and seeds, on one device:
+// A frame in which single effects run again and again on one device, with any settings and seeds:
 // what measuring needs and rendering does not.
 #pragma once
 
@@ -32,58 +32,59 @@ namespace northlight {
 
 enum class Effect { kAo, kSun, kContact, kReflections, kGi, kTransparent };
 
-// One effect and all that can be chosen of it. Constants of other effects are not looked at.
+// One effect and its settings. Constants of other effects are ignored.
 struct Setting {
   Effect effect = Effect::kAo;
-  // kReflections, kGi: the rays alone; nothing that they meet is shaded, what is read is no light.
+  // kReflections, kGi: trace rays only. Hits are not shaded, so read() gives no light.
   bool trace_only = false;
   std::uint32_t samples = 1;
-  std::uint32_t first_sample = 0;  // of each pixel's sequence
+  std::uint32_t first_sample = 0;  // in each pixel's sequence
   float ao_radius = 4;
   kaamos::effects::ContactShadowConstants contact = {};
-  bool lit = false;  // kContact: read gives the local lights' radiance, with their shadow maps
+  bool lit = false;  // kContact: read() gives the local lights' radiance, with their shadow maps
   kaamos::effects::ReflectionConstants reflection = {};
   kaamos::effects::IndirectConstants indirect = {};
-  std::uint32_t times_ao = 0;  // kGi: multiplied with ambient occlusion of so many rays; 0: not
+  std::uint32_t times_ao = 0;  // kGi: multiply with ambient occlusion of this many rays; 0: do not
   kaamos::effects::TransparentConstants glass = {};
 };
 
-// Done part of what is named, from 0 to 1.
+// How much of the named work is done, from 0 to 1.
 using StageProgress = std::function<void(const std::string& what, double done)>;
 
 class Stage {
  public:
-  // Everything that this measurement may run. `cache`: a folder for the volume of indirect light.
+  // Everything that a measurement may run. `cache`: a folder for the volume of indirect light.
   struct Needs {
     bool lights = false;
     bool volume = false;
     bool glass = false;
   };
-  // `scene`, `libraries` and `stop` must stay. An error with an empty id: `stop` was set.
+  // `scene`, `libraries` and `stop` must outlive the stage. An error with an empty id means that
+  // `stop` was set.
   static rtapi::Result<std::unique_ptr<Stage>> create(
       const Options& options, const kaamos::effects::Scene& scene, const ShaderLibraries& libraries,
       const Needs& needs, const std::string& cache, const StageProgress& progress,
       const std::atomic<bool>& stop, std::function<void(const std::string&)> message);
 
-  // Random numbers of what runs from here on.
+  // Sets the random numbers for what runs from here on.
   rtapi::Status set_seed(std::uint32_t seed);
 
   struct Run {
     double ms = 0;
-    std::uint64_t rays = 0;  // traced, with those of hit shading
+    std::uint64_t rays = 0;  // traced, including those of hit shading
   };
   // Clears the effect's sum and takes all samples in one dispatch.
   rtapi::Result<Run> run(const Setting& setting);
-  // The same for many samples: in dispatches short enough that `stop` is heard.
+  // The same for many samples, in dispatches short enough to react to `stop`.
   rtapi::Status accumulate(const Setting& setting, const std::function<void(double)>& progress);
-  // The mean of the samples of the last run: 1 channel (ao, sun), 2 (contact: the strongest point
-  // and spot light) or 3. `lit` shadows: the radiance of the local lights. Glass: the frame's
-  // radiance behind and with it.
+  // The mean of the last run's samples: 1 channel (ao, sun), 2 (contact: the strongest point and
+  // spot light) or 3. With `lit`: the radiance of the local lights. For glass: the frame's radiance
+  // behind it and with it.
   rtapi::Result<kaamos::effects::FloatImage> read(const Setting& setting);
-  // What a run adds to.
+  // The picture to which a run adds.
   rtapi::Result<rtapi::Texture> sum(const Setting& setting);
 
-  // Pixels that show a surface, or glass where `glass` is set (after a run of it).
+  // Pixels that show a surface, or glass where `glass` is set (after a run with it).
   rtapi::Result<std::vector<std::uint8_t>> mask(bool glass);
 
   const rtapi::Device& device() const { return device_; }
@@ -91,7 +92,7 @@ class Stage {
   const kaamos::effects::Frame& frame() const { return frame_; }
   const kaamos::effects::Scene& scene() const { return scene_; }
   const std::atomic<bool>& stop() const { return stop_; }
-  // A command list, executed; its time in milliseconds, by the clock that the options choose.
+  // Records and executes a command list; returns its milliseconds by the clock in the options.
   rtapi::Result<double> execute(const std::function<void(rtapi::CommandList&)>& record);
 
  private:
@@ -107,12 +108,12 @@ class Stage {
   };
   rtapi::Status create_device(std::function<void(const std::string&)> message);
   rtapi::Status create_lights();
-  // What turns sums of contact shadows into light.
+  // Makes the pass that turns sums of contact shadows into light.
   rtapi::Status create_lit(const Pass& pass);
   rtapi::Result<kaamos::effects::FloatImage> read_lit(const Setting& setting);
   rtapi::Status create_volume(const std::string& cache, const StageProgress& progress);
   rtapi::Status create_glass(Pass& pass);
-  // What glass is seen before.
+  // Renders what is seen behind the glass.
   rtapi::Status render_background();
   rtapi::Result<Pass*> pass(const Setting& setting);
   rtapi::Result<Pass> create_pass(const Setting& setting);
@@ -133,7 +134,7 @@ class Stage {
   rtapi::Texture contact_mean_;
   kaamos::effects::Denoiser contact_load_;
   kaamos::effects::GpuVolume volume_, no_volume_;
-  std::map<std::pair<Effect, bool>, Pass> passes_;  // by effect, and whether it traces only
+  std::map<std::pair<Effect, bool>, Pass> passes_;  // by effect, and whether it only traces
   rtapi::Texture glass_, transmittance_;
   kaamos::effects::ComputePass glass_compose_;
   std::optional<kaamos::effects::CompositePass> composite_;

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::file_time_type time_of(const std::string& path) {
-  std::error_code missing;  // an editor may be replacing the file: its time is then the earliest
+  std::error_code missing;  // if an editor is just replacing the file, its time is the earliest
   const auto time = fs::last_write_time(path, missing);
   return missing ? fs::file_time_type::min() : time;
 }

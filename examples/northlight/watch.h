@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shaders compiled at run time, and waiting until one of their files changes.
+// Compiles shaders at run time and waits until one of their files changes.
 #pragma once
 
 #include <atomic>
@@ -15,11 +15,11 @@ namespace northlight {
 class ShaderWatcher {
  public:
   // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/. `whole_frame`: all effects, not
-  // only ambient occlusion and the sun. `sorts`: the order of rays too.
+  // only ambient occlusion and the sun. `sorts`: also the sorting of rays.
   ShaderWatcher(std::filesystem::path folder, bool whole_frame, bool sorts)
       : folder_(std::move(folder)), whole_frame_(whole_frame), sorts_(sorts) {}
 
-  // Compiles all of them; the message of an error is what the compiler says.
+  // Compiles all shaders; an error's message is the compiler's.
   rtapi::Result<ShaderLibraries> compile();
   // Returns true when a file that the last compile() read has changed, false when `stop` is set.
   bool wait(const std::atomic<bool>& stop) const;
@@ -31,8 +31,8 @@ class ShaderWatcher {
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 
-// Where the effects' shaders are: $KAAMOS_EFFECTS, else the source or the installed folder. Empty
-// if there is none.
+// The folder of the effects' shaders: $KAAMOS_EFFECTS, else the source or the installed folder.
+// Empty if there is none.
 std::filesystem::path find_effects_folder();
 
 }  // namespace northlight

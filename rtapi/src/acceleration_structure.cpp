@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What can be told about builds and copies without reading GPU memory.
+// The checks of builds and copies that need no look at GPU memory.
 #include <algorithm>
 #include <optional>
 
 #include <rtapi/device.h>
 
 #include "rtapi/src/command_list_impl.h"
-#include "runtime/serialized_identifier.h"
+#include "runtime/structures/serialized_identifier.h"
 
 namespace rtapi {
 
@@ -20,8 +20,8 @@ using StructureType = RaytracingAccelerationStructureType;
 
 struct VertexFormatInfo {
   Format format;
-  uint32_t component_bytes;  // alignment of address and stride
-  uint32_t read_bytes;       // what a build reads of one vertex: no A component
+  uint32_t component_bytes;  // alignment of the address and of the stride
+  uint32_t read_bytes;       // what a build reads per vertex, without the A component
   uint32_t stride;           // 0: any multiple of component_bytes
   bool tier_1_1;
 };
@@ -161,7 +161,7 @@ Status CheckGeometries(const DeviceImpl& device,
   return {};
 }
 
-// Every byte of [address, address + bytes) is in one live buffer.
+// Checks that every byte of [address, address + bytes) lies in one live buffer.
 Status CheckLive(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
                  const std::string& what) {
   if (bytes == 0) return {};
@@ -177,7 +177,7 @@ Status CheckLive(const DeviceImpl& device, GpuVirtualAddress address, uint64_t b
   return {};
 }
 
-// Bytes from the first to the end of the last of `count` elements.
+// Bytes from the start of the first element to the end of the last; UINT64_MAX on overflow.
 uint64_t Extent(uint64_t count, uint64_t stride, uint64_t element) {
   if (count == 0) return 0;
   if (stride != 0 && count - 1 > (UINT64_MAX - element) / stride) return UINT64_MAX;
@@ -309,8 +309,8 @@ Status CheckBuildAddresses(const DeviceImpl& device,
   const bool top = inputs.Type == StructureType::kTopLevel;
   const auto sizes = device.backend->prebuild_info(inputs.Type, inputs.Flags, geometries,
                                                    top ? inputs.NumDescs : 0);
-  // The result of an update takes its source's memory, which may have been compacted: the backend
-  // knows how much that is.
+  // An update writes as much memory as its source holds. The source may have been compacted, so
+  // only the backend knows how much that is.
   if (!update) {
     s = CheckLive(device, desc.DestAccelerationStructureData, sizes.ResultDataMaxSizeInBytes,
                   "dest");

@@ -3,7 +3,7 @@
 
 #include "rtapi/testing/expect_error.h"
 #include "rtapi/testing/null_backend.h"
-#include "runtime/serialized_identifier.h"
+#include "runtime/structures/serialized_identifier.h"
 
 namespace rtapi {
 namespace {

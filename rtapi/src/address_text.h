@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What addresses, heap slots and descriptors are, for people.
+// Describes addresses, heap slots and descriptors in words.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ AddressDescription DescribeWhere(const DeviceImpl& device, GpuVirtualAddress add
 DescriptorDescription DescribeDescriptor(const DeviceImpl& device,
                                          const shader::Descriptor& descriptor);
 
-// "buffer \"x\" + 64 (416 bytes)", "address 0", "address 0x10 (in no live buffer)"
+// For example "buffer \"x\" + 64 (416 bytes)", "address 0", "address 0x10 (in no live buffer)".
 std::string ToText(const AddressDescription& address);
 std::string ToText(const DescriptorDescription& descriptor);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Second stage: which config and root signature belongs to which export.
-// [DXR: Subobject association behavior]
+// Second stage of making a state object: decides which configs and root signatures belong to which
+// export. [DXR: Subobject association behavior]
 #include <algorithm>
 #include <string_view>
 #include <unordered_map>
@@ -13,7 +13,8 @@ namespace rtapi::detail {
 
 namespace {
 
-// Explicit associations by the export names they list: a large pipeline has thousands of exports.
+// Indexes explicit associations by the export names they list, because a large pipeline has
+// thousands of exports.
 using Index = std::unordered_map<std::string_view, std::vector<const ExplicitAssociation*>>;
 
 Index MakeIndex(const Parts& parts) {
@@ -34,8 +35,8 @@ std::vector<const ExplicitAssociation*> Find(const Index& index, const Subject& 
   return found;
 }
 
-// The explicit association of a category with a subject, from one level: the state object itself,
-// or any library in it. Several are fine if they agree.
+// Finds the explicit association of a subject in one category, on one level: in the state object
+// itself, or in any of its libraries. Several associations are fine as long as they agree.
 Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>& candidates,
                                    const Subject& subject, Category category,
                                    bool in_state_object) {
@@ -52,8 +53,9 @@ Result<DefinitionPtr> FindExplicit(const std::vector<const ExplicitAssociation*>
   return first ? first->definition : nullptr;
 }
 
-// The default of a scope, or null. An association with an empty list beats subobjects that are in
-// no association; where several different ones are left, none counts.
+// Returns the default of a scope, or null. An association with an empty export list takes
+// precedence over subobjects that are in no association. If several different candidates remain,
+// there is no default.
 DefinitionPtr FindDefault(const DefaultScope& scope, Category category) {
   for (const auto* candidates : {&scope.by_empty, &scope.implicit}) {
     DefinitionPtr found;
@@ -75,7 +77,7 @@ Result<Associated> Resolve(const Parts& parts,
   const auto own = FindExplicit(candidates, subject, category, true);
   if (!own.ok()) return own.error();
   const Associated& given = subject.associations[static_cast<size_t>(category)];
-  if (given.definition) {  // by its collection: final
+  if (given.definition) {  // set by its collection, so final
     if (*own && !SameDefinition(**own, *given.definition)) {
       return MakeError(Id::kAssociationConflict, Quoted(subject.name), " got its ",
                        CategoryName(category), " (", given.definition->where,
@@ -96,8 +98,8 @@ Result<Associated> Resolve(const Parts& parts,
   return Associated{};
 }
 
-// Every name in an explicit association of a pipeline exists. Libraries may speak of their own
-// functions that an export list left out.
+// Every name in an explicit association of a pipeline must exist. Libraries may name their own
+// functions even if an export list left them out.
 Status CheckNamesExist(const Parts& parts) {
   for (const ExplicitAssociation& a : parts.explicit_associations) {
     for (const std::string& name : a.exports) {

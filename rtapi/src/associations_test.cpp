@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which config and root signature an export gets, and how resources find their root arguments.
+// Which config and root signature an export gets, and which root argument feeds each resource.
 #include <chrono>
 
 #include "rtapi/testing/state_object_fixture.h"
@@ -26,7 +26,7 @@ class AssociationTest : public StateObjectTest {
     desc.Add(RaytracingPipelineConfig{});
     return desc;
   }
-  // Bytes of local arguments of an export of the state object made last: tells signatures apart.
+  // Bytes of local arguments of an export of the last state object. Signatures differ in it.
   static uint32_t LocalBytes(const char* name) { return Linked(name)->local_argument_bytes; }
   RootSignature Constants(int n) {
     return Local("RootConstants(num32BitConstants=" + std::to_string(n) + ", b0)");
@@ -40,7 +40,7 @@ TEST_F(AssociationTest, SO_10_ImplicitAndExplicitDefaults) {
   ASSERT_TRUE(Make(desc).ok());
   EXPECT_EQ(LocalBytes("A"), 4u);
   EXPECT_EQ(LocalBytes("B"), 4u);
-  desc.Associate(lrs, {});  // the second form
+  desc.Associate(lrs, {});  // the call form with an empty export list
   ASSERT_TRUE(Make(desc).ok());
   EXPECT_EQ(LocalBytes("B"), 4u);
 }
@@ -110,7 +110,7 @@ TEST_F(AssociationTest, SO_12_BadSubobjectsCannotBeAssociated) {
   desc.Associate(99, {"A"});
   EXPECT_ERROR(Make(desc), "KA0508", "99");
   desc = Two();
-  desc.Associate(0, {"A"});  // the library
+  desc.Associate(0, {"A"});  // associates the subobject that the library declares
   EXPECT_ERROR(Make(desc), "KA0508", "type 5");
   desc = Two();
   desc.Add(DxilSubobjectToExportsAssociation{"NotThere", {"A"}});
@@ -144,10 +144,10 @@ TEST_F(AssociationTest, SO_15_StateObjectOverridesItsLibraries) {
   ASSERT_TRUE(Make(desc).ok());
   EXPECT_EQ(LocalBytes("A"), 28u);
   EXPECT_EQ(LocalBytes("B"), 0u);
-  const uint32_t lrs = desc.Add(LocalRootSignature{Constants(1)});  // default: overrides (SO-19)
+  const uint32_t lrs = desc.Add(LocalRootSignature{Constants(1)});  // a default overrides (SO-19)
   ASSERT_TRUE(Make(desc).ok());
   EXPECT_EQ(LocalBytes("A"), 4u);
-  desc.Associate(lrs, {"B"});  // no default any more
+  desc.Associate(lrs, {"B"});  // no longer a default
   ASSERT_TRUE(Make(desc).ok());
   EXPECT_EQ(LocalBytes("A"), 28u);
   EXPECT_EQ(LocalBytes("B"), 4u);
@@ -292,7 +292,7 @@ TEST_F(AssociationTest, LargePipelinesLinkQuickly) {
   desc.Add(DxilLibraryDesc{big.Build()});
   desc.Add(RaytracingShaderConfig{.MaxPayloadSizeInBytes = 16});
   desc.Add(RaytracingPipelineConfig{});
-  for (int i = 0; i < 8; ++i) {  // quadratic work would take minutes
+  for (int i = 0; i < 8; ++i) {  // 8 x 3,000 names: quadratic work would take minutes
     desc.Associate(desc.Add(LocalRootSignature{Constants(2)}), names);
   }
   const auto start = std::chrono::steady_clock::now();
@@ -349,7 +349,7 @@ TEST_F(BindingTest, ROOT_11_EverySourceOfArguments) {
   EXPECT_EQ(Slot(raw).access, shader::DescriptorAccess::kUnorderedAccess);
   EXPECT_EQ(Slot(textures).source, SlotSource::kDescriptorTable);
   EXPECT_EQ(Slot(textures).argument_offset, 0u);
-  EXPECT_EQ(Slot(textures).descriptor_index, 3u);  // behind u7, t2 and t3
+  EXPECT_EQ(Slot(textures).descriptor_index, 3u);  // after u7, t2 and t3
   EXPECT_EQ(Slot(textures).descriptor_count, shader::kUnbounded);
   EXPECT_EQ(Slot(sampler).source, SlotSource::kStaticSampler);
   EXPECT_NE(Slot(sampler).static_sampler, nullptr);

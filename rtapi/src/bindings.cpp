@@ -42,7 +42,7 @@ std::string Describe(const BindingDesc& b) {
   return Text(Quoted(b.name), " (", RegisterText(b.register_class, b.register_index, b.space), ")");
 }
 
-// The range of one signature that holds the binding's first register.
+// Finds the range of a signature that contains the binding's first register.
 std::optional<RegisterRange> Find(const RootSignature& signature, const BindingDesc& binding) {
   if (!signature) return std::nullopt;
   for (const RegisterRange& r : GetRegisterRanges(signature.GetDesc())) {
@@ -56,7 +56,8 @@ std::optional<RegisterRange> Find(const RootSignature& signature, const BindingD
 
 const DescriptorRange& FindDescriptorRange(const RootDescriptorTable& table,
                                            const RegisterRange& range) {
-  // Within one table a class, space and first register name one range: overlaps were refused.
+  // Within one table, class, space and first register identify a range: overlapping ranges were
+  // refused earlier.
   for (const DescriptorRange& r : table.Ranges) {
     if (r.BaseShaderRegister != range.first || r.RegisterSpace != range.space) continue;
     static constexpr RegisterClass kClasses[] = {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which root argument feeds which HLSL resource.
+// Finds the root argument that feeds each HLSL resource.
 #pragma once
 
 #include <string>
@@ -14,18 +14,18 @@ namespace rtapi::detail {
 
 struct DeviceImpl;
 
-// One slot per binding of the library; those that the export does not reach stay unbound. Either
-// signature may be empty. `where` names the export in messages. [DXR: D3D12_LOCAL_ROOT_SIGNATURE]
+// Returns one slot per binding of the library; bindings that the export does not reach stay
+// unbound. Either signature may be empty. `where` names the export in messages. [DXR:
+// D3D12_LOCAL_ROOT_SIGNATURE]
 Result<std::vector<kaamos::shader::BindingSlot>> ResolveBindings(
     const kaamos::shader::LibraryDesc& library, const kaamos::shader::ExportDesc& code,
     const RootSignature& global, const RootSignature& local, const std::string& where);
 
-// Registers that both define; ok if either is empty.
+// Fails if both signatures define the same register. Either may be empty.
 Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,
                                    const std::string& where);
 
-// Inline ray tracing and the SKIP ray flags, as far as they are constants, need a device of
-// tier 1.1.
+// Inline ray tracing, and the SKIP ray flags where they are constants, need a device of tier 1.1.
 Status CheckTier(const DeviceImpl& device, const kaamos::shader::ExportDesc& code,
                  const std::string& where);
 

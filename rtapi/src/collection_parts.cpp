@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a pipeline takes from a collection: copies of its exports, with what was resolved there.
-// [DXR: Collection state object]
+// What a pipeline takes from a collection: copies of its exports, with everything that the
+// collection resolved. [DXR: Collection state object]
 #include "rtapi/src/state_object_gatherer.h"
 
 namespace rtapi::detail {
@@ -78,7 +78,7 @@ Status Gatherer::ListCollectionExports(const StateObjectImpl& collection,
           copy->name = wanted.Name;
           copy->mangled.clear();
         }
-      } else {  // exported twice, under two names
+      } else {  // the same export under a second name
         auto again = std::make_shared<Subject>(*copy);
         again->name = wanted.Name;
         again->mangled.clear();

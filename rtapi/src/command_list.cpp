@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// State and dispatches of command lists. Acceleration structures and copies have files of their
+// State and dispatches of command lists. Acceleration structures and copies are in files of their
 // own.
 #include <rtapi/command_list.h>
 
@@ -11,7 +11,7 @@
 #include "rtapi/src/pipeline_state_impl.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_impl.h"
-#include "runtime/dispatch_checks.h"
+#include "runtime/backend/dispatch_checks.h"
 
 namespace rtapi {
 
@@ -49,8 +49,8 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
     return nullptr;
   }
   const StateObjectImpl& pipeline = *raytracing_pipeline.impl();
-  // Some ray generation shader must go with the signature that is set; which one runs stands in
-  // GPU memory.
+  // At least one ray generation shader must match the root signature that is set. Which of them
+  // runs is known only on the GPU: its identifier is in GPU memory.
   const auto& globals = pipeline.global_root_signatures;
   const bool fits =
       globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
@@ -81,7 +81,7 @@ const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
 
 namespace {
 
-// The parameter, if it exists and is of the type that the call sets.
+// Returns the parameter if it exists and has the type that the call sets, else null.
 const RootParameter* FindParameter(CommandListImpl& list, const char* call, uint32_t index,
                                    RootParameterType type) {
   if (!list.CheckOpen(call)) return nullptr;
@@ -115,7 +115,7 @@ void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootPa
                  GpuVirtualAddress address) {
   if (!list || !FindParameter(*list, call, index, type)) return;
   const uint32_t alignment = type == RootParameterType::kCbv ? 256 : 4;
-  // 0 is a null descriptor: an acceleration structure that every ray misses.
+  // Address 0 is a null descriptor: an acceleration structure that every ray misses.
   if (address % alignment != 0 || (address != 0 && !list->device->addresses.find(address))) {
     list->Fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
                          list->device->DescribeAddress(address),
@@ -125,7 +125,7 @@ void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootPa
   WriteArgument(*list, index, 0, &address, sizeof address);
 }
 
-// The error of a rule that the host's arguments break.
+// Turns a rule that the host's arguments break into its error.
 Status CheckRules(const runtime::DispatchProblem& problem) {
   switch (problem.fault) {
     case runtime::DispatchFault::kNone:

@@ -54,7 +54,7 @@ Status CheckTransition(const ResourceBarrier& barrier) {
   return {};
 }
 
-// A region of one side of a texture copy.
+// One side of a texture copy: source or destination.
 struct CopySide {
   runtime::TextureCopyPlace place;
   uint32_t size[3] = {0, 0, 0};  // texels of the subresource or footprint
@@ -99,7 +99,7 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
                      " for rows of ", f.Width * texel,
                      " bytes; the offset is a multiple of 512, the pitch of 256");
   }
-  // Each factor is checked, so that the product cannot overflow.
+  // Each factor is checked by itself, so that the product cannot overflow.
   const uint64_t rows = uint64_t{f.Height} * f.Depth;
   const uint64_t size = buffer.size();
   const bool fits = offset <= size && rows - 1 <= size / f.RowPitch &&
@@ -299,7 +299,7 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
 
 namespace {
 
-// The view that both handles name, and that it fits the resource.
+// Finds the view that both handles name, and checks that it fits the resource.
 Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescriptorHandle gpu,
                                               CpuDescriptorHandle cpu, const Resource& resource) {
   const auto slot = list.device->FindSlot(cpu);

@@ -9,7 +9,7 @@
 #include <rtapi/command_list.h>
 
 #include "rtapi/src/device_impl.h"
-#include "runtime/commands.h"
+#include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
 
@@ -22,54 +22,56 @@ struct CommandListImpl {
   std::shared_ptr<DeviceImpl> device;
   bool open = true;
   std::vector<Error> errors;
-  // Shared with queues, so that a list may be reset while its work is still waiting for a fence.
+  // Shared with queues, so that a list can be reset while its work still waits for a fence.
   std::shared_ptr<CommandVector> commands = std::make_shared<CommandVector>();
 
-  // Set on the list
+  // State that the application sets.
   DescriptorHeap view_heap;
   DescriptorHeap sampler_heap;
   RootSignature root_signature;
   std::shared_ptr<runtime::RootArguments> arguments = std::make_shared<runtime::RootArguments>();
-  PipelineState compute_pipeline;  // at most one of the two
+  PipelineState compute_pipeline;  // at most one of the two is set
   StateObject raytracing_pipeline;
   uint32_t open_events = 0;
 
-  // Keeps the error; D3D12 reports it through Close.
+  // Keeps the error: as in D3D12, Close() reports it.
   void Fail(Error error) { errors.push_back(std::move(error)); }
-  // False, with an error kept, unless recording is possible.
+  // Returns whether recording is possible; if not, keeps an error.
   bool CheckOpen(const char* call);
-  // Ready to be written: no recorded dispatch shares it.
+  // Returns arguments that no recorded dispatch shares, so that they can be written.
   runtime::RootArguments& WritableArguments();
   void ClearArgument(uint32_t offset_bytes, uint32_t size_bytes);
   runtime::DispatchState Snapshot();
-  // The pipeline that is set and fits the root signature that is set; null with an error kept.
+  // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);
 
-  // In place: gcc 12 takes the members of a temporary variant for uninitialised at -O3.
+  // Built in place, because gcc 12 at -O3 warns that members of a temporary variant are
+  // uninitialised.
   template <class T>
   void Record(T command) {
     commands->emplace_back(std::in_place_type<T>, std::move(command));
   }
 };
 
-// The checks of acceleration_structure.cpp, host side only.
+// The host-side checks, in acceleration_structure.cpp.
 Status CheckBuildInputs(const DeviceImpl& device,
                         const BuildRaytracingAccelerationStructureInputs& inputs);
-// The geometry descs of checked bottom-level inputs, whatever their layout.
+// Copies the geometry descs of bottom-level inputs that passed the checks, from either layout.
 std::vector<RaytracingGeometryDesc> CopyGeometryDescs(
     const BuildRaytracingAccelerationStructureInputs& inputs);
-// Addresses: alignment, liveness and extent.
+// Checks alignment, liveness and extent of every address.
 Status CheckBuildAddresses(const DeviceImpl& device,
                            const BuildRaytracingAccelerationStructureDesc& desc,
                            const std::vector<RaytracingGeometryDesc>& geometries);
 Status CheckPostbuildInfo(const DeviceImpl& device,
                           const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
                           size_t count);
-// 256-aligned, inside a buffer that was created for acceleration structures.
+// Checks that the address is 256-aligned and inside a buffer made for acceleration structures.
 Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address,
                              std::string_view what);
-// 256-aligned, `bytes` inside a plain buffer, which a shader may write if `written`.
+// Checks that the address is 256-aligned and that `bytes` from it are inside a plain buffer; if
+// `written`, one that shaders may write.
 Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
                            bool written, std::string_view what);
 

@@ -13,7 +13,7 @@ using namespace detail;
 
 namespace {
 
-// `bytes` from `offset`, which is a multiple of 4, lie in the buffer.
+// Checks that `offset` is a multiple of 4 and that `bytes` from there lie in the buffer.
 Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer, uint64_t offset,
                   uint64_t bytes, const char* what) {
   if (Status s = CheckHandle(device, buffer, Text("ExecuteIndirect: the ", what)); !s.ok()) {
@@ -35,7 +35,7 @@ Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffe
 Status CheckBuffers(const CommandListImpl& list, const CommandSignatureImpl& signature,
                     uint32_t max_count, const Buffer& arguments, uint64_t arguments_offset,
                     const Buffer& count, uint64_t count_offset) {
-  // The last command may end where its arguments do.
+  // The buffer may end right after the last command's arguments; its stride needs no padding.
   const uint64_t bytes = max_count == 0 ? 0
                                         : uint64_t{max_count - 1} * signature.layout->stride_bytes +
                                               signature.layout->packed_bytes;
@@ -89,7 +89,8 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   command.count_offset = count_offset;
   command.state = impl_->Snapshot();
   impl_->Record(std::move(command));
-  // What the signature sets is known afterwards: zero and null. [D3D12: Indirect drawing]
+  // After ExecuteIndirect, everything that the signature sets is zero or null. [D3D12: Indirect
+  // drawing]
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
     impl_->ClearArgument(argument.dest_offset, argument.size_bytes);
   }

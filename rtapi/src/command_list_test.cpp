@@ -16,7 +16,7 @@ TEST_F(CommandListTest, OpenAndClosed) {
   EXPECT_FALSE(list_.is_open());
   EXPECT_ERROR(list_.Close(), "KA0800");
   list_.Dispatch(1, 1, 1);
-  EXPECT_EQ(list_.GetErrors().at(0).id, "KA0800");
+  EXPECT_EQ(list_.GetErrors().at(0).id.text(), "KA0800");
   EXPECT_OK(list_.Reset());
   EXPECT_TRUE(list_.is_open());
   EXPECT_TRUE(list_.GetErrors().empty());
@@ -95,7 +95,7 @@ TEST_F(CommandListTest, RootArgumentsLieWhereTheSignatureSays) {
         &v, Executed<runtime::DispatchCommand>(command).state.root_arguments->bytes.data() + at, 8);
     return v;
   };
-  EXPECT_EQ(u32(0, 0), 0u);  // the snapshot of the first dispatch
+  EXPECT_EQ(u32(0, 0), 0u);  // the first dispatch keeps its snapshot
   EXPECT_EQ(u32(0, 4), 11u);
   EXPECT_EQ(u32(0, 8), 12u);
   EXPECT_EQ(u64(0, 16), buffer.GetGPUVirtualAddress() + 256);

@@ -99,7 +99,7 @@ Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
   const auto end = Clock::now() + std::chrono::milliseconds(timeout_ms);
   std::unique_lock lock(impl_->mutex);
   while (impl_->current < value) {
-    // Removal has no signal of its own: a waiter looks for it now and then.
+    // Device removal does not signal the fence, so a waiter looks for it every 20 ms.
     impl_->changed.wait_for(lock, std::chrono::milliseconds(20));
     if (impl_->current >= value) break;
     if (Status removed = impl_->device->removed(); !removed.ok()) return removed;

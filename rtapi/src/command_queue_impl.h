@@ -18,9 +18,9 @@ struct FenceImpl {
   std::shared_ptr<DeviceImpl> device;
 
   uint64_t value() const;
-  // Sets the value and lets queues go on that wait for it.
+  // Sets the value and resumes the queues that wait for it.
   void Signal(uint64_t value);
-  // True if the fence has reached `value`; else `queue` is woken by a later Signal.
+  // Returns true if the fence has reached `value`; else a later Signal wakes `queue`.
   bool ReachedOrWake(uint64_t value, const std::weak_ptr<struct CommandQueueImpl>& queue);
 
   mutable std::mutex mutex;
@@ -29,9 +29,9 @@ struct FenceImpl {
   std::vector<std::weak_ptr<CommandQueueImpl>> waiting;
 };
 
-// Work runs on the thread that submits it, at once, unless the queue waits for a fence: then on the
-// thread whose signal ends the wait. A backend uses all cores for one command, so that a thread of
-// the queue's own would gain nothing and lose the call stack in a debugger.
+// Work runs at once on the thread that submits it, or, if the queue waits for a fence, on the
+// thread whose signal ends the wait. A backend uses all cores for one command, so a thread per
+// queue would gain nothing and would lose the call stack in a debugger.
 struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
   struct Execute {
     std::shared_ptr<const CommandVector> commands;
@@ -57,7 +57,7 @@ struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
   std::mutex mutex_;
   std::deque<Operation> pending_;
   bool draining_ = false;
-  bool again_ = false;  // somebody asked for a drain while one was running
+  bool again_ = false;  // a drain was requested while one was running
 };
 
 }  // namespace rtapi::detail

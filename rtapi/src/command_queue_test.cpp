@@ -10,7 +10,7 @@ namespace {
 
 class QueueTest : public ::testing::Test {
  protected:
-  // A closed list whose execution shows in the log.
+  // A closed list that leaves its name in the log when it executes.
   CommandList Marker(const char* name) {
     CommandList list = device_.CreateCommandList().value();
     list.BeginEvent(name);
@@ -47,7 +47,7 @@ TEST_F(QueueTest, WaitsForAFenceThatTheHostSignals) {
   CommandList list = Marker("a");
   EXPECT_OK(queue_.ExecuteCommandLists({list}));
   EXPECT_EQ(Executed(), "");
-  EXPECT_OK(list.Reset());  // what was submitted stays
+  EXPECT_OK(list.Reset());  // submitted work stays as it was
   EXPECT_OK(fence_.Signal(4));
   EXPECT_EQ(Executed(), "a");
 }
@@ -98,7 +98,7 @@ TEST_F(QueueTest, ListsMustBeClosedAndSound) {
 
 TEST_F(QueueTest, FailureInExecutionRemovesTheDevice) {
   null_log().fail_next_execute =
-      Error{"KA0799", ErrorCode::kFailed, "KA0799 the backend met something"};
+      Error{{799}, ErrorCode::kFailed, "KA0799 the backend met something"};
   CommandList list = Marker("a");
   CommandList late = Marker("b");
   EXPECT_ERROR(queue_.ExecuteAndWait(list), "KA0799");
@@ -110,7 +110,7 @@ TEST_F(QueueTest, FailureInExecutionRemovesTheDevice) {
   EXPECT_ERROR(queue_.ExecuteCommandLists({late}), "KA0799");
   EXPECT_EQ(Executed(), "a");
   ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].Id, "KA0799");
+  EXPECT_EQ(messages_[0].Id.text(), "KA0799");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// CreateCommandSignature: every rule about a signature by itself. [D3D12: Indirect drawing]
+// CreateCommandSignature: every rule that concerns a signature alone. [D3D12: Indirect drawing]
 #include <rtapi/command_signature.h>
 #include <rtapi/device.h>
 
@@ -33,8 +33,8 @@ class LayoutMaker {
   const CommandSignatureDesc& desc_;
   const RootSignature& root_signature_;
   runtime::IndirectLayout layout_;
-  bool complete_ = false;   // there is a dispatch
-  uint64_t next_root_ = 0;  // the first (parameter, value) that may be set
+  bool complete_ = false;   // the dispatch argument was seen
+  uint64_t next_root_ = 0;  // the lowest (parameter, value) that may be set next
 };
 
 Status LayoutMaker::AddDispatch(const std::string& where, bool rays, size_t index) {

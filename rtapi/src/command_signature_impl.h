@@ -6,7 +6,7 @@
 #include <rtapi/command_signature.h>
 
 #include "rtapi/src/device_impl.h"
-#include "runtime/commands.h"
+#include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
 

@@ -100,7 +100,7 @@ class ExecuteIndirectTest : public CommandSignatureTest {
                  {Constant(0, 1, 1), View(Type::kShaderResourceView, 2), Plain(Type::kDispatch)}},
                 signature_)
             .value();
-    buffer_ = MakeBuffer(120);  // three commands of 32, and the 24 bytes of a fourth
+    buffer_ = MakeBuffer(120);  // three commands of 32 bytes, and 24 bytes for a fourth
     count_ = MakeBuffer(8);
   }
   template <class F>
@@ -136,7 +136,7 @@ TEST_F(ExecuteIndirectTest, RecordsTheStateOfTheMoment) {
     return value;
   };
   EXPECT_EQ(word(command.state, 4), 2u);
-  // What the signature sets is zero and null afterwards, the rest is as it was.
+  // After the call, what the signature sets is zero and null; the rest is unchanged.
   const auto& after = Executed<runtime::DispatchCommand>(1).state;
   EXPECT_EQ(word(after, 0), 1u);
   EXPECT_EQ(word(after, 4), 0u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Configs, root signatures and hit groups as they are declared, by the API or in HLSL.
+// Checks configs, root signatures and hit groups, whether the API or HLSL declares them.
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_gatherer.h"
 

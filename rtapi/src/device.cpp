@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rtapi/src/backends.h"
+#include "rtapi/src/checked_library.h"
 #include "rtapi/src/device_impl.h"
-#include "runtime/checked_library.h"
-#include "runtime/dispatch_checks.h"
+#include "rtapi/src/root_signature_impl.h"
+#include "runtime/backend/dispatch_checks.h"
 
 namespace rtapi {
 
@@ -88,7 +90,7 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(GpuDescriptorHandle handle) const {
 
 ShaderLibrary DeviceImpl::LibraryToRun(const ShaderLibrary& library) const {
   if (!reporter) return library;
-  runtime::CheckedLibrary found = runtime::checked_variant(library, desc.Backend == "vulkan");
+  CheckedLibrary found = checked_variant(library, desc.Backend == "vulkan");
   if (!found.note.empty()) {
     reporter->report(
         found.checked ? kaamos::checks::Id::kCodeInterpreted : kaamos::checks::Id::kCodeNotChecked,
@@ -145,7 +147,7 @@ Status CheckDesc(const DeviceDesc& desc) {
 
 std::vector<DeviceInfo> EnumerateDevices() {
   std::vector<DeviceInfo> devices;
-  for (const auto* factory : kaamos::runtime::backends()) {
+  for (const auto* factory : detail::backends()) {
     for (auto& info : factory->enumerate()) devices.push_back(std::move(info));
   }
   return devices;
@@ -154,7 +156,7 @@ std::vector<DeviceInfo> EnumerateDevices() {
 Result<Device> CreateDevice(const DeviceDesc& desc) {
   using namespace detail;
   if (Status s = CheckDesc(desc); !s.ok()) return s.error();
-  const auto known = runtime::backends();
+  const auto known = detail::backends();
   if (known.empty()) {
     return MakeError(Id::kNoBackend,
                      "this build has none; install libembree-dev and configure again");
@@ -176,7 +178,8 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   };
   if (desc.Checked) {
     impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
-    impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter);
+    impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter,
+                                                           &detail::SameDefinition);
     impl->context.reporter = impl->reporter.get();
     impl->context.observer = impl->checks.get();
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the handles of device.h, resource.h and descriptor.h point to.
+// The objects behind the handles of device.h, resource.h and descriptor.h.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 #include "rtapi/src/error_table.h"
 #include "rtapi/src/view_names.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/layer.h"
 #include "runtime/checks/report.h"
 
@@ -23,7 +23,7 @@ namespace rtapi::detail {
 namespace runtime = kaamos::runtime;
 namespace shader = kaamos::shader;
 
-// A slot that a CPU descriptor handle names.
+// The heap slot that a CPU or GPU descriptor handle points at.
 struct HeapSlot {
   DescriptorHeapType type = DescriptorHeapType::kCbvSrvUav;
   bool shader_visible = false;
@@ -35,34 +35,34 @@ struct HeapSlot {
 
 struct DeviceImpl {
   DeviceDesc desc;
-  ViewNames views;  // what descriptors of textures and samplers name
+  ViewNames views;  // which textures and samplers the descriptors stand for
   runtime::AddressMap addresses;
   runtime::Context context;
-  // Checked mode; null without.
+  // Checked mode; null if it is off.
   std::unique_ptr<kaamos::checks::Reporter> reporter;
   std::unique_ptr<kaamos::checks::Layer> checks;
   std::unique_ptr<runtime::BackendDevice> backend;
 
-  // One execution at a time, whatever the queue: dispatches and builds use every core already.
+  // Executions run one at a time, whatever the queue: a dispatch or build uses every core already.
   std::mutex execute_mutex;
 
   void Remove(const Error& reason);
   Status removed() const;
   void Report(MessageSeverity severity, const Error& error) const;
 
-  // Descriptor heaps by host address. Handles carry no type, so that they are looked up here.
+  // Finds the slot of a handle. Handles carry no type, so heaps are registered by host address.
   void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap);
   void UnregisterHeap(uint8_t* host);
   std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
-  // The same by GPU handle; shader-visible heaps only.
+  // The same by GPU handle, for shader-visible heaps only.
   std::optional<HeapSlot> FindSlot(GpuDescriptorHandle handle) const;
 
-  // On a checked device the library's checked variant.
+  // Returns the library's checked variant on a checked device, else the library itself.
   ShaderLibrary LibraryToRun(const ShaderLibrary& library) const;
 
   ShaderIdentifier MakeIdentifier(std::string_view name);
 
-  // "buffer \"x\" (416 bytes)" of a live address, else "no live buffer".
+  // Returns "buffer \"x\" (416 bytes)" for a live address, else "no live buffer".
   std::string DescribeAddress(GpuVirtualAddress address) const;
 
  private:
@@ -80,7 +80,7 @@ struct DeviceImpl {
   std::atomic<uint32_t> next_identifier_{1};
 
  public:
-  uint32_t tag = 0;  // tells identifiers of different devices apart
+  uint32_t tag = 0;  // makes identifiers of different devices differ
 };
 
 struct BufferImpl {
@@ -103,10 +103,10 @@ struct DescriptorHeapImpl {
   ~DescriptorHeapImpl();
 };
 
-// "buffer \"name\"", or "unnamed buffer".
+// Returns "buffer \"name\"" or "unnamed buffer".
 std::string Named(const char* kind, const std::string& name);
 
-// Empty handle or another device's object; `what` names the argument.
+// Fails for an empty handle or another device's object; `what` names the argument.
 template <class Handle>
 Status CheckHandle(const std::shared_ptr<DeviceImpl>& device, const Handle& handle,
                    std::string_view what) {
@@ -121,15 +121,15 @@ inline uint64_t AlignUp(uint64_t value, uint64_t alignment) {
   return (value + alignment - 1) / alignment * alignment;
 }
 
-// Texel counts of a mip level.
+// Size of a mip level in texels.
 struct MipExtent {
   uint32_t width, height, depth;
 };
 MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip);
 uint32_t FullMipCount(const TextureDesc& desc);
-uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D
+uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D textures
 
-// Formats that share texel bytes; 0 for those in no family.
+// Formats of one family share their texel layout; 0 for formats that belong to none.
 uint32_t FormatFamily(Format format);
 
 }  // namespace rtapi::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Devices, the table of errors, buffers, textures, footprints.
+// Devices, the error table, buffers, textures, footprints.
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -28,7 +28,7 @@ TEST(ErrorTableTest, IdsAreSortedUniqueAndDescribed) {
     EXPECT_NE(std::string(table[i].source), "");
     const Error error = detail::MakeError(table[i].id, "detail");
     EXPECT_EQ(error.code, table[i].code);
-    EXPECT_EQ(error.message, error.id + " " + table[i].title + ": detail");
+    EXPECT_EQ(error.message, error.id.text() + " " + table[i].title + ": detail");
   }
 }
 
@@ -41,7 +41,7 @@ TEST(ErrorTableTest, EveryIdStandsInTheDocument) {
                                            "kFailed"};
   for (const auto& entry : detail::ErrorTable()) {
     const std::string row =
-        detail::Text("| ", detail::MakeError(entry.id, "").id, " | ", entry.title, " | ",
+        detail::Text("| ", detail::PublicId(entry.id).text(), " | ", entry.title, " | ",
                      kCodes[static_cast<size_t>(entry.code)], " | ", entry.source, " |\n");
     EXPECT_THAT(text.str(), ::testing::HasSubstr(row));
   }
@@ -202,7 +202,7 @@ TEST_F(ResourceTest, FootprintsAsD3D12LaysThemOut) {
 
 TEST_F(ResourceTest, ForeignAndDeadAddressesAreNamed) {
   detail::Id id = detail::Id::kBuildAddress;
-  EXPECT_EQ(detail::MakeError(id, "x").id, "KA0712");
+  EXPECT_EQ(detail::MakeError(id, "x").id.text(), "KA0712");
   auto list = device_.CreateCommandList().value();
   uint64_t dead = 0;
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The API from end to end on the Embree backend, with shaders written in C++ against abi.h: what
-// the recording backend of the other tests cannot show.
+// The API from end to end on the Embree backend, with shaders written in C++ against abi.h. It
+// covers what the recording backend of the other tests cannot show.
 #include <cstring>
 
 #include "rtapi/testing/expect_error.h"
@@ -16,7 +16,7 @@ using shader::BindingType;
 using shader::Invocation;
 using shader::Stage;
 
-// Reads a root argument of type T through the slot of a binding, as emitted code does.
+// Reads a root argument of type T through the slot of a binding, as compiled shaders do.
 template <class T>
 T Argument(const Invocation& in, uint32_t binding) {
   const shader::BindingSlot& slot = in.slots[binding];
@@ -32,7 +32,7 @@ struct Payload {
   uint32_t value = 0;
 };
 
-// output[x] = payload of a ray from (x, 0.25, -1) along z: 0 missed by everything.
+// Traces a ray from (x + 0.25, 0.25, -1) along z and writes its payload to output[x].
 void RayGeneration(Invocation& in) {
   Payload payload{0xFFFFFFFFu};
   shader::TraceRayArguments ray = {};
@@ -119,7 +119,7 @@ TEST_F(EmbreeTest, TracesThroughTablesBuiltFromALinkedStateObject) {
   hits.AddRecord("group", {LocalArgument::Constants(200u)}).value();
   for (ShaderTable* t : {&raygen, &miss, &hits}) ASSERT_TRUE(t->Build(device_).ok());
 
-  // A triangle at x in 0..1; instances at 0 and 2, with records 0 and 1.
+  // One triangle spans x in 0..1; its instances stand at x = 0 and 2 and use records 0 and 1.
   auto vertices = CreateUploadBuffer(device_, std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
   auto list = device_.CreateCommandList().value();
   const RaytracingGeometryDesc geometry = {

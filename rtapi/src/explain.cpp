@@ -18,12 +18,13 @@ constexpr char kReplayed[] =
     "shaders replayed on the CPU, candidates searched in double precision and offered front to "
     "back";
 
-// What shaders may write, as it was.
+// Saves the memory that shaders may write, and restores it when it goes out of scope.
 class Snapshot {
  public:
   explicit Snapshot(const runtime::AddressMap& addresses) {
     for (const runtime::Allocation& allocation : addresses.all()) {
-      // Structures are never written by shaders; scratch memory is, as far as anyone knows.
+      // Shaders never write acceleration structures. Scratch buffers are saved too, since nothing
+      // tells them from other writable buffers.
       if (allocation.acceleration_structure || allocation.host == nullptr ||
           !HasAny(allocation.flags, ResourceFlags::kAllowUnorderedAccess)) {
         continue;
@@ -34,7 +35,7 @@ class Snapshot {
     }
   }
   ~Snapshot() {
-    // Only what changed: the rest may be memory that was never touched.
+    // Writes back only pages that changed, because the rest may never have been touched.
     constexpr size_t kPage = 4096;
     for (const Part& part : parts_) {
       for (size_t at = 0; at < part.bytes.size(); at += kPage) {
@@ -90,7 +91,7 @@ Status Execute(DeviceImpl& device, std::span<const runtime::Command> commands) {
   return s;
 }
 
-// Executes `list`; calls use(replay, command) when the dispatch is next.
+// Executes `list`, and calls use(replay, command) just before the dispatch.
 template <class Use>
 Status ExecuteWith(CommandQueue& queue, CommandList& list, const ExplainDesc& desc,
                    const char* call, Use&& use) {
@@ -144,7 +145,7 @@ Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
         replay.run(index, desc.MaxCandidatesPerRay, &out);
         return {};
       });
-  // Of a dispatch that faults, the explanation is what is wanted.
+  // If the dispatch faults, the explanation is exactly what the caller wants: return it.
   if (!done.ok() && out.Removal.empty()) return done.error();
   return out;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Explanations as JSON: the same tree, by the names of explain.h.
+// Writes explanations as JSON: the same tree, with the names of explain.h.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 Json ToJsonValue(const ExplainedShader& shader);
 
-// JSON has no infinity and no NaN: they become text.
+// JSON has no infinity and no NaN, so they are written as text.
 Json Number(float value) {
   if (std::isfinite(value)) return value;
   return kaamos::explain::number_text(value);
@@ -142,7 +142,7 @@ std::string ToJson(const PixelExplanation& e) {
                {"executor", e.Executor}};
   json["ray_generation"] = ToJsonValue(e.RayGeneration);
   if (!e.Removal.empty()) json["removal"] = e.Removal;
-  // Names may hold bytes that are no UTF-8: they are shown, not thrown on.
+  // Names may contain bytes that are not UTF-8; replace them instead of throwing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

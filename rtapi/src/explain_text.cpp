@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Explanations as text: what is nested is indented.
+// Writes explanations as text, indented by depth in the tree.
 #include <rtapi/explain.h>
 
 #include "rtapi/src/address_text.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Copies of textures in host memory, for shaders that are replayed on the CPU. A copy is made when
-// it is first read; what is written goes to the copy.
+// Copies of textures in host memory, for shaders that are replayed on the CPU. A texture is copied
+// when it is first read; writes go to the copy.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ class HostTextures {
  public:
   explicit HostTextures(DeviceImpl& device) : device_(device) {}
 
-  // Null: no texture stands behind the descriptor, or it cannot be read.
+  // Returns null if there is no texture behind the descriptor, or if it cannot be read.
   const shader::TextureView* View(const shader::Descriptor& descriptor);
   const shader::SamplerState* Sampler(const shader::Descriptor& descriptor);
 
@@ -30,8 +30,8 @@ class HostTextures {
   };
   struct Copy {
     std::shared_ptr<runtime::BackendBuffer> memory;
-    uint64_t element_bytes = 0;     // an array element with all its mips
-    std::vector<Subresource> mips;  // of one element
+    uint64_t element_bytes = 0;     // one array element with all its mips
+    std::vector<Subresource> mips;  // of one array element
     TextureDesc desc;
   };
   const Copy* Find(const std::shared_ptr<runtime::BackendTexture>& texture,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Holds rtapi's numbers, sizes and offsets against Microsoft's d3d12.h. Everything is checked when
-// this file is compiled; the program only says how much.
+// Compares rtapi's numbers, sizes and offsets with Microsoft's d3d12.h. All checks are static; the
+// program itself only prints how many there are.
 #include <wsl/winadapter.h>
 
 #include <directx/d3d12.h>
@@ -772,7 +772,7 @@ SAME_OFFSET(Box, D3D12_BOX, back);
 
 constexpr int kChecks = __COUNTER__ - kFirstLine - 1;
 
-// Bit fields have no offset: their place in memory is checked by value.
+// Bit fields have no offset, so their place in memory is checked by value.
 bool instance_bit_fields_agree() {
   rtapi::RaytracingInstanceDesc ours;
   ours.InstanceID = 0x123456;

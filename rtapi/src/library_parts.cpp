@@ -179,7 +179,7 @@ Status Gatherer::DefineFromText(const char* text, bool local, const std::string&
                                 DefinitionPtr& out) {
   auto desc = ParseRootSignature(text ? text : "");
   if (!desc.ok()) return MakeError(Id::kLibrarySubobject, where, ": ", desc.error().message);
-  // DXC sets the flag for LocalRootSignature subobjects, whatever the string says.
+  // Like DXC, set the flag for LocalRootSignature subobjects, whatever the string says.
   if (local) desc->Flags |= RootSignatureFlags::kLocalRootSignature;
   auto signature = MakeRootSignature(parts_.device, *desc);
   if (!signature.ok()) {

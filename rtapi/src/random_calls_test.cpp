@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Nothing that a caller can say crashes: random descriptions and calls, most of them wrong, from a
-// fixed seed. Run under the sanitizers by the asan preset.
+// No call may crash, whatever its arguments: random descriptions and calls, most of them wrong,
+// from a fixed seed. The asan preset runs this under the sanitizers.
 #include <random>
 
 #include "rtapi/testing/command_list_fixture.h"
@@ -13,7 +13,7 @@ class RandomCallsTest : public CommandListTest {
  protected:
   uint64_t Below(uint64_t n) { return n ? random_() % n : 0; }
   bool Coin() { return random_() & 1; }
-  // Small, near a power of two, or anything.
+  // A small number, one near a power of two, or any at all.
   uint64_t Number() {
     switch (Below(3)) {
       case 0:
@@ -109,7 +109,7 @@ TEST_F(RandomCallsTest, StateObjects) {
         Below(8) ? device_.CreateStateObject(desc) : device_.AddToStateObject(desc, Pick(objects));
     so.ok() ? ++made : ++refused;
     if (!so.ok()) {
-      EXPECT_EQ(so.error().message.rfind(so.error().id, 0), 0u) << so.error().message;
+      EXPECT_EQ(so.error().message.rfind(so.error().id.text(), 0), 0u) << so.error().message;
       continue;
     }
     const std::string name = Name();
@@ -316,7 +316,7 @@ TEST_F(RandomCallsTest, CommandLists) {
     }
     const bool sound = list.Close().ok();
     sound ? ++closed : ++failed;
-    // The recording backend copies buffers for real: a range that slipped through would show.
+    // The recording backend really copies buffers, so a range that slipped through would show.
     EXPECT_EQ(queue_.ExecuteCommandLists({list}).ok(), sound);
   }
   EXPECT_GT(closed, 50);

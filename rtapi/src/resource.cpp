@@ -130,7 +130,7 @@ uint32_t ArraySize(const TextureDesc& desc) {
 
 uint32_t FormatFamily(Format format) {
   const auto f = static_cast<uint32_t>(format);
-  // First and last number of each DXGI family, the typeless member among them.
+  // First and last number of each DXGI format family, including its typeless member.
   static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18},
                                               {23, 25}, {27, 32}, {33, 38}, {39, 43},
                                               {48, 52}, {53, 59}, {60, 64}};

@@ -49,13 +49,13 @@ Status CheckSpace(uint32_t space, const std::string& where) {
                    " is reserved; allowed is 0 to 4294967279");
 }
 
-// Checks the ranges of a table and resolves append offsets in place.
+// Checks the ranges of a table and replaces append offsets by real ones.
 Status CheckTable(RootDescriptorTable& table, const std::string& where) {
   if (table.Ranges.empty()) {
     return MakeError(Id::kRangeInvalid, where, " is a descriptor table without ranges");
   }
   bool samplers = false, views = false;
-  uint64_t next = 0;  // where an append range starts
+  uint64_t next = 0;  // where an appended range would start
   bool after_unbounded = false;
   for (size_t i = 0; i < table.Ranges.size(); ++i) {
     DescriptorRange& range = table.Ranges[i];
@@ -158,7 +158,7 @@ Status CheckOverlaps(const RootSignatureDesc& desc) {
     return std::tie(a.register_class, a.space, a.first) <
            std::tie(b.register_class, b.space, b.first);
   });
-  // Sorted by start: if any two overlap, the first of them overlaps its neighbour.
+  // Sorted by start: if any two ranges overlap, some range overlaps its neighbour.
   for (size_t i = 1; i < ranges.size(); ++i) {
     if (!Overlap(ranges[i - 1], ranges[i])) {
       continue;
@@ -173,7 +173,7 @@ Status CheckOverlaps(const RootSignatureDesc& desc) {
   return {};
 }
 
-// DWORDs of a global signature. [D3D12: root signature limits]
+// Size of a global signature in DWORDs. [D3D12: root signature limits]
 uint64_t RootCost(const RootSignatureDesc& desc) {
   uint64_t cost = 0;
   for (const RootParameter& p : desc.Parameters) {
@@ -192,7 +192,7 @@ uint64_t RootCost(const RootSignatureDesc& desc) {
   return cost;
 }
 
-// Offsets of arguments: the rules of shader records, for the root arguments of a dispatch as well,
+// Lays out the arguments by the rules of shader records, also for the root arguments of a dispatch,
 // so that one slot description serves both. [DXR: Shader table memory initialization]
 uint64_t LayOut(const RootSignatureDesc& desc, std::vector<uint32_t>& offsets) {
   uint64_t end = 0;

@@ -14,7 +14,7 @@ namespace rtapi::detail {
 
 struct RootSignatureImpl {
   std::shared_ptr<DeviceImpl> device;
-  RootSignatureDesc desc;         // append offsets of ranges resolved
+  RootSignatureDesc desc;         // append offsets are resolved
   std::vector<uint32_t> offsets;  // of each parameter's arguments
   uint32_t argument_bytes = 0;
   std::vector<shader::Descriptor> static_samplers;
@@ -22,24 +22,24 @@ struct RootSignatureImpl {
   bool is_local() const { return HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature); }
 };
 
-// The same parameters, samplers and flags.
+// Compares parameters, samplers and flags.
 bool SameDefinition(const RootSignature& a, const RootSignature& b);
 bool SameSampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b);
 
-// Which registers a signature defines, for overlap tests.
+// A range of registers that a signature defines, for overlap tests.
 struct RegisterRange {
   shader::RegisterClass register_class = shader::RegisterClass::kShaderResource;
   uint32_t space = 0;
   uint32_t first = 0;
   uint64_t end = 0;        // one past the last; 2^32 if unbounded
-  uint32_t parameter = 0;  // index; of static samplers: the sampler's
+  uint32_t parameter = 0;  // its index; for static samplers, the sampler's
   bool static_sampler = false;
 };
 std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc);
 bool Overlap(const RegisterRange& a, const RegisterRange& b);
 std::string RegisterText(shader::RegisterClass register_class, uint32_t index, uint32_t space);
 
-// Resolved and laid out; a static sampler's object comes from the backend.
+// Resolves and lays out the signature; the backend makes the static samplers.
 Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& device,
                                         const RootSignatureDesc& desc);
 

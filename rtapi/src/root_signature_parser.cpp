@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// HLSL's root signature language: recursive descent over a string, keywords in any case.
-// [HLSL: Specifying root signatures in HLSL]
+// Parses HLSL's root signature language by recursive descent; keywords in any case. [HLSL:
+// Specifying root signatures in HLSL]
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -110,7 +110,7 @@ bool SameWord(std::string_view a, std::string_view b) {
   return true;
 }
 
-// Every Parse* returns false after fail(), which keeps the first error.
+// Every Parse* function returns false after fail(), which keeps the first error.
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
@@ -155,7 +155,7 @@ class Parser {
   }
   bool expect(char c) { return take(c) || fail(std::string("expected '") + c + "'"); }
 
-  // Letters, digits and '_' from here; does not move.
+  // Returns the letters, digits and '_' from here, without moving.
   std::string_view peek_word() {
     skip_space();
     size_t end = pos_;
@@ -213,7 +213,7 @@ class Parser {
     return fail(detail::Text("expected a ", kind, ", such as ", keywords[0].name));
   }
 
-  // 0, or names joined by '|'.
+  // Reads 0, or names joined by '|'.
   bool ParseFlags(std::span<const Keyword> keywords, const char* kind, uint32_t& out) {
     out = 0;
     do {
@@ -238,7 +238,8 @@ class Parser {
     return ParseUint(out);
   }
 
-  // ", name = value" until ')'. The handler parses the value; false if it does not know the name.
+  // Reads ", name = value" until ')'. The handler parses the value, and returns false if it does
+  // not know the name.
   template <class Handler>
   bool ParseOptions(Handler&& handler) {
     uint32_t seen = 0;

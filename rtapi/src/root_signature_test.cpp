@@ -21,7 +21,7 @@ TEST_F(RootSignatureTest, ROOT_05_WorkedExampleOfRecordLayout) {
   auto s = device_.CreateRootSignature(
       Local({RootParameter::Constants32(1, 0), RootParameter::Srv(0),
              RootParameter::Constants32(3, 1), RootParameter::Table({DescriptorRange{}})}));
-  // The range takes t0 as well: move it away.
+  // The range covers t0 as well, so move it away.
   EXPECT_ERROR(s, "KA0604", "t0");
   s = device_.CreateRootSignature(Local(
       {RootParameter::Constants32(1, 0), RootParameter::Srv(0), RootParameter::Constants32(3, 1),
@@ -207,7 +207,7 @@ TEST(RootSignatureText, EveryPrefixIsAnErrorOrReadsWithoutCrash) {
   for (size_t n = 0; n <= text.size(); ++n) {
     readable += ParseRootSignature(std::string_view(text).substr(0, n)).ok();
   }
-  EXPECT_EQ(readable, 5);  // nothing, and after each of the four clauses
+  EXPECT_EQ(readable, 5);  // the empty text, and the text after each of the four clauses
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 namespace rtapi::detail {
 
-// Numbers in range, no NaN; `id` and `what` are for the message.
+// Checks that numbers are in range and not NaN; `id` and `what` go into the message.
 Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what);
 
 SamplerDesc ToSamplerDesc(const StaticSamplerDesc& desc);

@@ -21,8 +21,8 @@ bool IsStage(shader::Stage stage) {
   return s >= 5 && s <= 12;
 }
 
-// A table from a foreign file is not trusted further than its version: every index is checked here,
-// once, so that linking need not.
+// A foreign library's tables are trusted no further than their version. Every index is checked
+// here, once, so that linking need not.
 Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
   auto broken = [&name](const auto&... parts) {
     return MakeError(Id::kShaderLibrary, Quoted(name), ": ", parts...);
@@ -126,7 +126,7 @@ Result<ShaderLibrary> LoadShaderLibrary(const shader::LibraryDesc* desc,
 }
 
 Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
-  // A name without a slash would be searched for in the system's library folders.
+  // dlopen would look for a name without a slash in the system's library folders.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {

@@ -12,7 +12,7 @@ namespace rtapi::detail {
 
 struct ShaderLibraryImpl {
   const kaamos::shader::LibraryDesc* desc = nullptr;
-  std::shared_ptr<const void> owner;  // of desc and the code; empty for built-in libraries
+  std::shared_ptr<const void> owner;  // keeps desc and the code alive; empty for built-in libraries
   std::string name;
   std::string target;
   std::vector<ShaderExportInfo> exports;  // same order as desc->exports

@@ -60,7 +60,7 @@ TEST_F(ShaderTableTest, ROOT_05_BytesOfARecord) {
 TEST_F(ShaderTableTest, SBT_17_BuiltTablesAreAligned) {
   ShaderTable table(so_, "hits");
   EXPECT_EQ(table.GetTable().StartAddress, 0u);
-  ASSERT_TRUE(table.Build(device_).ok());  // an empty table is a zero range
+  ASSERT_TRUE(table.Build(device_).ok());  // an empty table is an empty range
   EXPECT_EQ(table.GetTable().SizeInBytes, 0u);
   ASSERT_TRUE(table.AddRecord("plain").ok());
   ASSERT_TRUE(table.AddRecord("plain").ok());

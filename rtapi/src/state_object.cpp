@@ -100,7 +100,7 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
   return {};
 }
 
-// Entry points and hit groups have names of their own; functions that are none may come again.
+// Names of entry points and hit groups must be unique; library functions may be added again.
 Status CheckAddedNames(const StateObjectImpl& added, const StateObjectImpl& parent) {
   const auto counts = [](const Subject& s) {
     return !s.hidden && (s.is_group() || s.code->stage != shader::Stage::kLibrary);
@@ -151,7 +151,7 @@ Result<StateObject> Device::AddToStateObject(const StateObjectDesc& addition,
                                              const StateObject& parent) const {
   if (!impl_) return MakeError(Id::kNullHandle, "AddToStateObject on an empty device handle");
   if (Status s = CheckAddition(impl_, addition, parent); !s.ok()) return s.error();
-  // By itself first: it must be valid and sees nothing of the parent.
+  // The addition must be valid by itself, since it sees nothing of the parent.
   auto added = Make(impl_, addition, false);
   if (!added.ok()) return added.error();
   if (Status s = CheckAdded(**added, *parent.impl()); !s.ok()) return s.error();

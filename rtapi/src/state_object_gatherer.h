@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The first stage of making a state object: every subobject is checked by itself and sorted into
-// Parts. state_object_parts.cpp goes through the description; definitions.cpp checks configs, root
-// signatures and hit groups; library_parts.cpp and collection_parts.cpp take in what they name.
+// First stage of making a state object: checks each subobject by itself and sorts it into Parts.
+// state_object_parts.cpp goes through the description; definitions.cpp checks configs, root
+// signatures and hit groups; library_parts.cpp and collection_parts.cpp read libraries and
+// collections.
 #pragma once
 
 #include <map>
@@ -29,7 +30,7 @@ class Gatherer {
 
   // --- subobjects of the description ---
 
-  Status Gather(const StateObjectConfig&, size_t) { return {}; }  // by GatherConfigs
+  Status Gather(const StateObjectConfig&, size_t) { return {}; }  // see GatherConfigs
   Status Gather(const NodeMask& mask, size_t i);
   Status Gather(const GlobalRootSignature& sub, size_t i);
   Status Gather(const LocalRootSignature& sub, size_t i);
@@ -67,7 +68,7 @@ class Gatherer {
 
   Status ImportCollection(const StateObjectImpl& collection, const std::vector<ExportDesc>& exports,
                           const std::string& where);
-  // An export list makes what it names visible, under a new name where it gives one.
+  // An export list makes the listed exports visible, under a new name where it gives one.
   Status ListCollectionExports(const StateObjectImpl& collection,
                                std::map<const Subject*, SubjectPtr>& copies,
                                const std::vector<ExportDesc>& exports, const std::string& where);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// State objects while they are linked, and what stays of them.
+// State objects while they are linked, and what is kept of them.
 //
 // Stages: state_object_parts.cpp gathers a description into Parts; associations.cpp gives every
 // Subject its configs and root signatures; state_object_link.cpp resolves hit groups and bindings
@@ -18,11 +18,12 @@
 #include <rtapi/state_object.h>
 
 #include "rtapi/src/device_impl.h"
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace rtapi::detail {
 
-// What is associated with exports and matters here; node masks and state object configs do not.
+// What can be associated with exports and has an effect; node masks and state object configs do
+// not.
 enum class Category : uint8_t {
   kShaderConfig,
   kPipelineConfig,
@@ -32,7 +33,7 @@ enum class Category : uint8_t {
 inline constexpr size_t kCategories = 4;
 const char* CategoryName(Category category);
 
-// One config or root signature as declared.
+// One config or root signature, as declared.
 struct Definition {
   Category category = Category::kShaderConfig;
   RaytracingShaderConfig shader_config;
@@ -53,18 +54,18 @@ using Associations = std::array<Associated, kCategories>;
 // An exported shader or a hit group.
 struct Subject {
   std::string name;
-  std::string mangled;                       // other name of a shader that is not renamed
-  const shader::ExportDesc* code = nullptr;  // null: a hit group
+  std::string mangled;                       // the other name of a shader that is not renamed
+  const shader::ExportDesc* code = nullptr;  // null for a hit group
   ShaderLibrary library;
   int library_scope = -1;     // index into Parts::library_scopes
-  int collection_scope = -1;  // of its origin; -1: this state object
-  bool hidden = false;        // in a collection, but not exported from it
+  int collection_scope = -1;  // where it comes from; -1: this state object
+  bool hidden = false;        // in a collection that does not export it
   bool referable = true;      // hit groups outside its collection may import it
   Associations associations;
-  // Set by a collection or parent in which it was resolved already.
+  // Set by the collection or parent that resolved it already.
   std::optional<ShaderIdentifier> identifier;
 
-  HitGroupDesc group;                               // hit groups
+  HitGroupDesc group;                               // for hit groups only
   std::array<std::shared_ptr<Subject>, 3> members;  // any-hit, closest-hit, intersection
 
   bool is_group() const { return code == nullptr; }
@@ -81,10 +82,10 @@ struct ExplicitAssociation {
   std::string where;
 };
 
-// Candidates for default associations of one scope. [DXR: Declaring a default association]
+// Candidates for the default associations of one scope. [DXR: Declaring a default association]
 struct DefaultScope {
   std::vector<DefinitionPtr> implicit;  // in no association at all
-  std::vector<DefinitionPtr> by_empty;  // association with an empty export list
+  std::vector<DefinitionPtr> by_empty;  // associated with an empty export list
 };
 
 struct Parts {
@@ -95,7 +96,7 @@ struct Parts {
   std::vector<ExplicitAssociation> explicit_associations;
   DefaultScope own_scope;
   std::vector<DefaultScope> library_scopes;
-  std::vector<ShaderLibrary> libraries;  // of each library scope
+  std::vector<ShaderLibrary> libraries;  // one per library scope
   int collection_count = 0;
 
   bool is_collection() const { return type == StateObjectType::kCollection; }
@@ -110,13 +111,14 @@ struct StateObjectImpl {
   StateObjectType type = StateObjectType::kRaytracingPipeline;
   StateObjectFlags flags = StateObjectFlags::kNone;
   std::vector<SubjectPtr> subjects;
-  // Explicit associations with exports that are not here: they count where the collection is used.
+  // Explicit associations with exports outside the collection. They apply where the collection is
+  // used.
   std::vector<ExplicitAssociation> outward_associations;
-  std::shared_ptr<const runtime::LinkedPipeline> linked;  // collections: of what is resolved
+  std::shared_ptr<const runtime::LinkedPipeline> linked;  // in collections, what is resolved
   std::shared_ptr<runtime::BackendPipeline> pipeline;     // pipelines only
   std::vector<RootSignature> global_root_signatures;      // of ray generation shaders
   std::atomic<uint64_t> stack_bytes{0};
-  // Records by plain and mangled name; null where a plain name has overloads.
+  // Records by plain and mangled name; null where overloads share a plain name.
   std::map<std::string, const runtime::LinkedRecord*, std::less<>> records_by_name;
 
   const runtime::LinkedRecord* FindRecord(std::string_view name) const {
@@ -127,7 +129,7 @@ struct StateObjectImpl {
 
 Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc);
 Status AssociateAll(Parts& parts);
-// Without `for_backend` nothing is handed to the backend: collections, and checks of additions.
+// Without `for_backend` nothing goes to the backend, as for collections and checks of additions.
 Result<std::shared_ptr<StateObjectImpl>> LinkStateObject(Parts&& parts, bool for_backend);
 // [DXR: Default pipeline stack size]
 uint64_t DefaultStackBytes(const runtime::LinkedPipeline& pipeline);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Third stage: hit groups find their shaders, shaders their bindings, and what an identifier can
-// name becomes a record.
+// Third stage of making a state object: hit groups find their shaders, shaders find their bindings,
+// and everything that has a shader identifier becomes a record.
 #include <algorithm>
 #include <set>
 
@@ -53,7 +53,7 @@ std::string Describe(const Subject& s) {
                       : Text(StageName(s.code->stage), " shader ", Quoted(s.name));
 }
 
-// What applies to one shader or group after the rules for hit groups.
+// The definitions that apply to one shader or hit group, after the rules for hit groups.
 using Effective = std::array<DefinitionPtr, kCategories>;
 
 RootSignature SignatureOf(const Effective& e, Category category) {
@@ -85,12 +85,12 @@ class Linker {
   }
 
  private:
-  // What a collection may leave to the pipeline that includes it.
+  // Errors that a collection may leave to the pipeline that includes it.
   bool Tolerates(const Error& error) const {
     if (!parts_.may_stay_unresolved()) return false;
     for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
                   Id::kBindingMissing, Id::kDefaultAmbiguous}) {
-      if (error.id == MakeError(id, "").id) return true;
+      if (error.id == PublicId(id)) return true;
     }
     return false;
   }
@@ -163,8 +163,9 @@ class Linker {
     return {};
   }
 
-  // [DXR: Subobject associations for hit groups]. What is said of the group and of its shaders by
-  // name must agree and comes before defaults; without either the shaders' defaults must agree.
+  // [DXR: Subobject associations for hit groups] Associations that name the group or one of its
+  // shaders must agree, and they override defaults. Without any, the defaults of the shaders must
+  // agree.
   Result<DefinitionPtr> EffectiveOfGroup(const Subject& group, size_t category) const {
     std::vector<std::pair<const Subject*, Associated>> all;
     all.emplace_back(&group, group.associations[category]);
@@ -179,8 +180,8 @@ class Linker {
     DefinitionPtr result;
     for (const auto& [subject, associated] : all) {
       if (!associated.definition) continue;
-      // Named for the group: defaults of its shaders give way. Named for a shader only: the
-      // group's own default does.
+      // If the group is named, the defaults of its shaders give way. If only a shader is named,
+      // only the group's own default gives way.
       if (any_explicit && associated.strength != Strength::kExplicit &&
           (group_explicit || subject == &group)) {
         continue;
@@ -275,7 +276,7 @@ class Linker {
   Status AddRecord(Subject& s) {
     auto effective = GetEffective(s);
     if (!effective.ok()) return effective.error();
-    // Without a config it is unresolved, and has no identifier. [DXR: GetShaderIdentifier]
+    // A record without a config is unresolved and has no identifier. [DXR: GetShaderIdentifier]
     for (Category c : {Category::kShaderConfig, Category::kPipelineConfig}) {
       if (!(*effective)[static_cast<size_t>(c)]) return MissingConfig(s, c);
     }
@@ -354,8 +355,8 @@ class Linker {
     return {};
   }
 
-  // [DXR: D3D12_LOCAL_ROOT_SIGNATURE]: a library function may name no other root signature than
-  // the shaders that call it. Defaults say nothing of functions.
+  // [DXR: D3D12_LOCAL_ROOT_SIGNATURE] A library function may not have another root signature than
+  // the shaders that call it. Defaults do not apply to functions.
   Status CheckCallGraph(const Subject& s, const Effective& effective,
                         const std::string& where) const {
     const shader::LibraryDesc* library = s.library.impl()->desc;

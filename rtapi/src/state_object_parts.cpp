@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The description as a whole: flags, associations, defaults, clashing names.
+// Checks the description as a whole: flags, associations, defaults, clashing names.
 #include <algorithm>
 #include <iterator>
 
@@ -54,7 +54,7 @@ Result<Parts> Gatherer::Run() {
                      "kRaytracingPipeline (3)");
   }
   definitions_.resize(desc_.Subobjects.size());
-  // Flags first: whether a collection may be included depends on them.
+  // Read the flags first: they decide whether a collection may be included.
   if (Status s = GatherConfigs(); !s.ok()) return s.error();
   for (size_t i = 0; i < desc_.Subobjects.size(); ++i) {
     Status s = std::visit([&](const auto& sub) { return Gather(sub, i); }, desc_.Subobjects[i]);
@@ -76,7 +76,7 @@ Status Gatherer::GatherConfigs() {
     if (!config) continue;
     if (Status s = TakeFlags(config->Flags, Where(i), flags); !s.ok()) return s;
   }
-  const bool declared_here = flags.has_value();  // overrides those in libraries
+  const bool declared_here = flags.has_value();  // overrides the libraries' flags
   for (const StateSubobject& sub : desc_.Subobjects) {
     const auto* library = std::get_if<DxilLibraryDesc>(&sub);
     if (!library || !library->DXILLibrary || declared_here) continue;
@@ -140,7 +140,8 @@ Status Gatherer::Gather(const RaytracingPipelineConfig1& sub, size_t i) {
 }
 
 Status Gatherer::CheckNames() {
-  // Overloads share a plain name, so that shaders clash by mangled name where they have one.
+  // Overloads share a plain name, so shaders clash only if their mangled names do, where they have
+  // one.
   std::map<std::string, const Subject*> seen;
   for (const SubjectPtr& s : parts_.subjects) {
     if (s->hidden) continue;
@@ -152,7 +153,7 @@ Status Gatherer::CheckNames() {
                        "; rename one of them in its export list, or leave it out");
     }
   }
-  // A hit group and a shader of one name cannot be told apart.
+  // A hit group and a shader must not share a name: nothing could tell them apart.
   std::map<std::string_view, const Subject*> shaders;
   for (const SubjectPtr& s : parts_.subjects) {
     if (!s->hidden && !s->is_group()) shaders.emplace(s->name, s.get());
@@ -248,7 +249,8 @@ Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const State
     library->DXILLibrary = device->LibraryToRun(library->DXILLibrary);
     all &= (library->DXILLibrary.impl()->desc->flags & kaamos::shader::kLibraryChecked) != 0;
   }
-  // In SPIR-V the header of a payload is part of its type: shaders of both kinds do not meet.
+  // In SPIR-V the checked mode's payload header is part of the payload's type, so checked and
+  // unchecked shaders cannot exchange payloads.
   const bool mixed_is_safe = device->desc.Backend != "vulkan";
   return Gatherer(device, all || mixed_is_safe ? checked : desc).Run();
 }

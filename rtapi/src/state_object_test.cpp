@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Composition, hit groups, configs, identifiers. Associations: associations_test.cpp; collections
-// and additions: collections_test.cpp.
+// Composition, hit groups, configs, identifiers. Associations are in associations_test.cpp,
+// collections and additions in collections_test.cpp.
 #include <cstring>
 
 #include "rtapi/testing/state_object_fixture.h"
@@ -64,7 +64,7 @@ TEST_F(StateObjectTest, SO_02_RefusalsAreInvalidArguments) {
   auto so = Make(desc);
   ASSERT_FALSE(so.ok());
   EXPECT_EQ(so.error().code, ErrorCode::kInvalidArgument);
-  EXPECT_EQ(so.error().id, "KA0518");  // SO-30: a pipeline leaves nothing unresolved
+  EXPECT_EQ(so.error().id.text(), "KA0518");  // SO-30: a pipeline leaves nothing unresolved
 }
 
 TEST_F(StateObjectTest, SO_03_LibraryTargetIsLib63OrLater) {
@@ -244,7 +244,7 @@ TEST_F(StateObjectTest, FLG_05_ShadersOfTier11) {
   desc.Add(DxilLibraryDesc{b.Build()});
   desc.Add(RaytracingShaderConfig{});
   desc.Add(RaytracingPipelineConfig{});
-  EXPECT_OK(old.CreateStateObject(desc));  // not known
+  EXPECT_OK(old.CreateStateObject(desc));  // the flags are not known to be constant
   call.known = shader::kKnowsRayFlags;
   EXPECT_ERROR(old.CreateStateObject(desc), "KA0542", "\"Skips\"", "0x100");
   call.ray_flags = 0x4;
@@ -268,7 +268,7 @@ TEST_F(StateObjectTest, PAY_02_PayloadsFitTheConfig) {
   LibraryBuilder b;
   b.Export("M", Stage::kMiss).payload_bytes = 36;
   auto& callable = b.Export("C", Stage::kCallable);
-  callable.callable_data_bytes = 256;  // not limited by the config
+  callable.callable_data_bytes = 256;  // the config does not limit it
   const ShaderLibrary library = b.Build();
   StateObjectDesc desc;
   desc.Add(DxilLibraryDesc{library});

@@ -7,7 +7,7 @@
 #include "rtapi/src/address_text.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/state_object_impl.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace rtapi {
 
@@ -30,7 +30,7 @@ constexpr TableKind kMiss = {"miss", RecordKind::kMiss};
 constexpr TableKind kHitGroup = {"hit group", RecordKind::kHitGroup};
 constexpr TableKind kCallable = {"callable", RecordKind::kCallable};
 
-// The HLSL resources that read the local argument at an offset.
+// Collects the HLSL resources that read the local argument at an offset.
 void AddNames(const LinkedShader* shader, uint32_t offset, std::vector<std::string>& names) {
   if (shader == nullptr || shader->library == nullptr) return;
   for (size_t i = 0; i < shader->slots.size() && i < shader->library->binding_count; ++i) {
@@ -269,7 +269,7 @@ void Describer::DecodeDescriptorTable(const RootParameter& parameter, TableArgum
   out.HandleIsLive = true;
   out.Heap = slot->heap_name;
   out.Slot = slot->index;
-  uint64_t next = 0;  // descriptors from the handle, for ranges that are appended
+  uint64_t next = 0;  // offset of the next appended range, in descriptors
   for (const DescriptorRange& range : parameter.DescriptorTable.Ranges) {
     const uint64_t first = range.OffsetInDescriptorsFromTableStart == kDescriptorRangeOffsetAppend
                                ? next

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Described tables as text and JSON.
+// Writes described tables as text and as JSON.
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -36,7 +36,7 @@ std::string Join(const std::vector<std::string>& words, const char* between) {
   return out;
 }
 
-// A constant may be a number or a float; the float is shown where it looks like one.
+// A constant may be an integer or a float; the float is shown too if it has a plausible size.
 std::string ConstantText(uint32_t bits) {
   float value;
   std::memcpy(&value, &bits, sizeof value);
@@ -248,7 +248,7 @@ std::string ToJson(const TableDescription& d) {
     json["tables"].push_back(std::move(each));
   }
   json["problems"] = d.Problems;
-  // Names may hold bytes that are no UTF-8: they are shown, not thrown on.
+  // Names may contain bytes that are not UTF-8; replace them instead of throwing.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -12,7 +12,7 @@ using namespace detail;
 
 namespace {
 
-// A staging buffer and where the subresource's rows lie in it.
+// A staging buffer, and where the subresource's rows lie in it.
 struct Staging {
   Buffer buffer;
   PlacedSubresourceFootprint layout;
@@ -44,7 +44,7 @@ Status CheckQueue(const Device& device, const CommandQueue& queue) {
   return {};
 }
 
-// Texture helpers take textures in any state.
+// The texture helpers accept textures in any state.
 void MarkAsHelper(const CommandList& list) {
   for (runtime::Command& command : *list.impl()->commands) {
     if (auto* copy = std::get_if<runtime::CopyTextureCommand>(&command)) copy->any_state = true;

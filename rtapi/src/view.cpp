@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Shader resource, unordered access and constant buffer views: checks, then 32 bytes in a slot.
+// Shader resource, unordered access and constant buffer views: checks, then 32 bytes in a heap
+// slot.
 #include <cstring>
 
 #include "rtapi/src/device_impl.h"
@@ -15,11 +16,11 @@ using shader::Descriptor;
 using shader::DescriptorAccess;
 using shader::DescriptorKind;
 
-// What SRVs and UAVs of buffers have in common.
+// What the SRVs and UAVs of buffers have in common.
 struct BufferView {
   Format format;
   uint64_t first;
-  uint64_t count;  // 0: the rest
+  uint64_t count;  // 0: all the rest
   uint32_t stride;
   bool raw;
   DescriptorAccess access;
@@ -35,7 +36,7 @@ Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descr
   return {};
 }
 
-// Element size, kind and the format and stride rules. [D3D12: D3D12_BUFFER_SRV]
+// Determines element size and kind by the rules of format and stride. [D3D12: D3D12_BUFFER_SRV]
 Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
                               const std::string& name, Descriptor& out) {
   const bool uav = view.access == DescriptorAccess::kUnorderedAccess;
@@ -92,7 +93,7 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
   Descriptor descriptor;
   const auto element = CheckElement(*device, view, name, descriptor);
   if (!element.ok()) return element.error();
-  // Counts first, so that the products below cannot overflow.
+  // Compare counts first, so that the products below cannot overflow.
   const uint64_t total = buffer.size() / *element;
   const uint64_t count = view.count ? view.count : (view.first < total ? total - view.first : 0);
   if (view.first > total || count > total - view.first) {
@@ -105,7 +106,7 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
   return WriteSlot(*device, dest, descriptor);
 }
 
-// The part of a texture that a view asks for, before "the rest" is resolved.
+// The part of a texture that a view asks for, before "all the rest" is resolved.
 struct TextureView {
   Format format;
   SrvDimension dimension;
@@ -294,7 +295,7 @@ TextureView FromSrv(const ShaderResourceViewDesc& d) {
 TextureView FromUav(const UnorderedAccessViewDesc& d) {
   TextureView v;
   v.format = d.Format;
-  v.dimension = static_cast<SrvDimension>(d.ViewDimension);  // the numbers are the same
+  v.dimension = static_cast<SrvDimension>(d.ViewDimension);  // the numbers agree
   v.uav = true;
   switch (d.ViewDimension) {
     case UavDimension::kTexture1D:
@@ -324,7 +325,8 @@ TextureView FromUav(const UnorderedAccessViewDesc& d) {
   return v;
 }
 
-// Views of a whole texture. 2-D textures with several elements get an array view, as in D3D12.
+// The dimension of a view of the whole texture. As in D3D12, 2-D textures with several elements get
+// an array view.
 SrvDimension WholeDimension(const TextureDesc& desc) {
   switch (desc.Dimension) {
     case ResourceDimension::kTexture1D:

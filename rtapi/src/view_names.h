@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the opaque addresses in descriptors of textures and samplers stand for. Entries are replaced
-// when a backend gives an address again; those of textures that ended are found no more.
+// Maps the opaque addresses in texture and sampler descriptors back to what they stand for. An
+// entry is replaced when the backend reuses an address; textures that were destroyed are no longer
+// found.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace rtapi::detail {
 

@@ -14,7 +14,7 @@ class CommandListTest : public StateObjectTest {
     list_ = device_.CreateCommandList().value();
     queue_ = device_.CreateCommandQueue().value();
   }
-  // The id of the first error of what `record` does on a fresh list, or "ok".
+  // Records on a fresh list and returns the first error, or success.
   template <class F>
   Status Record(F&& record) {
     CommandList list = device_.CreateCommandList().value();

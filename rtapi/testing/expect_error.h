@@ -11,11 +11,11 @@
 namespace rtapi::testing {
 
 inline std::string IdOf(const Status& s) {
-  return s.ok() ? "ok" : s.error().id;
+  return s.ok() ? "ok" : s.error().id.text();
 }
 template <class T>
 std::string IdOf(const Result<T>& r) {
-  return r.ok() ? "ok" : r.error().id;
+  return r.ok() ? "ok" : r.error().id.text();
 }
 inline std::string MessageOf(const Status& s) {
   return s.ok() ? "ok" : s.error().message;
@@ -27,7 +27,7 @@ std::string MessageOf(const Result<T>& r) {
 
 }  // namespace rtapi::testing
 
-// The error has this id and a message that begins with it and holds every further text.
+// Expects this id, a message that begins with it, and every further text in the message.
 #define EXPECT_ERROR(expression, expected_id, ...)                                          \
   do {                                                                                      \
     const auto& result_of_call = (expression);                                              \

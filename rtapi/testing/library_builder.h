@@ -16,7 +16,7 @@ namespace rtapi::testing {
 
 namespace shader = kaamos::shader;
 
-// Outlives the libraries made of it.
+// Must outlive the libraries made from it.
 class LibraryBuilder {
  public:
   explicit LibraryBuilder(std::string name = "test.hlsl", std::string target = "lib_6_6")

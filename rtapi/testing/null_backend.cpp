@@ -36,7 +36,7 @@ class NullBackend : public runtime::BackendDevice {
 
   Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(const BufferDesc& desc) override {
     if (desc.SizeInBytes > (uint64_t{1} << 30)) {
-      return Error{"KA0990", ErrorCode::kOutOfMemory, "KA0990 out of memory"};
+      return Error{{990}, ErrorCode::kOutOfMemory, "KA0990 out of memory"};
     }
     return std::shared_ptr<runtime::BackendBuffer>(std::make_shared<NullBuffer>(desc.SizeInBytes));
   }
@@ -110,7 +110,7 @@ const runtime::BackendFactory kFactory = {"null", Enumerate, Create};
 }  // namespace
 
 Device CreateNullDevice(DeviceDesc desc) {
-  runtime::register_backend(&kFactory);
+  rtapi::detail::register_backend(&kFactory);
   g_log = NullLog();
   desc.Backend = "null";
   return CreateDevice(desc).value();

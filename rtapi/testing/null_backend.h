@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A backend for unit tests: memory is real, buffer copies are done, everything else is only
+// A backend for unit tests: memory is real and buffers are really copied; everything else is only
 // recorded.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 #include <rtapi/rtapi.h>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace rtapi::testing {
 
@@ -28,7 +28,7 @@ struct NullLog {
   Status fail_next_execute;  // returned once
 };
 
-// A device "null"; `log` is that of the device made last.
+// Makes a device "null". null_log() returns the log of the device made last.
 Device CreateNullDevice(DeviceDesc desc = {});
 NullLog& null_log();
 

@@ -13,7 +13,7 @@ namespace rtapi::testing {
 using shader::BindingType;
 using shader::Stage;
 
-// A device, and a library with one shader of each stage that uses no resource.
+// Has a device and a library with one shader of each stage; the shaders use no resources.
 class StateObjectTest : public ::testing::Test {
  protected:
   StateObjectTest() {
@@ -27,7 +27,7 @@ class StateObjectTest : public ::testing::Test {
     library_ = builder_.Build();
   }
 
-  // The base library and both configs.
+  // A description with the base library and both configs.
   StateObjectDesc Base(StateObjectType type = StateObjectType::kRaytracingPipeline) {
     StateObjectDesc desc{.Type = type};
     desc.Add(DxilLibraryDesc{library_});
@@ -57,7 +57,7 @@ class StateObjectTest : public ::testing::Test {
             .AnyHitShaderImport = std::move(any),
             .ClosestHitShaderImport = std::move(closest)};
   }
-  // What the backend was given for an export of the state object made last.
+  // The record that the backend was given for an export of the last state object.
   static const kaamos::runtime::LinkedRecord* Linked(const std::string& name) {
     for (const auto& r : null_log().last_raytracing->records) {
       if (r->name == name) return r.get();

@@ -18,8 +18,8 @@ using shader::DescriptorKind;
 using shader::RegisterClass;
 using shader::SlotSource;
 
-// Arrays may hold what is never indexed: only so many descriptors of one are looked at for
-// acceleration structures.
+// How many descriptors of an array are examined for acceleration structures. An array may have room
+// for far more than is ever indexed.
 constexpr uint32_t kMostDescriptors = 1024;
 
 struct Heap {
@@ -39,7 +39,7 @@ bool is_sampler(const BindingDesc& binding) {
   return binding.type == BindingType::kSampler || binding.type == BindingType::kComparisonSampler;
 }
 
-// The eight bytes of an address or handle; false where the record ends before.
+// Reads the eight bytes of an address or handle; false where the record ends too early.
 bool read_argument(const BindingSlot& slot, const Arguments& arguments, uint64_t& value) {
   const uint8_t* base = slot.local ? arguments.local : arguments.global;
   const uint64_t size = slot.local ? arguments.local_bytes : runtime::kRootArgumentBytes;
@@ -101,7 +101,7 @@ class ArgumentCheck {
            binding_name(binding);
   }
 
-  // Addresses that are all 0 with constants that are all 0: nobody wrote this record.
+  // All addresses are 0, and so are all constants: nobody wrote this record.
   bool never_written() {
     std::string unset;
     for (uint32_t i = 0; i < shader_.slots.size(); ++i) {
@@ -167,7 +167,7 @@ class ArgumentCheck {
                                                  "handle?"));
     }
     const uint64_t index = first + slot.descriptor_index;
-    if (binding.count != 1) return;  // which of an array are read is not known
+    if (binding.count != 1) return;  // which elements of an array are read is unknown
     if (index >= heap.count) {
       return report(Id::kRecordArgument, parameter(binding, slot) + ": descriptor " +
                                              std::to_string(index) + " of a " + heap_kind +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Root arguments, global or of a record: do they point at something of the right kind.
+// Do the root arguments, global or of a record, point at something of the right kind?
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace kaamos::checks {
 
-// Where the arguments of a shader stand.
+// Where to find the arguments of a shader.
 struct Arguments {
   const uint8_t* global = nullptr;                // kRootArgumentBytes
   const uint8_t* local = nullptr;                 // null: no record
-  uint64_t local_bytes = 0;                       // readable ones
+  uint64_t local_bytes = 0;                       // how many of them are readable
   const runtime::DispatchState* state = nullptr;  // the heaps
 };
 
@@ -24,12 +24,12 @@ struct Arguments {
 bool check_arguments(const ProofInputs& inputs, const runtime::LinkedShader& shader,
                      const Arguments& arguments, const std::string& where);
 
-// The addresses of the acceleration structures behind a binding of `shader`; 0 for null ones.
-// Descriptors outside the heap and of other kinds are left out.
+// The addresses of the acceleration structures behind a binding of `shader`; 0 for null ones. Skips
+// descriptors outside the heap and those of other kinds.
 std::vector<uint64_t> structures_behind(const runtime::LinkedShader& shader, uint32_t binding,
                                         const Arguments& arguments);
 
-// What single buffers and structures the shader's arguments name.
+// Collects the single buffers and structures that the shader's arguments point to.
 void collect_uses(const runtime::LinkedShader& shader, const Arguments& arguments,
                   const std::string& shader_name, std::vector<ShaderUse>& uses);
 

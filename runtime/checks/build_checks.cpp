@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "runtime/build_inputs.h"
 #include "runtime/checks/names.h"
+#include "runtime/structures/build_inputs.h"
 
 namespace kaamos::checks {
 namespace {
@@ -25,7 +25,7 @@ std::string geometry_name(const runtime::BuildCommand& command, uint32_t index,
          address_name(inputs.addresses, command.dest);
 }
 
-// The first index past the vertices, if there is one.
+// Looks for the first index that is past the vertices.
 void check_indices(const ProofInputs& inputs, const std::string& where,
                    const RaytracingGeometryDesc& desc, const RaytracingGeometryDesc& host,
                    GeometryContents& contents) {
@@ -65,7 +65,7 @@ void check_vertices(const ProofInputs& inputs, const std::string& where,
   const uint32_t count = host.Triangles.VertexCount;
   std::vector<float> xyz(size_t{count} * 3);
   RaytracingGeometryDesc plain = host;
-  plain.Triangles.Transform3x4 = 0;  // which is applied to what was read
+  plain.Triangles.Transform3x4 = 0;  // it is applied to what was read
   if (count != 0) runtime::decode_vertices(plain.Triangles, xyz.data());
   contents.active = 1;
   for (uint32_t i = 0; i < count; ++i) {
@@ -122,7 +122,7 @@ std::vector<GeometryContents> check_geometries(const ProofInputs& inputs,
   std::vector<GeometryContents> out(command.geometries.size());
   for (uint32_t i = 0; i < command.geometries.size(); ++i) {
     const RaytracingGeometryDesc& desc = command.geometries[i];
-    // What lies outside of memory is the build's error.
+    // The build itself fails where inputs lie outside of memory.
     if (!runtime::check_inputs(desc, i, inputs.addresses)) continue;
     const RaytracingGeometryDesc host = runtime::as_host_sees(desc, inputs.addresses);
     const std::string where = geometry_name(command, i, inputs);
@@ -172,7 +172,7 @@ void check_update_contents(const ProofInputs& inputs, const runtime::BuildComman
   StructureState state;
   const TrackedStructure* source = inputs.structures.find(command.source, state);
   if (source == nullptr || state != StructureState::kAlive) return;
-  if (source->contents.size() != contents.size()) return;  // the update's error
+  if (source->contents.size() != contents.size()) return;  // the update itself fails on this
   for (uint32_t i = 0; i < contents.size(); ++i) {
     const bool indices = contents[i].indices != source->contents[i].indices;
     const bool active = contents[i].active != source->contents[i].active;

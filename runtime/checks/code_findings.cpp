@@ -44,7 +44,7 @@ std::string descriptor_name(uint64_t kind, uint64_t access) {
                                                                    : " to write (UAV)");
 }
 
-// Of ERR-18's rules the first that `flags` break.
+// The first of ERR-18's rules that `flags` break.
 std::string flags_problem(uint32_t flags, bool query) {
   if ((flags & ~0x3FFu) != 0) {
     return "bits " + hex(flags & ~0x3FFu) + " are none of this tier's flags";
@@ -69,7 +69,7 @@ std::string ray_text(const CheckReport& r) {
   return out;
 }
 
-// Names of the IR's QueryValue.
+// The names of QueryValue in the IR.
 std::string query_value_name(uint64_t value, bool committed) {
   constexpr const char* kNames[] = {"Type",
                                     "RayT",
@@ -117,7 +117,8 @@ std::string access_text(const runtime::AddressMap& addresses, const CheckReport&
          range_name(addresses, r.values[0] + r.values[1], r.values[2]);
 }
 
-// Relative to the buffer that the root descriptor points into: the bytes read may lie in another.
+// Relative to the buffer that the root descriptor points into, though the bytes read may lie in
+// another one.
 std::string bounds_text(const runtime::AddressMap& addresses, const CheckReport& r) {
   constexpr const char* kVerbs[] = {"reads", "writes", "changes"};
   std::string text = kVerbs[r.write < 3 ? r.write : 0];

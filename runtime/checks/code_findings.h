@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What shaders of checked libraries found, in words. The backends hand over a CheckReport and where
-// it came from.
+// Puts into words what the shaders of checked libraries found. The backends hand over a CheckReport
+// and where it came from.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 #include <kaamos/shader/abi.h>
 #include <rtapi/raytracing.h>
 
-#include "runtime/address_map.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/checks/report.h"
-#include "runtime/linked_pipeline.h"
 
 namespace kaamos::checks {
 
@@ -22,7 +22,7 @@ struct CodePlace {
   const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
 };
 
-// `count`: of how many invocations this one stands for.
+// `count`: how many invocations this one stands for.
 void report_finding(Reporter& reporter, const runtime::AddressMap& addresses,
                     const CodePlace& place, const shader::CheckReport& report, uint64_t count = 1);
 

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/names.h"
 
 namespace kaamos::checks {

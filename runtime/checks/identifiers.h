@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All shader identifiers that a device gave out, so that one in the wrong place can be named.
+// All shader identifiers that a device has given out, so that one in the wrong place can be named.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 #include <mutex>
 #include <string>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::checks {
 
@@ -23,7 +23,7 @@ class Identifiers {
       name = record->name;
     }
   }
-  // The export that the 32 bytes name in any state object; "" if in none.
+  // The export that the 32 bytes identify, in whichever state object; "" if there is none.
   std::string find(const uint8_t* bytes) const {
     rtapi::ShaderIdentifier key;
     std::memcpy(key.data(), bytes, key.size());

@@ -7,10 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/backend/indirect.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
-#include "runtime/indirect.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::checks {
 namespace {
@@ -65,8 +65,8 @@ const char* layout_of(const runtime::LinkedShader& shader) {
 
 }  // namespace
 
-// Sizes that disagree are refused when the state object is made; types of one size are only seen
-// here. [DXR: Intersection attributes structure]
+// The creation of a state object already refuses sizes that disagree; types that differ but have
+// the same size show only here. [DXR: Intersection attributes structure]
 void Layer::created(const runtime::LinkedPipeline& pipeline) {
   identifiers_.add(pipeline);
   for (const auto& record : pipeline.records) {
@@ -110,7 +110,7 @@ void Layer::after(const runtime::Command& command, bool succeeded) {
   contents_.clear();
   missing_.clear();
   reporter_.end();
-  // A backend that could not begin the command comes here at once.
+  // A backend that could not begin the command gets here right away.
   if (!labels_.empty()) labels_.pop_back();
   if (!labels_.empty()) reporter_.begin(labels_.back());
 }
@@ -137,7 +137,7 @@ void Layer::keep_tables(const rtapi::DispatchRaysDesc& desc) {
 }
 
 void Layer::hold_tables() {
-  if (labels_.size() > 1) return;  // with the whole ExecuteIndirect
+  if (labels_.size() > 1) return;  // reported with the whole ExecuteIndirect
   for (const UsedTable& table : used_tables_) {
     if (!addresses_.contains(table.address, table.size_bytes)) continue;
     Hash hash;
@@ -159,7 +159,7 @@ void Layer::check(const runtime::ExecuteIndirectCommand& command) {
   if (command.count != nullptr) {
     hazards_.use(command.count->address(), ResourceStates::kIndirectArgument, "the count");
   }
-  // What is wrong with the arguments is told when they are used.
+  // What is wrong with the arguments is reported when they are used.
   (void)runtime::execute_indirect(
       addresses_, command, label(), [&](const runtime::Command& dispatch, uint32_t) {
         const auto* rays = std::get_if<runtime::DispatchRaysCommand>(&dispatch);
@@ -179,7 +179,7 @@ void Layer::reached(const runtime::Command& command, std::span<const runtime::Re
     return;
   }
   if (rays->linked == nullptr) return;
-  uint64_t all = 0;  // in any order
+  uint64_t all = 0;  // a sum, so that the order does not matter
   for (const auto& [shader, call] : calls) {
     Hash hash;
     hash.add(reinterpret_cast<uintptr_t>(shader));
@@ -207,7 +207,8 @@ void Layer::missed(const runtime::Command&, const runtime::MissingRecords& recor
     reporter_.report(each.id, Reporter::key_of(each.text), each.order, [&] { return each.text; });
   }
   std::erase_if(missing_, [&](const MissingRecord& each) { return each.reached(records); });
-  // The rest is legal, and may be a mistake all the same: said once, with the first of them.
+  // The rest is legal, but may still be a mistake: reported once, with the first one as the
+  // example.
   if (missing_.empty()) return;
   const std::string& first = missing_.front().text;
   if (noted_.size() >= kMostProven) noted_.clear();
@@ -375,7 +376,7 @@ void Layer::check(const runtime::CopyAccelerationStructureCommand& command) {
   if (command.mode == Mode::kSerialize || command.mode == Mode::kVisualizationDecodeForTools) {
     return hazards_.use(command.dest, ResourceStates::kUnorderedAccess, "the copy's destination");
   }
-  // How much is written only the backend knows.
+  // Only the backend knows how much is written.
   hazards_.write_structure(command.dest, 256, "the copy's destination");
 }
 
@@ -423,7 +424,7 @@ void Layer::note(const runtime::BuildCommand& command) {
 }
 
 void Layer::note(const runtime::CopyAccelerationStructureCommand& command) {
-  // How much compaction leaves only the backend knows; its first 256 bytes are there in any case.
+  // Only the backend knows what size compaction leaves; the first 256 bytes are there in any case.
   const bool compact = command.mode == rtapi::RaytracingAccelerationStructureCopyMode::kCompact;
   structures_.copied(command, compact ? 256 : 0);
 }

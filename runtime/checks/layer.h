@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Checked mode's layer over a backend: reads the command stream as it executes, and holds each
-// command against what stands in GPU memory at that moment.
+// Checked mode's layer on top of a backend: reads the command stream as it executes, and checks
+// each command against what is in GPU memory at that moment.
 #pragma once
 
 #include <set>
@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/build_checks.h"
 #include "runtime/checks/hazards.h"
 #include "runtime/checks/identifiers.h"
@@ -22,18 +22,19 @@ namespace kaamos::checks {
 
 class Layer : public runtime::CommandObserver {
  public:
-  Layer(runtime::AddressMap& addresses, Reporter& reporter)
+  Layer(runtime::AddressMap& addresses, Reporter& reporter, SameDefinition same_definition)
       : addresses_(addresses),
         reporter_(reporter),
+        same_definition_(same_definition),
         structures_(addresses),
         hazards_(addresses, reporter),
         textures_(reporter) {}
 
-  // A state object was made.
+  // Called when a state object is made.
   void created(const runtime::LinkedPipeline& pipeline);
   TextureStates& textures() { return textures_; }
 
-  // The next commands are those of another list.
+  // The commands that follow belong to another list.
   void begin_list() {
     hazards_.begin_list();
     textures_.begin_list();
@@ -74,23 +75,26 @@ class Layer : public runtime::CommandObserver {
   template <class T>
   void note(const T&) {}
 
-  // Takes over what a proof found; one with nothing wrong is kept under its key.
+  // Takes over what a proof found; a proof that found nothing wrong is remembered under its key.
   void take(ProofResults results, uint64_t key);
-  // Order and states of what shaders use.
+  // Checks order and states of what shaders use.
   void check_uses(const std::vector<ShaderUse>& uses);
   uint64_t bytes_at(uint64_t address) const;  // of the structure there
 
-  // Tables stay as they are while they are used.
+  // Tables must not change while they are used.
   void keep_tables(const rtapi::DispatchRaysDesc& desc);
   void hold_tables();
   const std::string& label() const { return labels_.back(); }
 
-  // What a proof depended on: while it is the same, a table that was proven stays proven.
+  // A hash of everything that a proof depends on: while it stays the same, so does the verdict.
   uint64_t proof_key(const runtime::DispatchRaysCommand& command) const;
-  ProofInputs inputs() const { return {addresses_, structures_, identifiers_, reporter_}; }
+  ProofInputs inputs() const {
+    return {addresses_, structures_, identifiers_, reporter_, same_definition_};
+  }
 
   runtime::AddressMap& addresses_;
   Reporter& reporter_;
+  SameDefinition same_definition_;
   Structures structures_;
   Hazards hazards_;
   TextureStates textures_;

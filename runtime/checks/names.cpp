@@ -20,7 +20,7 @@ const char* register_letter(shader::RegisterClass register_class) {
   return "?";
 }
 
-// The record of a table that holds `address`, if one does.
+// Finds the record of a table that contains `address`.
 bool find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, uint64_t address,
                  uint64_t& index) {
   if (table.StartAddress == 0 || address < table.StartAddress) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How messages of checked mode call things.
+// What messages of checked mode call things.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 #include <rtapi/raytracing.h>
 
-#include "runtime/address_map.h"
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::checks {
 
@@ -19,19 +19,19 @@ std::string hex(uint64_t value);
 std::string buffer_name(const runtime::Allocation& allocation);
 // "byte 416 of buffer \"sofa.vb\" (416 bytes)"; "address 0x1f, which is in no live buffer".
 std::string address_name(const runtime::AddressMap& addresses, uint64_t address);
-// "bytes 416..432 of buffer \"sofa.vb\" (416 bytes)". The end may lie behind the buffer's.
+// "bytes 416..432 of buffer \"sofa.vb\" (416 bytes)". The range may end past the buffer.
 std::string range_name(const runtime::AddressMap& addresses, uint64_t address, uint64_t size_bytes);
 
 const char* stage_name(shader::Stage stage);             // "any-hit"
 const char* record_kind_name(runtime::RecordKind kind);  // "ray generation", "hit group"
 
-// Which record of a dispatch an address lies in: "hit group table record 7"; "ray generation
-// record"; "" in none.
+// The record of a dispatch that contains an address: "hit group table record 7"; "ray generation
+// record"; "" if none does.
 std::string record_name(const rtapi::DispatchRaysDesc& desc, uint64_t address);
 // What a shader declares: "t1 \"vertices\"", "b0, space 1 \"material\"".
 std::string binding_name(const shader::BindingDesc& binding);
-// The same for the binding of `shader` that the argument at this byte feeds, tables with all that
-// they feed; "" if there is none.
+// The same for the binding of `shader` that the argument at this byte feeds (all bindings, if it is
+// a table); "" if there is none.
 std::string argument_name(const runtime::LinkedShader& shader, bool local,
                           uint32_t argument_offset);
 // "pixel (812,440)", with a third index only where the dispatch has a depth.

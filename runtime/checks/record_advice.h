@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is likely wrong with a table in which no identifier stands where one should.
+// Guesses what is wrong with a table that has no identifier where one should be.
 #pragma once
 
 #include <cstdint>
@@ -14,11 +14,11 @@ struct TableBytes {
   const uint8_t* host = nullptr;
   uint64_t size_bytes = 0;
   uint64_t stride_bytes = 0;
-  uint64_t index = 0;         // of the record that holds none
+  uint64_t index = 0;         // of the record without an identifier
   uint64_t buffer_bytes = 0;  // from `host` to the end of its buffer
 };
 
-// One or two sentences: the stride at which identifiers do stand, or how far the first one is off.
+// One or two sentences: the stride at which there are identifiers, or how far off the first one is.
 std::string advice_on_layout(const TableBytes& table, const runtime::IdentifierTable& own,
                              const Identifiers& all);
 

@@ -2,7 +2,6 @@
 #include "runtime/checks/report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <vector>
 
@@ -23,7 +22,7 @@ const MessageEntry& entry_of(Id id) {
                            [](const MessageEntry& e, Id wanted) { return e.id < wanted; });
 }
 
-// So many different findings of one command are kept apart; of the rest only the number.
+// How many different findings of one command are kept apart; the rest are only counted.
 constexpr size_t kMostKept = 256;
 
 }  // namespace
@@ -32,10 +31,8 @@ std::span<const MessageEntry> message_table() {
   return kTable;
 }
 
-std::string id_text(Id id) {
-  char text[8];
-  std::snprintf(text, sizeof text, "KA%04u", static_cast<unsigned>(id));
-  return text;
+rtapi::ErrorId public_id(Id id) {
+  return {static_cast<uint16_t>(id)};
 }
 
 uint64_t Reporter::key_of(std::string_view text) {
@@ -98,14 +95,15 @@ void Reporter::flush() {
   for (size_t i = 0; i < told; ++i) {
     const MessageEntry& entry = entry_of(shown[i].id);
     const uint64_t again = shown[i].finding->count - 1;
-    std::string text = id_text(entry.id) + " " + entry.title + ": " + shown[i].finding->text;
+    std::string text =
+        public_id(entry.id).text() + " " + entry.title + ": " + shown[i].finding->text;
     if (again > 0) text += " [and " + std::to_string(again) + " times more]";
-    sink_({entry.severity, id_text(entry.id), text + place});
+    sink_({entry.severity, public_id(entry.id), text + place});
   }
   if (const uint64_t rest = shown.size() - told + left_out_; rest > 0) {
     const MessageEntry& entry = entry_of(Id::kMoreFindings);
-    sink_({entry.severity, id_text(entry.id),
-           id_text(entry.id) + " " + entry.title + ": " + std::to_string(rest) +
+    sink_({entry.severity, public_id(entry.id),
+           public_id(entry.id).text() + " " + entry.title + ": " + std::to_string(rest) +
                " others are not shown. Mend the first ones and run again." + place});
   }
   findings_.clear();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// How checked mode speaks. Whoever finds something (the layer in this folder, a backend that reads
-// what instrumented shader code left behind) hands it to the device's Reporter, which says it once
-// with a count, and at most so much per command. A finding never stops anything: execution goes on
-// with the policy that the conformance list states for the case.
+// How checked mode reports. Whoever finds something (the layer in this folder, or a backend that
+// reads what instrumented shader code left behind) hands it to the device's Reporter, which reports
+// it once with a count, and limits how many are reported per command. A finding never stops
+// anything: execution goes on as the conformance list says for the case.
 #pragma once
 
 #include <cstdint>
@@ -29,28 +29,28 @@ enum class Id : uint16_t {
 struct MessageEntry {
   Id id;
   rtapi::MessageSeverity severity;
-  const char* title;  // what a message says after the id
+  const char* title;  // the message's text right after the id
   const char* rule;   // items of the conformance list
 };
 // Sorted by id.
 std::span<const MessageEntry> message_table();
-std::string id_text(Id id);  // "KA0417"
+rtapi::ErrorId public_id(Id id);
 
 // Thread-safe.
 class Reporter {
  public:
   using Sink = std::function<void(const rtapi::Message&)>;
-  // Different findings per command before only their number is told.
+  // How many different findings per command are reported in full; the rest become a number.
   static constexpr uint32_t kDefaultLimit = 16;
 
   explicit Reporter(Sink sink, uint32_t limit = kDefaultLimit)
       : sink_(std::move(sink)), limit_(limit) {}
 
-  // One finding. `text` says what, where, actual and allowed, and what to do, without the id and
-  // the title: "hit group table record 7 (...) ...: 416..432 of buffer \"x\" (416 bytes). Is ...?".
-  // Findings of one id and key are the same one; of those the text with the least `order` is told
-  // (the linear index of the pixel, so that the message does not depend on the threads). `text` is
-  // only called if it may be told. Outside of a command it is told at once.
+  // Reports one finding. `text` says what, where, actual and allowed, and what to do, without the
+  // id and the title: "hit group table record 7 (...) ...: 416..432 of buffer \"x\" (416 bytes). Is
+  // ...?". Findings with the same id and key count as one; the text with the lowest `order` is kept
+  // (the linear index of the pixel, so that the message does not depend on how threads run). `text`
+  // is only called if it may be needed. Outside of a command the finding is reported at once.
   template <class TextFn>
   void report(Id id, uint64_t key, uint64_t order, TextFn&& text) {
     const std::lock_guard lock(mutex_);
@@ -58,14 +58,14 @@ class Reporter {
     if (finding != nullptr) finding->text = text();
     if (!open_) flush();
   }
-  // The same with the text as key.
+  // The same, with the text itself as the key.
   void report(Id id, const std::string& text) {
     report(id, key_of(text), 0, [&] { return text; });
   }
-  // `count` more of a finding that was counted elsewhere, e.g. on a GPU.
+  // Adds `count` to a finding that was counted elsewhere, e.g. on a GPU.
   void add_count(Id id, uint64_t key, uint64_t count);
 
-  // What is found between the two belongs to one command and is told at its end, in the order of
+  // Findings between the two calls belong to one command and are reported at its end, sorted by
   // `order`. `where` closes each message: "DispatchRays, command 3 in \"shadows\"".
   void begin(std::string where);
   void end();
@@ -78,7 +78,7 @@ class Reporter {
     uint64_t count = 0;
     std::string text;
   };
-  // To be given a text, or null.
+  // Returns the finding that needs a text, or null.
   Finding* count(Id id, uint64_t key, uint64_t order);
   void flush();
 
@@ -88,7 +88,7 @@ class Reporter {
   bool open_ = false;
   std::string where_;
   std::map<std::pair<Id, uint64_t>, Finding> findings_;
-  uint64_t left_out_ = 0;  // findings for which there was no room
+  uint64_t left_out_ = 0;  // findings that there was no room for
 };
 
 }  // namespace kaamos::checks

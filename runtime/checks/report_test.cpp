@@ -27,7 +27,7 @@ TEST(MessageTableTest, IdsAreSortedUniqueAndInTheDocument) {
     EXPECT_GT(static_cast<int>(entry.id), last);
     last = static_cast<int>(entry.id);
     const std::string row =
-        "| " + id_text(entry.id) + " | " + entry.title + " | " + entry.rule + " |\n";
+        "| " + public_id(entry.id).text() + " | " + entry.title + " | " + entry.rule + " |\n";
     EXPECT_NE(text.str().find(row), std::string::npos) << row;
   }
   EXPECT_LT(last, 500);
@@ -36,7 +36,7 @@ TEST(MessageTableTest, IdsAreSortedUniqueAndInTheDocument) {
 TEST_F(ReporterTest, OutsideOfACommandItIsToldAtOnce) {
   reporter_.report(Id::kRecordStride, "x");
   ASSERT_EQ(messages_.size(), 1u);
-  EXPECT_EQ(messages_[0].Id, "KA0435");
+  EXPECT_EQ(messages_[0].Id.text(), "KA0435");
   EXPECT_EQ(messages_[0].Text, "KA0435 stride too small for the records: x");
   EXPECT_EQ(messages_[0].Severity, rtapi::MessageSeverity::kError);
 }

@@ -13,7 +13,7 @@ using rtapi::HasAny;
 using runtime::BuildFlags;
 using Type = rtapi::RaytracingAccelerationStructureType;
 
-// So many of those that are gone are remembered.
+// How many structures that no longer exist are remembered.
 constexpr size_t kMostGone = 4096;
 
 }  // namespace
@@ -75,7 +75,7 @@ void Structures::built(const runtime::BuildCommand& command, uint64_t size_bytes
   structure.address = command.dest;
   structure.size_bytes = size_bytes;
   if (HasAny(command.flags, BuildFlags::kPerformUpdate)) {
-    // An update takes the memory of its source.
+    // An update uses as much memory as its source.
     if (const uint64_t bytes = structure_bytes(command.source)) structure.size_bytes = bytes;
   }
   structure.top = command.type == Type::kTopLevel;

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "rtapi/src/root_signature_impl.h"
 #include "runtime/checks/arguments.h"
 #include "runtime/checks/names.h"
 #include "runtime/checks/record_advice.h"
@@ -20,7 +19,7 @@ using runtime::LinkedShader;
 using runtime::RecordKind;
 using shader::TraceCall;
 
-// Where a ray goes that reaches a record, for messages.
+// How a ray gets to a record, for messages.
 struct Reason {
   const TraceCall* call = nullptr;
   const LinkedShader* shader = nullptr;
@@ -41,8 +40,8 @@ std::string call_place(const TraceCall& call) {
   return " (" + file + ":" + std::to_string(call.line) + ")";
 }
 
-// What of a record's shaders a ray of these flags needs: with nothing of it the record is not
-// reached. [DXR: TraceRay control flow]
+// Whether a ray with these flags needs any shader of the record; if it needs none, the record is
+// not reached. [DXR: TraceRay control flow]
 bool reaches(const TraceCall& call, const TrackedInstance& instance,
              const runtime::GeometryShape& geometry, uint32_t pipeline_flags) {
   enum : uint32_t {
@@ -103,9 +102,9 @@ class Proof {
     const char* name = "";
     rtapi::GpuVirtualAddressRangeAndStride range = {};
     const uint8_t* host = nullptr;
-    // Records that were looked at; of hit groups with triangles and with boxes.
+    // Records already checked; hit groups once with triangles and once with boxes.
     std::set<std::pair<uint64_t, bool>> seen = {};
-    bool layout_told = false;  // a wrong stride makes every record wrong: said once
+    bool layout_told = false;  // a wrong stride breaks every record, so report it once
   };
 
   void set(RecordKind kind, const char* name, rtapi::GpuVirtualAddressRangeAndStride range) {
@@ -122,14 +121,14 @@ class Proof {
     inputs_.reporter.report(id, Reporter::key_of(text), told_++, [&] { return text; });
     results_.good = false;
   }
-  // The ray generation record is reached in any case.
+  // The ray generation record is always reached, so its absence is an error right away.
   void report_missing(RecordKind kind, Id id, const std::string& text) {
     if (kind == RecordKind::kRayGeneration) return report(id, text);
     results_.missing.push_back({kind, id == Id::kRecordOutOfTable, id, told_++, text});
     results_.good = false;
   }
 
-  // "hit group table record 5", with how a ray gets there.
+  // "hit group table record 5".
   std::string name_of(const Table& table, RecordKind kind, uint64_t index) const {
     if (kind == RecordKind::kRayGeneration) return table.name;
     return std::string(table.name) + " record " + std::to_string(index);
@@ -173,7 +172,7 @@ class Proof {
   std::vector<std::pair<const LinkedShader*, Arguments>> pending_;
   std::set<std::pair<const LinkedShader*, const uint8_t*>> entered_;
   std::set<const LinkedShader*> other_root_signature_;
-  std::set<uint64_t> structures_;  // checked
+  std::set<uint64_t> structures_;  // already checked
   uint64_t told_ = 0;
 };
 
@@ -308,7 +307,7 @@ void Proof::enter(const LinkedShader* shader, const uint8_t* record, uint64_t by
   if (shader == nullptr || !entered_.insert({shader, record}).second) return;
   const auto& wanted = shader->global_root_signature;
   const auto& bound = command_.state.root_signature;
-  if (wanted && !(bound && rtapi::detail::SameDefinition(wanted, bound)) &&
+  if (wanted && !(bound && inputs_.same_definition(wanted, bound)) &&
       other_root_signature_.insert(shader).second) {
     report(Id::kRootSignatureReached,
            where + " runs " + shader_name(*shader) + reason +
@@ -330,7 +329,7 @@ void Proof::enter(const LinkedShader* shader, const uint8_t* record, uint64_t by
 
 void Proof::follow(const LinkedShader& shader, const Arguments& arguments) {
   if (shader.code == nullptr || shader.library == nullptr) return;
-  // Structures that stand alone behind a binding are used; of an array any may be.
+  // A structure alone behind a binding counts as used; of an array, any element may be the one.
   for (uint32_t i = 0; i < shader.slots.size(); ++i) {
     const auto& binding = shader.library->bindings[i];
     if (binding.type != shader::BindingType::kAccelerationStructure || binding.count != 1) continue;
@@ -376,7 +375,7 @@ void Proof::follow_ray(const LinkedShader& shader, const TraceCall& call,
   for (const uint64_t scene : scenes) reach_hits(scene, reason);
 }
 
-// The hit records that a ray of `reason` can reach in a top level.
+// Follows a ray of `reason` to every hit record that it can reach in a top level.
 void Proof::reach_hits(uint64_t scene, Reason reason) {
   const TraceCall& call = *reason.call;
   StructureState state;
@@ -494,7 +493,7 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
                  ". Keep bottom levels as they are while a top level refers to them.");
     }
     good = false;
-    break;  // the others are likely alike
+    break;  // the others probably have the same problem
   }
   return good;
 }

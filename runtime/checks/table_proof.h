@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The shader tables of a dispatch, proven before it runs: which records any instance, geometry and
-// ray type can reach, and whether each holds what it must. Every ray counts as able to miss, and to
-// meet each geometry that its mask and flags let through. A TraceRay whose arguments are not
-// constants is proven when it has run, of each set of arguments that checked code gave it. Where
-// there is no record at all, only a ray that gets there makes it a mistake. [DXR: Shader tables;
+// Proves the shader tables of a dispatch before it runs: which records any instance, geometry and
+// ray type can reach, and whether each contains what it must. Every ray is assumed able to miss,
+// and to hit each geometry that its mask and flags let through. A TraceRay whose arguments are not
+// constants is checked after it has run, with each set of arguments that checked code recorded.
+// Where there is no record at all, it is only a mistake if a ray gets there. [DXR: Shader tables;
 // Hit group table indexing]
 #pragma once
 
@@ -13,18 +13,22 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/identifiers.h"
 #include "runtime/checks/report.h"
 #include "runtime/checks/structures.h"
 
 namespace kaamos::checks {
 
+// Whether two root signatures have the same parameters, samplers and flags; rtapi knows.
+using SameDefinition = bool (*)(const rtapi::RootSignature&, const rtapi::RootSignature&);
+
 struct ProofInputs {
   const runtime::AddressMap& addresses;
   const Structures& structures;
   const Identifiers& identifiers;
   Reporter& reporter;
+  SameDefinition same_definition;
 };
 
 // A buffer, texture or structure that a reached shader can read or write.
@@ -32,12 +36,12 @@ struct ShaderUse {
   uint64_t address = 0;
   bool structure = false;
   bool texture = false;                                          // `address` is a shader::view_key
-  rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;  // of buffers
+  rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;  // for buffers
   std::string what;  // "miss shader \"Miss\", t1 \"sky\""
 };
 
-// A record that a ray or call can reach and that is none: past the end of its table, or without an
-// identifier that suits. Only those that are reached have to be there. [DXR: Shader tables]
+// A record that a ray or call can reach but that is missing: past the end of its table, or without
+// a suitable identifier. Only records that are actually reached have to exist. [DXR: Shader tables]
 struct MissingRecord {
   runtime::RecordKind kind = runtime::RecordKind::kHitGroup;
   bool past_the_end = false;
@@ -52,20 +56,21 @@ struct MissingRecord {
 };
 
 struct ProofResults {
-  std::vector<ShaderUse> uses;         // of the shaders that can be reached
+  std::vector<ShaderUse> uses;         // by all shaders that can be reached
   std::vector<MissingRecord> missing;  // not reported yet
   bool good = true;                    // nothing was reported, nothing is missing
 };
 
-// Reports what is wrong, apart from missing records.
+// Reports everything that is wrong except missing records.
 ProofResults prove_tables(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command);
 
-// The same of calls whose arguments are no constants, when they have run.
+// The same for calls whose arguments are not constants, after they have run.
 ProofResults prove_reached(const ProofInputs& inputs, const runtime::DispatchRaysCommand& command,
                            std::span<const runtime::ReachedFrom> calls);
 
-// The structure behind one acceleration structure binding: stands there, is a top level, is not
-// stale. `user` says who traces: "ray generation shader \"RayGen\", t0 \"scene\"". False: reported.
+// Checks the structure behind one acceleration structure binding: it exists, is a top level, and is
+// not stale. `user` says who traces: "ray generation shader \"RayGen\", t0 \"scene\"". False: a
+// problem was reported.
 bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::string& user);
 
 }  // namespace kaamos::checks

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/hazards.h"
 #include "runtime/checks/names.h"
 
@@ -53,8 +53,8 @@ void TextureStates::begin_list() {
   }
 }
 
-// Indices in `states`, which has one for each subresource from here on, unless all are meant and
-// all have one state.
+// Splits `states` into one for each subresource, unless `some` covers all and all have one state,
+// and returns the indices of `some` in it.
 std::vector<uint32_t> TextureStates::split(Tracked& texture, const Subresources& some) {
   const auto cut = [](uint32_t first, uint32_t count, uint32_t all) {
     first = std::min(first, all);
@@ -113,7 +113,7 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
     reporter_.report(Id::kTransitionBefore, "StateBefore " + state_name(command.before) +
                                                 " is given for " + in_state(texture, i) +
                                                 ". Give the state that it is in.");
-    break;  // the others are likely alike
+    break;  // the others are probably wrong in the same way
   }
   const State after = {command.after, false, label};
   if (all) {
@@ -129,7 +129,7 @@ std::string TextureStates::demand(const State& state, ResourceStates wanted) {
          state_name(wanted) + " before.";
 }
 
-// Whether a use of `state` is right; a state that the use promotes to is noted.
+// Whether a use in state `wanted` is allowed. If the use promotes the texture, notes its new state.
 bool TextureStates::allows(State& state, ResourceStates wanted, const std::string& label) {
   if (state.state != ResourceStates::kCommon && (state.state & wanted) == wanted) return true;
   const bool read = is_read(wanted);
@@ -158,7 +158,7 @@ void TextureStates::use(const runtime::BackendTexture* used_texture, const Subre
       reporter_.report(Id::kResourceState,
                        what + " is in " + in_state(texture, index) + demand(state, wanted));
     }
-    // Said once, not for each use that follows.
+    // Report it once, not for each use that follows.
     state = {wanted, false, label};
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The state that each texture is in, held against its uses. Unlike a buffer a texture keeps its
-// state when a list ends, unless a read promoted it from the common one; what may be promoted is a
-// read or a copy, never unordered access. [D3D12: implicit state transitions]
+// The state that each texture is in, checked against its uses. Unlike a buffer, a texture keeps its
+// state when a list ends, unless a read promoted it from the common state. Only reads and copies
+// can promote it, never unordered access. [D3D12: implicit state transitions]
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "runtime/backend/commands.h"
 #include "runtime/checks/report.h"
-#include "runtime/commands.h"
 
 namespace kaamos::checks {
 
-// A rectangle of a texture's subresources: mips, and array elements or cube faces. Cut to those
-// that it has; by default all.
+// A rectangle of a texture's subresources: mips by array elements or cube faces. Clipped to those
+// that the texture has; all of them by default.
 struct Subresources {
   uint32_t first_mip = 0;
   uint32_t mip_count = UINT32_MAX;
@@ -31,9 +31,9 @@ class TextureStates {
  public:
   explicit TextureStates(Reporter& reporter) : reporter_(reporter) {}
 
-  // MipLevels is resolved.
+  // MipLevels must be resolved.
   void add(const std::shared_ptr<runtime::BackendTexture>& texture, const rtapi::TextureDesc& desc);
-  // `key`: shader::view_key of what its descriptors hold.
+  // `key`: shader::view_key of what the view's descriptors contain.
   void add_view(uint64_t key, const std::shared_ptr<runtime::BackendTexture>& texture,
                 const Subresources& seen);
 
@@ -44,15 +44,15 @@ class TextureStates {
            rtapi::ResourceStates wanted, const std::string& what, const std::string& label);
   void use_view(uint64_t key, rtapi::ResourceStates wanted, const std::string& what,
                 const std::string& label);
-  // What a dispatch takes out of arrays of descriptors and heaps only its code knows: which views
-  // it must not touch, by key, and in which words that is told.
+  // Only the shader knows what a dispatch takes out of arrays of descriptors and heaps. This
+  // returns which views it must not touch, by key, and the words for reporting each.
   std::map<uint64_t, std::string> before_dispatch();
 
  private:
   struct State {
     rtapi::ResourceStates state = rtapi::ResourceStates::kCommon;
     bool promoted = false;     // by a use, not by a transition
-    std::string by;            // empty: created so
+    std::string by;            // empty: since its creation
     bool may_be_read = false;  // a dispatch could have promoted it from the common state
   };
   struct Tracked {

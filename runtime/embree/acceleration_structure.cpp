@@ -6,9 +6,9 @@
 
 #include "runtime/embree/device.h"
 #include "runtime/embree/parallel.h"
-#include "runtime/instances.h"
-#include "runtime/structure_commands.h"
-#include "runtime/structure_copies.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 
 namespace kaamos::embree {
 namespace {
@@ -50,7 +50,8 @@ rtapi::Status build_bottom_level(Device& device, const runtime::BuildCommand& co
   return {};
 }
 
-// Runs `build` on the device's threads; what Embree took is the structure's size.
+// Runs `build` on the device's threads and records the memory that Embree took as the structure's
+// size.
 template <typename Build>
 rtapi::Status measured(Device& device, AccelerationStructure& result, Build&& build) {
   const int64_t before = device.embree_bytes();

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Builds on Embree; what does not depend on it is in runtime/structure_commands.h.
+// Builds on Embree. Whatever does not depend on Embree is in
+// runtime/structures/structure_commands.h.
 #pragma once
 
 #include <rtapi/result.h>
 
-#include "runtime/commands.h"
+#include "runtime/backend/commands.h"
 
 namespace kaamos::embree {
 
 class Device;
 
-// Errors remove the device; whatever does no harm is a message.
+// An error removes the device; anything harmless is a message.
 rtapi::Status build(Device& device, const runtime::BuildCommand& command);
 rtapi::Status copy(Device& device, const runtime::CopyAccelerationStructureCommand& command);
-// Before a dispatch. [runtime::complete_top_levels]
+// To be called before a dispatch. [runtime::complete_top_levels]
 rtapi::Status complete_top_levels(Device& device);
 
 }  // namespace kaamos::embree

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "runtime/embree/testing/harness.h"
-#include "runtime/instances.h"
-#include "runtime/serialized_structure.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/serialized_structure.h"
 
 namespace kaamos::embree {
 namespace {
@@ -63,7 +63,7 @@ TEST(As02, InstancesAsArrayOrThroughPointers) {
   command.instance_descs = h.upload(pointers);
   const auto status = h.execute(command);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0796");
+  EXPECT_EQ(status.error().id.text(), "KA0796");
 }
 
 TEST(As30, ALaterBuildOverAnyPartEndsAStructure) {
@@ -79,7 +79,7 @@ TEST(As30, ALaterBuildOverAnyPartEndsAStructure) {
   h.messages.clear();
   EXPECT_EQ(depth_of(h, block->address()), -1.0f);
   ASSERT_FALSE(h.messages.empty());
-  EXPECT_EQ(h.messages[0].Id, "KA0797");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0797");
   EXPECT_TRUE(is_distance(depth_of(h, block->address() + 256), 3.0f));
 }
 
@@ -91,8 +91,8 @@ TEST(As29, WritingOverItsBytesEndsAStructure) {
   std::memset(reinterpret_cast<void*>(scene), 0, 16);
   EXPECT_EQ(h.trace(ray_along_z(scene)).end, End::kMiss);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0894");
-  // A top level keeps what it refers to, so that nothing dangles.
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0894");
+  // A top level keeps alive what it refers to, so nothing dangles.
   const uint64_t other = h.top_level({instance_of(level)});
   std::memset(reinterpret_cast<void*>(level), 0, 16);
   EXPECT_EQ(h.trace(ray_along_z(other)).end, End::kClosestHit);
@@ -137,7 +137,7 @@ TEST(As55, AnUpdateElsewhereLeavesTheSourceAsItWas) {
   command.dest = h.buffer(1 << 16)->address();
   command.flags = Flags::kAllowUpdate | Flags::kPerformUpdate;
   indexed = triangle_at(6);
-  indexed.indices = {2, 2, 2};  // an update does not read indices anew
+  indexed.indices = {2, 2, 2};  // an update does not read the indices again
   command.geometries = {h.geometry(indexed)};
   ASSERT_TRUE(h.execute(command).ok());
   EXPECT_TRUE(is_distance(depth_of(h, command.source), 3.0f));
@@ -190,7 +190,7 @@ TEST(As60To62, AnUpdateThatChangesMoreIsAnError) {
       update(Flags::kAllowUpdate, Flags::kAllowUpdate | Flags::kPreferFastTrace, nothing).ok());
   const auto fails = [&](auto change) {
     const auto status = update(Flags::kAllowUpdate, Flags::kAllowUpdate, change);
-    return !status.ok() && status.error().id == "KA0793";
+    return !status.ok() && status.error().id.number == 793;
   };
   EXPECT_TRUE(fails([](auto& c) { c.geometries[0].Triangles.VertexCount = 2; }));
   EXPECT_TRUE(fails([](auto& c) { c.geometries[0].Flags = testing::kNonOpaque; }));
@@ -261,7 +261,8 @@ TEST(As43And44And71And72, ClonesAndCompaction) {
   EXPECT_EQ(info_of(h, copy.dest, InfoType::kCurrentSize), compacted);
   EXPECT_TRUE(is_distance(depth_of(h, copy.dest), 3.0f));
 
-  // Updated in place, the source moves and the copy stays; then the copy outlives the source.
+  // After an update in place the source has moved and the copy has not; then the copy outlives the
+  // source.
   for (auto& v : many.vertices) v.z += 10;
   command.geometries = {h.geometry(many)};
   command.flags = command.flags | Flags::kPerformUpdate;
@@ -359,7 +360,7 @@ TEST(As32, ATopLevelMayComeBeforeItsBottomLevels) {
   EXPECT_EQ(h.trace(ray_along_z(new_top)).end, End::kMiss);
   EXPECT_EQ(h.trace(ray_along_z(new_top)).end, End::kMiss);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0797");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0797");
   copy.source = level_bytes;
   copy.dest = new_level;
   ASSERT_TRUE(h.execute(copy).ok());
@@ -372,7 +373,7 @@ TEST(As32, ATopLevelMayComeBeforeItsBottomLevels) {
   copy.dest = new_top;
   const auto status = h.execute(copy);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0789");
+  EXPECT_EQ(status.error().id.text(), "KA0789");
   EXPECT_NE(status.error().message.find("instance 1"), std::string::npos);
 }
 
@@ -385,11 +386,11 @@ TEST(As73, TooSmallADestinationIsAnError) {
     copy.mode = mode;
     const auto status = h.execute(copy);
     ASSERT_FALSE(status.ok());
-    EXPECT_EQ(status.error().id, "KA0795");
+    EXPECT_EQ(status.error().id.text(), "KA0795");
   }
 }
 
-// What passes the checks of the form is built, whatever its numbers are; the rest is an error.
+// Whatever passes the format checks gets built, whatever its numbers are; the rest is an error.
 TEST(As74, SealedDamageIsAnErrorOrBuilds) {
   Harness h;
   h.use_standard_pipeline();
@@ -424,7 +425,7 @@ TEST(As74, SealedDamageIsAnErrorOrBuilds) {
       runtime::seal_serialized(std::span(saved->host(), size));
       const auto status = h.execute(copy);
       if (!status) {
-        EXPECT_EQ(status.error().id.substr(0, 4), "KA07") << status.error().message;
+        EXPECT_EQ(status.error().id.text().substr(0, 4), "KA07") << status.error().message;
         continue;
       }
       ++built;
@@ -461,7 +462,7 @@ TEST(Build, TooSmallADestinationIsAnError) {
   command.dest = h.buffer(16)->address();
   const auto status = h.execute(command);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0795");
+  EXPECT_EQ(status.error().id.text(), "KA0795");
 }
 
 TEST(TopLevel, UnusableInstancesAreInactiveWithAMessage) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangles that Embree may not commit alone: facing culls, opacity, any-hit shaders. The order of
-// the tests is DXR's [DXR: TraceRay control flow].
+// Triangles that Embree may not commit by itself: facing culls, opacity, any-hit shaders. The tests
+// come in DXR's order [DXR: TraceRay control flow].
 #include "runtime/embree/any_hit.h"
 
 #include "runtime/embree/inline_query.h"
@@ -22,7 +22,7 @@ struct TriangleFilter {
     return (state.ray_flags & culled_by) != 0;
   }
 
-  // Notes the hit that Embree commits when the filter returns.
+  // Records the hit that Embree commits when the filter returns.
   void commit(bool end_search) {
     state.committed_t = ray.tfar;
     if (end_search || (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0) {
@@ -32,7 +32,7 @@ struct TriangleFilter {
   }
 
   bool accept() {
-    // The interval is open at the committed hit: of coincident triangles the first one stays.
+    // The interval is open at the committed hit: of coincident triangles the first one wins.
     if (state.ended || ray.tfar >= state.committed_t) return false;
     const float normal[3] = {hit.Ng_x, hit.Ng_y, hit.Ng_z};
     const uint32_t hit_kind = triangle_hit_kind(*state.instance, normal, &ray.dir_x);
@@ -84,7 +84,7 @@ void filter(const RTCFilterFunctionNArguments* arguments, RayState& state) {
 
 void filter_triangle(const RTCFilterFunctionNArguments* arguments) {
   RayState& state = ray_state_of(arguments->context);
-  // Embree calls the query's filter next.
+  // Embree will call the query's filter next.
   if (shim::has_all_hits_filter(state.query)) return;
   filter(arguments, state);
 }

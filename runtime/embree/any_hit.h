@@ -5,7 +5,7 @@
 
 namespace kaamos::embree {
 
-// A hit that an any-hit shader is asked about.
+// A hit that an any-hit shader decides about.
 struct Candidate {
   float t;
   uint32_t hit_kind;
@@ -14,7 +14,7 @@ struct Candidate {
   const void* attributes;
 };
 
-// Runs the record's any-hit shader, which exists, on the instance that is being traversed.
+// Runs the record's any-hit shader, which must exist, on the instance being traversed.
 shader::AnyHitResult run_any_hit(RayState& state, const ShaderRecord& record,
                                  const Candidate& candidate);
 

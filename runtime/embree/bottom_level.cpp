@@ -8,10 +8,11 @@
 #include <string>
 #include <utility>
 
-#include "runtime/build_inputs.h"
+#include "runtime/backend/errors.h"
 #include "runtime/embree/instance_node.h"
 #include "runtime/embree/parallel.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
 namespace {
@@ -37,15 +38,14 @@ const char* text_of(RTCError error) {
   }
 }
 
-// The error that Embree kept since the last call, if any.
+// The error, if any, that Embree has stored since the last call.
 rtapi::Status embree_status(RTCDevice device, const char* what) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return {};
-  return rtapi::Error{
-      "KA0792",
+  return runtime::make_error(
+      runtime::Id::kBuildFailed,
       error == RTC_ERROR_OUT_OF_MEMORY ? rtapi::ErrorCode::kOutOfMemory : rtapi::ErrorCode::kFailed,
-      std::string("KA0792 bottom level could not be built: Embree reports ") + text_of(error) +
-          " (" + what + ")."};
+      std::string("Embree reports ") + text_of(error) + " for a bottom level (" + what + ").");
 }
 
 RTCSceneFlags scene_flags(BuildFlags flags, bool robust) {
@@ -56,14 +56,14 @@ RTCSceneFlags scene_flags(BuildFlags flags, bool robust) {
   return static_cast<RTCSceneFlags>(bits);
 }
 
-// HIGH is never used: under ROBUST it equals MEDIUM, and its spatial splits would call an any-hit
+// HIGH is never used: with ROBUST it equals MEDIUM, and its spatial splits would call an any-hit
 // shader twice for one triangle.
 RTCBuildQuality geometry_quality(BuildFlags flags) {
   return HasAny(flags, BuildFlags::kPreferFastBuild) ? RTC_BUILD_QUALITY_LOW
                                                      : RTC_BUILD_QUALITY_MEDIUM;
 }
 RTCBuildQuality scene_quality(BuildFlags flags) {
-  // LOW selects the two-level builder, which is the one that can refit.
+  // LOW selects the two-level builder, the only one that can refit.
   return HasAny(flags, BuildFlags::kPreferFastBuild | BuildFlags::kAllowUpdate)
              ? RTC_BUILD_QUALITY_LOW
              : RTC_BUILD_QUALITY_MEDIUM;
@@ -140,7 +140,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
 }
 
 rtapi::Status BottomLevel::create_scene(const BuildContext& context) {
-  rtcGetDeviceError(context.device);  // forgets what an earlier build left
+  rtcGetDeviceError(context.device);  // clears an earlier build's error
   scene_ = rtcNewScene(context.device);
   if (scene_ == nullptr) return embree_status(context.device, "new scene");
   rtcSetSceneBuildQuality(scene_, scene_quality(flags_));
@@ -180,7 +180,7 @@ rtapi::Status BottomLevel::add_triangles(const BuildContext& context,
                                          std::unique_ptr<GeometryInfo> info,
                                          const uint32_t* indices) {
   GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
-  // An empty geometry keeps its GeometryIndex, and needs nothing of Embree.
+  // An empty geometry keeps its GeometryIndex but needs no Embree geometry.
   if (user->primitives == 0 || user->vertices == 0) return {};
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   if (geometry == nullptr) return embree_status(context.device, "new geometry");
@@ -226,8 +226,8 @@ void BottomLevel::add_exact_triangles(const rtapi::RaytracingGeometryTrianglesDe
   }
 }
 
-// Packs, their geometries, the frame of all, and the bounds of the level: those of Embree's scene
-// are relative to the frame.
+// Makes the packs, their Embree geometries, the frame around all of them, and the bounds of the
+// level. The bounds of Embree's scene are relative to the frame.
 rtapi::Status BottomLevel::pack_exact_triangles(const BuildContext& context) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float low[3] = {kInfinity, kInfinity, kInfinity};
@@ -294,7 +294,7 @@ rtapi::Status BottomLevel::commit(const BuildContext& context) {
   if (own_bounds) {
     if (auto s = pack_exact_triangles(context); !s) return s;
   }
-  // Packs have boxes with room enough for the faster traversal.
+  // The boxes of packs are padded enough for the faster traversal.
   rtcSetSceneFlags(scene_, scene_flags(flags_, context.robust && !own_bounds));
   {
     const BuilderRun run;
@@ -355,7 +355,7 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
     GeometryInfo& info = *geometries_[i];
     if (info.primitives == 0 || (!procedural_ && info.vertices == 0)) continue;
     if (info.exact != nullptr) {
-      // Packed anew: degenerate triangles may come and go.
+      // Packed again, because triangles may become degenerate or stop being so.
       runtime::decode_vertices(geometries[i].Triangles, info.exact->vertices.data());
       continue;
     }
@@ -365,14 +365,15 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
       auto* vertices =
           static_cast<float*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
       const uint64_t count = 3 * uint64_t{info.vertices};
-      // A refit keeps what the build dropped, and would keep what has to be dropped now.
+      // A refit would bring back nothing that the build dropped, and would keep what must be
+      // dropped now.
       const bool was_inside = in_embree_range(vertices, count);
       runtime::decode_vertices(geometries[i].Triangles, vertices);
       if (!was_inside || !in_embree_range(vertices, count)) quality = geometry_quality(flags_);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     } else {
       copy_boxes(geometries[i].AABBs, info.boxes);
-      // Inactive boxes may come and go: they were no part of the tree.
+      // Boxes may become inactive or active again; inactive ones are not in the tree.
       quality = geometry_quality(flags_);
     }
     rtcSetGeometryBuildQuality(geometry, quality);

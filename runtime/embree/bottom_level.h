@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A bottom level: one Embree scene over own copies of its inputs.
+// A bottom level: one Embree scene over its own copies of the inputs.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 #include "runtime/embree/embree_shim.h"
 #include "runtime/embree/exact.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::embree {
 
@@ -21,12 +21,12 @@ using runtime::BuildFlags;
 
 struct BuildContext {
   RTCDevice device = nullptr;
-  bool robust = true;  // RTC_SCENE_FLAG_ROBUST: DXR's open t interval is exact only with it
-  bool exact = false;  // triangles are our own: exact.h
-  PackFilter pack_filter = nullptr;  // of exact
+  bool robust = true;  // RTC_SCENE_FLAG_ROBUST: only with it is DXR's open t interval exact
+  bool exact = false;  // triangles are tested by our own code: exact.h
+  PackFilter pack_filter = nullptr;  // for exact
 };
 
-// What Embree's callbacks get as the user pointer of a geometry.
+// The user pointer that Embree's callbacks get for a geometry.
 struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
   std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
@@ -34,8 +34,8 @@ struct GeometryInfo : runtime::GeometryShape {
 
 class BottomLevel final : public runtime::BottomLevelBase {
  public:
-  // The inputs passed check_inputs. With `shapes`, of a deserialized structure, they are what
-  // updates are held against. Errors: KA0792 Embree ran out of memory or refused.
+  // The inputs must have passed check_inputs. `shapes`, if given (for a deserialized structure),
+  // are what updates are checked against. Errors: KA0792: Embree ran out of memory or refused.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries,
       BuildFlags flags, std::span<const runtime::GeometryShape> shapes = {});
@@ -46,10 +46,10 @@ class BottomLevel final : public runtime::BottomLevelBase {
   // As runtime::check_update.
   rtapi::Status check_update(std::span<const rtapi::RaytracingGeometryDesc> geometries,
                              BuildFlags flags) const;
-  // Reads new vertices and boxes into this structure and refits it.
+  // Reads new vertices and boxes into this structure, then refits it.
   rtapi::Status update(const BuildContext& context,
                        std::span<const rtapi::RaytracingGeometryDesc> geometries);
-  // An updated copy; this one stays as it is. Indices are taken from the copy that was made when
+  // Returns an updated copy and leaves this one unchanged. Indices come from the copy made when
   // this was built. [DXR: Acceleration structure update constraints]
   rtapi::Result<std::shared_ptr<BottomLevel>> updated_copy(
       const BuildContext& context, std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
@@ -60,7 +60,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
   std::vector<runtime::GeometryShape> geometry_shapes() const override;
-  // The buffers that are traced: serialization costs no memory here.
+  // The same buffers that are traced, so serialization costs no memory here.
   runtime::GeometryContents geometry_contents(uint32_t geometry) const override;
   BuildFlags flags() const { return flags_; }
   const std::vector<std::unique_ptr<GeometryInfo>>& geometries() const { return geometries_; }
@@ -96,8 +96,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
 // Callbacks of the traversal, which a build gives to its geometries. [any_hit.cpp,
 // intersection.cpp]
-void filter_triangle(const RTCFilterFunctionNArguments* arguments);        // of non-opaque ones
-void filter_every_triangle(const RTCFilterFunctionNArguments* arguments);  // of a query
+void filter_triangle(const RTCFilterFunctionNArguments* arguments);        // for non-opaque ones
+void filter_every_triangle(const RTCFilterFunctionNArguments* arguments);  // for a query
 void intersect_procedural(const RTCIntersectFunctionNArguments* arguments);
 void occlude_procedural(const RTCOccludedFunctionNArguments* arguments);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/build_inputs.h"
+#include "runtime/structures/build_inputs.h"
 
 #include <gtest/gtest.h>
 
@@ -114,7 +114,7 @@ TEST(As07, AnIndexOutOfRangeIsAMessageAndNoHit) {
   input.indices = {0, 1, 99, 0, 1, 2};
   const uint64_t scene = h.scene({input});
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0798");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0798");
   EXPECT_EQ(h.trace(testing::ray_along_z(scene)).values.primitive_index, 1u);
 }
 
@@ -124,7 +124,7 @@ TEST(CheckInputs, RangesOutsideTheirBuffersAreErrors) {
   command.geometries[0].Triangles.VertexCount = 3000;
   auto status = h.execute(command);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0790");
+  EXPECT_EQ(status.error().id.text(), "KA0790");
   EXPECT_NE(status.error().message.find("needs 36000 bytes"), std::string::npos)
       << status.error().message;
   command.geometries[0].Triangles.VertexCount = 0xFFFFFFFF;
@@ -137,14 +137,14 @@ TEST(CheckInputs, RangesOutsideTheirBuffersAreErrors) {
   command.geometries[0].Triangles.VertexFormat = Format::kR8Uint;
   status = h.execute(command);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0791");
+  EXPECT_EQ(status.error().id.text(), "KA0791");
 }
 
 TEST(As13, AStrideOfZeroIsOneBoxForAll) {
   Harness h;
   h.use_standard_pipeline(nullptr, testing::report_all);
   testing::report_log() = {};
-  testing::report_log().reports = {{500, 1, {}}};  // past TMax: all boxes are visited
+  testing::report_log().reports = {{500, 1, {}}};  // past TMax, so that all boxes are visited
   auto command = h.bottom_level_command({testing::box_at(3)});
   command.geometries[0].AABBs.AABBCount = 4;
   command.geometries[0].AABBs.AABBs.StrideInBytes = 0;

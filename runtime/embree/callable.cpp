@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// CallShader. Does not count as recursion: only the stack bounds it. [DXR: Ray recursion limit]
+// CallShader. It does not count as recursion; only the stack limits it. [DXR: Ray recursion limit]
 #include "runtime/embree/fault.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/trace.h"
@@ -11,7 +11,7 @@ void call_shader(shader::Invocation& caller, uint32_t shader_index, void* data, 
   Worker& worker = worker_of(caller);
   check_stack(worker);
   const ShaderRecord record = worker.dispatch->callable_table.at(shader_index);
-  if (!record.target->shader.runs()) return;  // NULL: the parameters stay as they are
+  if (!record.target->shader.runs()) return;  // NULL: the parameters stay unchanged
   const Shader& shader = record.target->shader;
   ++worker.counters.callable_calls;
   shader::Invocation invocation;

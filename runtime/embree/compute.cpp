@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Thread groups. A kernel that was split at its barriers, or has none, is one call per group. The
-// others run each thread of a group on a fiber: a barrier goes back to the group's loop, which
-// resumes the next thread, and so lets none pass before all have arrived.
+// Thread groups. A kernel that has no barriers, or was split at them, is one call per group. Other
+// kernels run each thread of a group on a fiber: a barrier returns to the group's loop, which
+// resumes the next thread, so that no thread passes before all have arrived.
 #include <boost/context/fiber.hpp>
 #include <boost/context/protected_fixedsize_stack.hpp>
 #include <cstring>
@@ -54,7 +54,7 @@ struct FiberThread {
   uint32_t thread_id[3] = {0, 0, 0};
   shader::Invocation invocation;
   context::fiber fiber;      // suspended at its start or at a barrier; empty when finished
-  context::fiber scheduler;  // where it goes at a barrier
+  context::fiber scheduler;  // where it returns to at a barrier
   sigjmp_buf* jump = nullptr;
 };
 
@@ -90,7 +90,7 @@ context::fiber start_thread(FiberThread& thread, StackPool& pool) {
       });
 }
 
-// Runs in the guard of the group, whose fault would be ours, not the shader's.
+// Runs under the group's guard: a fault here would be ours, not the shader's.
 void run_fibers(void* argument) {
   auto& run = *static_cast<GroupRun*>(argument);
   thread_local StackPool pool;
@@ -128,7 +128,7 @@ struct ComputeJob {
 void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
   const FloatMode float_mode;
   const shader::ComputeDesc& compute = job.pipeline->compute();
-  // 16 bytes more: a kernel without groupshared memory still gets a pointer.
+  // 16 extra bytes, so that a kernel without groupshared memory still gets a pointer.
   const size_t shared_words = compute.shared_bytes / 16 + 1;
   struct alignas(16) Word {
     uint8_t bytes[16];
@@ -169,7 +169,7 @@ void group_barrier(shader::ComputeGroup& group) {
   sigjmp_buf* const own = run.worker->jump;
   thread.scheduler = std::move(thread.scheduler).resume();
   run.worker->jump = own;
-  // Another thread of the group failed: this one ends as well, on its own stack.
+  // Another thread of the group has failed: this one ends too, on its own stack.
   if (run.failed) remove_device(*run.worker, run.worker->fault_reason);
 }
 

@@ -5,7 +5,7 @@
 
 namespace kaamos::embree {
 
-// Services::group_barrier: returns when all threads of the group have come to a barrier or ended.
+// Services::group_barrier: returns once all threads of the group have reached a barrier or ended.
 void group_barrier(shader::ComputeGroup& group);
 
 }  // namespace kaamos::embree

@@ -145,7 +145,7 @@ TEST(Compute, AFibersStackMayOverflow) {
   const uint64_t root = 0;
   const auto status = kernel.run(h, 1, 1, 1, &root, sizeof(root));
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0891") << status.error().message;
+  EXPECT_EQ(status.error().id.text(), "KA0891") << status.error().message;
 }
 
 TEST(Compute, AFaultOnAFiberEndsTheGroup) {
@@ -166,7 +166,7 @@ TEST(Compute, AFaultOnAFiberEndsTheGroup) {
   for (int i = 0; i < 20; ++i) {
     const auto status = kernel.run(h, 3, 1, 1, &root, sizeof(root));
     ASSERT_FALSE(status.ok());
-    EXPECT_EQ(status.error().id, "KA0892");
+    EXPECT_EQ(status.error().id.text(), "KA0892");
     EXPECT_NE(status.error().message.find("\"kernel\""), std::string::npos);
   }
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0u), 0u);

@@ -7,14 +7,15 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
 namespace {
 
-// simd256: Embree chooses four-wide trees on this kind of processor, where eight-wide ones trace 8
-// to 33 % faster. Ignored where the processor has no AVX.
+// simd256: on this kind of processor Embree would choose four-wide trees, but eight-wide ones trace
+// 8 to 33 % faster. Ignored on processors without AVX.
 constexpr char kEmbreeConfig[] = "frequency_level=simd256";
 
 std::string processor_name() {
@@ -55,9 +56,8 @@ int arena_threads(uint32_t wanted) {
 }
 
 rtapi::Error out_of_memory(const std::string& what, uint64_t bytes) {
-  return rtapi::Error{"KA0990", rtapi::ErrorCode::kOutOfMemory,
-                      "KA0990 out of memory: " + what + " of " + std::to_string(bytes) +
-                          " bytes could not be allocated."};
+  return runtime::make_error(runtime::Id::kOutOfMemory, what + " of " + std::to_string(bytes) +
+                                                            " bytes could not be allocated.");
 }
 
 }  // namespace
@@ -78,14 +78,15 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
   std::unique_ptr<Device> device(new Device(desc, context));
   std::string config = kEmbreeConfig;
   if (const char* more = std::getenv("KAAMOS_EMBREE_CONFIG")) config += std::string(",") + more;
-  // A machine without AVX, acted: packs are then filtered as there.
+  // isa=sse simulates a machine without AVX, so use the pack filter of such a machine as well.
   device->pack_filter_ =
       config.find("isa=sse") == std::string::npos ? fastest_pack_filter() : filter_pack_sse2;
   device->embree_ = rtcNewDevice(config.c_str());
   if (device->embree_ == nullptr) {
-    return rtapi::Error{"KA0992", rtapi::ErrorCode::kFailed,
-                        "KA0992 Embree could not be started: error " +
-                            std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + "."};
+    return runtime::make_error(runtime::Id::kEmbreeUnusable,
+                               "it does not start: error " +
+                                   std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) +
+                                   ".");
   }
   if (auto s = device->check_embree(); !s) return s.error();
   rtcSetDeviceMemoryMonitorFunction(device->embree_, count_bytes, device.get());
@@ -93,7 +94,8 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
 }
 
 Device::~Device() {
-  // Structures hold scenes of the device; buffers may outlive it, but not what stands in them.
+  // Structures hold scenes of the Embree device. Buffers may outlive it, but the structures in them
+  // may not.
   memory_->evict(0, UINT64_MAX);
   if (embree_ != nullptr) {
     rtcSetDeviceMemoryMonitorFunction(embree_, nullptr, nullptr);
@@ -116,9 +118,9 @@ rtapi::Status Device::check_embree() const {
   };
   for (const Need& need : needs) {
     if ((rtcGetDeviceProperty(embree_, need.property) != 0) == need.wanted) continue;
-    return rtapi::Error{"KA0992", rtapi::ErrorCode::kUnsupported,
-                        std::string("KA0992 this build of Embree cannot be used: it was built ") +
-                            (need.wanted ? "without " : "with ") + need.name + "."};
+    return runtime::make_error(
+        runtime::Id::kEmbreeUnusable, rtapi::ErrorCode::kUnsupported,
+        std::string("it was built ") + (need.wanted ? "without " : "with ") + need.name + ".");
   }
   return {};
 }
@@ -204,8 +206,8 @@ void Device::reset_statistics() {
   counters_ = {};
 }
 
-void Device::warn(const char* id, const std::string& text) const {
-  context_.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
+void Device::warn(runtime::Id id, const std::string& text) const {
+  context_.message(runtime::make_message(id, text));
 }
 
 const runtime::BackendFactory& backend_factory() {

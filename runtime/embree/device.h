@@ -12,11 +12,12 @@
 #include <optional>
 #include <string>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/embree/memory.h"
 #include "runtime/embree/texture.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/structure_commands.h"
 
 namespace kaamos::embree {
 
@@ -51,22 +52,22 @@ class Device final : public runtime::BackendDevice {
   rtapi::RaytracingStatistics statistics() const override;
   void reset_statistics() override;
 
-  // What the commands' code needs; see execute.cpp and build.cpp.
+  // For the code of the commands; see execute.cpp and acceleration_structure.cpp.
   const runtime::Context& context() const { return context_; }
   Memory& memory() { return *memory_; }
   BuildContext build_context() const { return {embree_, robust_, exact_, pack_filter_}; }
-  // Bytes that Embree holds for this device.
+  // Bytes that Embree currently holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
   runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
   DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get(), &context_}; }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);
-  void warn(const char* id, const std::string& text) const;
+  void warn(runtime::Id id, const std::string& text) const;
 
  private:
   Device(const rtapi::DeviceDesc& desc, const runtime::Context& context);
   static bool count_bytes(void* self, ssize_t bytes, bool post);
-  // Embree as Kaamos needs it, or why it is not.
+  // Whether this Embree has what Kaamos needs; if not, why.
   rtapi::Status check_embree() const;
 
   rtapi::DeviceInfo info_;
@@ -74,7 +75,7 @@ class Device final : public runtime::BackendDevice {
   bool robust_ = true;
   PackFilter pack_filter_ = filter_pack_sse2;
   bool exact_ = false;
-  std::optional<tbb::global_control> parallelism_;  // more threads than the machine has
+  std::optional<tbb::global_control> parallelism_;  // allows more threads than the machine has
   tbb::task_arena arena_;
   RTCDevice embree_ = nullptr;
   std::atomic<int64_t> embree_bytes_ = 0;

@@ -63,7 +63,7 @@ TEST(Device, ABufferIsZeroAndAligned) {
   EXPECT_EQ(buffer.error().code, rtapi::ErrorCode::kOutOfMemory);
 }
 
-// Buffers and textures that outlive their device, as handles of an application may.
+// An application may hold buffers and textures for longer than their device.
 TEST(Device, ResourcesMayOutliveIt) {
   auto device = create(rtapi::TraversalPrecision::kRobust);
   ASSERT_TRUE(device.ok());

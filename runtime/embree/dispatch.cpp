@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
@@ -15,7 +16,8 @@
 namespace kaamos::embree {
 namespace {
 
-// 16 x 16 cells keep the rays of a tile close together; flat grids get tiles of the same count.
+// 16 x 16 cells keep the rays of a tile close together; flat grids get tiles with the same number
+// of cells.
 constexpr uint32_t kTileEdge = 16;
 constexpr uint32_t kTileCells = kTileEdge * kTileEdge;
 
@@ -43,8 +45,8 @@ struct Tile {
   uint32_t last[3];  // one past
 };
 
-// Asks for the texels of a row of invocations while the row above it runs: rows of a tile are too
-// short for a processor to foresee them. 3 % of frame/trace-shade.
+// Prefetches the texels of a row of invocations while the row above it runs: the rows of a tile are
+// too short for the processor to predict them. Saves 3 % of frame/trace-shade.
 void fetch_row(const std::vector<Picture>& pictures, const Tile& tile, uint32_t y) {
   constexpr uint64_t kLine = 64;
   for (const Picture& picture : pictures) {
@@ -108,7 +110,7 @@ void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& re
   end_worker(worker);
 }
 
-// The one record of the ray generation table: no stride, no index. [DXR: Shader tables]
+// The only record of the ray generation table: no stride, no index. [DXR: Shader tables]
 ShaderRecord ray_generation_record(const RaytracingPipeline& pipeline,
                                    const rtapi::GpuVirtualAddressRange& range,
                                    RecordProblems* problems) {
@@ -131,22 +133,23 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
   result.missing.unknown[which] = problems.unknown != RecordProblems::kNone;
   const std::string where = std::string(" (") + label + ").";
   if (const uint64_t index = problems.out_of_bounds; index != RecordProblems::kNone) {
-    result.warnings.push_back(
-        {"KA0895", std::string(name) + " table: record " + std::to_string(index) +
-                       " was reached, the table has " + std::to_string(table.count()) +
-                       ", and nothing ran for it" + where +
-                       " Do SizeInBytes, StrideInBytes and the index terms agree?"});
+    result.warnings.push_back({runtime::Id::kRecordOutOfBounds,
+                               std::string(name) + " table: record " + std::to_string(index) +
+                                   " was reached, the table has " + std::to_string(table.count()) +
+                                   ", and nothing ran for it" + where +
+                                   " Do SizeInBytes, StrideInBytes and the index terms agree?"});
   }
   if (const uint64_t index = problems.unknown; index != RecordProblems::kNone) {
     result.warnings.push_back(
-        {"KA0896", std::string(name) + " table: record " + std::to_string(index) +
-                       " holds no identifier of that kind of this pipeline, and nothing ran for "
-                       "it" +
-                       where + " Was it written, and with an identifier of this state object?"});
+        {runtime::Id::kRecordUnknown,
+         std::string(name) + " table: record " + std::to_string(index) +
+             " holds no identifier of that kind of this pipeline, and nothing ran for "
+             "it" +
+             where + " Was it written, and with an identifier of this state object?"});
   }
 }
 
-// Looks up what every shader of the pipeline finds bound.
+// Looks up what every shader of the pipeline has bound.
 void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
   size_t count = 0;
   for (const auto* shader : pipeline.shaders()) count += shader->slots.size();
@@ -165,7 +168,7 @@ void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
   }
 }
 
-// Of all that the shaders find bound.
+// Finds them among everything that the shaders have bound.
 void find_pictures(DispatchState& dispatch) {
   const uint32_t* size = dispatch.abi.dimensions;
   for (const shader::BoundResource& bound : dispatch.bound_resources) {
@@ -230,9 +233,9 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
     result.warnings.push_back(
-        {"KA0894", "rays were traced against address " + std::to_string(address) +
-                       ", where no top level stands, and missed (" + dispatch.label +
-                       "). Was it built, and not overwritten or freed since?"});
+        {runtime::Id::kNoTopLevel, "no top level stands at address " + std::to_string(address) +
+                                       "; the rays missed (" + dispatch.label +
+                                       "). Was it built, and not overwritten or freed since?"});
   }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,
@@ -246,9 +249,8 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   warn("ray generation", runtime::RecordKind::kRayGeneration, one_record,
        dispatch.ray_generation_problems);
   if (dispatch.removed) {
-    const std::string id = dispatch.removal.message.substr(0, 6);
     result.status =
-        rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, std::move(dispatch.removal.message)};
+        runtime::make_error(runtime::removal_id(dispatch.removal.reason), dispatch.removal.text);
   }
   return result;
 }
@@ -288,7 +290,7 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
   if (command.pipeline_stack_bytes != 0) dispatch.stack_bytes = command.pipeline_stack_bytes;
   dispatch.label = label.c_str();
 
-  // The tables may lie anywhere: even the first read of one is guarded.
+  // The tables may be anywhere, so even the first read of one is guarded.
   RecordRead read = {&pipeline,
                      &desc.RayGenerationShaderRecord,
                      &dispatch.ray_generation_problems,

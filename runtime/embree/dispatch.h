@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// DispatchRays and Dispatch on the threads of the device.
+// DispatchRays and Dispatch on the device's threads.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -11,25 +11,26 @@
 
 #include <rtapi/result.h>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/embree/worker.h"
 
 namespace kaamos::embree {
 
-// What a dispatch needs of its device.
+// What a dispatch needs from its device.
 struct DispatchEnvironment {
   tbb::task_arena* arena = nullptr;
   const Memory* memory = nullptr;
   const runtime::Context* context = nullptr;
 };
 
-// What came of it. An error removes the device: KA0890 to KA0893, KA0897.
+// The outcome. An error removes the device: KA0890 to KA0893, KA0897.
 struct DispatchResult {
   rtapi::Status status;
   Counters counters;
-  // What ran, or did not, unlike what the application may have meant: id and text.
+  // Something ran, or did not run, in a way that the application may not have meant: id and text.
   struct Warning {
-    const char* id;
+    runtime::Id id;
     std::string text;
   };
   std::vector<Warning> warnings;
@@ -37,24 +38,25 @@ struct DispatchResult {
   runtime::MissingRecords missing = {};
 };
 
-// Every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.
+// Runs every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.
 DispatchResult dispatch_rays(const DispatchEnvironment& environment,
                              const runtime::DispatchRaysCommand& command, const std::string& label);
 
-// Every thread group once. [compute.cpp]
+// Runs every thread group once. [compute.cpp]
 DispatchResult dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label);
 
-// Common to both: fills in what shaders see of the list's state.
+// Used by both: fills in what shaders see of the list's state.
 void begin_dispatch(const DispatchEnvironment& environment, const runtime::DispatchState& state,
                     DispatchState& dispatch);
 DispatchResult end_dispatch(DispatchState& dispatch);
-// Of one thread's share of a dispatch: its worker, and the worker's counters to the dispatch.
+// Begin and end one thread's share of a dispatch: set up its worker, and add the worker's counters
+// to the dispatch's.
 void begin_worker(DispatchState& dispatch, Worker& worker);
 void end_worker(Worker& worker);
 
-// Denormals are zero in shaders, as D3D's fp32 rules have it, and in Embree, which they would slow
-// down. For one thread, until the end of the scope.
+// Flushes denormals to zero for this thread until the end of the scope: for shaders because of
+// D3D's fp32 rules, and for Embree because denormals would slow it down.
 class FloatMode {
  public:
   FloatMode();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Same results for any number of threads; statistics; and whatever rays and matrices come along.
+// Results are the same for any number of threads; statistics; and any rays and matrices at all.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -29,7 +29,7 @@ class Random {
   }
   float unit() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
   float symmetric() { return 2 * unit() - 1; }
-  // Any float at all: numbers of every size, NaN, infinities, denormals.
+  // Any float at all: numbers of every magnitude, NaN, infinities, denormals.
   float anything() {
     switch (bits() % 8) {
       case 0:
@@ -120,7 +120,7 @@ std::vector<Payload> render(uint32_t threads) {
     rays.push_back(ray);
   }
   auto payloads = h.trace(rays);
-  for (Payload& payload : payloads) {  // addresses, and bytes between members, differ
+  for (Payload& payload : payloads) {  // addresses and padding differ
     shader::RaySystemValues& values = payload.values;
     values.object_to_world = values.world_to_object = nullptr;
     constexpr size_t kEnd = offsetof(shader::RaySystemValues, primitive_index) + sizeof(uint32_t);
@@ -161,7 +161,7 @@ TEST(Dispatch, StatisticsCountWhatRan) {
   EXPECT_EQ(statistics.Misses, 30u);
   EXPECT_EQ(statistics.ClosestHitInvocations, 60u);
   EXPECT_EQ(statistics.MissInvocations, 30u);
-  // A visibility ray may meet the opaque triangle first.
+  // A visibility ray may reach the opaque triangle first.
   EXPECT_GE(statistics.AnyHitInvocations, 60u);
   EXPECT_LE(statistics.AnyHitInvocations, 70u);
   h.device().reset_statistics();

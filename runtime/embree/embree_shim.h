@@ -2,7 +2,7 @@
 //
 // The one place that knows which Embree is in use: 3.13 (Debian 12) or 4.x (newer systems). CMake
 // defines KAAMOS_EMBREE_MAJOR. Both are used in the same way: a filter on each non-opaque geometry,
-// and a second filter that a query may switch on for every geometry.
+// and a second filter that a query may enable for every geometry.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,12 @@
 
 namespace kaamos::embree::shim {
 
-// Embree refuses coordinates beyond this (FLT_LARGE of its sources), by an assertion where its
-// build has them. Rays are held against it before each call.
+// Embree refuses larger coordinates (FLT_LARGE in its sources), with an assertion in builds that
+// have them. Rays are checked against it before each call.
 inline constexpr float kLargestCoordinate = 1.8e18f;
 
-// The per-ray state that Embree hands to every callback. Must be the first member of the ray's own
-// state, which the callbacks reach by casting: valid in 3.x and 4.x, and through instances.
+// The per-ray state that Embree passes to every callback. It must be the first member of the ray's
+// own state, which the callbacks get by a cast; that works in 3.x and 4.x, and through instances.
 struct QueryContext {
 #if KAAMOS_EMBREE_MAJOR >= 4
   RTCRayQueryContext base;
@@ -72,7 +72,7 @@ inline void occluded(RTCScene scene, QueryContext& query, RTCRay* ray) {
   rtcOccluded1(scene, ray, &arguments);
 }
 
-// 4.x wants to be told by the mask whether a user geometry was hit.
+// 4.x reads from the mask whether a user geometry was hit.
 template <typename Arguments>
 void set_hit(const Arguments* arguments, bool hit) {
   arguments->valid[0] = hit ? -1 : 0;
@@ -107,7 +107,7 @@ void set_hit(const Arguments*, bool) {}
 
 #endif
 
-// The instance that hits of a nested query belong to.
+// Sets the instance that the hits of a nested query belong to.
 inline void set_instance(QueryContext& query, uint32_t instance) {
   query.base.instID[0] = instance;
 }

@@ -30,7 +30,7 @@ ExactFrame ExactFrame::of(const double lower[3], const double upper[3]) {
   if (!(lower[0] <= upper[0])) return frame;
   for (int i = 0; i < 3; ++i) {
     frame.center[i] = 0.5 * (lower[i] + upper[i]);
-    // A little more, for the rounding of the center.
+    // Slightly larger, because the center is rounded.
     frame.radius = std::max(frame.radius, 0.5 * (upper[i] - lower[i]) * (1 + 0x1p-40));
   }
   return frame;
@@ -117,7 +117,7 @@ bool EmbreeRay::set(const RayInDouble& ray, const ExactFrame& frame) {
   double o[3];
   for (int i = 0; i < 3; ++i) o[i] = ray.origin[i] - frame.center[i];
   start_t = 0;
-  const double sphere = 1.75 * frame.radius;  // sqrt(3) and a little
+  const double sphere = 1.75 * frame.radius;  // a little more than sqrt(3)
   if (dot(o, o) > 4 * sphere * sphere) {
     const double square = dot(d, d);
     const double closest_t = -dot(o, d) / square;

@@ -8,10 +8,10 @@
 namespace kaamos::embree {
 namespace {
 
-// Of the tree that is built for its leaves alone.
+// A node of the tree, which is built only for its leaves.
 struct Node {
   Node* children[2];
-  uint32_t count;  // of primitives; 0: not a leaf
+  uint32_t count;  // number of primitives; 0: not a leaf
   uint32_t primitives[kPackSize];
 };
 
@@ -58,7 +58,7 @@ TrianglePack pack_of(const Node& leaf, const float* vertices, const uint32_t* in
   return pack;
 }
 
-// Leaves from left to right, so that packs close in space are close in memory.
+// Collects the leaves from left to right, so that packs close in space are close in memory.
 void collect(const Node* root, const float* vertices, const uint32_t* indices,
              std::vector<TrianglePack>& packs) {
   std::vector<const Node*> open = {root};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Up to four triangles that lie close together: what Embree calls a primitive in exact precision.
-// One call and one box for four of them, and a filter that looks at all four at once. Most packs
-// that a ray comes to end there; exact_triangle.h decides about the triangles that are left.
+// Up to four triangles that are close together: what Embree calls a primitive in exact precision.
+// Four triangles share one call and one box, and a filter tests all four at once. It rejects all
+// four in most packs that a ray reaches; exact_triangle.h decides about the triangles that are
+// left.
 #pragma once
 
 #include <cstdint>
@@ -25,24 +26,24 @@ struct alignas(16) TrianglePack {
   }
 };
 
-// A bit for each triangle that the line of the ray may hit. The others intersect() refuses: of two
-// of their edges the ray passes on different sides for certain. Differences of rounded products
-// have the sign of the exact ones or are 0, so that this needs no bound of errors.
+// Returns a bit for each triangle that the line of the ray may hit. intersect() is certain to
+// refuse the others: the ray passes two of their edges on different sides. Differences of rounded
+// products have the sign of the exact ones or are 0, so no error bound is needed.
 using PackFilter = uint32_t (*)(const ExactRay& ray, const TrianglePack& pack);
 uint32_t filter_pack_sse2(const ExactRay& ray, const TrianglePack& pack);
 uint32_t filter_pack_avx(const ExactRay& ray, const TrianglePack& pack);
-// The fastest that this machine has. All give the same.
+// The fastest filter that this machine can run. All give the same results.
 PackFilter fastest_pack_filter();
 
-// A triangle to be packed; `bounds` as Embree's builder takes them.
+// A triangle to be packed, with `bounds` as Embree's builder takes them.
 struct PackInput {
   uint32_t primitive;
   float lower[3];
   float upper[3];
 };
 
-// Groups the triangles as leaves of a tree: `corner(primitive, k)` gives vertices, of 3 floats. The
-// order is that of the tree. Empty where Embree failed; its error is kept at the device.
+// Groups the triangles into packs, the leaves of a tree, in the tree's order. `vertices` have 3
+// floats each. Empty if Embree failed; the device keeps the error.
 std::vector<TrianglePack> build_packs(RTCDevice device, const std::vector<PackInput>& inputs,
                                       RTCBuildQuality quality, const float* vertices,
                                       const uint32_t* indices);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The filter of exact_pack.h over `Lanes`, four doubles: exact_pack_sse2.cpp and exact_pack_avx.cpp
-// bring the type. They are compiled for different processors, so that all of this is local to the
-// file, and inline functions of other headers are not called.
+// The filter of exact_pack.h, written with `Lanes`, four doubles, which exact_pack_sse2.cpp and
+// exact_pack_avx.cpp define. Those two are compiled for different processors, so everything here is
+// local to the file, and nothing calls inline functions of other headers.
 #pragma once
 
 namespace kaamos::embree {
@@ -12,7 +12,7 @@ struct LanesOfVertex {
   Lanes x, y;
 };
 
-// As project() of exact_triangle.h, operation by operation.
+// The same operations as project() of exact_triangle.h, in the same order.
 inline LanesOfVertex project_lanes(const ExactRay& ray, const float corner[3][kPackSize]) {
   const Lanes z = Lanes::load(corner[ray.z]) - Lanes::all(ray.origin[ray.z]);
   return {Lanes::load(corner[ray.x]) - Lanes::all(ray.origin[ray.x]) - Lanes::all(ray.shear_x) * z,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Traversal at TraversalPrecision::kExact: the callbacks of instances and of triangles. The order
-// of the tests is DXR's, as in any_hit.cpp.
+// Traversal in TraversalPrecision::kExact: the callbacks for instances and triangles. The tests
+// come in DXR's order, as in any_hit.cpp.
 #include <algorithm>
 #include <bit>
 #include <tuple>
@@ -15,8 +15,8 @@
 namespace kaamos::embree {
 namespace {
 
-// A pack whose box the ray met; `primitive` and `barycentrics` are of the triangle in turn, and at
-// the end of the one that was accepted last.
+// A pack whose box the ray hits. `primitive` and `barycentrics` are those of the triangle being
+// tested, and at the end those of the last one that was accepted.
 struct PackOffer {
   RayState& state;
   const GeometryInfo& geometry;
@@ -31,9 +31,9 @@ struct PackOffer {
     return (state.ray_flags & culled_by) != 0;
   }
 
-  // Of opaque triangles at one t the first by instance, geometry and primitive is the hit, in
-  // whatever order they are met. A triangle that an any-hit shader accepted stays, as one that is
-  // met after it is outside the open interval. [DXR: Ray extents]
+  // Among opaque triangles at the same t, the first by instance, geometry and primitive is the hit,
+  // in whatever order the traversal finds them. A triangle that an any-hit shader accepted stays,
+  // because one that is found after it is outside the open interval. [DXR: Ray extents]
   bool wins_tie(bool opaque) const {
     const ExactState& exact = *state.exact;
     if (!opaque || !exact.hit_opaque) return false;
@@ -53,7 +53,7 @@ struct PackOffer {
     exact.hit_opaque = opaque;
   }
 
-  // Of an inline query: it visits all of its candidates, and keeps the nearest ones itself.
+  // For an inline query, which visits all of its candidates and keeps the nearest ones itself.
   bool take_for_query(float t, uint32_t hit_kind, bool opaque) const {
     if (t == state.committed_t && !wins_tie(opaque)) return false;
     QuerySearch& search = *state.search;
@@ -129,7 +129,7 @@ struct PackOffer {
   }
 };
 
-// Gives Embree the ray as the bottom level takes it. False: it cannot hit anything there.
+// Gives Embree the ray for the bottom level. False: it cannot hit anything there.
 bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray) {
   ExactState& exact = *state.exact;
   RayInDouble object = to_object_space(instance, exact.world);
@@ -149,7 +149,7 @@ bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray
   return t_near <= t_far;
 }
 
-// Boxes have no exact form: intersection shaders get the ray that they get in every precision.
+// Boxes have no exact form: intersection shaders get the same ray in every precision.
 bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCRay& ray) {
   const ObjectRay object =
       to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),

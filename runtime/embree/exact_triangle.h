@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
 // The triangle test of TraversalPrecision::kExact. A vertex is projected along the ray by a
-// function of the vertex and the ray alone, so that triangles that share it agree on where it lies;
-// the rest is exact: on which side of an edge the ray passes, and, where it passes through the edge
-// or a vertex, on which side a ray passes that is moved by an infinitely small (e, e * e). Of the
-// triangles around a shared edge or vertex exactly one is hit. [DXR: Watertightness; Top-left rule]
+// function of nothing but the vertex and the ray, so triangles that share the vertex agree on where
+// it is. The rest is exact: on which side of an edge the ray passes, and, if it passes through the
+// edge or a vertex, on which side it would pass if moved by an infinitely small (e, e * e). Exactly
+// one of the triangles around a shared edge or vertex is hit. [DXR: Watertightness; Top-left rule]
 //
-// Needs IEEE arithmetic, in which products are not contracted: -ffp-contract=off where it is
-// included. Then the results are the same on every processor.
+// Needs IEEE arithmetic without contraction of products: compile whatever includes this with
+// -ffp-contract=off. Results are then the same on every processor.
 #pragma once
 
 #include <cmath>
 
 namespace kaamos::embree {
 
-// A ray, with what is the same for all triangles.
+// A ray, with everything that is the same for all triangles.
 struct ExactRay {
   double origin[3];
   double direction[3];
-  int x, y, z;  // axes: z is that of the largest |direction|, and the three are a cycle
+  int x, y, z;  // axes: z has the largest |direction|, and the three are a cycle
   double shear_x, shear_y;
 
   ExactRay() = default;
-  // The direction is finite and not zero.
+  // The direction must be finite and not zero.
   ExactRay(const double o[3], const double d[3])
       : origin{o[0], o[1], o[2]}, direction{d[0], d[1], d[2]} {
     z = std::fabs(d[0]) > std::fabs(d[1]) ? 0 : 1;
@@ -35,26 +35,26 @@ struct ExactRay {
 };
 
 struct ExactHit {
-  double t;        // of origin + t * direction; may be negative
-  double u, v;     // weights of the second and third vertex, 0 or more; u + v is at most about 1
+  double t;        // the hit is at origin + t * direction; may be negative
+  double u, v;     // weights of the second and third vertex, at least 0; u + v is at most about 1
   bool clockwise;  // as seen from the origin: a front face by default
 };
 
-// a * d - b * c. The sign is that of the exact value, the rest right to 29 bits or more.
+// a * d - b * c. The sign is that of the exact value; the magnitude is right to 29 bits or more.
 inline double difference_of_products(double a, double d, double b, double c) {
   const double p = a * d;
   const double q = b * c;
   const double difference = p - q;
   constexpr double kCancelled = 0x1p-24;
   if (std::fabs(difference) > kCancelled * (std::fabs(p) + std::fabs(q))) return difference;
-  // Rounding is monotonic: where the rounded products differ, the exact ones do in the same sense.
+  // Rounding is monotonic: where the rounded products differ, the exact ones differ the same way.
   const double rest = std::fma(a, d, -p) - std::fma(b, c, -q);
   if (difference == 0) return rest;
   const double sum = difference + rest;
   return (sum > 0) == (difference > 0) && sum != 0 ? sum : difference * 0x1p-60;
 }
 
-// A vertex as the ray sees it, which passes through (0, 0).
+// A vertex as seen by the ray, which passes through (0, 0).
 struct ProjectedVertex {
   double x, y;
   double z;  // distance along the axis z
@@ -67,7 +67,7 @@ inline ProjectedVertex project(const ExactRay& ray, const float vertex[3]) {
 }
 
 // On which side of the line from a to b the moved ray passes, given the side of the unmoved one.
-// Exchanging a and b changes the sign, and nothing else. 0: a and b are one point.
+// Swapping a and b changes the sign and nothing else. 0: a and b are one point.
 inline int side_of_moved(double side, const ProjectedVertex& a, const ProjectedVertex& b) {
   if (side != 0) return side > 0 ? 1 : -1;
   if (a.y != b.y) return b.y > a.y ? -1 : 1;
@@ -75,7 +75,7 @@ inline int side_of_moved(double side, const ProjectedVertex& a, const ProjectedV
   return 0;
 }
 
-// Whether the line of the ray hits the triangle. Triangles that the ray sees edge-on are not hit.
+// Whether the line of the ray hits the triangle. Triangles seen edge-on are not hit.
 inline bool intersect(const ExactRay& ray, const float a[3], const float b[3], const float c[3],
                       ExactHit& hit) {
   const ProjectedVertex pa = project(ray, a);
@@ -93,7 +93,7 @@ inline bool intersect(const ExactRay& ray, const float a[3], const float b[3], c
   } else if ((ca > 0) != (ab > 0)) {
     return false;
   }
-  // All three have one sign, so that nothing cancels here.
+  // All three have the same sign, so nothing cancels here.
   const double area = ab + bc + ca;
   if (area == 0) return false;
   const double scale = 1 / area;
@@ -104,7 +104,7 @@ inline bool intersect(const ExactRay& ray, const float a[3], const float b[3], c
   return true;
 }
 
-// Whether the corners are on one line or at one point. [DXR: Degenerate primitives and instances]
+// Whether the corners are collinear or coincide. [DXR: Degenerate primitives and instances]
 inline bool is_degenerate(const float a[3], const float b[3], const float c[3]) {
   double e[3];
   double f[3];

@@ -41,12 +41,12 @@ int hits_in_front(const ExactRay& ray, const std::vector<Triangle>& mesh) {
 }
 
 TEST(ExactTriangle, DifferenceOfProductsHasTheExactSign) {
-  // (2^52 + 1)^2 - 2^52 * (2^52 + 2) = 1, far below what rounded products can tell.
+  // (2^52 + 1)^2 - 2^52 * (2^52 + 2) = 1, far below what rounded products can resolve.
   const double n = 0x1p52;
   EXPECT_GT(difference_of_products(n + 1, n + 1, n, n + 2), 0);
   EXPECT_LT(difference_of_products(n, n + 2, n + 1, n + 1), 0);
   EXPECT_EQ(difference_of_products(n + 1, n, n, n + 1), 0);
-  // Against 128-bit integers, where products nearly cancel.
+  // Compares with 128-bit integers, where products nearly cancel.
   std::mt19937_64 random(1);
   for (int i = 0; i < 200000; ++i) {
     const auto a = static_cast<int64_t>(random() >> 13);
@@ -62,7 +62,7 @@ TEST(ExactTriangle, DifferenceOfProductsHasTheExactSign) {
   }
 }
 
-// From inside a closed mesh each ray meets one triangle, whatever it is aimed at.
+// From inside a closed mesh each ray hits one triangle, wherever it is aimed.
 TEST(ExactTriangle, RaysAtEdgesAndVerticesOfAClosedMeshHitOneTriangle) {
   for (const float scale : {1e-15f, 1e-9f, 1.0f, 1e12f, 1e17f}) {
     const std::vector<Triangle> mesh = closed_mesh(6, scale);
@@ -80,7 +80,8 @@ TEST(ExactTriangle, RaysAtEdgesAndVerticesOfAClosedMeshHitOneTriangle) {
   }
 }
 
-// Integer coordinates: rays pass exactly through edges, vertices, and along faces of a fan.
+// Integer coordinates, so that rays pass exactly through edges and vertices, and along faces of a
+// fan.
 TEST(ExactTriangle, AFanIsHitOnceThroughItsEdgesAndItsHub) {
   const Point rim[] = {{4, 0, 9}, {3, 3, 9}, {0, 4, 9}, {-4, 0, 9}, {-2, -2, 9}, {0, -4, 9}};
   const Point hub = {0, 0, 9};
@@ -165,7 +166,7 @@ TEST(ExactTriangle, AgreesWithLongDouble) {
     EXPECT_EQ(hit.clockwise, det > 0);
   }
   EXPECT_GT(compared, 40000);
-  EXPECT_LT(worst_t, 1e-10);  // a ten-thousandth of a float's ulp
+  EXPECT_LT(worst_t, 1e-10);  // a ten-thousandth of a float ulp
 }
 
 TEST(ExactTriangle, DegenerateOnesAreFound) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The command stream, one command after another: nothing overlaps, so barriers have nothing to do.
+// Runs the command stream, one command after another. Nothing overlaps, so barriers have nothing to
+// do.
 #include <algorithm>
 #include <cstring>
 #include <optional>
@@ -8,10 +9,10 @@
 #include <utility>
 #include <variant>
 
+#include "runtime/backend/indirect.h"
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/device.h"
 #include "runtime/embree/texture.h"
-#include "runtime/indirect.h"
 
 namespace kaamos::embree {
 namespace {
@@ -50,7 +51,7 @@ class Executor {
     return {};
   }
 
-  // With checked mode's layer around it.
+  // Runs the command with checked mode's layer around it.
   rtapi::Status run(const runtime::Command& command);
   void next() { ++index_; }
 
@@ -66,9 +67,10 @@ class Executor {
   Device& device_;
   const runtime::Command* running_ = nullptr;
   size_t index_ = 0;
-  std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
+  std::optional<uint32_t> indirect_;  // which dispatch of an ExecuteIndirect is running
   std::vector<std::string> events_;
-  // Of the dispatch that is running; told after what checked mode says, which knows the cause.
+  // Warnings of the running dispatch. They come after what checked mode reports, which knows the
+  // cause.
   std::vector<DispatchResult::Warning> warnings_;
 };
 
@@ -110,7 +112,7 @@ rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
   return {};
 }
 
-// Either side of a texture copy as rows in memory.
+// One side of a texture copy, as rows in memory.
 struct Rows {
   uint8_t* first = nullptr;
   uint64_t row_pitch = 0;

@@ -18,11 +18,11 @@ namespace {
 constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 struct sigaction previous_actions[std::size(kSignals)];
 
-// The guarded run of this thread; null outside of shaders.
+// The worker whose guarded code this thread runs; null outside of shaders.
 thread_local Worker* guarded_worker = nullptr;
 
-// Bytes between the stack pointer and what a frame may reach: an overflow meets the guard page, or
-// what a large frame skipped.
+// How far from the stack pointer an overflow may fault: on the guard page, or past it if a large
+// frame skipped it.
 constexpr uintptr_t kNearStackPointer = 1u << 20;
 
 uintptr_t stack_pointer_of(const void* context) {
@@ -36,7 +36,7 @@ uintptr_t stack_pointer_of(const void* context) {
 #endif
 }
 
-// Not ours: to whoever had the signal before.
+// Not our fault: pass it to the previous handler.
 void forward(int signal_number, siginfo_t* info, void* context) {
   const auto* slot = std::find(std::begin(kSignals), std::end(kSignals), signal_number);
   const struct sigaction& previous = previous_actions[slot - std::begin(kSignals)];
@@ -45,13 +45,13 @@ void forward(int signal_number, siginfo_t* info, void* context) {
   } else if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) {
     previous.sa_handler(signal_number);
   } else {
-    // Restored, the default takes the instruction that faulted, when it runs again.
+    // With the default handler back, the faulting instruction runs again and ends the process.
     sigaction(signal_number, &previous, nullptr);
     if (info->si_code <= 0) raise(signal_number);
   }
 }
 
-// What `index` points to ends with the guarded run.
+// Copied, because what `index` points to ends with the guarded run.
 void note_index(Worker& worker) {
   for (int axis = 0; axis < 3; ++axis) {
     worker.fault_index[axis] = worker.index != nullptr ? worker.index[axis] : 0;
@@ -66,13 +66,13 @@ void on_signal(int signal_number, siginfo_t* info, void* context) {
   worker->fault_reason = shader::RemovalReason::kFault;
   const uintptr_t stack = stack_pointer_of(context);
   const bool memory_fault = signal_number == SIGSEGV || signal_number == SIGBUS;
-  // Around the stack pointer everything is there, unless the stack has ended.
+  // Memory around the stack pointer always exists, unless the stack has run out.
   if (memory_fault && worker->fault_address + kNearStackPointer > stack &&
       worker->fault_address < stack + kNearStackPointer) {
     worker->fault_reason = shader::RemovalReason::kStackOverflow;
   }
   note_index(*worker);
-  // The sanitizers' handlers, which stand before this one, have blocked every signal.
+  // The sanitizers' handlers, which run before this one, have blocked every signal.
   pthread_sigmask(SIG_SETMASK, &static_cast<const ucontext_t*>(context)->uc_sigmask, nullptr);
   siglongjmp(*worker->jump, 1);
 }
@@ -82,7 +82,7 @@ void install_handlers() {
   std::call_once(once, [] {
     struct sigaction action = {};
     action.sa_sigaction = on_signal;
-    // NODEFER: the handler leaves by a jump that does not restore the mask.
+    // NODEFER, because the handler leaves by a jump that does not restore the mask.
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < std::size(kSignals); ++i) {
@@ -91,7 +91,7 @@ void install_handlers() {
   });
 }
 
-// The handler's own stack: that of the shader may be used up.
+// A stack for the handler, because the shader's may be used up.
 class SignalStack {
  public:
   SignalStack() {
@@ -126,7 +126,7 @@ uintptr_t find_stack_limit() {
   size_t bytes = 0;
   pthread_attr_getstack(&attributes, &lowest, &bytes);
   pthread_attr_destroy(&attributes);
-  // Embree's traversal of two levels takes some 20 KiB, a shader rarely more.
+  // Embree's traversal of two levels takes about 20 KiB, a shader rarely more.
   const size_t reserve = std::min<size_t>(bytes / 4, 256 * 1024);
   return reinterpret_cast<uintptr_t>(lowest) + reserve;
 }
@@ -152,25 +152,23 @@ std::string hexadecimal(uintptr_t value) {
   return text;
 }
 
-std::string message_of(const Worker& worker) {
-  const std::string limit = std::to_string(worker.dispatch->max_recursion_depth);
+std::string detail_of(const Worker& worker) {
   switch (worker.fault_reason) {
     case shader::RemovalReason::kRecursionDepth:
-      return "KA0890 TraceRay past the recursion limit: the pipeline declares "
-             "MaxTraceRecursionDepth " +
-             limit + " and a shader at that depth called TraceRay";
+      return "the pipeline declares MaxTraceRecursionDepth " +
+             std::to_string(worker.dispatch->max_recursion_depth) +
+             " and a shader at that depth called TraceRay";
     case shader::RemovalReason::kStackOverflow:
-      return "KA0891 the shader stack is used up: calls are nested too deep";
+      return "calls are nested too deep";
     case shader::RemovalReason::kFault:
-      return std::string("KA0892 shader code failed: ") + name_of(worker.fault_signal) +
-             " at address " + hexadecimal(worker.fault_address) +
+      return std::string(name_of(worker.fault_signal)) + " at address " +
+             hexadecimal(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is not "
              "there";
     case shader::RemovalReason::kStepLimit:
-      return "KA0897 an interpreted shader used up its limit of steps: it may loop for ever. "
-             "Otherwise raise ShaderCompileOptions::InterpretStepLimit";
+      return "it may loop for ever. Otherwise raise ShaderCompileOptions::InterpretStepLimit";
     default:
-      return "KA0893 the shader asked for the device's removal";
+      return "it called for it";
   }
 }
 
@@ -187,7 +185,7 @@ bool run_guarded(Worker& worker, void (*body)(void*), void* argument) {
   worker.stack_limit = stack_limit_of_this_thread();
   sigjmp_buf jump;
   worker.jump = &jump;
-  // The mask is not saved: one system call per tile less.
+  // Not saving the signal mask saves one system call per tile.
   if (sigsetjmp(jump, 0) != 0) {
     guarded_worker = nullptr;
     worker.jump = nullptr;
@@ -216,16 +214,16 @@ void remove_device(Worker& worker, shader::RemovalReason reason) {
 
 void record_removal(Worker& worker) {
   DispatchState& dispatch = *worker.dispatch;
-  std::string message = message_of(worker) + " (" + dispatch.label;
+  std::string text = detail_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
-    message += std::string(", shader \"") + worker.running->name + "\" at (" +
-               std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
-               "," + std::to_string(worker.fault_index[2]) + ")";
+    text += std::string(", shader \"") + worker.running->name + "\" at (" +
+            std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
+            "," + std::to_string(worker.fault_index[2]) + ")";
   }
-  message += ").";
+  text += ").";
   const std::lock_guard lock(dispatch.mutex);
   if (dispatch.removed.exchange(true)) return;
-  dispatch.removal = {worker.fault_reason, std::move(message)};
+  dispatch.removal = {worker.fault_reason, std::move(text)};
 }
 
 }  // namespace kaamos::embree

@@ -14,7 +14,7 @@ using testing::Payload;
 using testing::PipelineBuilder;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // its checks come before the fault, or grow every frame
+constexpr bool kSanitized = true;  // their checks come before the fault, or enlarge frames
 #else
 constexpr bool kSanitized = false;
 #endif
@@ -38,7 +38,7 @@ TEST(Fault, AWildAccessRemovesTheDeviceAndNamesShaderAndCell) {
   Harness h(2);
   const auto status = run(h, write_to_nowhere);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0892");
+  EXPECT_EQ(status.error().id.text(), "KA0892");
   EXPECT_EQ(status.error().code, rtapi::ErrorCode::kDeviceRemoved);
   EXPECT_NE(status.error().message.find("0x10000"), std::string::npos) << status.error().message;
   EXPECT_NE(status.error().message.find("\"shader0\" at (37,0,0)"), std::string::npos)
@@ -78,7 +78,7 @@ TEST(Fault, ARunawayFunctionIsAStackOverflow) {
     Harness h(threads);
     const auto status = run(h, [](shader::Invocation&) { deeper(0); });
     ASSERT_FALSE(status.ok());
-    EXPECT_EQ(status.error().id, "KA0891") << status.error().message;
+    EXPECT_EQ(status.error().id.text(), "KA0891") << status.error().message;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(Fault, EndlessCallShaderIsAStackOverflow) {
   });
   const auto callable = builder.callable([](shader::Invocation& invocation, void* data) {
     invocation.dispatch->services->call_shader(invocation, 0, data, 4);
-    // The caller's frame must stay: not a tail call.
+    // The caller's frame must stay, so this is not a tail call.
     *static_cast<volatile uint32_t*>(data) = 1;
   });
   h.set_pipeline(builder, ray_generation);
@@ -102,7 +102,7 @@ TEST(Fault, EndlessCallShaderIsAStackOverflow) {
   const uint64_t root = 0;
   const auto status = h.dispatch(4, 4, 1, &root, sizeof(root));
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0891");
+  EXPECT_EQ(status.error().id.text(), "KA0891");
 }
 
 TEST(Fault, AFaultInAnAnyHitShaderLeavesTheTraversal) {
@@ -138,7 +138,7 @@ TEST(Fault, AShaderMayAskForRemoval) {
     invocation.dispatch->services->remove_device(invocation, shader::RemovalReason::kOther);
   });
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0893");
+  EXPECT_EQ(status.error().id.text(), "KA0893");
 }
 
 TEST(Fault, AWildShaderTableRemovesTheDevice) {
@@ -153,7 +153,7 @@ TEST(Fault, AWildShaderTableRemovesTheDevice) {
   const uint64_t root = 0;
   const auto status = h.dispatch(1, 1, 1, &root, sizeof(root));
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0892");
+  EXPECT_EQ(status.error().id.text(), "KA0892");
   h.desc().RayGenerationShaderRecord = table;
 }
 
@@ -165,7 +165,7 @@ TEST(Fault, AnAddressWithoutATopLevelMissesWithAMessage) {
     h.messages.clear();
     EXPECT_EQ(h.trace(testing::ray_along_z(address)).end, testing::End::kMiss);
     ASSERT_EQ(h.messages.size(), 1u);
-    EXPECT_EQ(h.messages[0].Id, "KA0894");
+    EXPECT_EQ(h.messages[0].Id.text(), "KA0894");
   }
 }
 

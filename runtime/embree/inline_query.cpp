@@ -48,8 +48,8 @@ RayQueryFound triangle_of(const RTCHit& hit, float t, uint32_t instance, uint32_
   return found;
 }
 
-// Where the ray enters the box, less what rounding may add. Without a ray in one of the axes the
-// comparisons are false and the axis does not count.
+// Where the ray enters the box, reduced by what rounding may add. If the direction is 0 along an
+// axis, the comparisons are false and the axis is ignored.
 float entry_of(const rtapi::RaytracingAabb& box, const RTCRay& ray, float t_min) {
   const float low[3] = {box.MinX, box.MinY, box.MinZ};
   const float high[3] = {box.MaxX, box.MaxY, box.MaxZ};
@@ -70,7 +70,7 @@ void commit_opaque(RayQuery& query, const TopLevel& scene, const RayQueryFound& 
   if ((query.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0) query.ended = true;
 }
 
-// Of the first search without `any`: what Embree committed by itself.
+// Takes what Embree committed by itself, in a first search without `any`.
 void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& search) {
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
   const uint32_t index = ray_hit.hit.instID[0];
@@ -102,7 +102,7 @@ void search(Worker& worker, RayQuery& query) {
       query, first, first && (query.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0,
       {},    false, {}};
   if (!first) {
-    // `found` is used up; its last one was the farthest of what was shown.
+    // `found` is used up; its last entry was the farthest that the shader has seen.
     search.shown = query.found[query.count - 1];
     state.t_far = std::min(state.t_far, query.committed.t);
     state.t_max = std::min(state.t_max, query.committed.t);
@@ -132,7 +132,7 @@ void search(Worker& worker, RayQuery& query) {
   if (search.has_opaque) commit_opaque(query, scene, search.opaque);
 }
 
-// What a committed hit that is there by now leaves no room for.
+// Whether a hit committed in the meantime rules the candidate out.
 bool is_beyond(const RayQuery& query, const RayQueryFound& found) {
   return found.procedural ? found.t > query.committed.t : found.t >= query.committed.t;
 }
@@ -175,11 +175,12 @@ bool QuerySearch::take_triangle(RayState& state, const GeometryInfo& geometry, R
     return true;
   }
   offer(found);
-  // Nothing behind a full buffer counts in this search, except opaque triangles in the first one.
+  // With a full buffer this search ignores everything farther, except that the first search still
+  // looks for opaque triangles.
   if (first || query.count < RayQuery::kChunk) return false;
   const float farthest = query.found[query.count - 1].t;
-  query.next_left_out = std::min(query.next_left_out, farthest);  // what is not visited any more
-  // One more, as the ray of the next instance ends before what is committed.
+  query.next_left_out = std::min(query.next_left_out, farthest);  // not visited any more
+  // One ulp farther, because the next instance's ray ends just before what is committed.
   ray.tfar = std::min(state.t_far, next_above(farthest));
   state.t_far = ray.tfar;
   return true;
@@ -228,10 +229,10 @@ bool proceed(shader::Invocation& caller, RayQuery& query) {
       query.candidate =
           hit_of(*static_cast<const TopLevel*>(query.scene), found,
                  found.procedural ? shader::kQueryProcedural : shader::kQueryTriangle);
-      if (found.procedural) query.candidate.t = 0;  // where it is hit is for the shader to say
+      if (found.procedural) query.candidate.t = 0;  // the shader decides where it is hit
       return true;
     }
-    // A search that left nothing out, or nothing in reach, was the last.
+    // The search was the last if it left nothing out, or nothing within reach.
     if (!(query.next_left_out <= query.committed.t)) return false;
     search(worker, query);
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery. A query does not hold Embree still between two calls of Proceed: each search is a whole
+// RayQuery. A query does not suspend Embree between two calls of Proceed: each search is a whole
 // traversal that keeps the nearest candidates, in order of (t, instance, geometry, primitive), and
-// the next one goes on behind them. What a shader sees therefore does not depend on what it
+// the next search continues behind them. What a shader sees therefore does not depend on what it
 // commits, nor on other queries.
 #pragma once
 
@@ -13,14 +13,14 @@ namespace kaamos::embree {
 // One traversal. Embree's callbacks reach it through RayState::search.
 struct QuerySearch {
   shader::RayQuery& query;
-  bool first;  // looks for opaque triangles, too
+  bool first;  // also looks for opaque triangles
   bool any;    // the first opaque triangle ends it
-  // Candidates up to this one were shown before; not in the first search.
+  // The shader has already seen candidates up to this one; unused in the first search.
   shader::RayQueryFound shown;
   bool has_opaque = false;
-  shader::RayQueryFound opaque;  // of `any`
+  shader::RayQueryFound opaque;  // if `any`
 
-  // What a filter is asked: whether Embree commits the hit, which may shorten its ray.
+  // What a filter asks: should Embree commit the hit? That may shorten Embree's ray.
   bool take_triangle(RayState& state, const GeometryInfo& geometry, RTCRay& ray, const RTCHit& hit,
                      bool is_opaque, bool front_face);
   void take_box(const RayState& state, const GeometryInfo& geometry, uint32_t primitive,

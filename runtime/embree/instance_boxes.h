@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The instances of a small top level as a list of boxes instead of a tree: a ray is held against
-// all of them, four at a time, and goes to those that it enters without a callback between; rays
-// that are traced together are held against them one after the other. Numbers: README.md.
+// The instances of a small top level as a list of boxes instead of a tree. A ray is tested against
+// all of them, four at a time, and goes on to those that it enters without a callback in between;
+// rays that are traced together are tested against one box after another. Numbers: README.md.
 #pragma once
 
 #include <immintrin.h>
@@ -21,18 +21,19 @@ namespace kaamos::embree {
 
 inline constexpr uint32_t kMostInstanceBoxes = 32;
 
-// The boxes that a ray enters: a bit each.
+// The boxes that a ray enters, one bit each.
 using EnteredBoxes = uint32_t;
 
-// Where it enters them; `stride` floats from box to box. Of others undefined.
+// Where the ray enters them, `stride` floats from box to box. Undefined for boxes that it does not
+// enter.
 template <uint32_t stride>
 struct BoxEntries {
   float operator[](uint32_t box) const { return first[box * stride]; }
   const float* first;
 };
 
-// Calls visit(number of a box) for each of them, the one that is entered first first, of those with
-// the same entry the first, as long as the ray gets there: a visit may shorten it.
+// Calls visit(index of a box) for each box that the ray reaches, in the order of entry (on a tie
+// the lower index first). A visit may shorten the ray.
 template <uint32_t stride, typename Visit>
 void visit_entered(EnteredBoxes boxes, BoxEntries<stride> entry, const RTCRay& ray, Visit visit) {
   while (boxes != 0) {
@@ -42,14 +43,14 @@ void visit_entered(EnteredBoxes boxes, BoxEntries<stride> entry, const RTCRay& r
       if (entry[other] < entry[first]) first = other;
     }
     boxes &= ~(EnteredBoxes{1} << first);
-    if (entry[first] > ray.tfar) return;  // as all others are
+    if (entry[first] > ray.tfar) return;  // and so are all others
     visit(first);
   }
 }
 
 class InstanceBoxes {
  public:
-  // At most kMostInstanceBoxes. Those with lower above upper are never entered.
+  // At most kMostInstanceBoxes. A box with lower above upper is never entered.
   void set(std::span<const RTCBounds> bounds) {
     fours_.assign((bounds.size() + 3) / 4, Four{});
     boxes_.resize(bounds.size());
@@ -71,7 +72,7 @@ class InstanceBoxes {
 
   bool empty() const { return fours_.empty(); }
 
-  // visit_entered of those that the ray enters.
+  // visit_entered for the boxes that the ray enters.
   template <typename Visit>
   void for_each_entered(const RTCRay& ray, Visit visit) const {
     alignas(16) float entry[kMostInstanceBoxes];
@@ -79,8 +80,8 @@ class InstanceBoxes {
     visit_entered(boxes, BoxEntries<1>{entry}, ray, visit);
   }
 
-  // Closed boxes and the closed interval from tnear, 0 or more, to tfar; `ray` and `entry` are
-  // aligned to 16 bytes. No box that the ray enters is left out for rounding.
+  // Boxes are closed, and so is the interval from tnear, at least 0, to tfar. `ray` and `entry` are
+  // aligned to 16 bytes. Rounding never loses a box that the ray enters.
   EnteredBoxes enter(const RTCRay& ray, float* entry) const {
     const __m128 origin = _mm_load_ps(&ray.org_x);  // w: tnear
     const __m128 slope = reciprocal(_mm_load_ps(&ray.dir_x));
@@ -121,15 +122,15 @@ class InstanceBoxes {
     return entered & all_;
   }
 
-  // What holding rays against them one after the other needs [lane_rays.cpp]: the sides of all
-  // boxes, and which can be entered.
+  // For testing rays against one box after another [lane_rays.cpp]: the sides of all boxes, and
+  // which boxes can be entered.
   struct Box {
     float sides[3][2];  // by axis; lower, upper
   };
   const std::vector<Box>& boxes() const { return boxes_; }
   EnteredBoxes all() const { return all_; }
 
-  // Difference, reciprocal and product are each off by half an ulp at most: 3 * 2^-24 in all.
+  // Difference, reciprocal and product are each off by at most half an ulp: 3 * 2^-24 in all.
   static constexpr float kSooner = 1 - 2 * FLT_EPSILON;
   static constexpr float kLater = 1 + 2 * FLT_EPSILON;
 
@@ -138,12 +139,12 @@ class InstanceBoxes {
     float sides[3][2][4];  // by axis; lower, upper
   };
 
-  // A ray within a side lies in the box, also where its slope is infinite: 0 times that says
-  // nothing.
+  // A ray that runs within a side counts as inside the box, even where its slope is infinite and a
+  // distance of 0 would decide nothing.
   static float room_of(float side) { return std::fabs(side) * FLT_EPSILON + 1e-25f; }
 
-  // Finite, so that no product is NaN; times what lies beside a ray that is parallel to an axis it
-  // is infinite or as good as that.
+  // Clamped to be finite, so that no product is NaN. For a ray parallel to an axis, its product
+  // with any distance along that axis is infinite or nearly so.
   static __m128 reciprocal(__m128 direction) {
     const __m128 sign_bit = _mm_set1_ps(-0.0f);
     const __m128 size = _mm_max_ps(_mm_andnot_ps(sign_bit, direction), _mm_set1_ps(FLT_MIN));

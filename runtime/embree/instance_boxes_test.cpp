@@ -29,7 +29,7 @@ RTCRay ray_of(const float (&origin)[3], const float (&direction)[3], float t_nea
   return ray;
 }
 
-// Where a ray enters a box and leaves it, in double; empty: entry above exit.
+// Where a ray enters and leaves a box, in double; entry above exit: it does not.
 struct Interval {
   double entry;
   double exit;
@@ -63,8 +63,8 @@ RTCBounds widened(const RTCBounds& box) {
           box.upper_z + room(box.upper_z), 0};
 }
 
-// No box that is entered may be left out, none be named that the ray passes at a distance, and no
-// entry be later than it is: what a hit hides is decided by it.
+// No box that is entered may be missing, no box that the ray passes at a distance may be reported,
+// and no entry may be later than it really is, because it decides what a hit hides.
 void expect_like_reference(const std::vector<RTCBounds>& bounds, const RTCRay& ray) {
   InstanceBoxes boxes;
   boxes.set(bounds);
@@ -100,14 +100,14 @@ RTCBounds random_box(Random& random, float scale) {
   float sides[2][3];
   for (int axis = 0; axis < 3; ++axis) {
     const float a = scale * random.symmetric();
-    const float b = random.below(4) == 0 ? a : scale * random.symmetric();  // flat, at times
+    const float b = random.below(4) == 0 ? a : scale * random.symmetric();  // sometimes flat
     sides[0][axis] = std::min(a, b);
     sides[1][axis] = std::max(a, b);
   }
   return {sides[0][0], sides[0][1], sides[0][2], 0, sides[1][0], sides[1][1], sides[1][2], 0};
 }
 
-// Rays that start anywhere, or on a side of a box, and go anywhere, or along axes.
+// Rays that start anywhere, or on a side of a box, and go in any direction, or along an axis.
 RTCRay random_ray(Random& random, float scale, const std::vector<RTCBounds>& bounds) {
   float origin[3];
   float direction[3];
@@ -151,7 +151,7 @@ TEST(InstanceBoxes, ThatAreEmptyAreNeverEntered) {
   }
 }
 
-// Directions whose reciprocal is out of range, and sides at the end of what coordinates may be.
+// Directions whose reciprocal is out of range, and sides at the limits of coordinates.
 TEST(InstanceBoxes, AtTheEndsOfTheRange) {
   constexpr float kEnd = 1.8e18f;
   const std::vector<RTCBounds> bounds = {{-kEnd, -kEnd, -kEnd, 0, kEnd, kEnd, kEnd, 0},
@@ -173,7 +173,7 @@ TEST(InstanceBoxes, AtTheEndsOfTheRange) {
   }
 }
 
-// The same instances as a list of boxes and, with others that no ray sees, as Embree's tree.
+// The same instances as a list of boxes and, padded with others that no ray sees, as Embree's tree.
 TEST(InstanceBoxes, GiveTheHitsOfATree) {
   Harness h(2);
   h.use_standard_pipeline();

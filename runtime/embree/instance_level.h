@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The instance level of a traversal, of every precision: the instances of a list of boxes in the
-// order in which the ray enters them, or those of a tree, one for each callback of Embree. What a
-// precision does at an instance is its Visit:
+// The instance level of a traversal, for every precision: either the instances of a list of boxes
+// in the order in which the ray enters them, or those of a tree, one for each callback from Embree.
+// What a precision does at an instance is its Visit:
 //   visit(state, index, classes, ray, committed, hit_here, trace)
-// takes `ray` to the instance's space, calls trace(bottom level) and takes it back. `classes`: of
-// GeometryClass, which the ray sees of it; `committed`: there was a hit before; hit_here(): this
-// instance was hit.
+// transforms `ray` to the instance's space, calls trace(bottom level) and transforms it back.
+// `classes` are the GeometryClass bits that the ray sees of the instance; `committed` says that
+// there was a hit before; hit_here() says whether this instance was hit.
 #pragma once
 
 #include "runtime/embree/ray_state.h"
@@ -15,7 +15,7 @@ namespace kaamos::embree {
 
 template <typename Visit>
 struct InstanceLevel {
-  // Of a top level that is a list of boxes.
+  // For a top level that is a list of boxes.
   static void intersect(RayState& state, RTCRayHit& ray_hit) {
     state.top_level->boxes().for_each_entered(
         ray_hit.ray, [&](uint32_t index) { intersect_one(state, index, ray_hit); });
@@ -24,7 +24,7 @@ struct InstanceLevel {
     state.top_level->boxes().for_each_entered(
         ray, [&](uint32_t index) { occlude_one(state, index, ray); });
   }
-  // Of one where it is known which the ray enters.
+  // For one where it is known which boxes the ray enters.
   template <uint32_t stride>
   static void intersect(RayState& state, RTCRayHit& ray_hit, EnteredBoxes boxes,
                         BoxEntries<stride> entry) {
@@ -36,7 +36,7 @@ struct InstanceLevel {
     visit_entered(boxes, entry, ray, [&](uint32_t index) { occlude_one(state, index, ray); });
   }
 
-  // Of one that is a scene.
+  // For one that is an Embree scene.
   static void intersect(const RTCIntersectFunctionNArguments* arguments) {
     const bool hit = intersect_one(ray_state_of(arguments->context), arguments->primID,
                                    *reinterpret_cast<RTCRayHit*>(arguments->rayhit));
@@ -58,7 +58,7 @@ struct InstanceLevel {
 
   static bool intersect_one(RayState& state, uint32_t index, RTCRayHit& ray_hit) {
     RTCHit& hit = ray_hit.hit;
-    // Each instance is visited once, so that its index is new in the hit.
+    // Each instance is visited once, so the hit has this index only if the hit is new.
     const auto hit_here = [&] { return hit.instID[0] == index; };
     if (const uint32_t classes = seen_classes(state, index)) {
       Visit()(state, index, classes, ray_hit.ray, hit.geomID != RTC_INVALID_GEOMETRY_ID, hit_here,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a traversal needs of an instance, in two cache lines, and the ray transform.
+// What a traversal needs to know about an instance, in two cache lines, and the ray transform.
 #pragma once
 
 #include <immintrin.h>
@@ -8,17 +8,17 @@
 #include <cstdint>
 
 #include "runtime/embree/embree_shim.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::embree {
 
 using enum runtime::InstanceFlags;
 
-// Opacity by instance or ray, instead of the geometry's. [DXR: Ray flags]
+// The opacity that instance or ray give, overriding the geometry's. [DXR: Ray flags]
 enum class OpacityOverride : uint8_t { kNone = 0, kOpaque = 1, kNonOpaque = 2 };
 
-// Mask bits of Embree's geometries: one class each, so that the culling and skipping flags of a ray
-// become bits that Embree tests at no cost.
+// Mask bits of Embree's geometries, one class each: the culling and skipping flags of a ray become
+// bits that Embree tests at no cost.
 enum GeometryClass : uint32_t {
   kTriangleOpaque = 1,
   kTriangleNonOpaque = 2,
@@ -27,16 +27,16 @@ enum GeometryClass : uint32_t {
   kAllClasses = 15,
 };
 
-inline constexpr uint32_t kTracedInstanceFlags = 15;  // all but those of opacity micromaps
+inline constexpr uint32_t kTracedInstanceFlags = 15;  // all but those for opacity micromaps
 
 struct alignas(64) InstanceNode {
-  float world_to_object_columns[4][4];  // fourth lanes are 0: they carry t and time of a ray
+  float world_to_object_columns[4][4];  // fourth lanes are 0: there a ray has t and time
   RTCScene scene;                       // null: inactive
   uint32_t contribution : 24;           // InstanceContributionToHitGroupIndex
   uint32_t mask : 8;                    // InstanceMask; 0 also for inactive instances
   uint32_t id : 24;                     // InstanceID
   uint32_t flags : 4;                   // kTracedInstanceFlags of InstanceFlags
-  OpacityOverride opacity : 2;          // of the flags
+  OpacityOverride opacity : 2;          // from the flags
   bool procedural : 1;
   float object_to_world[12];
 };
@@ -47,7 +47,7 @@ struct ObjectRay {
   __m128 direction;  // fourth lane 0
 };
 
-// The linear part of world_to_object; the fourth lane of `v` does not count.
+// Applies the linear part of world_to_object; ignores the fourth lane of `v`.
 inline __m128 to_object_vector(const InstanceNode& node, __m128 v) {
   const __m128 x = _mm_shuffle_ps(v, v, _MM_SHUFFLE(0, 0, 0, 0));
   const __m128 y = _mm_shuffle_ps(v, v, _MM_SHUFFLE(1, 1, 1, 1));
@@ -63,7 +63,7 @@ inline ObjectRay to_object_space(const InstanceNode& node, __m128 origin, __m128
           to_object_vector(node, direction)};
 }
 
-// `v`, whose fourth lane is 0, with another one.
+// `v`, whose fourth lane must be 0, with `lane` as the fourth.
 inline __m128 with_fourth_lane(__m128 v, float lane) {
   return _mm_or_ps(v, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(_mm_set_ss(lane)), 12)));
 }
@@ -71,7 +71,8 @@ inline __m128 without_fourth_lane(__m128 v) {
   return _mm_and_ps(v, _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0)));
 }
 
-// Whether Embree may be called with it: finite, and below its limit. The fourth lanes must be too.
+// Whether Embree may be called with it: finite, and below its limit. That includes the fourth
+// lanes.
 inline bool is_traceable(const ObjectRay& ray) {
   const __m128 absolute = _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF));
   const __m128 limit = _mm_set1_ps(shim::kLargestCoordinate);

@@ -12,8 +12,8 @@
 namespace kaamos::embree {
 namespace {
 
-// An intersection shader at work on one primitive. Its values are its own: any-hit shaders run in
-// the midst of it.
+// A running intersection shader, on one primitive. It has its own values, because any-hit shaders
+// run in the middle of it.
 struct IntersectionInvocation : shader::Invocation {
   shader::RaySystemValues values;
   RayState* state;
@@ -35,7 +35,7 @@ struct IntersectionInvocation : shader::Invocation {
         record(hit_record),
         ray(&embree_ray),
         hit(embree_hit) {}
-  // It points at its own values.
+  // Not copyable, because it points to its own values.
   IntersectionInvocation(const IntersectionInvocation&) = delete;
   IntersectionInvocation& operator=(const IntersectionInvocation&) = delete;
 };
@@ -45,7 +45,7 @@ void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t pr
   if (state.ended) return;
   if (state.search != nullptr) return state.search->take_box(state, geometry, primitive, ray);
   const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
-  if (!record.target->intersection.runs()) return;  // NULL record: nothing can be reported
+  if (!record.target->intersection.runs()) return;  // NULL record: nothing is reported
   Worker& worker = *state.worker;
   const Shader& shader = record.target->intersection;
   ++worker.counters.intersection_calls;
@@ -97,15 +97,15 @@ shader::ReportHitResult report_hit(shader::Invocation& base, float t, uint32_t h
                                    const void* attributes, uint32_t attribute_bytes) {
   auto& invocation = static_cast<IntersectionInvocation&>(base);
   RayState& state = *invocation.state;
-  // ReportHit does not return once the search has ended; a shader that calls again gets the same
-  // answer. [DXR: ReportHit]
+  // ReportHit does not return once the search has ended; a shader that calls it again anyway gets
+  // the same answer. [DXR: ReportHit]
   if (state.ended) return shader::ReportHitResult::kEndSearch;
-  // Closed at both ends, and false for NaN. [DXR: Ray extents]
+  // The interval is closed at both ends, and the test false for NaN. [DXR: Ray extents]
   if (!(t >= state.t_min && t <= invocation.values.t_current)) {
     return shader::ReportHitResult::kRejected;
   }
-  // The candidate's own copy: an any-hit shader that ignores it must leave no trace, and reads of
-  // attributes that were not written give 0.
+  // The candidate's own copy: one that an any-hit shader ignores must leave no trace, and
+  // attributes that were not written read as 0.
   alignas(16) uint8_t bytes[kMaxAttributeBytes] = {};
   if (attributes != nullptr) {
     std::memcpy(bytes, attributes, std::min(attribute_bytes, kMaxAttributeBytes));

@@ -11,7 +11,7 @@ namespace {
 using Floats4 [[gnu::vector_size(16)]] = float;
 using Floats8 [[gnu::vector_size(32)]] = float;
 
-// Floats: as many lanes as a register holds.
+// Floats: a vector with as many lanes as a register has.
 template <typename Floats>
 [[gnu::always_inline]] inline void search_here(const shader::LaneRays& rays,
                                                const InstanceBoxes& boxes, LaneSearches& out) {
@@ -37,7 +37,7 @@ template <typename Floats>
       const auto far = reinterpret_cast<Floats>(reinterpret_cast<Bits>(origin[axis]) & ~sign_bit);
       const auto size = reinterpret_cast<Floats>(reinterpret_cast<Bits>(direction) & ~sign_bit);
       valid &= (far <= shim::kLargestCoordinate) & (size <= shim::kLargestCoordinate);
-      // As InstanceBoxes' reciprocal.
+      // As in InstanceBoxes::reciprocal.
       const Floats over = 1.0f / (size > smallest ? size : smallest);
       slope[axis] = reinterpret_cast<Floats>(reinterpret_cast<Bits>(over) |
                                              (reinterpret_cast<Bits>(direction) & sign_bit));

@@ -45,7 +45,7 @@ RTCBounds random_box(Random& random, float scale) {
   return {sides[0][0], sides[0][1], sides[0][2], 0, sides[1][0], sides[1][1], sides[1][2], 0};
 }
 
-// Some of them no rays, or with numbers at the end of what there is.
+// Some are not valid rays, or have numbers at the limits of float.
 shader::LaneRays random_rays(Random& random, float scale) {
   shader::LaneRays rays;
   for (int lane = 0; lane < shader::kLanes; ++lane) {
@@ -83,7 +83,7 @@ shader::LaneRays random_rays(Random& random, float scale) {
   return rays;
 }
 
-// To the bit what each ray has by itself.
+// Bit for bit what each ray gives by itself.
 void expect_as_one_by_one(const shader::LaneRays& rays, const InstanceBoxes& boxes,
                           shader::CpuLevel level, uint32_t& valid_rays, uint32_t& entered_boxes) {
   LaneSearches searches;

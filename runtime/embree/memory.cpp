@@ -9,8 +9,8 @@
 namespace kaamos::embree {
 namespace {
 
-constexpr uint64_t kAlignment = 64 * 1024;  // of buffers, as D3D12's
-constexpr uint64_t kMapped = 1024 * 1024;   // from here on pages come from the system one by one
+constexpr uint64_t kAlignment = 64 * 1024;  // for buffers, as in D3D12
+constexpr uint64_t kMapped = 1024 * 1024;   // from here on, pages come straight from the system
 
 uint64_t rounded(uint64_t bytes) {
   return (bytes + kAlignment - 1) / kAlignment * kAlignment;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory of buffers, and which acceleration structures stand where in it. A GPU virtual address is
-// the host address.
+// The memory of buffers, and which acceleration structures are where in it. A GPU virtual address
+// is the host address.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/top_level.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::embree {
 
 class Memory : public runtime::StructureMap {
  public:
-  // Zeroed, a multiple of 64 KiB; null without memory. Large blocks cost nothing until touched.
+  // Zeroed, at a multiple of 64 KiB; null if out of memory. Large blocks cost nothing until
+  // touched.
   static uint8_t* allocate(uint64_t size_bytes);
   static void release(uint8_t* block, uint64_t size_bytes);
 
-  // The top level at exactly this address, if its bytes are untouched.
+  // The top level at exactly this address, if its header is intact.
   std::shared_ptr<const TopLevel> find_top_level(uint64_t address) const;
 };
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// oneTBB is not instrumented, so the thread sanitizer sees neither its locks nor the order they
-// give. This file is not instrumented either, so that half of oneTBB (its headers) is not checked
-// against the other half, and tells the sanitizer what order holds: the fork before every task,
-// every task before the join, tasks among themselves in none.
+// oneTBB is not instrumented, so the thread sanitizer sees neither its locks nor the order that
+// they establish. This file is not instrumented either, so that one half of oneTBB (its headers) is
+// not checked against the other half. It tells the sanitizer which order holds: the fork before
+// every task, every task before the join, and no order between tasks.
 #include "runtime/embree/parallel.h"
 
 #include <tbb/blocked_range.h>
@@ -45,7 +45,7 @@ class TaskOrder {
 };
 
 #if defined(KAAMOS_THREAD_SANITIZER)
-// Of all builds of the process: a callback does not say which one it belongs to.
+// Shared by all builds of the process, because a callback does not say which one it belongs to.
 TaskOrder builder_order;
 #endif
 

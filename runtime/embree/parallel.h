@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Work in ranges on the device's threads.
+// Runs ranges of work on the device's threads.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -11,8 +11,8 @@ namespace kaamos::embree {
 
 using RangeBody = void (*)(const void* context, uint64_t begin, uint64_t end);
 
-// Calls body(context, begin, end) for ranges that together are [0, count), on the arena's threads.
-// What was written before is seen by every call, and what the calls wrote is seen afterwards.
+// Calls body(context, begin, end) on the arena's threads, for ranges that together cover [0,
+// count). Every call sees what was written before, and the caller then sees what the calls wrote.
 void parallel_ranges(tbb::task_arena& arena, uint64_t count, RangeBody body, const void* context);
 
 template <typename Body>
@@ -25,9 +25,10 @@ void parallel_ranges(tbb::task_arena& arena, uint64_t count, const Body& body) {
       &body);
 }
 
-// One is on the stack while Embree builds, one of the second in each of the callbacks that it then
-// makes from any thread: these see what was written before, and what they write is seen afterwards.
-// Embree has that order by itself; the thread sanitizer cannot see it.
+// A BuilderRun is on the stack while Embree builds, and a BuilderCallback in each callback that
+// Embree makes meanwhile, from any thread. The callbacks see what was written before the build, and
+// what they write is seen after it. Embree itself ensures that order, but the thread sanitizer
+// cannot see it.
 class BuilderRun {
  public:
   BuilderRun();
@@ -49,7 +50,7 @@ inline BuilderCallback::BuilderCallback() {}
 inline BuilderCallback::~BuilderCallback() {}
 #endif
 
-// Calls body(context) inside the arena, so that its threads help with what body starts.
+// Calls body(context) inside the arena, so that its threads help with whatever work body starts.
 void run_in_arena(tbb::task_arena& arena, void (*body)(const void* context), const void* context);
 
 template <typename Body>

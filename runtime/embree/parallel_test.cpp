@@ -33,7 +33,7 @@ TEST(Parallel, RunInArenaReturnsAfterTheBody) {
 }
 
 #if defined(__SANITIZE_THREAD__)
-// What the sanitizer is told about oneTBB must not hide a real race between two tasks.
+// What we tell the sanitizer about oneTBB must not hide a real race between two tasks.
 TEST(Parallel, TheThreadSanitizerSeesARaceBetweenTasks) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   const auto race = [] {
@@ -41,14 +41,14 @@ TEST(Parallel, TheThreadSanitizerSeesARaceBetweenTasks) {
     int shared = 0;
     std::atomic<int> inside = 0;
     parallel_ranges(arena, 2, [&](uint64_t, uint64_t) {
-      // Both tasks are under way before either writes, unless one thread has to do all.
+      // Both tasks should be running before either writes, unless a single thread has to do all.
       ++inside;
       for (int i = 0; i < 10000 && inside.load(std::memory_order_relaxed) < 2; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
       ++shared;
     });
-    std::exit(shared == 0 ? 1 : 0);  // the sanitizer turns it into 66 where it reported
+    std::exit(shared == 0 ? 1 : 0);  // the sanitizer turns it into 66 if it reported a race
   };
   EXPECT_EXIT(race(), testing::ExitedWithCode(66), "data race");
 }

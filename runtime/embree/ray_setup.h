@@ -11,9 +11,9 @@
 
 namespace kaamos::embree {
 
-// GeometryClass bits that a ray visits, by its four flags that cull or skip classes (bits 6 to 9)
-// and by the instance's opacity. CULL_OPAQUE looks at the opacity after the instance's override.
-// [DXR: Ray flags]
+// The GeometryClass bits that a ray visits, by its four flags that cull or skip classes (bits 6 to
+// 9) and by the instance's opacity. CULL_OPAQUE applies to the opacity after the instance's
+// override. [DXR: Ray flags]
 struct ClassTable {
   uint8_t classes[16][3];
 
@@ -38,12 +38,12 @@ struct ClassTable {
 };
 inline constexpr ClassTable kClassTable;
 
-// What Embree may be given: all else, NaN included, is a miss.
+// Rays that Embree may get; every other ray, with NaN for example, misses.
 inline bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
   return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
 }
 
-// Out of line: only a ray against another structure than the last one comes here.
+// Out of line, because only a ray against a different structure than the last one gets here.
 [[gnu::noinline]] inline const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
   worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
   worker.cached_address = address;
@@ -59,8 +59,8 @@ inline const TopLevel* find_top_level(Worker& worker, uint64_t address) {
   return look_up_top_level(worker, address);
 }
 
-// What the rays of several lanes have in common. `flags`: with the pipeline's, which a RayQuery
-// does not have.
+// Sets what the rays of several lanes have in common. `flags` include the pipeline's, except for a
+// RayQuery, which has none.
 inline void begin_searches(RayState& state, uint32_t flags, uint32_t inclusion_mask,
                            const TopLevel* top_level) {
   shim::init(state.query);
@@ -74,7 +74,7 @@ inline void begin_searches(RayState& state, uint32_t flags, uint32_t inclusion_m
   state.search = nullptr;
 }
 
-// And what each of them has anew. `t_near`, `t_far`: as of RayState.
+// Sets what differs from ray to ray. `t_near`, `t_far`: as in RayState.
 inline void begin_search(RayState& state, float t_min, float t_max, float t_near, float t_far) {
   state.ended = false;
   // A negative TMin is undefined in DXR; here it is 0.
@@ -101,7 +101,7 @@ inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCR
   ray.flags = 0;
 }
 
-// False: it passes all instances at a distance.
+// False: the ray passes all instances at a distance.
 inline bool begin_exact_ray(RayState& state, ExactState& exact, RTCRay& ray) {
   state.exact = &exact;
   for (int i = 0; i < 3; ++i) {

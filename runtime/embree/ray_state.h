@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One TraceRay in flight. Lives on the stack of trace_ray; Embree's callbacks reach it through the
+// One TraceRay in flight. It is on the stack of trace_ray; Embree's callbacks reach it through the
 // query context, which is its first member.
 #pragma once
 
@@ -42,28 +42,28 @@ struct RayState {
   shim::QueryContext query;  // first: see embree_shim.h
   Worker* worker;
   const TopLevel* top_level;
-  const InstanceNode* instance;  // being traversed
+  const InstanceNode* instance;  // the one being traversed
   const shader::TraceRayArguments* arguments;
   const shader::Invocation* caller;
   void* payload;
-  // What the shaders of this ray see. `ray` is the argument of TraceRay, and ray_flags are, without
-  // the pipeline's flags and undefined bits [DXR: RayFlags]; the rest is set before each of them
+  // What the shaders of this ray see. `ray` is TraceRay's argument, and so are ray_flags, without
+  // the pipeline's flags and undefined bits [DXR: RayFlags]. The rest is set before each shader
   // runs.
   alignas(16) shader::RaySystemValues values;
 
-  uint32_t ray_flags;       // with the pipeline's flags
+  uint32_t ray_flags;       // including the pipeline's flags
   uint32_t inclusion_mask;  // 8 bits
-  const uint8_t* classes;   // GeometryClass bits to visit, by OpacityOverride of the instance
-  OpacityOverride opacity;  // by the ray's flags
-  QuerySearch* search;      // of a RayQuery: null while TraceRay runs
+  const uint8_t* classes;   // GeometryClass bits to visit, by the instance's OpacityOverride
+  OpacityOverride opacity;  // from the ray's flags
+  QuerySearch* search;      // the RayQuery's; null for TraceRay
   bool ended;               // the search is over: Embree's ray holds kEndedSearch
 
-  float t_min;  // of the DXR interval, 0 or more
+  float t_min;  // of the DXR interval, at least 0
   float t_max;
-  float t_near;  // of the open interval of triangles, as Embree's closed one
+  float t_near;  // the open interval of triangles, as Embree's closed one
   float t_far;
-  // Of the last hit that a filter or ReportHit committed; opaque triangles are committed by Embree
-  // alone. A triangle at the same t is outside the open interval. [DXR: Ray extents]
+  // t of the last hit that a filter or ReportHit committed; Embree commits opaque triangles by
+  // itself. A triangle at the same t is outside the open interval. [DXR: Ray extents]
   float committed_t;
 
   ExactState* exact;  // in exact precision only
@@ -76,8 +76,9 @@ inline RayState& ray_state_of(void* context) {
   return *reinterpret_cast<RayState*>(context);
 }
 
-// Of a hit, miss or intersection shader. A copy, in four registers of 16 bytes, that is changed:
-// built from its members it takes gcc twice as many instructions.
+// The Invocation for a hit, miss or intersection shader. Copies the caller's, in four 16-byte
+// registers, and changes the copy: gcc takes twice as many instructions to build it member by
+// member.
 inline shader::Invocation invocation_of(const shader::Invocation& caller, const Shader& shader,
                                         const ShaderRecord& record,
                                         const shader::RaySystemValues& values) {
@@ -90,7 +91,7 @@ inline shader::Invocation invocation_of(const shader::Invocation& caller, const 
   return invocation;
 }
 
-// For shaders of a hit, or of a candidate for one: all but the ray and its flags.
+// Sets everything but the ray and its flags, for the shaders of a hit or a candidate.
 inline void set_hit_values(const RayState& state, uint32_t instance_index, uint32_t geometry,
                            uint32_t primitive, uint32_t hit_kind, float t_current,
                            shader::RaySystemValues& values) {
@@ -105,13 +106,13 @@ inline void set_hit_values(const RayState& state, uint32_t instance_index, uint3
   values.world_to_object = state.top_level->world_to_object(instance_index);
 }
 
-// Of the instance that is being traversed.
+// The index of the instance being traversed.
 inline uint32_t instance_index(const RayState& state) {
   return static_cast<uint32_t>(state.instance - state.top_level->nodes());
 }
 
-// Opacity by the order geometry, instance, ray; each replaces what is before it.
-// [DXR: TraceRay control flow]
+// Geometry, instance, ray: each overrides the opacity that the one before it gives. [DXR: TraceRay
+// control flow]
 inline bool is_opaque(const RayState& state, bool geometry_opaque) {
   OpacityOverride opacity = state.opacity;
   if (opacity == OpacityOverride::kNone) opacity = state.instance->opacity;
@@ -128,8 +129,8 @@ inline ShaderRecord hit_record(const RayState& state, const InstanceNode& instan
 }
 
 // Front faces are clockwise as seen from the ray's origin, in object space and whatever the
-// instance's transform does; in Embree's terms its unnormalised normal points against the ray.
-// [DXR: D3D12_RAYTRACING_INSTANCE_FLAGS]
+// instance's transform is; in Embree's terms the unnormalised normal points against the ray. [DXR:
+// D3D12_RAYTRACING_INSTANCE_FLAGS]
 inline uint32_t triangle_hit_kind(const InstanceNode& instance, const float normal[3],
                                   const float object_direction[3]) {
   const float side = normal[0] * object_direction[0] + normal[1] * object_direction[1] +
@@ -139,8 +140,9 @@ inline uint32_t triangle_hit_kind(const InstanceNode& instance, const float norm
   return clockwise != flipped ? kHitKindTriangleFrontFace : kHitKindTriangleBackFace;
 }
 
-// ROBUST scenes accept barycentrics that are off by rounding; shaders get them inside the triangle.
-// Without branches; NaN becomes 0, as the first operand of _mm_max_ss gives way to the second.
+// ROBUST scenes accept barycentrics that rounding has moved out of the triangle; shaders get them
+// clamped to it. Without branches; NaN becomes 0, because _mm_max_ss returns its second operand if
+// the first is NaN.
 inline void clamp_barycentrics(float& u, float& v) {
   const auto clamp = [](float x, float limit) {
     return _mm_cvtss_f32(
@@ -150,9 +152,9 @@ inline void clamp_barycentrics(float& u, float& v) {
   v = clamp(v, 1 - u);
 }
 
-// The open interval of triangles as Embree's closed one. Denormals are flushed to zero, so that the
-// smallest t above 0 is FLT_MIN. Without branches: of floats that are not negative, their bits have
-// the same order. [DXR: Ray extents]
+// Turn the open interval of triangles into Embree's closed one. Denormals are flushed to zero, so
+// the smallest t above 0 is FLT_MIN. Without branches: the bits of non-negative floats have the
+// same order as the floats. [DXR: Ray extents]
 inline float next_above(float t) {
   constexpr auto kBelowSmallest = std::bit_cast<uint32_t>(FLT_MIN) - 1;
   return std::bit_cast<float>(std::max(std::bit_cast<uint32_t>(t), kBelowSmallest) + 1);
@@ -162,7 +164,8 @@ inline float next_below(float t) {
   return std::bit_cast<float>(t <= FLT_MIN ? 0u : below);
 }
 
-// Takes a shader's share of the pipeline's stack while it runs, and names it for fault messages.
+// While it runs, takes a shader's share off the pipeline's stack and names the shader for fault
+// messages.
 class RunningShader {
  public:
   RunningShader(Worker& worker, const Shader& shader)

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <mutex>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/checks/code_findings.h"
 #include "runtime/embree/compute.h"
 #include "runtime/embree/fault.h"
@@ -46,7 +46,7 @@ void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArgum
   trace_ray(invocation, arguments, payload, origin_t_min, direction_t_max);
 }
 
-// One after the other, so that what their shaders trace is heard in its place.
+// Traces one ray after another, so that what their shaders trace is reported in the right order.
 void heard_trace_rays(shader::Invocation& invocation, const shader::TraceRayArguments& arguments,
                       void* payloads, const shader::LaneRays& rays, uint32_t lanes) {
   trace_each(invocation, arguments, payloads, rays, lanes,

@@ -8,7 +8,7 @@
 namespace kaamos::embree {
 namespace {
 
-// Beyond this many records (8 MiB of cells) identifiers are looked up at every use.
+// Records past this many (8 MiB of cells) have their identifiers looked up at every use.
 constexpr uint64_t kMaxCachedRecords = uint64_t{1} << 20;
 
 bool is_null_identifier(const uint8_t* identifier) {
@@ -32,7 +32,7 @@ RecordTable::RecordTable(uint64_t start, uint64_t size_bytes, uint64_t stride_by
   if (start == 0 || size_bytes < kIdentifierBytes) return;
   count_ = stride_bytes == 0 ? 1 : (size_bytes - kIdentifierBytes) / stride_bytes + 1;
   const uint64_t wanted = std::min(count_, kMaxCachedRecords);
-  // calloc: the pages of a large table that no ray reaches are never touched.
+  // calloc, so that pages of a large table that no ray reaches are never touched.
   cache_.reset(static_cast<Cell*>(std::calloc(wanted, sizeof(Cell))));
   cached_ = cache_ ? wanted : 0;
 }
@@ -52,7 +52,7 @@ ShaderRecord RecordTable::resolve(uint64_t slot, uint64_t index) const {
       problems_->unknown.store(slot, std::memory_order_relaxed);
     }
   }
-  // Threads that meet here at once store the same value.
+  // Threads that get here at the same time store the same value.
   if (slot < cached_) cache_.get()[slot].store(target, std::memory_order_relaxed);
   return {target, address};
 }

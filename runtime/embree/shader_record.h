@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Shader tables: from a record's index to the code that runs. Tables are plain memory that is read
-// while the dispatch executes [DXR: Shader tables]; each record's 32-byte identifier is looked up
-// once per dispatch, when a ray first reaches it, so that records nobody reaches may hold anything.
+// Shader tables: from a record's index to the code that runs. Tables are plain memory, read while
+// the dispatch executes [DXR: Shader tables]. Each record's 32-byte identifier is looked up once
+// per dispatch, when a ray first reaches the record, so that records nobody reaches may contain
+// anything.
 #pragma once
 
 #include <atomic>
@@ -18,17 +19,17 @@ struct LinkedShader;
 
 namespace kaamos::embree {
 
-// Bytes of a shader identifier, at the start of every record. [DXR: Shader identifier]
+// Size of a shader identifier, at the start of every record. [DXR: Shader identifier]
 inline constexpr uint64_t kIdentifierBytes = 32;
 
-// One linked export: code and where its bindings come from. A cache line.
+// One linked export: its code, and where its bindings come from. A cache line.
 struct alignas(64) Shader {
   const char* name = "";
   shader::AnyFn entry = nullptr;
   const shader::BindingSlot* slots = nullptr;
-  uint32_t stack_bytes = 0;  // what it takes of the pipeline's stack
+  uint32_t stack_bytes = 0;  // its share of the pipeline's stack
   bool reads_hit_kind = false;
-  uint32_t number = 0;                            // of the pipeline's shaders
+  uint32_t number = 0;                            // among the pipeline's shaders
   const runtime::LinkedShader* linked = nullptr;  // for messages; may be null
 
   bool runs() const { return entry != nullptr; }
@@ -41,9 +42,9 @@ struct alignas(64) Shader {
 
 enum class RecordKind : uint32_t { kNone, kRayGeneration, kMiss, kHitGroup, kCallable };
 
-// What a shader identifier stands for. Shaders that are not there run nothing, so that kNothing
-// below serves for null identifiers, records out of bounds and identifiers of another kind of
-// shader alike. They are held by value: what a hit runs is two loads away, not three.
+// What a shader identifier stands for. Absent shaders run nothing, so kNothing below serves for
+// null identifiers, records out of bounds and identifiers of the wrong kind alike. Shaders are held
+// by value, so that what a hit runs is two loads away instead of three.
 struct RecordTarget {
   Shader shader;   // ray generation, miss, callable
   Shader any_hit;  // hit groups
@@ -55,27 +56,27 @@ struct RecordTarget {
 
 extern const RecordTarget kNothing;
 
-// Finds what an identifier stands for by a compare of all 32 bytes; null where it is unknown.
+// Finds what an identifier stands for by comparing all 32 bytes; null if it is unknown.
 struct TargetLookup {
   const RecordTarget* (*find)(const void* self, const uint8_t* identifier) = nullptr;
   const void* self = nullptr;
 };
 
-// What was reached in a table and should not have been; any one of each sort is kept.
+// What was reached in a table but should not have been; one example of each sort is kept.
 struct RecordProblems {
   static constexpr uint64_t kNone = UINT64_MAX;
   std::atomic<uint64_t> out_of_bounds = kNone;  // an index past the table
-  std::atomic<uint64_t> unknown = kNone;  // a record whose identifier is none of the table's kind
+  std::atomic<uint64_t> unknown = kNone;  // a record without an identifier of the table's kind
 };
 
 struct ShaderRecord {
   const RecordTarget* target;  // never null
-  const uint8_t* address;      // null where target is kNothing
+  const uint8_t* address;      // null if target is kNothing
 
   const uint8_t* local_arguments() const { return address + kIdentifierBytes; }
 };
 
-// One table of a dispatch; shared by its threads.
+// One table of a dispatch, shared by its threads.
 class RecordTable {
  public:
   RecordTable() = default;
@@ -95,7 +96,7 @@ class RecordTable {
     return resolve(slot, index);
   }
 
-  // Records inside size_bytes; 1 for a stride of 0.
+  // How many records are inside size_bytes; 1 for a stride of 0.
   uint64_t count() const { return count_; }
 
  private:
@@ -108,17 +109,17 @@ class RecordTable {
 
   const uint8_t* start_ = nullptr;
   uint64_t stride_bytes_ = 0;
-  uint64_t index_mask_ = 0;  // 0: the stride is
+  uint64_t index_mask_ = 0;  // 0 if the stride is 0
   uint64_t count_ = 0;
-  uint64_t cached_ = 0;  // first records that have a cell: count_ at most
+  uint64_t cached_ = 0;  // how many of the first records have a cell, at most count_
   RecordKind kind_ = RecordKind::kNone;
   TargetLookup lookup_;
   RecordProblems* problems_ = nullptr;
   std::unique_ptr<Cell, Free> cache_;
 };
 
-// Index of a hit record: three masked terms, summed without masking, in 64 bits.
-// [DXR: Hit group table indexing]
+// Index of a hit record: three masked terms, summed in 64 bits without masking. [DXR: Hit group
+// table indexing]
 inline uint64_t hit_record_index(uint32_t ray_contribution, uint32_t multiplier,
                                  uint32_t geometry_index, uint32_t instance_contribution) {
   return uint64_t{ray_contribution & 0xFu} + uint64_t{multiplier & 0xFu} * geometry_index +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Ray tracing and compute pipelines as they run here: linked exports flattened to what a call
-// needs.
+// Ray tracing and compute pipelines as this backend runs them: linked exports, flattened to what a
+// call needs.
 #pragma once
 
 #include <deque>
@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::embree {
@@ -20,7 +20,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
 
   const runtime::LinkedPipeline& linked() const { return *linked_; }
   TargetLookup lookup() const { return {find, this}; }
-  // By Shader::number.
+  // Indexed by Shader::number.
   const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:

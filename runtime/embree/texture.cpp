@@ -5,17 +5,17 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/clear_view.h"
+#include "runtime/backend/clear_view.h"
 #include "runtime/embree/memory.h"
 #include "runtime/shader/texture/texel_access.h"
 
 namespace kaamos::embree {
 namespace {
 
-constexpr size_t kKeptAfterEnd = 4096;  // views, of some 650 bytes
+constexpr size_t kKeptAfterEnd = 4096;  // views, of about 650 bytes each
 
-// Long rows are an odd number of cache lines apart: texels above each other would else share a few
-// sets of the caches, all of them where a row is a power of two long.
+// Long rows are an odd number of cache lines apart; otherwise texels above each other would share a
+// few cache sets, all of them the same one if a row is a power of two long.
 uint64_t row_pitch_of(uint64_t row_bytes) {
   constexpr uint64_t kLine = 64, kLong = 1024;
   if (row_bytes < kLong) return row_bytes;
@@ -25,7 +25,7 @@ uint64_t row_pitch_of(uint64_t row_bytes) {
 void clear_texture(const shader::TextureView& view, const shader::Texel& value) {
   const shader::FormatCodec& codec = shader::format_codec(view.format);
   if (codec.encode == nullptr || !view.unordered_access) return;
-  // Every row is the beginning of the widest one.
+  // Every other row is a prefix of the widest one.
   std::vector<uint8_t> row(size_t{view.mips[0].width} * codec.bytes);
   for (size_t at = 0; at < row.size(); at += codec.bytes) codec.encode(&row[at], value);
   for (uint32_t mip = 0; mip < view.mip_count; ++mip) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Textures in host memory, and the view and sampler objects that descriptors name.
+// Textures in host memory, and the view and sampler objects that descriptors point to.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "kaamos/shader/texture_view.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace kaamos::embree {
 
-// Memory of view objects. A view that ended reads as null for as long as possible: its memory is
-// used again only after many others have ended.
+// Memory of view objects. A view that has ended reads as null for as long as possible: its memory
+// is not reused until many others have ended.
 class ViewPool {
  public:
   shader::TextureView* create();
   void end(shader::TextureView* view);
-  // Lives as long as the pool; equal states are one.
+  // Lives as long as the pool; equal states share one object.
   const shader::SamplerState* sampler(const shader::SamplerState& state);
 
  private:
@@ -33,7 +33,7 @@ class ViewPool {
 
 class Texture final : public runtime::BackendTexture {
  public:
-  // Null without memory.
+  // Null if out of memory.
   static std::shared_ptr<Texture> create(const rtapi::TextureDesc& desc,
                                          std::shared_ptr<ViewPool> pool);
   ~Texture() override;
@@ -51,7 +51,7 @@ class Texture final : public runtime::BackendTexture {
 
   uint32_t texel_bytes() const { return texel_bytes_; }
   Subresource subresource(uint32_t mip, uint32_t array_element) const;
-  // What Descriptor::address says; equal descs share one.
+  // What goes into Descriptor::address; equal descs share one view.
   const shader::TextureView* view(const runtime::TextureViewDesc& desc);
 
  private:

@@ -83,7 +83,7 @@ TEST(Texture, ACopyFillsTheRightSubresource) {
   EXPECT_EQ(reinterpret_cast<uint32_t*>(back.dest.buffer->host())[64 + 6], 165u);
 }
 
-// Long rows do not follow each other at once in memory.
+// Long rows are not contiguous in memory.
 TEST(Texture, LongRowsKeepTheirTexels) {
   constexpr uint32_t kWidth = 1024, kHeight = 3, kPitch = 4 * kWidth;
   Harness h;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "runtime/backend/errors.h"
 #include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
@@ -60,7 +61,7 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   bottom_levels_.push_back(instance.bottom_level);
 }
 
-// World bounds in double, and then relative to the frame of all of them.
+// Computes world bounds in double, then makes them relative to a frame around all of them.
 void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
                                    std::vector<RTCBounds>& bounds) {
   struct Box {
@@ -88,7 +89,7 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
         low += std::min(a, b);
         high += std::max(a, b);
       }
-      if (level.procedural()) {  // traced in float, and widened for that
+      if (level.procedural()) {  // traced in float, and widened for it
         low = instances[i].bounds.lower[row];
         high = instances[i].bounds.upper[row];
       }
@@ -127,7 +128,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     return level;
   }
 
-  rtcGetDeviceError(context.device);  // forgets what an earlier build left
+  rtcGetDeviceError(context.device);  // clears an earlier build's error
   level->scene_ = rtcNewScene(context.device);
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
   if (level->scene_ != nullptr && geometry != nullptr) {
@@ -135,7 +136,7 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
                                                                      : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(level->scene_, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<uint32_t>(bounds.size()));
-    rtcSetGeometryUserData(geometry, bounds.data());  // needed until the commit only
+    rtcSetGeometryUserData(geometry, bounds.data());  // only needed until the commit
     rtcSetGeometryBoundsFunction(geometry, bounds_of_instance, nullptr);
     rtcSetGeometryIntersectFunction(geometry,
                                     context.exact ? intersect_exact_instance : intersect_instance);
@@ -152,9 +153,9 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   }
   if (geometry != nullptr) rtcReleaseGeometry(geometry);
   if (rtcGetDeviceError(context.device) != RTC_ERROR_NONE || level->scene_ == nullptr) {
-    return rtapi::Error{"KA0792", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0792 top level could not be built: Embree has no memory for " +
-                            std::to_string(instances.size()) + " instances."};
+    return runtime::make_error(runtime::Id::kBuildFailed, rtapi::ErrorCode::kOutOfMemory,
+                               "Embree has no memory for a top level of " +
+                                   std::to_string(instances.size()) + " instances.");
   }
   return level;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A top level: a list of boxes where there are few instances, else one Embree user geometry whose
-// primitives are the instances. Against Embree's own instances the latter costs the same to trace,
-// less to build, does not abort on singular matrices, has bounds with room for rounding, and lets
-// each instance have its own flags; the former costs less. Numbers: README.md.
+// A top level: a list of boxes if there are few instances, otherwise one Embree user geometry whose
+// primitives are the instances. Compared with Embree's own instances, the user geometry costs the
+// same to trace and less to build, does not abort on singular matrices, has bounds with room for
+// rounding, and lets each instance have its own flags; the list of boxes costs less to trace.
+// Numbers: README.md.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +18,25 @@
 #include "runtime/embree/bottom_level.h"
 #include "runtime/embree/instance_boxes.h"
 #include "runtime/embree/instance_node.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::embree {
 
-// What only shaders need of an instance: 3x4, row-major.
+// What only shaders need from an instance: 3x4, row-major.
 struct WorldToObject {
   float rows[12];
 };
 
 class TopLevel final : public runtime::TopLevelBase {
  public:
-  // `instances` in the order of the input: its index is InstanceIndex. Errors: KA0792 no memory.
+  // `instances` are in input order: the index is InstanceIndex. Errors: KA0792 out of memory.
   static rtapi::Result<std::shared_ptr<TopLevel>> build(
       const BuildContext& context, std::span<const runtime::Instance> instances);
   ~TopLevel() override;
   TopLevel(const TopLevel&) = delete;
   TopLevel& operator=(const TopLevel&) = delete;
 
-  // Whether nothing can be hit. If something can there is either a list of boxes or a scene.
+  // Whether nothing can be hit. Otherwise there is either a list of boxes or a scene.
   bool empty() const { return bottom_levels_.empty(); }
   const InstanceBoxes& boxes() const { return boxes_; }
   RTCScene scene() const { return scene_; }
@@ -43,7 +44,7 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // In exact precision: where Embree's coordinates are, and the instances; else null.
+  // In exact precision, where Embree's coordinates have their origin; null in the others.
   const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }
@@ -64,21 +65,22 @@ class TopLevel final : public runtime::TopLevelBase {
   std::vector<InstanceNode> nodes_;
   std::vector<WorldToObject> world_to_object_;
   std::vector<std::shared_ptr<const runtime::BottomLevelBase>>
-      bottom_levels_;  // kept alive, each once
+      bottom_levels_;  // kept alive; each appears once
 };
 
 struct LaneSearches;
 struct RayState;
 
-// The traversal of the ray's top level, which is not empty, as rtcIntersect1 and rtcOccluded1 do
-// it. [traverse.cpp]
+// Traverse the ray's top level, which must not be empty, like rtcIntersect1 and rtcOccluded1.
+// [traverse.cpp]
 void intersect(RayState& state, RTCRayHit& ray_hit);
 void occlude(RayState& state, RTCRay& ray);
-// Of a list of boxes, in robust or fast precision, of which it is known which ones the ray enters.
+// The same for a list of boxes, in robust or fast precision, when it is known which boxes the ray
+// enters.
 void intersect(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane);
 void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);
 
-// Callbacks of a scene's traversal.
+// Callbacks for the traversal of a scene.
 void intersect_instance(const RTCIntersectFunctionNArguments* arguments);
 void occlude_instance(const RTCOccludedFunctionNArguments* arguments);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay: guard, traverse, then run the closest-hit or the miss shader.
+// TraceRay: check, traverse, then run the closest-hit or the miss shader.
 #include "runtime/embree/trace.h"
 
 #include "runtime/embree/fault.h"
@@ -12,8 +12,8 @@ namespace {
 
 using shader::TraceRayArguments;
 
-// Whether only the existence of a hit counts. Forced-opaque rays without a closest-hit shader are
-// such rays too, as long as no intersection shader could see the difference.
+// Whether only the existence of a hit matters. This includes forced-opaque rays without a
+// closest-hit shader, as long as no intersection shader could see the difference.
 bool asks_visibility(const RayState& state) {
   if ((state.ray_flags & kRaySkipClosestHitShader) == 0) return false;
   return (state.ray_flags & kRayAcceptFirstHitAndEndSearch) != 0 ||
@@ -26,7 +26,7 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
-// `exact`: the search was an exact one.
+// `exact`: the search ran in exact precision.
 template <bool exact>
 void run_closest_hit(Worker& worker, const shader::Invocation& caller,
                      const TraceRayArguments& arguments, RayState& state,
@@ -41,7 +41,7 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
     return;
   ++worker.counters.closest_hit_calls;
 
-  // A search that was ended early has lost its t in Embree's ray.
+  // If a search was ended early, Embree's ray no longer has its t.
   const float t = exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
@@ -76,7 +76,7 @@ void run_miss(Worker& worker, const shader::Invocation& caller, const TraceRayAr
   shader.as<shader::MissFn>()(invocation, state.payload);
 }
 
-// From a ray's top level on, and from what is known of its boxes on.
+// Traversals from the top level on, and from known box entries on.
 struct WholeTraversal {
   void intersect(RayState& state, RTCRayHit& ray_hit) const { embree::intersect(state, ray_hit); }
   void occlude(RayState& state, RTCRay& ray) const { embree::occlude(state, ray); }
@@ -91,7 +91,7 @@ struct LaneTraversal {
   int lane;
 };
 
-// Traverses, and runs the shader of what was found.
+// Traverses, then runs the shader for what was found.
 template <bool exact, typename Traversal>
 void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
             RayState& state, RTCRayHit& ray_hit, Traversal traversal) {
@@ -111,7 +111,7 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
   run_closest_hit<exact>(worker, caller, arguments, state, ray_hit);
 }
 
-// Out of line: what it has on the stack is large, and few scenes come here.
+// Out of line, because it needs much stack and few scenes get here.
 [[gnu::noinline]] void search_exactly(Worker& worker, const shader::Invocation& caller,
                                       const TraceRayArguments& arguments, RayState& state) {
   RTCRayHit ray_hit;
@@ -123,20 +123,20 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
 
 void check_depth(Worker& worker, const shader::Invocation& caller) {
   check_stack(worker);
-  // Ray generation is depth 0; at the declared depth TraceRay removes the device.
-  // [DXR: Ray recursion limit]
+  // Ray generation is depth 0; TraceRay at the declared depth removes the device. [DXR: Ray
+  // recursion limit]
   if (caller.depth >= worker.dispatch->max_recursion_depth) [[unlikely]] {
     remove_device(worker, shader::RemovalReason::kRecursionDepth);
   }
 }
 
-// Fewer are not worth to be held against all boxes together.
+// With fewer than three rays it does not pay to test them against the boxes together.
 bool are_three(uint32_t lanes) {
   const uint32_t others = lanes & (lanes - 1);
   return (others & (others - 1)) != 0;
 }
 
-// The rest of trace_rays, of rays that can share what they ask of `top_level`.
+// The rest of trace_rays, for rays that can test the boxes of `top_level` together.
 void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayArguments& arguments,
                     void* payloads, const shader::LaneRays& rays, uint32_t lanes,
                     const TopLevel& top_level) {
@@ -208,7 +208,8 @@ void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, 
                         !top_level->boxes().empty() && top_level->exact_frame() == nullptr &&
                         !top_level->has_procedurals();
   if (together) {
-    // Not on this stack, which a fault would leave without letting it go; so only at one depth.
+    // Kept alive in the worker and not on this stack, since a fault would leave the stack without
+    // releasing it; that is why it works at one depth only.
     if (worker.shared_top_level.get() != top_level) {
       worker.shared_top_level = worker.cached_top_level;
     }

@@ -7,7 +7,7 @@
 
 namespace kaamos::embree {
 
-// Services::trace_ray. Returns when all shaders of the ray are done.
+// Services::trace_ray. Returns when all shaders of the ray have run.
 void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                void* payload, shader::RayLanes origin_t_min, shader::RayLanes direction_t_max);
 
@@ -15,8 +15,8 @@ void trace_ray(shader::Invocation& caller, const shader::TraceRayArguments& argu
 void trace_rays(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                 void* payloads, const shader::LaneRays& rays, uint32_t lanes);
 
-// Calls trace(lane, payload, origin and TMin, direction and TMax) for one lane after the other,
-// with its index in `caller`.
+// Calls trace(lane, payload, origin and TMin, direction and TMax) for one lane after another, with
+// the lane's index in `caller`.
 template <typename Trace>
 void trace_each(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
                 void* payloads, const shader::LaneRays& rays, uint32_t lanes, Trace trace) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What a traversal does at an instance, in robust and fast precision: decides by the instance's
-// mask and flags what the ray sees of it, takes the ray to object space, and traverses the bottom
-// level with it. In exact precision exact_traverse.cpp does.
+// mask and flags what the ray sees of it, transforms the ray to object space, and traverses the
+// bottom level with it. For exact precision see exact_traverse.cpp.
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 #include "runtime/embree/lane_rays.h"
@@ -10,8 +10,8 @@
 namespace kaamos::embree {
 namespace {
 
-// Facing flags, or opacity that is not the geometry's, concern hits that have no filter of their
-// own: then every hit goes through the filter.
+// Facing flags, and an opacity that overrides the geometry's, affect hits that have no filter of
+// their own; in these cases every hit must go through the filter.
 void select_filter(RayState& state, const InstanceNode& node) {
   const OpacityOverride opacity =
       state.opacity != OpacityOverride::kNone ? state.opacity : node.opacity;
@@ -33,12 +33,13 @@ struct Visit {
     const ObjectRay object = to_object_space(node, world_origin, world_direction);
     if (!is_traceable(object)) return;
     // In a top level with procedural instances Embree's ray has the closed interval. Triangles must
-    // see the open one, which also ends just before a hit that is there [DXR: Ray extents].
+    // see the open one, which also ends just before a committed hit. [DXR: Ray extents]
     const float t_far = ray.tfar;
     const bool mixed = state.top_level->has_procedurals();
     const float t_near = mixed && node.procedural ? state.t_min : state.t_near;
     if (mixed && !node.procedural) ray.tfar = committed ? next_below(t_far) : state.t_far;
-    // Whole stores: Embree loads origin and tnear at once, and would wait for two partial ones.
+    // Full-width stores: Embree loads origin and tnear at once, and would stall on two partial
+    // stores.
     _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, t_near));
     _mm_store_ps(&ray.dir_x, object.direction);
     ray.mask = classes;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The state of a running dispatch: what all its threads share (DispatchState), and what one thread
-// has while it runs one tile or thread group (Worker). Reached from a shader's Invocation by its
-// backend pointer.
+// uses while it runs one tile or thread group (Worker). A shader's Invocation reaches it through
+// its backend pointer.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "kaamos/shader/bound.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::runtime {
@@ -30,10 +30,10 @@ namespace kaamos::embree {
 class TopLevel;
 class Memory;
 
-// What a dispatch did. Added up per tile, in any order: integers, so the order does not matter.
+// What a dispatch did. Summed over tiles; these are integers, so the order does not matter.
 struct Counters {
   uint64_t rays = 0;             // TraceRay calls
-  uint64_t visibility_rays = 0;  // of these, the ones that only asked whether there is a hit
+  uint64_t visibility_rays = 0;  // those of them that only asked whether there is a hit
   uint64_t misses = 0;           // all other rays hit something
   uint64_t any_hit_calls = 0;
   uint64_t closest_hit_calls = 0;
@@ -56,7 +56,7 @@ struct Counters {
 // Why a device was removed: the first fault of a dispatch.
 struct Removal {
   shader::RemovalReason reason = shader::RemovalReason::kOther;
-  std::string message;
+  std::string text;
 };
 
 // A texture as large as the dispatch: each invocation mostly reads or writes the texel with its own
@@ -80,29 +80,31 @@ struct DispatchState {
   uint32_t pipeline_flags = 0;       // D3D12_RAYTRACING_PIPELINE_FLAGS: ray flags of every TraceRay
   uint64_t stack_bytes = UINT64_MAX;  // of the pipeline [DXR: SetPipelineStackSize]
   const Memory* memory = nullptr;
-  // What the shaders of a ray tracing pipeline find bound, by Shader::number.
+  // What the shaders of a ray tracing pipeline have bound, by Shader::number.
   std::vector<shader::BoundResource> bound_resources;
   std::vector<const shader::BoundResource*> bound;
   std::vector<Picture> pictures;
-  // Checked mode; null without.
+  // Checked mode; null if it is off.
   const runtime::Context* context = nullptr;
   const rtapi::DispatchRaysDesc* tables = nullptr;  // null: Dispatch
   std::vector<shader::AddressRange> ranges;
   const char* label = "";  // "DispatchRays 3 of the command list": for messages
 
-  // Set when all else is, and read first by each thread: with the mutex that end_worker and
-  // end_dispatch take, all that a dispatch needs of memory order, whatever the scheduler promises.
+  // Set after everything else, and read first by each thread. Together with the mutex that
+  // end_worker and end_dispatch take, it gives all the memory ordering that a dispatch needs,
+  // whatever the scheduler promises.
   std::atomic<bool> begun = false;
   std::atomic<bool> removed = false;
-  std::atomic<uint64_t> unknown_structure = 0;  // an address that a ray was traced against
+  std::atomic<uint64_t> unknown_structure = 0;  // one that a ray was traced against
   std::mutex mutex;                             // guards the members below
   Removal removal;
   Counters counters;
-  std::vector<runtime::ReachedFrom> reached;  // each once, by hash
+  std::vector<runtime::ReachedFrom> reached;  // each different one once, by hash
   std::unordered_set<uint64_t> reached_hashes;
 };
 
-// What each ray reads of it lies in the first cache line: across two, primary rays take 5 % longer.
+// What each ray reads from it is in the first cache line: spread over two, primary rays take 5 %
+// longer.
 struct alignas(64) Worker {
   DispatchState* dispatch = nullptr;
   const shader::BoundResource* const* bound = nullptr;  // the dispatch's
@@ -110,7 +112,7 @@ struct alignas(64) Worker {
   uint64_t cached_address = 0;
   std::shared_ptr<const TopLevel> cached_top_level;
   uint64_t stack_left = UINT64_MAX;  // bytes of the pipeline's stack [DXR: Pipeline stack]
-  uintptr_t stack_limit = 0;         // a shader call below it would run out of stack
+  uintptr_t stack_limit = 0;         // no shader is called with less stack than this
   const Shader* running = nullptr;   // the shader that is executing: for messages
   const uint32_t* index = nullptr;   // its DispatchRaysIndex or thread group
   sigjmp_buf* jump = nullptr;        // where a fault ends the tile
@@ -118,11 +120,12 @@ struct alignas(64) Worker {
   shader::RemovalReason fault_reason = shader::RemovalReason::kOther;
   int fault_signal = 0;
   uintptr_t fault_address = 0;
-  // Of a row that runs at once: of the ray that was traced, or of the first of 8.
+  // For a row that runs at once: the index of the ray that was traced, or of the first of 8.
   uint32_t fault_index[3] = {0, 0, 0};
   Counters counters;
-  uint64_t reached_hashes[64] = {};  // of late, by the low bits of the hash
-  // Of rays that are traced together: their shaders may trace another one meanwhile.
+  uint64_t reached_hashes[64] = {};  // the most recent ones, by the low bits of the hash
+  // The top level of rays that are traced together, since their shaders may trace against another
+  // one meanwhile.
   std::shared_ptr<const TopLevel> shared_top_level;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A bounding volume hierarchy in double precision that finds every box along a whole ray. Simple
-// rather than fast: explanations want all candidates, in front of the hit and behind it.
+// rather than fast: explanations need all candidates, in front of the hit and behind it.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace kaamos::explain {
 
 struct Box {
   double lower[3] = {1, 1, 1};
-  double upper[3] = {-1, -1, -1};  // inverted: empty, never found
+  double upper[3] = {-1, -1, -1};  // inverted: an empty box, which is never found
 
   bool empty() const { return !(lower[0] <= upper[0]); }
   void add(const Box& other) {
@@ -36,7 +36,7 @@ struct Ray {
   double direction[3];
 };
 
-// The part of the line inside the box; false: none.
+// Clips the line to the box; false if it misses.
 inline bool clip(const Ray& ray, const Box& box, double& enter, double& leave) {
   enter = -std::numeric_limits<double>::infinity();
   leave = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ class Bvh {
   }
   Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
 
-  // Calls found(index) for each box that the ray's forward half meets, in any order.
+  // Calls found(index) for each box that the forward half of the line hits, in any order.
   template <class Found>
   void visit(const Ray& ray, Found&& found) const {
     if (nodes_.empty()) return;
@@ -95,7 +95,8 @@ class Bvh {
     uint32_t first = 0, count = 0;  // leaves
   };
 
-  // Halves by the median of the centres along the longest side: never deeper than 32.
+  // Splits at the median of the centres along the longest side, so the tree is never deeper than
+  // 32.
   uint32_t split(uint32_t first, uint32_t end) {
     const auto index = static_cast<uint32_t>(nodes_.size());
     nodes_.emplace_back();

@@ -9,7 +9,7 @@
 namespace kaamos::explain {
 namespace {
 
-// Every box that meets the forward half of the ray is visited, by a test of each.
+// Visits every box that the forward half of the ray hits, compared with a test of each box.
 TEST(Bvh, FindsWhatATestOfEachBoxFinds) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-10, 10), size(0, 4);

@@ -25,7 +25,7 @@ void on_signal(int number, siginfo_t* info, void* context) {
   if (guarded != nullptr && info->si_code > 0) {
     guarded->signal = number;
     guarded->address = reinterpret_cast<uintptr_t>(info->si_addr);
-    // The sanitizers' handlers, which stand before this one, have blocked every signal.
+    // The sanitizers' handlers, which run before this one, have blocked every signal.
     pthread_sigmask(SIG_SETMASK, &static_cast<const ucontext_t*>(context)->uc_sigmask, nullptr);
     siglongjmp(guarded->jump, 1);
   }
@@ -36,13 +36,13 @@ void on_signal(int number, siginfo_t* info, void* context) {
   } else if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) {
     previous.sa_handler(number);
   } else {
-    // Restored, the default takes the instruction that faulted, when it runs again.
+    // With the default handler back, the faulting instruction runs again and ends the process.
     sigaction(number, &previous, nullptr);
     if (info->si_code <= 0) raise(number);
   }
 }
 
-// While a replay runs; replays run one at a time.
+// Installed while a replay runs; replays run one at a time.
 class Handlers {
  public:
   Handlers() {

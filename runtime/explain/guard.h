@@ -10,10 +10,10 @@
 namespace kaamos::explain {
 
 // Runs body(argument) on this thread. A fault in it (SIGSEGV, SIGBUS, SIGFPE, SIGILL) or a call of
-// leave() ends it without running destructors. Returns why it ended early, or an empty text.
+// leave() ends it without running destructors. Returns why it ended early, or an empty string.
 std::string run_guarded(void (*body)(void*), void* argument);
 
-// Within run_guarded: ends it. `why` is copied.
+// Ends the body that run_guarded is running. `why` is copied.
 [[noreturn]] void leave(const char* why);
 
 }  // namespace kaamos::explain

@@ -17,7 +17,8 @@ using runtime::LinkedRecord;
 using runtime::LinkedShader;
 using runtime::RecordKind;
 
-// Shaders that call each other; DXR's own limits are 31 for TraceRay and the stack for CallShader.
+// How deep shaders may call each other; DXR's own limits are 31 for TraceRay and the stack for
+// CallShader.
 constexpr uint32_t kMaxNesting = 96;
 
 const char* table_name(RecordKind kind) {
@@ -34,7 +35,7 @@ const char* table_name(RecordKind kind) {
   return "hit group";
 }
 
-// Denormals are zero in shaders, as D3D's fp32 rules have it.
+// Shaders flush denormals to zero, by D3D's fp32 rules.
 class FloatMode {
  public:
   FloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(0x1F80 | 0x8000 | 0x0040); }
@@ -182,7 +183,8 @@ void Replay::describe_hit_record(const Trace& trace, const Candidate& candidate,
   out.Reason = record.reason;
 }
 
-// The payload's fields as the miss shader declares them, or any shader of that payload size.
+// The payload's fields as the miss shader declares them, or else as any shader with a payload of
+// that size does.
 const char* Replay::payload_layout(const LinkedShader* shader, uint32_t bytes) const {
   const auto knows = [](const shader::ExportDesc& code) {
     return code.payload_layout != nullptr && *code.payload_layout != '\0';

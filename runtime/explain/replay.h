@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Runs the shaders of one DispatchRaysIndex at a time on the calling thread, with services of its
-// own: rays are traced by scene.h, and whatever happens is written down.
+// own: scene.h traces the rays, and whatever happens is written down.
 #pragma once
 
 #include <cstdint>
@@ -17,18 +17,18 @@
 #include "kaamos/shader/abi.h"
 #include "kaamos/shader/bound.h"
 #include "kaamos/shader/texture_view.h"
-#include "runtime/address_map.h"
-#include "runtime/backend.h"
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/explain/scene.h"
-#include "runtime/linked_pipeline.h"
 
 namespace kaamos::explain {
 
-// What a replay needs of its device; all of it outlives the replay.
+// What a replay needs from its device; all of it outlives the replay.
 struct Environment {
   const runtime::BackendDevice* backend = nullptr;
   const runtime::AddressMap* addresses = nullptr;
-  // Copies of textures in host memory; null reads as zeros. The copies take what is written.
+  // Copies of textures in host memory; null reads as zeros. Writes go to the copies.
   std::function<const shader::TextureView*(const shader::Descriptor&)> texture;
   std::function<const shader::SamplerState*(const shader::Descriptor&)> sampler;
 };
@@ -40,7 +40,8 @@ class Replay {
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  // Writes to the memory that the shaders write to. `out` is null where only the counts matter.
+  // Also writes to the memory that the shaders write to. `out` is null where only the counts
+  // matter.
   rtapi::PixelStatistics run(const uint32_t index[3], uint32_t max_candidates,
                              rtapi::PixelExplanation* out);
 
@@ -56,7 +57,7 @@ class Replay {
   bool recording() const { return explanation_ != nullptr; }
   void run_ray_generation();
 
-  // Records of tables
+  // Records of shader tables
   Record find_record(const rtapi::GpuVirtualAddressRangeAndStride& table, runtime::RecordKind kind,
                      uint64_t index) const;
   Record hit_record(const Trace& trace, const Candidate& candidate) const;
@@ -91,24 +92,25 @@ class Replay {
   void settle(Query& state, const shader::RayQuery& query);
   void finish_queries(const rtapi::ExplainedShader* node);
   rtapi::ExplainedCall* add_call(Frame& caller, rtapi::ExplainedCallKind kind);
-  void enter();  // counts nested shaders, and ends the replay where there are too many
+  void enter();  // counts nested shaders, and ends the replay when there are too many
   void leave() { --nesting_; }
 
   const Environment& environment_;
   const runtime::DispatchRaysCommand& command_;
   shader::Dispatch dispatch_;
   Scenes scenes_;
-  // What each shader finds bound, looked up when it runs first.
+  // What each shader has bound, looked up when it first runs.
   std::map<const runtime::LinkedShader*, std::vector<shader::BoundResource>> bound_;
 
-  // Of the index that runs. What lives across shader calls lies here: a fault jumps over frames.
+  // State of the index that is running. Whatever must survive across shader calls is kept here,
+  // because a fault jumps over frames.
   rtapi::PixelExplanation* explanation_ = nullptr;
   rtapi::PixelStatistics statistics_;
   uint32_t max_candidates_ = 0;
   uint32_t index_[3] = {0, 0, 0};
   uint32_t nesting_ = 0;
   uint32_t traces_ = 0;                            // in flight
-  std::deque<std::vector<Candidate>> candidates_;  // of each trace in flight, reused
+  std::deque<std::vector<Candidate>> candidates_;  // one per trace in flight, reused
   std::deque<Query> queries_;
 };
 

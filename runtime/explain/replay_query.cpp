@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery: every candidate that is not opaque, or procedural, is the shader's to decide.
+// RayQuery: the shader decides about every non-opaque or procedural candidate.
 #include <cmath>
 
 #include "kaamos/shader/ray_query.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 
@@ -89,7 +89,7 @@ void Replay::begin_query(Frame& caller, RayQuery& query, const shader::RayQueryA
   }
 }
 
-// Takes over what the shader has committed since the last time.
+// Takes over what the shader has committed since the last call.
 void Replay::settle(Query& state, const RayQuery& query) {
   const bool committed = query.committed.type != 0;
   state.search.committed = committed;
@@ -170,7 +170,8 @@ bool Replay::proceed(RayQuery& query) {
   return false;
 }
 
-// What no Proceed came to is listed when the shader has returned. The RayQuery is gone by then.
+// Lists the candidates that no Proceed reached, once the shader has returned. The RayQuery no
+// longer exists by then.
 void Replay::finish_queries(const rtapi::ExplainedShader* node) {
   if (node == nullptr) return;
   for (Query& state : queries_) {

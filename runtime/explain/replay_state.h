@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What one shader invocation, one TraceRay and one RayQuery have while they are replayed.
+// The state of one shader invocation, one TraceRay and one RayQuery while they are replayed.
 #pragma once
 
 #include <vector>
@@ -28,22 +28,22 @@ struct Replay::Trace {
   const TopLevel* scene = nullptr;
   Search search;
   rtapi::ExplainedCall* call = nullptr;  // null: nothing is recorded
-  // Of the committed hit
+  // The committed hit
   Candidate hit;
   Record hit_record;
   uint32_t hit_kind = 0;
   size_t hit_node = SIZE_MAX;   // in call->Candidates
-  size_t this_node = SIZE_MAX;  // the candidate that is being offered
+  size_t this_node = SIZE_MAX;  // the candidate being offered
   alignas(16) uint8_t attributes[kMaxAttributeBytes] = {};
 };
 
-// A shader at work; Invocation::backend points to it. A fault jumps over it: it owns nothing.
+// A running shader; Invocation::backend points to it. A fault jumps over it, so it owns nothing.
 struct Replay::Frame : shader::Invocation {
   Replay* replay = nullptr;
   rtapi::ExplainedShader* node = nullptr;  // null: nothing is recorded
   shader::RaySystemValues values = {};
-  Trace* trace = nullptr;                // intersection shaders
-  const Candidate* candidate = nullptr;  // the same
+  Trace* trace = nullptr;                // only for intersection shaders
+  const Candidate* candidate = nullptr;  // only for intersection shaders
   Record record;
 
   void begin(Replay& self, const runtime::LinkedShader& linked, const Record& its_record,
@@ -71,12 +71,12 @@ struct Replay::Query {
   std::vector<Candidate> candidates;
   size_t next = 0;
   Search search;
-  // Where it is written down; null: nowhere.
+  // Where it is recorded; null: nowhere.
   rtapi::ExplainedShader* node = nullptr;
   size_t call = 0;
-  size_t offered = SIZE_MAX;     // candidate that the shader has not answered yet
-  size_t committed = SIZE_MAX;   // in the recorded candidates
-  std::vector<size_t> recorded;  // of each candidate, its place in ExplainedCall::Candidates
+  size_t offered = SIZE_MAX;     // the candidate that the shader has not answered yet
+  size_t committed = SIZE_MAX;   // index of the committed one in the recorded candidates
+  std::vector<size_t> recorded;  // for each candidate, its place in ExplainedCall::Candidates
 };
 
 template <class Function>
@@ -92,7 +92,7 @@ rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& i
                                    uint32_t flags);
 
 const shader::Services& services();
-// Whose textures shaders on this thread read: services of textures get no invocation.
+// Sets whose textures the shaders on this thread read: texture services get no invocation.
 void set_environment(const Environment* environment);
 
 }  // namespace kaamos::explain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay: candidates front to back, then the closest-hit or the miss shader.
+// TraceRay: offers candidates front to back, then runs the closest-hit or the miss shader.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include "runtime/explain/guard.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 
@@ -25,7 +25,7 @@ bool has(uint32_t flags, RayFlags flag) {
   return (flags & static_cast<uint32_t>(flag)) != 0;
 }
 
-// What traversals may be given: all else, NaN included, is a miss.
+// Rays that traversals accept; every other ray, with NaN for example, misses.
 bool is_valid(const shader::RayDesc& ray) {
   for (int i = 0; i < 3; ++i) {
     if (!(std::fabs(ray.origin[i]) <= runtime::kLargestCoordinate)) return false;
@@ -300,7 +300,7 @@ ReportHitResult Replay::report_hit(Frame& frame, float t, uint32_t hit_kind, con
     if (call != nullptr) call->Note = "rejected: the search had ended";
     return ReportHitResult::kEndSearch;
   }
-  // Closed at both ends, and false for NaN. [DXR: Ray extents]
+  // The interval is closed at both ends, and the test false for NaN. [DXR: Ray extents]
   if (!(t >= trace.search.t_min && t <= trace.search.committed_t)) {
     if (call != nullptr) {
       call->Note = "rejected: t is not between TMin " + number_text(trace.search.t_min) + " and " +

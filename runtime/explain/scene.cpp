@@ -5,8 +5,8 @@
 #include <cstring>
 #include <tuple>
 
-#include "runtime/build_inputs.h"
-#include "runtime/instances.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 namespace {
@@ -18,7 +18,7 @@ bool is_finite(const float* values, int count) {
   return true;
 }
 
-// False if singular.
+// False if `m` is singular.
 bool invert(const std::array<float, 12>& m, std::array<double, 12>& out) {
   const auto at = [&](int r, int c) { return double{m[r * 4 + c]}; };
   double cofactor[3][3];
@@ -130,7 +130,7 @@ void BottomLevel::find(const Ray& ray, uint32_t instance, std::vector<Candidate>
   });
 }
 
-// [Moeller and Trumbore 1997], both sides.
+// Two-sided. [Moeller and Trumbore 1997]
 void BottomLevel::test_triangle(const Ray& ray, const Geometry& geometry, uint32_t primitive,
                                 uint32_t instance, std::vector<Candidate>& out) const {
   const float* corner[3];
@@ -155,7 +155,8 @@ void BottomLevel::test_triangle(const Ray& ray, const Geometry& geometry, uint32
   candidate.geometry = geometry.shape.index;
   candidate.primitive = primitive;
   candidate.geometry_opaque = geometry.shape.opaque;
-  // It is -(edge1 x edge2 . direction): positive where that normal points against the ray.
+  // The determinant is -(edge1 x edge2 . direction): positive where that normal points against the
+  // ray.
   candidate.clockwise = determinant > 0;
   candidate.barycentrics[0] = static_cast<float>(u);
   candidate.barycentrics[1] = static_cast<float>(v);

@@ -10,30 +10,30 @@
 #include <vector>
 
 #include "kaamos/shader/abi.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/explain/bvh.h"
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 
 namespace kaamos::explain {
 
 struct Candidate {
-  double t = 0;      // boxes: where the ray enters, at least 0
-  double leave = 0;  // boxes
+  double t = 0;      // for boxes: where the ray enters, at least 0
+  double leave = 0;  // boxes only
   uint32_t instance = 0;
   uint32_t geometry = 0;
   uint32_t primitive = 0;
   bool procedural = false;
   bool geometry_opaque = false;
-  bool clockwise = false;  // triangles, as seen from the origin in object space
+  bool clockwise = false;  // triangles only, as seen from the origin in object space
   float barycentrics[2] = {0, 0};
 };
 
-// A bottom level with what finds its primitives.
+// A bottom level with a hierarchy to find its primitives.
 class BottomLevel {
  public:
   explicit BottomLevel(std::shared_ptr<const runtime::BottomLevelBase> source);
   Box bounds() const { return bvh_.bounds(); }
-  // Every triangle at t >= 0 along the object-space ray, every box that it meets.
+  // Finds every triangle at t >= 0 along the object-space ray, and every box that it hits.
   void find(const Ray& ray, uint32_t instance, std::vector<Candidate>& out) const;
 
  private:
@@ -52,7 +52,7 @@ class BottomLevel {
   void test_box(const Ray& ray, const Geometry& geometry, uint32_t primitive, uint32_t instance,
                 std::vector<Candidate>& out) const;
 
-  std::shared_ptr<const runtime::BottomLevelBase> source_;  // owns what contents refer to
+  std::shared_ptr<const runtime::BottomLevelBase> source_;  // owns what the contents refer to
   std::vector<Geometry> geometries_;
   std::vector<Primitive> primitives_;
   Bvh bvh_;
@@ -69,7 +69,8 @@ struct Instance {
 class TopLevel {
  public:
   const std::vector<Instance>& instances() const { return instances_; }
-  // All candidates at t >= 0, masked ones too, by t, then by instance, geometry and primitive.
+  // Finds all candidates at t >= 0, including masked ones, sorted by t, then by instance, geometry
+  // and primitive.
   void find(const shader::RayDesc& ray, std::vector<Candidate>& out) const;
 
  private:
@@ -78,11 +79,11 @@ class TopLevel {
   Bvh bvh_;
 };
 
-// Structures by address, made when they are first asked for.
+// Structures by address, created when they are first needed.
 class Scenes {
  public:
   explicit Scenes(const runtime::BackendDevice& backend) : backend_(backend) {}
-  // Null where no top level stands.
+  // Null if there is no top level.
   const TopLevel* find(uint64_t address);
 
  private:

@@ -47,8 +47,8 @@ constexpr ScalarKind kScalars[] = {
     {"double", 8, [](const uint8_t* p) { return shortest(read<double>(p)); }},
 };
 
-// "float3x4": the scalar's name, then components of a vector or rows and columns. The longest name
-// wins: "int16_t" begins with "int".
+// Parses "float3x4": the scalar's name, then the components of a vector or the rows and columns of
+// a matrix. The longest name wins, because "int16_t" begins with "int".
 const ScalarKind* parse_type(std::string_view type, uint32_t& components) {
   const ScalarKind* found = nullptr;
   for (const ScalarKind& kind : kScalars) {

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "runtime/explain/values.h"
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::explain {
 namespace {
@@ -32,7 +32,7 @@ bool is_culled_by_face(const Search& search, const Candidate& candidate, const I
 
 bool is_outside(const Search& search, const Candidate& candidate) {
   const auto t = static_cast<float>(candidate.t);
-  // The interval is open for triangles, closed for boxes. [DXR: Ray extents]
+  // The interval is open for triangles and closed for boxes. [DXR: Ray extents]
   if (candidate.procedural) return candidate.leave < search.t_min || t > search.t_max;
   return !(t > search.t_min && t < search.t_max);
 }

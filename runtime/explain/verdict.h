@@ -12,13 +12,13 @@
 
 namespace kaamos::explain {
 
-// What decides about candidates of one ray at one moment.
+// What decides about the candidates of one ray at one moment.
 struct Search {
-  uint32_t flags = 0;  // with the pipeline's
+  uint32_t flags = 0;  // including the pipeline's
   uint32_t inclusion_mask = 0;
   float t_min = 0;
   float t_max = 0;
-  float committed_t = 0;  // t_max without a committed hit
+  float committed_t = 0;  // t_max if there is no committed hit
   bool committed = false;
   bool ended = false;
 };
@@ -28,11 +28,11 @@ struct Opacity {
   bool opaque = false;
   OpacitySource source = OpacitySource::kGeometry;
 };
-// Of geometry, instance and ray the later replaces the earlier.
+// The ray's flags override the instance's, and those the geometry's.
 Opacity opacity_of(const Candidate& candidate, const Instance& instance, uint32_t ray_flags);
 bool is_front_face(const Candidate& candidate, const Instance& instance);
 
-// Empty: the candidate is offered.
+// Empty if the candidate is offered.
 std::optional<rtapi::CandidateOutcome> refusal(const Search& search, const Candidate& candidate,
                                                const Instance& instance);
 // The refusal in words.

@@ -51,7 +51,8 @@ struct ShaderBindings : testing::Test {
     bound = {};
     bind(invocation, &kUsed, 1, &bound);
   }
-  // An element of the array as every shader sees it, and as ray shaders find it bound.
+  // Looks up an element of the array as every shader does, and checks that ray shaders find the
+  // same one bound.
   Descriptor element(uint32_t index) {
     const Descriptor looked_up = resource(invocation, 0, index);
     bind_slot();
@@ -103,7 +104,7 @@ TEST_F(ShaderBindings, WildHandlesOfArraysAreNull) {
       EXPECT_EQ(element(index).kind, DescriptorKind::kNull) << handle;
     }
   }
-  // A table that starts in front of the heap: its elements are where they are.
+  // A table that starts before the heap: its elements keep their places.
   put(root + 8, reinterpret_cast<uintptr_t>(views) - sizeof(Descriptor));
   EXPECT_EQ(element(0).kind, DescriptorKind::kNull);
   EXPECT_EQ(element(2).address, 0x1001u);
@@ -118,12 +119,12 @@ TEST_F(ShaderBindings, ElementsOfAnotherKindAreNull) {
   EXPECT_EQ(element(1).kind, DescriptorKind::kNull);
   EXPECT_EQ(element(2).kind, DescriptorKind::kNull);
   EXPECT_EQ(element(3).address, 0x1003u);
-  slot.local = true;  // of the shader record
+  slot.local = true;  // in the shader record
   put(record + 8, reinterpret_cast<uintptr_t>(views + 3));
   EXPECT_EQ(element(0).address, 0x1003u);
 }
 
-// Else the tests above would say nothing of what is bound.
+// Without this, the tests above would say nothing about what is bound.
 TEST_F(ShaderBindings, BoundElementsAreThoseOfTheHeap) {
   set_table(views + 1);
   slot.descriptor_count = kUnbounded;
@@ -187,7 +188,7 @@ TEST_F(ShaderBindings, RootDescriptorsHaveNoBounds) {
   EXPECT_EQ(resource(invocation, 0, 1).kind, DescriptorKind::kNull);
 }
 
-// What the HLSL declares and what the view says may differ: the view's stride counts.
+// The HLSL declaration and the view may disagree: the view's stride counts.
 TEST_F(ShaderBindings, BoundElementsStandAtTheStrideOfTheirView) {
   const uint32_t data[] = {1, 2, 3, 4, 5, 6, 7, 8};
   views[0].kind = DescriptorKind::kStructuredBuffer;
@@ -203,13 +204,13 @@ TEST_F(ShaderBindings, BoundElementsStandAtTheStrideOfTheirView) {
     }
   };
   for (const uint32_t stride : {8u, 12u, 4u}) {
-    const double at = 1 + stride / 4;  // word i is i + 1
+    const double at = 1 + stride / 4;  // word i contains i + 1
     views[0].stride_bytes = stride;
     views[0].size_bytes = 24;
     bind_slot();
     expect_element(1, at, stride < 8 ? 0 : at + 1);
     expect_element(24 / stride, 0, 0);
-    views[0].size_bytes = stride + 4;  // the second is there in part
+    views[0].size_bytes = stride + 4;  // the second element is cut off
     bind_slot();
     expect_element(1, at, 0);
   }
@@ -224,7 +225,7 @@ TEST_F(ShaderBindings, UnboundIsNullAndHeapsAreBounded) {
 }
 
 TEST(ShaderSystemValues, ObjectSpaceFollowsTheTransform) {
-  // Object to world: scale by 2, then move by (10, 20, 30).
+  // Object to world: scales by 2, then moves by (10, 20, 30).
   const float to_world[12] = {2, 0, 0, 10, 0, 2, 0, 20, 0, 0, 2, 30};
   const float to_object[12] = {0.5f, 0, 0, -5, 0, 0.5f, 0, -10, 0, 0, 0.5f, -15};
   RaySystemValues ray = {};

@@ -6,7 +6,7 @@
 namespace kaamos::shader {
 namespace {
 
-// Round to nearest even on a grid of 2^-24 to 2^5, by definition rather than by bit tricks.
+// Rounds to nearest even on a grid of 2^-24 to 2^5, by definition rather than by bit tricks.
 double half_reference(double x) {
   if (std::isnan(x) || std::isinf(x) || x == 0) return x;
   int exponent;
@@ -38,7 +38,7 @@ TEST(ShaderHalf, RoundsToNearestEven) {
   uint32_t state = 1;
   for (int i = 0; i < 200000; ++i) {
     state = state * 1664525u + 1013904223u;
-    // Mostly exponents that a half can hold.
+    // Mostly exponents that a half can represent.
     const uint32_t bits = (i & 7) == 0 ? state : 0x30000000u + state % 0x20000000u;
     const float x = std::bit_cast<float>(bits);
     if (std::isnan(x)) continue;
@@ -53,7 +53,7 @@ TEST(ShaderHalf, RoundsToNearestEven) {
 }
 
 TEST(ShaderHalf, DoubleIsRoundedOnce) {
-  // Rounding to float first would land on the tie 1 + 2^-11 and go down to 1.
+  // Rounding to float first would give the tie 1 + 2^-11, which then rounds down to 1.
   EXPECT_EQ(to_half(1.0 + 0x1p-11 + 0x1p-40).bits, 0x3C01);
   EXPECT_EQ(to_half(1.0 + 0x1p-11 - 0x1p-40).bits, 0x3C00);
   EXPECT_EQ(to_half(-(1.0 + 0x1p-11 + 0x1p-40)).bits, 0xBC01);

@@ -101,7 +101,7 @@ TEST(ShaderBitIntrinsics, AnyAllTakeEveryType) {
 
 TEST(ShaderBitIntrinsics, Msad4SkipsZeroReferenceBytes) {
   const uint2 source{0x07060504u, 0x0B0A0908u};
-  // Window i holds bytes 4+i .. 7+i.
+  // Window i has bytes 4+i .. 7+i.
   expect_components(msad4(0x01010101u, source, uint4{0, 100, 0, 0}), {18, 122, 26, 30});
   expect_components(msad4(0x00000001u, source, uint4{}), {3, 4, 5, 6});
   expect_components(msad4(0xFF000000u, source, uint4{}), {248, 247, 246, 245});

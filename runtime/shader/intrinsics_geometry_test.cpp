@@ -62,7 +62,7 @@ TEST(ShaderGeometryIntrinsics, MulHasNineShapes) {
 }
 
 TEST(ShaderGeometryIntrinsics, SumsRunInOrderWithoutContraction) {
-  // 1 is lost against 2^24 when added first to last, and would survive any other order.
+  // 1 is lost against 2^24 when added from first to last, and would survive in any other order.
   EXPECT_EQ(dot(float3{0x1p24f, 1, -0x1p24f}, float3{1, 1, 1}), 0.0f);
   EXPECT_EQ(mul(float3{0x1p24f, 1, -0x1p24f}, float3x1{1, 1, 1})[0], 0.0f);
   const float x = 1.0f + 0x1p-12f;

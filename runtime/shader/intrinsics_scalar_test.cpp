@@ -13,8 +13,8 @@ struct UnaryCase {
   int ulps;
 };
 
-// D3D asks for far less (2^-11 absolute for sin): these bounds hold libm and our formulas to
-// theirs.
+// D3D requires far less (2^-11 absolute for sin); these bounds hold libm and our formulas to what
+// they promise.
 const UnaryCase kUnary[] = {
     {"acos", [](float x) { return acos(x); }, std::acos, 2},
     {"asin", [](float x) { return asin(x); }, std::asin, 2},
@@ -65,7 +65,7 @@ void expect_waves(float x) {
 }
 
 TEST(ShaderScalarIntrinsics, SineAndCosineKeepTheirDigitsBesideTheirZeros) {
-  // Some 2,000 floats of each octave, and those about every multiple of pi / 2.
+  // About 2,000 floats of each octave, and those around every multiple of pi / 2.
   const auto last = std::bit_cast<uint32_t>(op::kLargestAngle);
   for (uint32_t bits = std::bit_cast<uint32_t>(0x1p-30f); bits <= last; bits += 4099) {
     expect_waves(std::bit_cast<float>(bits));

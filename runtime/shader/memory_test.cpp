@@ -10,8 +10,8 @@
 namespace kaamos::shader {
 namespace {
 
-// Words that count up from 1, with a descriptor of the first `bytes` bytes. What lies behind is in
-// the vector too, so that a read past the bounds gives a number, not a fault.
+// Words that count up from 1, with a descriptor for the first `bytes` bytes. The vector continues
+// past them, so that a read out of bounds gives a number and not a fault.
 struct Buffer {
   std::vector<uint32_t> words;
   Descriptor descriptor;
@@ -33,12 +33,12 @@ TEST(ShaderMemory, RawLoadsAreCutOffPerComponent) {
   expect_components(load<uint4>(b.descriptor, 8), {3, 4, 0, 0});
   expect_components(load<uint3>(b.descriptor, 12), {4, 0, 0});
   EXPECT_EQ(load<uint32_t>(b.descriptor, 16), 0u);
-  EXPECT_EQ(load<uint32_t>(b.descriptor, 13), 4u);  // the two low bits do not count
+  EXPECT_EQ(load<uint32_t>(b.descriptor, 13), 4u);  // the two low bits are ignored
   EXPECT_EQ(load<uint32_t>(b.descriptor, 0xFFFFFFFCu), 0u);
   expect_components(load<uint4>(b.descriptor, 0xFFFFFFFCu), {0, 0, 0, 0});
   EXPECT_EQ(load<uint32_t>(b.descriptor, 3), 1u);
   EXPECT_EQ(load<uint64_t>(b.descriptor, 7), 0x0000000300000002u);
-  EXPECT_EQ(load<uint16_t>(b.descriptor, 5), 2);  // one low bit
+  EXPECT_EQ(load<uint16_t>(b.descriptor, 5), 2);  // one low bit is ignored
   EXPECT_EQ(load<uint16_t>(b.descriptor, 6), 0);
   EXPECT_EQ(load<uint64_t>(b.descriptor, 8), 0x0000000400000003u);
   EXPECT_EQ(load<uint64_t>(b.descriptor, 12), 0u);
@@ -98,7 +98,7 @@ TEST(ShaderMemory, ConstantBufferLayoutStartsRows) {
   EXPECT_EQ(scalars[0], 1u);
   EXPECT_EQ(scalars[1], 5u);
   EXPECT_EQ(scalars[2], 9u);
-  // Column-major: each column of three rows in a row of 16 bytes.
+  // Column-major: each column of three rows is in a row of 16 bytes.
   expect_components(load<uint3x2, kC>(b.descriptor, 0), {1, 5, 2, 6, 3, 7});
   expect_components(load<uint3x2, kC, true>(b.descriptor, 0), {1, 2, 5, 6, 9, 10});
   const auto matrices = load<array<uint3x2, 2>, kC>(b.descriptor, 16);
@@ -195,7 +195,7 @@ TEST(ShaderAtomics, ReturnTheOldValue) {
   EXPECT_EQ(l, int64_t{1} << 31);
   float f = -0.0f;
   EXPECT_EQ(interlocked_compare_exchange(&f, 0.0f, 5.0f), 0.0f);
-  EXPECT_TRUE(std::signbit(f));  // bits differ: nothing was written
+  EXPECT_TRUE(std::signbit(f));  // the bits differ, so nothing was written
   EXPECT_EQ(interlocked_exchange(&f, 2.0f), 0.0f);
   EXPECT_EQ(f, 2.0f);
 }

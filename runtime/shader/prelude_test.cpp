@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The forms that the C++ emitter prints, against a backend that records what it is asked.
+// The forms that the C++ emitter prints, run against a backend that records its calls.
 #include "kaamos/shader/prelude.h"
 
 #include "runtime/shader/test_values.h"

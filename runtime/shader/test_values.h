@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Values that arithmetic gets wrong, and comparisons that tell NaNs and zeros apart. For tests.
+// For tests: values that arithmetic often gets wrong, and comparisons that distinguish NaNs and
+// zeros.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ inline constexpr float kFloats[] = {
 inline constexpr int32_t kInts[] = {0,  1,  -1, 2,  -2, 7,       -7,      31,
                                     32, 33, 63, 64, 65, kIntMin, kIntMax, 0x12345678};
 
-// The same bits, where any NaN is as good as another.
+// Expects the same bits, except that any NaN equals any other.
 inline void expect_same(float actual, float expected, const char* what, double a = 0,
                         double b = 0) {
   if (std::isnan(expected) && std::isnan(actual)) return;
@@ -37,7 +38,7 @@ inline void expect_same(float actual, float expected, const char* what, double a
       << what << "(" << a << ", " << b << ") is " << actual << ", not " << expected;
 }
 
-// Within `ulps` of the reference rounded to float.
+// Expects a result within `ulps` of the reference rounded to float.
 inline void expect_near_ulps(float actual, long double reference, int ulps, const char* what,
                              double a = 0, double b = 0) {
   const float expected = static_cast<float>(reference);

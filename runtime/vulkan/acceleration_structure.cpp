@@ -6,10 +6,10 @@
 #include <cstring>
 #include <utility>
 
-#include "runtime/build_inputs.h"
-#include "runtime/instances.h"
-#include "runtime/structure_commands.h"
-#include "runtime/structure_copies.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/structure_commands.h"
+#include "runtime/structures/structure_copies.h"
 #include "runtime/vulkan/instance_table.h"
 #include "runtime/vulkan/top_level.h"
 
@@ -24,12 +24,12 @@ const TopLevel& top_level_of(const AccelerationStructure& structure) {
   return static_cast<const TopLevel&>(*structure.top_level);
 }
 
-// One thread at a time, but for evict(), which is for every thread.
+// Used by one thread at a time, except for evict(), which any thread may call.
 class Structures final : public AccelerationStructures {
  public:
   Structures(std::shared_ptr<Gpu> gpu, const runtime::Context& context)
       : gpu_(std::move(gpu)), context_(context) {}
-  // Buffers may outlive the device, but not what stands in them.
+  // Buffers may outlive the device, but the structures in them may not.
   ~Structures() override { map_->evict(0, UINT64_MAX); }
   rtapi::Status start(Memory& memory);
 
@@ -65,7 +65,8 @@ class Structures final : public AccelerationStructures {
   std::shared_ptr<runtime::StructureMap> map_ = std::make_shared<runtime::StructureMap>();
   std::shared_ptr<InstanceTable> instances_;
   std::shared_ptr<TopLevel> empty_;
-  // In the table; alive at least until tables() is called again, as shaders may still trace them.
+  // Those in the table. They stay alive at least until tables() is called again, because shaders
+  // may still trace against them.
   std::vector<std::shared_ptr<const AccelerationStructure>> listed_;
   std::unique_ptr<GpuBuffer> table_;
   uint32_t table_mask_ = 0;
@@ -106,8 +107,8 @@ rtapi::Status Structures::build_top_level(const runtime::BuildCommand& command,
   return {};
 }
 
-// An update is a build with the indices of the source: lavapipe builds anew in any case, and the
-// order of the primitives follows what moved.
+// An update is a build with the source's indices: lavapipe rebuilds in any case, and the order of
+// primitives depends on what has moved.
 rtapi::Status Structures::build_bottom_level(const runtime::BuildCommand& command,
                                              const AccelerationStructure* source,
                                              AccelerationStructure& result) {
@@ -183,7 +184,7 @@ rtapi::Result<SceneTables> Structures::tables() {
   return result;
 }
 
-// Half of the slots at least stay empty, so that a search ends soon.
+// At least half of the slots stay empty, so that a search ends soon.
 rtapi::Status Structures::write_table() {
   const auto slots = std::bit_ceil(static_cast<uint32_t>(2 * listed_.size() + 2));
   if (table_ == nullptr || slots > table_mask_ + 1) {

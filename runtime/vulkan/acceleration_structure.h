@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Acceleration structures of a device: which stand where, how they are built, and the tables by
+// The acceleration structures of a device: which are where, how they are built, and the tables in
 // which shaders find them (spirv_interface.h: TopLevelEntry, InstanceEntry).
 #pragma once
 
@@ -9,22 +9,22 @@
 #include <span>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/memory.h"
 
 namespace kaamos::vulkan {
 
-// What a DispatchBlock says of the structures that are alive. Everything named stays as it is until
+// What a DispatchBlock says about the live structures. Everything it refers to stays valid until
 // the next call that changes structures.
 struct SceneTables {
   uint64_t instances = 0;
   uint64_t top_levels = 0;
   uint32_t top_level_mask = 0;
   uint64_t empty_top_level = 0;
-  // The largest index of a hit group record that a ray can reach through a living top level: over
-  // all instances, InstanceContributionToHitGroupIndex + 15 + 15 * (geometries - 1). 15 without
-  // any.
+  // The largest index of a hit group record that a ray can reach through a live top level: the
+  // maximum of InstanceContributionToHitGroupIndex + 15 + 15 * (geometries - 1) over all instances,
+  // or 15 if there are none.
   uint64_t max_hit_record = 15;
 };
 
@@ -40,18 +40,18 @@ class AccelerationStructures {
       std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const = 0;
 
   // Commands. Each flushes the stream before it reads GPU memory. Errors remove the device; ids and
-  // texts are those of the Embree backend.
+  // texts are the same as in the Embree backend.
   virtual rtapi::Status build(CommandStream& stream, const runtime::BuildCommand& command) = 0;
   virtual rtapi::Status copy(CommandStream& stream,
                              const runtime::CopyAccelerationStructureCommand& command) = 0;
   virtual rtapi::Status emit(CommandStream& stream,
                              const runtime::EmitPostbuildInfoCommand& command) = 0;
-  // Ends the structures that have bytes in a range which is written or goes.
+  // Ends the structures with bytes in a range that is written or freed.
   virtual void evict(uint64_t address, uint64_t size_bytes) = 0;
 
   virtual std::shared_ptr<const runtime::AccelerationStructure> find(uint64_t address) const = 0;
 
-  // Up to date for the next dispatch; the stream was flushed.
+  // The tables, up to date for the next dispatch. Call it after flushing the stream.
   virtual rtapi::Result<SceneTables> tables() = 0;
 };
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <random>
 
-#include "runtime/serialized_structure.h"
+#include "runtime/structures/serialized_structure.h"
 #include "runtime/vulkan/testing/ray_caster.h"
 
 namespace kaamos::vulkan {
@@ -29,7 +29,7 @@ using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Switches workarounds off for the devices that are made while it lives.
+// While it exists, new devices have these workarounds switched off.
 class Without {
  public:
   explicit Without(const char* names) { setenv("KAAMOS_VULKAN_DISABLE_WORKAROUNDS", names, 1); }
@@ -40,7 +40,7 @@ TEST(VulkanScene, EachPrimitiveIsFoundUnderItsNumber) {
   KAAMOS_NEED_GPU(gpu);
   SceneHarness h(gpu);
   RayCaster caster(h);
-  // Three geometries, the middle one empty, with triangles in a shuffled row along x.
+  // Three geometries, the middle one empty, with triangles in a row along x, in shuffled order.
   std::vector<uint32_t> order(100);
   for (uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(3));
@@ -86,10 +86,10 @@ TEST(VulkanScene, IndicesAndTransforms) {
   EXPECT_NEAR(caster.cast_along_z(scene, 100).t, 4, 1e-4);
   EXPECT_EQ(caster.cast_along_z(scene, 110).primitive, 1u);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0798");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0798");
 }
 
-// Triangles at 4 * i with one that has a NaN or another odd number in a corner.
+// Triangles at 4 * i, one of which has a NaN or another odd number in a corner.
 GeometryInput row_with(uint32_t count, uint32_t odd, float value, int component) {
   GeometryInput input;
   for (uint32_t i = 0; i < count; ++i) append(input, triangle_at(5, 4 * static_cast<float>(i)));
@@ -153,7 +153,7 @@ TEST(VulkanScene, UnusableInstancesAreInactiveWithAMessage) {
   EXPECT_EQ(hit.instance, 4u);
   EXPECT_NEAR(hit.t, 3, 1e-4);
   ASSERT_EQ(h.messages.size(), 4u);
-  for (const auto& message : h.messages) EXPECT_EQ(message.Id, "KA0797");
+  for (const auto& message : h.messages) EXPECT_EQ(message.Id.text(), "KA0797");
   EXPECT_NE(h.messages[0].Text.find("singular"), std::string::npos);
 }
 
@@ -165,7 +165,7 @@ TEST(VulkanScene, ManyTopLevelsAreFoundAndFreed) {
   for (int i = 0; i < 40; ++i) {
     auto instance = instance_of(h.bottom_level({triangle_at(1 + static_cast<float>(i))}));
     instance.InstanceID = 500 + i;
-    // More entries than the instance table begins with.
+    // More entries than the instance table starts with.
     scenes.push_back(h.top_level(std::vector(100, instance)));
   }
   for (int i = 0; i < 40; i += 2) std::memset(h.host(scenes[i]), 0, 16);
@@ -174,7 +174,7 @@ TEST(VulkanScene, ManyTopLevelsAreFoundAndFreed) {
     EXPECT_NEAR(hit.t, i % 2 == 0 ? -1 : 1 + i, 1e-4);
     EXPECT_EQ(hit.instance_id, i % 2 == 0 ? 0u : 500u + i);
   }
-  // What was freed is used again.
+  // Freed entries are reused.
   auto instance = instance_of(h.bottom_level({triangle_at(50)}));
   instance.InstanceID = 7;
   const uint64_t more = h.top_level(std::vector(1500, instance));
@@ -209,7 +209,7 @@ TEST(VulkanScene, UpdatesInPlaceAndElsewhere) {
   command.dest = h.buffer(1 << 16)->address();
   command.flags = Flags::kAllowUpdate | Flags::kPerformUpdate;
   indexed = triangle_at(6);
-  indexed.indices = {2, 2, 2};  // an update does not read indices anew
+  indexed.indices = {2, 2, 2};  // an update does not read the indices again
   command.geometries = {h.geometry(indexed)};
   ASSERT_TRUE(h.build(command));
   EXPECT_NEAR(caster.cast_along_z(h.top_level({instance_of(command.source)})).t, 3, 1e-4);
@@ -217,12 +217,12 @@ TEST(VulkanScene, UpdatesInPlaceAndElsewhere) {
   command.dest = command.source;
   ASSERT_TRUE(h.build(command));
   EXPECT_NEAR(caster.cast_along_z(h.top_level({instance_of(command.dest)})).t, 6, 1e-4);
-  // The old top level must not crash; what it finds is not said.
+  // The old top level must not crash; what it hits is undefined.
   caster.cast_along_z(scene);
   command.geometries[0].Triangles.VertexCount = 2;
   const auto status = h.build(command);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0793");
+  EXPECT_EQ(status.error().id.text(), "KA0793");
 }
 
 TEST(VulkanScene, ClonesAndCompaction) {
@@ -256,7 +256,7 @@ TEST(VulkanScene, ClonesAndCompaction) {
   EXPECT_EQ(sizes[1], 0u);
 }
 
-// What passes the checks of the form is built, whatever its numbers are; the rest is an error.
+// Whatever passes the format checks gets built, whatever its numbers are; the rest is an error.
 TEST(VulkanScene, SealedDamageIsAnErrorOrBuilds) {
   KAAMOS_NEED_GPU(gpu);
   SceneHarness h(gpu);
@@ -292,7 +292,7 @@ TEST(VulkanScene, SealedDamageIsAnErrorOrBuilds) {
       runtime::seal_serialized(std::span(saved->host(), size));
       const auto status = h.copy(copy);
       if (!status) {
-        EXPECT_EQ(status.error().id.substr(0, 4), "KA07") << status.error().message;
+        EXPECT_EQ(status.error().id.text().substr(0, 4), "KA07") << status.error().message;
         continue;
       }
       ++built;
@@ -332,13 +332,13 @@ TEST(VulkanScene, WhatIsTooLargeIsAnError) {
   command.dest = h.buffer(16)->address();
   auto status = h.build(command);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0795");
+  EXPECT_EQ(status.error().id.text(), "KA0795");
   const auto instances = std::vector<rtapi::RaytracingInstanceDesc>(2);
   auto top = h.top_level_command(instances);
   top.instance_count = 1 << 20;
   status = h.build(top);
   ASSERT_FALSE(status);
-  // All boxes of one address: 2^29 + 1 of them.
+  // All boxes share one address: 2^29 + 1 of them.
   command = h.bottom_level_command({box_at(3)});
   command.geometries[0].AABBs.AABBs.StrideInBytes = 0;
   command.geometries[0].AABBs.AABBCount = (uint64_t{1} << 29) + 1;
@@ -347,7 +347,7 @@ TEST(VulkanScene, WhatIsTooLargeIsAnError) {
   ASSERT_FALSE(status);
 }
 
-// Any bits in vertices, boxes, matrices and rays.
+// Arbitrary bits in vertices, boxes, matrices and rays.
 TEST(VulkanScene, NothingCrashesOnAnyInput) {
   KAAMOS_NEED_GPU(gpu);
   SceneHarness h(gpu);
@@ -444,7 +444,7 @@ TEST(Workarounds, SortingMakesAShuffledMeshFast) {
       rays[i].origin[0] = static_cast<float>(i % 64) + 0.25f;
       rays[i].origin[1] = static_cast<float>(i / 64) + 0.25f;
     }
-    caster.cast(scene, rays);  // compiles
+    caster.cast(scene, rays);  // compiles the pipeline
     const auto hits = caster.cast(scene, rays);
     EXPECT_TRUE(std::all_of(hits.begin(), hits.end(), [](const auto& hit) { return hit.t > 0; }));
     return caster.last_ms();
@@ -478,7 +478,7 @@ TEST(Workarounds, SortingMakesShuffledInstancesFast) {
       rays[cell].origin[1] = y;
     }
     const uint64_t scene = h.top_level(instances);
-    caster.cast(scene, rays);  // compiles
+    caster.cast(scene, rays);  // compiles the pipeline
     const auto hits = caster.cast(scene, rays);
     for (uint32_t i = 0; i < cells.size(); ++i) EXPECT_EQ(hits[cells[i]].instance, i);
     return caster.last_ms();

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "runtime/build_inputs.h"
-#include "runtime/structure_commands.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/structure_commands.h"
 #include "runtime/vulkan/primitive_list.h"
 
 namespace kaamos::vulkan {
@@ -15,7 +15,8 @@ namespace kaamos::vulkan {
 using rtapi::RaytracingGeometryDesc;
 using rtapi::RaytracingGeometryType;
 
-// Decodes, lists and sorts, copies to memory that the driver reads, builds.
+// Decodes the inputs, lists and sorts the primitives, copies all to memory that the driver reads,
+// and builds.
 class BottomLevelBuilder {
  public:
   BottomLevelBuilder(std::shared_ptr<Gpu> gpu, std::span<const RaytracingGeometryDesc> geometries,
@@ -39,7 +40,7 @@ class BottomLevelBuilder {
     std::vector<uint32_t> indices;
     std::vector<rtapi::RaytracingAabb> boxes;
     uint64_t vertex_offset = 0;  // in the input buffer
-    uint64_t list_offset = 0;    // indices or boxes
+    uint64_t list_offset = 0;    // offset of indices or boxes
   };
 
   bool procedural(size_t g) const {
@@ -103,7 +104,7 @@ rtapi::Status BottomLevelBuilder::copy_inputs() {
     bytes = (bytes + 15) / 16 * 16;
     in.list_offset = bytes;
     bytes += list_.items(g).size() * (procedural(g) ? sizeof(VkAabbPositionsKHR) : 12);
-    bytes = (bytes + 47) / 48 * 48;  // so that the next vertices are at a whole number of vertices
+    bytes = (bytes + 47) / 48 * 48;  // so that the next array begins at a whole vertex
   }
   auto buffer = gpu_->create_buffer(bytes, "inputs of a bottom level", InitialContents::kAny);
   if (!buffer) return buffer.error();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A bottom level: one of Vulkan's, with a copy of its decoded inputs on the host.
+// A bottom level: a Vulkan acceleration structure, with a copy of its decoded inputs on the host.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 #include <rtapi/raytracing.h>
 #include <rtapi/result.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/vulkan_structure.h"
 
 namespace kaamos::vulkan {
 
 class BottomLevel final : public runtime::BottomLevelBase {
  public:
-  // `geometries` passed check_inputs, and have the addresses of the host. With `update_of` the
-  // indices are those of its build. [DXR: Acceleration structure update constraints] With `shapes`,
-  // of a deserialized structure, they are what updates are held against. Errors: KA0794 too many
-  // primitives or geometries, KA0990 no memory.
+  // `geometries` must have passed check_inputs, and have host addresses. With `update_of`, the
+  // indices are those of its build. [DXR: Acceleration structure update constraints] `shapes`, if
+  // given (for a deserialized structure), are what updates are checked against. Errors: KA0794 too
+  // many primitives or geometries, KA0990 out of memory.
   static rtapi::Result<std::shared_ptr<BottomLevel>> build(
       const std::shared_ptr<Gpu>& gpu, std::span<const rtapi::RaytracingGeometryDesc> geometries,
       runtime::BuildFlags flags, const BottomLevel* update_of = nullptr,
@@ -55,16 +55,16 @@ class BottomLevel final : public runtime::BottomLevelBase {
   runtime::Bounds bounds_;
   runtime::BuildFlags flags_ = runtime::BuildFlags::kNone;
   std::vector<runtime::GeometryShape> shapes_;
-  // A driver's tree is opaque and cannot be decoded, and DXR does not tell before a build whether
-  // it will be serialized: so this is kept of every bottom level. It takes 12 bytes a vertex, 12 a
-  // triangle where they are indexed, 24 a box, beside the 104 of lavapipe's tree for each. Updates
-  // take the indices from it, too.
+  // A driver's tree is opaque and cannot be decoded, and DXR does not say before a build whether
+  // the structure will be serialized, so this is kept for every bottom level. It takes 12 bytes per
+  // vertex, 12 per indexed triangle and 24 per box, besides the 104 for each in lavapipe's tree.
+  // Updates take the indices from it, too.
   struct Inputs {
     std::vector<float> xyz;
-    std::vector<uint32_t> indices;  // none: 0, 1, 2, ...
+    std::vector<uint32_t> indices;  // empty: 0, 1, 2, ...
     std::vector<rtapi::RaytracingAabb> boxes;
   };
-  std::vector<Inputs> inputs_;  // of each geometry
+  std::vector<Inputs> inputs_;  // one per geometry
 };
 
 }  // namespace kaamos::vulkan

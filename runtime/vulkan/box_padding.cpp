@@ -20,7 +20,7 @@ struct Header {
   uint32_t reserved;
 };
 static_assert(sizeof(Header) == 40);
-// A child is the offset of a node, with bit 0 for inner nodes.
+// A child is the offset of a node; bit 0 is set for inner nodes.
 constexpr uint32_t kNoChild = 0xFFFFFFFFu;
 struct Node {
   Box boxes[2];
@@ -29,9 +29,9 @@ struct Node {
 static_assert(sizeof(Node) == 56);
 
 constexpr float kRelativePadding = 1e-6f;
-// Further out than so many of its own sizes a tree is left alone: the padding would be large beside
-// its triangles, and the driver's triangle test, which rounds in world units, is then the larger
-// fault: with more candidates it finds more wrong hits.
+// A tree farther from the origin than this many of its own sizes is left alone: the padding would
+// be large compared with its triangles. The driver's triangle test, which rounds in world units,
+// would then be the larger fault, and with more candidates it finds more wrong hits.
 constexpr float kMostSizesOut = 100;
 
 template <typename T>
@@ -43,7 +43,7 @@ T read(std::span<const uint8_t> bytes, uint64_t offset) {
 
 bool is_inside(const Box& inner, const Box& outer) {
   for (int i = 0; i < 3; ++i) {
-    // Written so that NaN is not inside.
+    // Written so that NaN counts as outside.
     if (!(inner.lower[i] >= outer.lower[i] && inner.upper[i] <= outer.upper[i] &&
           inner.lower[i] <= inner.upper[i])) {
       return false;

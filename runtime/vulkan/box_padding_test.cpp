@@ -42,7 +42,7 @@ GeometryInput grid() {
   return mesh;
 }
 
-// Rays of all directions to points of edges inside of the grid: how many miss.
+// Counts misses among rays in all directions to points on inner edges of the grid.
 uint32_t misses(const std::shared_ptr<Gpu>& gpu) {
   SceneHarness h(gpu);
   RayCaster caster(h);
@@ -83,11 +83,11 @@ TEST(Workarounds, B4RaysAtSharedEdgesSlipThrough) {
   EXPECT_EQ(misses(gpu), 0u);
 }
 
-// One leaf in a box of edge 1 whose lower corner is at (x, x, x).
+// A tree of one leaf, in a box of edge 1 whose lower corner is at (x, x, x).
 std::vector<uint8_t> tree_at(float x) {
   struct {
     float bounds[6];
-    uint32_t sizes[4] = {0, 0, 96, 0};  // the third: where leaves begin
+    uint32_t sizes[4] = {0, 0, 96, 0};  // the third: where the leaves begin
     float boxes[12] = {};
     uint32_t children[2] = {96, 0xFFFFFFFFu};
     uint32_t leaf[16] = {};
@@ -119,8 +119,8 @@ TEST(PadBoxes, LeavesAloneWhatItDoesNotKnow) {
   std::vector<uint8_t> bytes(512, 0);
   EXPECT_TRUE(pad_boxes({bytes.data(), 0}, 0));
   EXPECT_FALSE(pad_boxes(bytes, 2));
-  bytes[32] = 96;  // the offset of the leaves, as it is with two
-  // Children that are no nodes.
+  bytes[32] = 96;  // the offset of the leaves, correct for two
+  // Children that are not nodes.
   bytes[88] = bytes[92] = 33;
   const std::vector<uint8_t> before = bytes;
   EXPECT_FALSE(pad_boxes(bytes, 2));

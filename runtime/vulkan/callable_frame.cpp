@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kDriversLevels = 31;
 constexpr uint64_t kLanes = 8;
 
-// What this GLSL gives with "glslangValidator --target-env vulkan1.3 -g0":
+// What "glslangValidator --target-env vulkan1.3 -g0" makes of this GLSL:
 //   #version 460
 //   #extension GL_EXT_ray_tracing : require
 //   layout(constant_id = 0) const uint kWords = 64;
@@ -49,7 +49,7 @@ constexpr uint32_t kSpirv[] = {
 uint64_t bytes_of_level(const runtime::LinkedShader& shader) {
   constexpr uint64_t kHeaderBytes = 16;
   const shader::ExportDesc& code = *shader.code;
-  // Its variables, what it was given and what it passes on.
+  // Its variables, the parameter it gets and the parameter it passes on.
   return code.stack_bytes + 2 * (code.callable_data_bytes + kHeaderBytes) +
          code.payload_storage_bytes;
 }
@@ -65,7 +65,7 @@ CallableFrame callable_frame(const runtime::LinkedPipeline& pipeline, uint32_t d
     if (record->kind != runtime::RecordKind::kCallable || record->shader == nullptr) continue;
     level = std::max(level, bytes_of_level(*record->shader));
   }
-  // A quarter of the stack; the same as nested_payload_limit() leaves.
+  // A quarter of the stack, which is what nested_payload_limit() leaves.
   const uint64_t most = stack_bytes / 4 / kLanes / kDriversLevels;
   const uint64_t levels = std::min<uint64_t>(depth, most * kDriversLevels / level);
   if (levels <= kDriversLevels) return {static_cast<uint32_t>(kDriversLevels), 0};

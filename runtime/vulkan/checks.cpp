@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace kaamos::vulkan {
 namespace {

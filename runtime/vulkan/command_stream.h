@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The GPU's part of a command list: recorded in order, and submitted when the host has to see or
-// change what stands in GPU memory. One thread at a time.
+// change what is in GPU memory. For one thread at a time.
 #pragma once
 
 #include <memory>
@@ -19,15 +19,15 @@ class CommandStream {
   CommandStream(const CommandStream&) = delete;
   CommandStream& operator=(const CommandStream&) = delete;
 
-  // Commands that are recorded now. Each caller orders its work after earlier work itself:
-  // everything(), where it has nothing better. Errors: as flush. `what` names the work where the
-  // device is lost.
+  // The command buffer to record into now. Callers order their work after earlier work themselves,
+  // with everything() if nothing more specific will do. Errors: as flush. `what` names the work in
+  // case the device is lost.
   rtapi::Result<VkCommandBuffer> record(const std::string& what);
-  // Orders all that was recorded before against all that comes.
+  // Orders everything recorded so far before everything that follows.
   void everything();
-  // Keeps an object until the work recorded so far is done.
+  // Keeps an object alive until the work recorded so far is done.
   void keep(std::shared_ptr<const void> object) { kept_.push_back(std::move(object)); }
-  // Submits and waits; at once where nothing was recorded. Errors: KA0955, KA0990.
+  // Submits and waits; returns at once if nothing was recorded. Errors: KA0955, KA0990.
   rtapi::Status flush();
 
   Gpu& gpu() const { return *gpu_; }

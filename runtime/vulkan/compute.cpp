@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Thread groups: a grid over the device's limit is cut, and the groups learn from their block where
-// their part begins.
+// Thread groups. A grid over the device's limit is split, and each part's block tells its groups
+// where the part begins.
 #include <algorithm>
 
 #include "runtime/vulkan/checks.h"

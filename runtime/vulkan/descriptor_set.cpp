@@ -5,6 +5,7 @@
 #include <string>
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -15,9 +16,9 @@ static_assert(static_cast<uint32_t>(BindlessArray::kStorageImages) ==
               shader::spirv::kStorageImageBinding);
 static_assert(static_cast<uint32_t>(BindlessArray::kSamplers) == shader::spirv::kSamplerBinding);
 
-// Plenty for a scene, and some MiB in drivers that keep the whole array in memory.
+// Plenty for a scene; takes a few MiB in drivers that keep the whole array in memory.
 constexpr uint32_t kImages = 65536;
-constexpr uint32_t kSamplers = 4000;  // D3D12 has 2048 in a heap
+constexpr uint32_t kSamplers = 4000;  // a D3D12 heap has 2048
 
 constexpr VkDescriptorType kTypes[3] = {
     VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLER};
@@ -111,10 +112,11 @@ rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
     index = array.free.front();
     array.free.pop_front();
   } else {
-    return rtapi::Error{"KA0956", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0956 too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
-                            " alive: the Vulkan backend has room for " +
-                            std::to_string(array.size - 1) + "; free textures that are not used."};
+    return runtime::make_error(runtime::Id::kVulkanLimit,
+                               "too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
+                                   " alive: the Vulkan backend has room for " +
+                                   std::to_string(array.size - 1) +
+                                   "; free textures that are not used.");
   }
   write(which, index, image);
   return index;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The one descriptor set: bindless arrays of sampled images, storage images and samplers, laid out
-// by spirv_interface.h. An index is what a Descriptor of rtapi holds as its address; index 0 of
-// each array is never given out, so that it can stand for "none".
+// The only descriptor set: bindless arrays of sampled images, storage images and samplers, laid out
+// as in spirv_interface.h. In rtapi, a Descriptor's address is an index into them. Index 0 of each
+// array is never given out, so that it can mean "none".
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace kaamos::vulkan {
 
-// The numbers of the bindings in spirv_interface.h.
+// The values are the bindings in spirv_interface.h.
 enum class BindlessArray : uint32_t { kSampledImages = 0, kStorageImages = 1, kSamplers = 2 };
 
 class DescriptorSet {
@@ -31,19 +31,19 @@ class DescriptorSet {
     return arrays_[static_cast<uint32_t>(array)].size;
   }
 
-  // Writes a descriptor to a free index. Images are in layout GENERAL. Thread-safe. Errors: KA0956
-  // when all are taken.
+  // Writes a descriptor to a free index. Images must be in layout GENERAL. Thread-safe. Errors:
+  // KA0956 when all indices are taken.
   rtapi::Result<uint32_t> add_sampled_image(VkImageView view);
   rtapi::Result<uint32_t> add_storage_image(VkImageView view);
   rtapi::Result<uint32_t> add_sampler(VkSampler sampler);
-  // Makes it a null descriptor where the device has those, so that what still names the index reads
-  // zeros; it is given out again as late as possible. No work that uses it is under way.
+  // Makes it a null descriptor if the device has those, so that leftover uses of the index read
+  // zeros; the index is reused as late as possible. No running work may use it.
   void remove(BindlessArray array, uint32_t index);
 
  private:
   struct Array {
     uint32_t size = 0;
-    uint32_t next = 1;          // never given out before
+    uint32_t next = 1;          // the lowest index never given out
     std::deque<uint32_t> free;  // oldest first
   };
   explicit DescriptorSet(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/device.h"
+#include "runtime/backend/errors.h"
 
 #include <utility>
 
@@ -8,9 +9,9 @@ namespace kaamos::vulkan {
 rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
     const rtapi::DeviceDesc& desc, const runtime::Context& context) {
   if (desc.Precision == rtapi::TraversalPrecision::kExact) {
-    return rtapi::Error{"KA0991", rtapi::ErrorCode::kUnsupported,
-                        "KA0991 traversal precision kExact is not available on the Vulkan backend: "
-                        "the driver decides how exact it is; use kRobust."};
+    return runtime::make_error(runtime::Id::kPrecisionUnsupported,
+                               "kExact on the Vulkan backend: "
+                               "the driver decides how exact it is; use kRobust.");
   }
   std::unique_ptr<Device> device(new Device(context));
   if (auto s = device->start(desc); !s) return s.error();
@@ -37,9 +38,9 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   memory_->on_buffer_end(
       [this](uint64_t address, uint64_t size_bytes) { structures_->evict(address, size_bytes); });
   for (const std::string& name : gpu_->unknown_workarounds()) {
-    warn("KA0957",
+    warn(runtime::Id::kUnknownWorkaround,
          "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
-             "\", which is none; they are listed in runtime/vulkan/README.md.");
+             "\"; they are listed in runtime/vulkan/README.md.");
   }
   return {};
 }
@@ -48,10 +49,9 @@ rtapi::Status Device::validation_status() {
   if (!gpu_->instance().validates()) return {};
   const auto messages = gpu_->instance().validation_messages(&validation_position_);
   if (messages.empty()) return {};
-  return rtapi::Error{
-      "KA0959", rtapi::ErrorCode::kDeviceRemoved,
-      "KA0959 Vulkan's validation layers found " + std::to_string(messages.size()) +
-          " faults of the Vulkan backend, which is a bug in it; the first: " + messages[0]};
+  return runtime::make_error(
+      runtime::Id::kValidationFinding,
+      std::to_string(messages.size()) + " messages; the first: " + messages[0]);
 }
 
 Device::~Device() {
@@ -121,8 +121,8 @@ void Device::add(const rtapi::RaytracingStatistics& statistics) {
   statistics_.CallableInvocations += statistics.CallableInvocations;
 }
 
-void Device::warn(const char* id, const std::string& text) const {
-  context_.message({rtapi::MessageSeverity::kWarning, id, std::string(id) + " " + text});
+void Device::warn(runtime::Id id, const std::string& text) const {
+  context_.message(runtime::make_message(id, text));
 }
 
 const runtime::BackendFactory& backend_factory() {

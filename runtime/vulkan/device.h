@@ -7,7 +7,8 @@
 #include <mutex>
 #include <string>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/dispatch.h"
 #include "runtime/vulkan/memory.h"
@@ -49,7 +50,7 @@ class Device final : public runtime::BackendDevice {
   rtapi::RaytracingStatistics statistics() const override;
   void reset_statistics() override;
 
-  // What the commands' code needs; see execute.cpp.
+  // For the code of the commands; see execute.cpp.
   const runtime::Context& context() const { return context_; }
   Gpu& gpu() { return *gpu_; }
   CommandStream& stream() { return *stream_; }
@@ -60,18 +61,18 @@ class Device final : public runtime::BackendDevice {
             &check_memory_, &context_};
   }
   void add(const rtapi::RaytracingStatistics& statistics);
-  void warn(const char* id, const std::string& text) const;
-  // Tells checked mode's layer of the command; ready when memory is as the command will find it.
+  void warn(runtime::Id id, const std::string& text) const;
+  // Tells checked mode's layer about the command, once memory is as the command will find it.
   rtapi::Status observe(const runtime::Command& command, const std::string& label);
 
  private:
   explicit Device(const runtime::Context& context) : context_(context) {}
   rtapi::Status start(const rtapi::DeviceDesc& desc);
-  // KA0959 for what the validation layers said since the last time.
+  // KA0959 if the validation layers have reported anything since the last call.
   rtapi::Status validation_status();
 
   runtime::Context context_;
-  // In the order in which they need each other.
+  // Members are in order of dependency.
   std::shared_ptr<Gpu> gpu_;
   std::shared_ptr<DescriptorSet> descriptors_;
   std::shared_ptr<PipelineLayout> layout_;
@@ -80,9 +81,9 @@ class Device final : public runtime::BackendDevice {
   std::unique_ptr<TextureStore> textures_;
   std::unique_ptr<AccelerationStructures> structures_;
   DispatchMemory scratch_;
-  DispatchMemory check_memory_;  // checked devices only
+  DispatchMemory check_memory_;  // only for checked devices
   size_t validation_position_ = 0;
-  mutable std::mutex statistics_mutex_;  // guards:
+  mutable std::mutex statistics_mutex_;  // guards the next member
   rtapi::RaytracingStatistics statistics_;
 };
 

@@ -73,10 +73,10 @@ TEST(VulkanDevice, SaysWhatItIsAndWhatItLacks) {
   EXPECT_EQ(made.device->info().Backend, "vulkan");
   EXPECT_EQ(made.device->info().Name, gpu->info().Name);
   ASSERT_EQ(made.messages.size(), 1u);
-  EXPECT_EQ(made.messages[0].Id, "KA0957");
+  EXPECT_EQ(made.messages[0].Id.text(), "KA0957");
   EXPECT_THAT(made.messages[0].Text, HasSubstr("\"B12\""));
   Made exact({.Backend = "vulkan", .Precision = rtapi::TraversalPrecision::kExact});
-  EXPECT_EQ(exact.error.id, "KA0991");
+  EXPECT_EQ(exact.error.id.text(), "KA0991");
 }
 
 TEST(VulkanDevice, CopiesAndDispatchesHappenInOrder) {
@@ -96,7 +96,7 @@ void main() {
   const auto c = made.buffer(256);
   for (uint32_t i = 0; i < 64; ++i) words_of(a)[i] = i;
   const std::vector<runtime::Command> commands = {
-      copy(b, 0, a, 0, 256),     copy(a, 0, c, 0, 128),  // not before it was read
+      copy(b, 0, a, 0, 256),     copy(a, 0, c, 0, 128),  // not before it has been read
       runtime::BarrierCommand{}, dispatch(*pipeline, {b->address(), c->address()}),
       copy(b, 4, b, 0, 252),  // overlaps
       copy(a, 0, c, 128, 128),   copy(c, 0, c, 0, 0),
@@ -128,7 +128,7 @@ void main() { Words(block.status).w[0] = 4; }
       runtime::EventCommand{false, ""}, dispatch(*pipeline, {})};
   const auto status = made.device->execute(commands);
   ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().id, "KA0893");
+  EXPECT_EQ(status.error().id.text(), "KA0893");
   EXPECT_EQ(status.error().code, rtapi::ErrorCode::kDeviceRemoved);
   EXPECT_THAT(status.error().message, HasSubstr("(Dispatch, command 4 in \"frame\")"));
   EXPECT_EQ(words_of(b)[0], 5u);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/checks.h"
 #include "runtime/vulkan/fault_guard.h"
 #include "runtime/vulkan/state_object.h"
@@ -15,22 +16,23 @@ namespace {
 using shader::spirv::DispatchBlock;
 using shader::spirv::DispatchStatus;
 
-constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks lie at multiples of 64
+constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks are at multiples of 64
 static_assert(sizeof(DispatchBlock) <= kBlockBytes);
 constexpr uint64_t kStatusBytes = 128;
 static_assert(sizeof(DispatchStatus) <= kStatusBytes);
 
-// The application's tables, where they are in the driver's form, and how many records each has.
+// One of the application's tables, where its copy in the driver's form goes, and how many records
+// it has.
 struct Table {
   const char* name;
   runtime::RecordKind kind;
   ApplicationTable source;
   uint64_t offset = 0;   // in the buffer
-  uint64_t records = 0;  // written: those of the application, and null records behind them
+  uint64_t records = 0;  // records written: the application's, followed by null records
 
-  // With a stride of 0 every index is the first record.
+  // With a stride of 0 every index means the first record.
   bool repeats() const { return source.count() == 1 && source.stride_bytes == 0; }
-  // What the shader compares its index with; at this index stands a null record.
+  // What the shader compares its index with; the record at this index is a null record.
   uint32_t limit() const {
     return repeats() ? UINT32_MAX
                      : static_cast<uint32_t>(std::min<uint64_t>(source.count(), UINT32_MAX));
@@ -74,7 +76,7 @@ class RaysDispatch {
   const std::string& label_;
   TableLayout layout_;
   Table tables_[kTableCount];
-  uint64_t bytes_ = 0;  // of everything in the buffer
+  uint64_t bytes_ = 0;  // size of everything in the buffer
   const GpuBuffer* buffer_ = nullptr;
   DispatchResult result_;
 };
@@ -89,16 +91,16 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
   table.source = {environment_.memory->host(address, size_bytes), address, size_bytes,
                   stride_bytes};
   if (table.source.host != nullptr) return {};
-  return rtapi::Error{"KA0892", rtapi::ErrorCode::kDeviceRemoved,
-                      "KA0892 the " + std::string(name) + " table at address " +
-                          std::to_string(address) + ", " + std::to_string(size_bytes) +
-                          " bytes, does not lie in a living buffer (" + label_ + ")."};
+  return runtime::make_error(runtime::Id::kShaderFault,
+                             "the " + std::string(name) + " table at address " +
+                                 std::to_string(address) + ", " + std::to_string(size_bytes) +
+                                 " bytes, does not lie in a living buffer (" + label_ + ").");
 }
 
 rtapi::Status RaysDispatch::find_tables() {
   const rtapi::DispatchRaysDesc& desc = command_.desc;
   const auto& ray_generation = desc.RayGenerationShaderRecord;
-  // One record, of any size; it has no stride. [DXR: Shader tables]
+  // A single record, of any size, without a stride. [DXR: Shader tables]
   auto s = find_table(kRayGeneration, "ray generation", runtime::RecordKind::kRayGeneration,
                       ray_generation.StartAddress,
                       std::max<uint64_t>(ray_generation.SizeInBytes, kIdentifierBytes), 0);
@@ -114,8 +116,8 @@ rtapi::Status RaysDispatch::find_tables() {
   return s;
 }
 
-// Vulkan has no stack of the application's choosing. What the ray generation shader takes is known
-// before anything runs; deeper calls end at kMaxCallableDepth.
+// In Vulkan the application cannot choose the stack size. What the ray generation shader takes is
+// known before anything runs; deeper calls end at kMaxCallableDepth.
 rtapi::Status RaysDispatch::check_stack() const {
   const uint8_t* identifier = tables_[kRayGeneration].source.host;
   const auto* record = pipeline_.linked().identifiers.find(identifier);
@@ -123,15 +125,15 @@ rtapi::Status RaysDispatch::check_stack() const {
       record->shader->stack_bytes <= command_.pipeline_stack_bytes) {
     return {};
   }
-  return rtapi::Error{"KA0891", rtapi::ErrorCode::kDeviceRemoved,
-                      "KA0891 the shader stack is used up: \"" + record->name + "\" takes " +
-                          std::to_string(record->shader->stack_bytes) +
-                          " bytes, SetPipelineStackSize gave " +
-                          std::to_string(command_.pipeline_stack_bytes) + " (" + label_ + ")."};
+  return runtime::make_error(
+      runtime::Id::kShaderStack,
+      "\"" + record->name + "\" takes " + std::to_string(record->shader->stack_bytes) +
+          " bytes, SetPipelineStackSize gave " + std::to_string(command_.pipeline_stack_bytes) +
+          " (" + label_ + ").");
 }
 
-// A driver reads the hit record of an index that it computes itself: null records must stand up to
-// the largest there can be. Miss and callable indices are compared by the shader.
+// A driver computes the index of the hit record itself, so there must be null records up to the
+// largest index that is possible. For miss and callable indices the shader checks the range.
 rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record) {
   const auto& properties = gpu_.properties().ray_tracing;
   layout_ = {properties.shaderGroupHandleSize, properties.shaderGroupHandleAlignment,
@@ -144,15 +146,15 @@ rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record
       table.records = std::max(table.records, max_hit_record + 1);
     }
     table.offset = layout_.aligned(offset);
-    // Drivers compute offsets in tables with 32 bits.
+    // Drivers compute offsets in tables in 32 bits.
     if (table.records > UINT32_MAX / stride) {
-      return rtapi::Error{"KA0956", rtapi::ErrorCode::kUnsupported,
-                          "KA0956 the " + std::string(table.name) + " table needs " +
-                              std::to_string(table.records) + " records, " +
-                              std::to_string(UINT32_MAX / stride) +
-                              " are possible on Vulkan; lower InstanceContributionToHitGroupIndex "
-                              "or the number of geometries (" +
-                              label_ + ")."};
+      return runtime::make_error(
+          runtime::Id::kVulkanTableLimit,
+          "the " + std::string(table.name) + " table needs " + std::to_string(table.records) +
+              " records, " + std::to_string(UINT32_MAX / stride) +
+              " are possible on Vulkan; lower InstanceContributionToHitGroupIndex "
+              "or the number of geometries (" +
+              label_ + ").");
     }
     offset = table.offset + table.records * stride;
   }
@@ -169,7 +171,7 @@ void RaysDispatch::write_table(const Table& table) {
   std::memset(out + count * stride, 0, (table.records - count) * stride);
   if (unknown == kNoRecord) return;
   result_.warnings.push_back(
-      {"KA0896",
+      {runtime::Id::kRecordUnknown,
        std::string(table.name) + " table: record " + std::to_string(unknown) +
            " holds no identifier of that kind of this pipeline, and nothing runs for it (" +
            label_ + "). Was it written, and with an identifier of this state object?"});
@@ -179,10 +181,10 @@ void RaysDispatch::warn_of_structure() {
   DispatchStatus status;
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
-  result_.warnings.push_back(
-      {"KA0894", "rays were traced against address " + std::to_string(status.unknown_structure) +
-                     ", where no top level stands, and missed (" + label_ +
-                     "). Was it built, and not overwritten or freed since?"});
+  result_.warnings.push_back({runtime::Id::kNoTopLevel,
+                              "no top level stands at address " +
+                                  std::to_string(status.unknown_structure) + "; the rays missed (" +
+                                  label_ + "). Was it built, and not overwritten or freed since?"});
 }
 
 GridLimits RaysDispatch::limits() const {
@@ -204,7 +206,7 @@ VkStridedDeviceAddressRegionKHR RaysDispatch::region(TableIndex index) const {
 }
 
 rtapi::Status RaysDispatch::execute() {
-  // Tables and arguments may be the work of commands before.
+  // Earlier commands may write the tables and arguments.
   if (auto s = environment_.stream->flush(); !s) return s;
   if (auto s = find_tables(); !s) return s;
   const auto& desc = command_.desc;
@@ -271,48 +273,43 @@ constexpr char kWhoseAddress[] =
 rtapi::Error fault_at(uint64_t address, const std::string& label) {
   char number[2 + 16 + 1];
   std::snprintf(number, sizeof(number), "0x%llx", static_cast<unsigned long long>(address));
-  return rtapi::Error{"KA0892", rtapi::ErrorCode::kDeviceRemoved,
-                      std::string("KA0892 shader code failed: access to memory that is not there "
-                                  "at address ") +
-                          number + kWhoseAddress + " (" + label + ")."};
+  return runtime::make_error(runtime::Id::kShaderFault,
+                             std::string("access to memory that is not there "
+                                         "at address ") +
+                                 number + kWhoseAddress + " (" + label + ").");
 }
 
-// Why a shader removed the device, if it did.
+// Whether a shader removed the device, and why.
 rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
                         const std::string& label) {
   DispatchStatus status;
   std::memcpy(&status, buffer.host(), sizeof(status));
   if (status.removal_reason == 0) return {};
-  std::string id = "KA0893";
-  std::string text = "the shader asked for the device's removal";
-  switch (static_cast<shader::RemovalReason>(status.removal_reason - 1)) {
+  const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
+  std::string text = "it called for it";
+  switch (reason) {
     case shader::RemovalReason::kRecursionDepth:
-      id = "KA0890";
-      text = "TraceRay past the recursion limit: the pipeline declares MaxTraceRecursionDepth " +
-             std::to_string(declared_depth) + " and a shader at that depth called TraceRay";
+      text = "the pipeline declares MaxTraceRecursionDepth " + std::to_string(declared_depth) +
+             " and a shader at that depth called TraceRay";
       if (depth_limit < declared_depth) {
-        text =
-            "TraceRay past the recursion limit: with such payloads this Vulkan device allows a "
-            "depth of " +
-            std::to_string(depth_limit) +
-            " and a shader at that depth called TraceRay; the pipeline declares "
-            "MaxTraceRecursionDepth " +
-            std::to_string(declared_depth);
+        text = "with such payloads this Vulkan device allows a depth of " +
+               std::to_string(depth_limit) +
+               " and a shader at that depth called TraceRay; the pipeline declares "
+               "MaxTraceRecursionDepth " +
+               std::to_string(declared_depth);
       }
       break;
     case shader::RemovalReason::kStackOverflow:
-      id = "KA0891";
-      text = "the shader stack is used up: calls are nested too deep";
+      text = "calls are nested too deep";
       break;
     case shader::RemovalReason::kFault:
-      id = "KA0892";
-      text = std::string("shader code failed: an address that no memory has") + kWhoseAddress;
+      text = std::string("an address that no memory has") + kWhoseAddress;
       break;
     case shader::RemovalReason::kOther:
     case shader::RemovalReason::kStepLimit:
       break;
   }
-  return rtapi::Error{id, rtapi::ErrorCode::kDeviceRemoved, id + " " + text + " (" + label + ")."};
+  return runtime::make_error(runtime::removal_id(reason), text + " (" + label + ").");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// DispatchRays and Dispatch: tables and blocks are written when the command executes, and the work
+// DispatchRays and Dispatch. Tables and blocks are written when the command executes, and the work
 // is done when the call returns.
 #pragma once
 
@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "kaamos/shader/spirv_interface.h"
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/dispatch_split.h"
@@ -21,42 +22,42 @@ struct Context;
 
 namespace kaamos::vulkan {
 
-// Memory that one dispatch after another uses for its tables and blocks.
+// Memory that successive dispatches reuse for their tables and blocks.
 class DispatchMemory {
  public:
-  // At least so many bytes, their contents undefined; the address is a multiple of 64 KiB.
+  // At least `size_bytes` bytes, with undefined contents; the address is a multiple of 64 KiB.
   rtapi::Result<const GpuBuffer*> get(Gpu& gpu, uint64_t size_bytes);
 
  private:
   std::unique_ptr<GpuBuffer> buffer_;
 };
 
-// What a dispatch needs of its device.
+// What a dispatch needs from its device.
 struct DispatchEnvironment {
   CommandStream* stream = nullptr;
   const Memory* memory = nullptr;
   AccelerationStructures* structures = nullptr;
   DispatchMemory* scratch = nullptr;
-  // Grids over these or over the device's limits run in parts.
+  // Grids that exceed these or the device's limits run in parts.
   GridLimits limits = {};
   DispatchMemory* checks = nullptr;
   const runtime::Context* context = nullptr;
 };
 
-// What came of it. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader,
-// KA0892 a table in no buffer, KA0955 lost, KA0956 over a limit, KA0990 memory.
+// The outcome. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader, KA0892 a
+// table in no buffer, KA0955 device lost, KA0956 over a limit, KA0990 out of memory.
 struct DispatchResult {
   rtapi::Status status;
-  // What ran, or did not, unlike what the application may have meant: id and text.
+  // Something ran, or did not run, in a way that the application may not have meant: id and text.
   struct Warning {
-    const char* id;
+    runtime::Id id;
     std::string text;
   };
   std::vector<Warning> warnings;
-  // Where the device collects them. A miss without a miss shader counts as a hit: only shaders can
-  // count.
+  // Only on devices that collect them. A miss without a miss shader counts as a hit, because only
+  // shaders can count.
   rtapi::RaytracingStatistics statistics;
-  // On checked devices.
+  // Only on checked devices.
   std::vector<runtime::ReachedFrom> reached = {};
   runtime::MissingRecords missing = {};
 };
@@ -69,18 +70,19 @@ DispatchResult dispatch_rays(const DispatchEnvironment& environment,
 DispatchResult dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label);
 
-// Common to both: what shaders see of the list's state and of the scene.
+// Used by both: what shaders see of the list's state and of the scene.
 shader::spirv::DispatchBlock dispatch_block(const runtime::DispatchState& state,
                                             const SceneTables& scene);
-// Writes the status and a block for each part to the start of `buffer`. checks: DispatchStatus's.
+// Writes the status and a block for each part to the start of `buffer`. `checks`: as in
+// DispatchStatus.
 void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<GridPart>& parts,
                   const GpuBuffer& buffer, uint64_t checks);
 uint64_t bytes_of_blocks(size_t part_count);
 uint64_t address_of_block(const GpuBuffer& buffer, size_t part);
-// Submits what was recorded and waits. Ok, or why the device is removed.
+// Submits what was recorded and waits. Ok, or why the device was removed.
 rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint32_t declared_depth,
                            uint32_t depth_limit, const std::string& label);
-// After the work: what shaders counted.
+// After the work is done: adds what shaders counted.
 void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics);
 
 }  // namespace kaamos::vulkan

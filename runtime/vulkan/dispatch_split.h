@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A grid that a device does not take in one piece, in pieces.
+// Splits a grid that a device cannot run in one piece.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,8 @@ inline GridLimits smaller(const GridLimits& a, const GridLimits& b) {
   return result;
 }
 
-// Parts that cover every cell once, rows whole as far as the limits allow. Empty for an empty grid.
+// Parts that together cover every cell once; rows stay whole as far as the limits allow. Empty for
+// an empty grid.
 inline std::vector<GridPart> split_grid(const std::array<uint32_t, 3>& grid,
                                         const GridLimits& limits) {
   std::array<uint32_t, 3> part;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The command stream, in order. Copies, clears and barriers are recorded; what the host takes part
-// in (tables, builds) submits all before it.
+// Runs the command stream in order. Copies, clears and barriers are recorded; whatever the host
+// takes part in (tables, builds) first submits everything before it.
 #include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
-#include "runtime/indirect.h"
+#include "runtime/backend/indirect.h"
 #include "runtime/vulkan/device.h"
 
 namespace kaamos::vulkan {
@@ -62,7 +62,7 @@ class Executor {
     return {};
   }
 
-  // With checked mode's layer around it.
+  // Runs the command with checked mode's layer around it.
   rtapi::Status run(const runtime::Command& command);
   void next() { ++index_; }
 
@@ -86,9 +86,10 @@ class Executor {
   Device& device_;
   const runtime::Command* running_ = nullptr;
   size_t index_ = 0;
-  std::optional<uint32_t> indirect_;  // which of an ExecuteIndirect is running
+  std::optional<uint32_t> indirect_;  // which dispatch of an ExecuteIndirect is running
   std::vector<std::string> events_;
-  // Of the dispatch that is running; told after what checked mode says, which knows the cause.
+  // Warnings of the running dispatch. They come after what checked mode reports, which knows the
+  // cause.
   std::vector<DispatchResult::Warning> warnings_;
 };
 
@@ -105,7 +106,7 @@ rtapi::Status Executor::run(const runtime::Command& command) {
 }
 
 rtapi::Status Executor::operator()(const runtime::ExecuteIndirectCommand& command) {
-  // Commands before it may write the arguments.
+  // Earlier commands may write the arguments.
   if (auto s = device_.stream().flush(); !s) return s;
   const std::string name = label("ExecuteIndirect");
   const auto run_one = [&](const runtime::Command& dispatch, uint32_t index) {
@@ -126,13 +127,13 @@ rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
                        to < from + command.size_bytes;
   CommandStream& stream = device_.stream();
   if (overlap) {
-    // Not allowed on Vulkan's queue.
+    // Vulkan does not allow overlapping copies, so the host makes them.
     if (auto s = stream.flush(); !s) return s;
     uint8_t* host = command.dest->host();
     std::memmove(host + to, host + from, command.size_bytes);
     return {};
   }
-  // Copies of one list happen one after another, as if each waited.
+  // Copies in one list happen one after another, as if each waited for the previous one.
   stream.everything();
   auto commands = stream.record(label("CopyBufferRegion"));
   if (!commands) return commands.error();
@@ -160,7 +161,7 @@ rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   for (const runtime::Command& command : commands) {
     auto s = executor.run(command);
     if (!s) {
-      // What was recorded before holds objects that may go now.
+      // Earlier recorded work uses objects that may be freed after this.
       if (auto rest = stream_->flush(); !rest) return rest;
       return s;
     }

@@ -14,9 +14,9 @@ namespace kaamos::vulkan {
 namespace {
 
 constexpr uintptr_t kPageBytes = 4096;
-constexpr uint32_t kMaxPages = 16384;  // beyond, the fault is nobody's
+constexpr uint32_t kMaxPages = 16384;  // further faults are not handled
 
-// All of it is read and written by a signal handler.
+// A signal handler reads and writes all of it.
 struct Faults {
   std::atomic<bool> active = false;
   std::atomic<uint32_t> count = 0;
@@ -24,7 +24,7 @@ struct Faults {
   std::atomic<uintptr_t> pages[kMaxPages];
 };
 Faults faults;
-std::mutex owner;  // of the guard that is active
+std::mutex owner;  // held by the active guard
 struct sigaction previous_action;
 
 void* instruction_of(const void* context) {
@@ -38,14 +38,14 @@ void* instruction_of(const void* context) {
 #endif
 }
 
-// Code that a driver made at run time is in no file, unlike all other code.
+// Code that a driver generated at run time is in no file, unlike all other code.
 bool is_generated_code(const void* context) {
   void* instruction = instruction_of(context);
   Dl_info info;
   return instruction != nullptr && dladdr(instruction, &info) == 0;
 }
 
-// True if the instruction can run again.
+// True if the instruction can be run again.
 bool give_page(uintptr_t address) {
   const uint32_t slot = faults.count.fetch_add(1);
   if (slot >= kMaxPages) return false;
@@ -53,7 +53,7 @@ bool give_page(uintptr_t address) {
   void* mapped = mmap(reinterpret_cast<void*>(page), kPageBytes, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED_NOREPLACE, -1, 0);
   const bool given = mapped == reinterpret_cast<void*>(page);
-  const bool taken = mapped == MAP_FAILED && errno == EEXIST;  // by another thread, a moment before
+  const bool taken = mapped == MAP_FAILED && errno == EEXIST;  // by another thread, just before
   if (!given && mapped != MAP_FAILED) munmap(mapped, kPageBytes);
   if (given) faults.pages[slot] = page;
   uintptr_t none = 0;
@@ -71,7 +71,7 @@ void on_fault(int signal_number, siginfo_t* info, void* context) {
   } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
     previous_action.sa_handler(signal_number);
   } else {
-    // Restored, the default takes the instruction that faulted, when it runs again.
+    // With the default handler back, the faulting instruction runs again and ends the process.
     sigaction(signal_number, &previous_action, nullptr);
     if (info->si_code <= 0) raise(signal_number);
   }

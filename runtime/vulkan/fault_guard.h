@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // On a driver that runs shaders on the processor, a wild address in a shader is a fault of this
-// process. While a guard lives, such a fault meets a page of zeros instead, and is remembered: the
-// dispatch ends, and the device is removed, as a device of its own would be.
+// process. While a guard exists, such a fault gets a page of zeros instead, and is remembered: the
+// dispatch ends, and the device is removed, as a real device would be.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@ namespace kaamos::vulkan {
 
 class FaultGuard {
  public:
-  // One at a time in the process is active; another waits. Does nothing unless `wanted`.
+  // Only one guard per process is active at a time; others wait. Does nothing unless `wanted`.
   explicit FaultGuard(bool wanted);
   ~FaultGuard();
   FaultGuard(const FaultGuard&) = delete;
   FaultGuard& operator=(const FaultGuard&) = delete;
 
-  // Once the work is done: whether there was a fault, and the address of the first one.
+  // After the work is done: whether there was a fault, and the address of the first one.
   bool faulted() const;
   uint64_t address() const;
 

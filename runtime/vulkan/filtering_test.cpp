@@ -31,7 +31,7 @@ void main() {
 }
 )";
 
-// The largest error over the way from one texel, 0, to the next, 1.
+// The largest error on the way from one texel, 0, to the next, 1.
 double largest_error(std::shared_ptr<Gpu> gpu) {
   Bench bench(gpu);
   auto textures = TextureStore::create(gpu, bench.descriptors).value();
@@ -69,19 +69,19 @@ double largest_error(std::shared_ptr<Gpu> gpu) {
   return worst;
 }
 
-// D3D asks for 8 bits of the position between two texels: half of one is 0.002.
+// D3D requires 8 bits for the position between two texels: half of one step is 0.002.
 TEST(Filtering, ErrsByLessThanTheStepsOfEightBits) {
   KAAMOS_NEED_GPU(gpu);
   EXPECT_LT(largest_error(gpu), gpu->is_lavapipe() ? 1e-5 : 0.0021);
 }
 
-// Run by the next one.
+// Run by the next test.
 TEST(Filtering, DISABLED_WithoutTheWorkaround) {
   KAAMOS_NEED_GPU(gpu);
   EXPECT_GT(largest_error(gpu), 0.0005);
 }
 
-// The driver reads its option once in a process.
+// In a process of its own, because the driver reads its option once per process.
 TEST(Filtering, FaultIsStillThere) {
   KAAMOS_NEED_GPU(gpu);
   if (!gpu->is_lavapipe()) return;

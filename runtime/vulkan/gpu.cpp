@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/gpu_features.h"
 
 namespace kaamos::vulkan {
@@ -70,9 +71,9 @@ rtapi::DeviceInfo info_of(const GpuProperties& properties) {
   return info;
 }
 
-// lavapipe filters textures of 8 bits with 8 bits unless this option of its code generator says
-// otherwise. It reads it when its first device starts, so it is set for that time only, in which no
-// other thread should look at the environment.
+// lavapipe filters 8-bit textures in 8 bits unless this option of its code generator is set. It
+// reads the option when its first device starts, so it is set only during that time, in which no
+// other thread should read the environment.
 class FilterOption {
  public:
   explicit FilterOption(bool wanted) {
@@ -102,9 +103,7 @@ class FilterOption {
 };
 
 rtapi::Error no_device(const std::string& why) {
-  return rtapi::Error{
-      "KA0950", rtapi::ErrorCode::kUnsupported,
-      "KA0950 no Vulkan device with ray tracing pipelines: " + why + ". " + kWhatToInstall};
+  return runtime::make_error(runtime::Id::kNoVulkanDevice, why + ". " + kWhatToInstall);
 }
 
 }  // namespace
@@ -137,9 +136,9 @@ rtapi::Result<std::shared_ptr<Gpu>> Gpu::create(const std::string& name_part) {
     }
     names += (names.empty() ? "\"" : ", \"") + name + "\"";
   }
-  return rtapi::Error{"KA0953", rtapi::ErrorCode::kNotFound,
-                      "KA0953 no Vulkan device with \"" + wanted + "\" in its name; there are " +
-                          names + " (KAAMOS_VULKAN_DEVICE chooses one by a part of its name)."};
+  return runtime::make_error(runtime::Id::kNoSuchVulkanDevice,
+                             "no name holds \"" + wanted + "\"; there are " + names +
+                                 " (KAAMOS_VULKAN_DEVICE chooses one by a part of its name).");
 }
 
 rtapi::Status Gpu::start(std::shared_ptr<Instance> instance, VkPhysicalDevice physical_device) {
@@ -241,7 +240,7 @@ rtapi::Status Gpu::run(const std::function<void(VkCommandBuffer)>& record,
 }
 
 rtapi::Status Gpu::submit(VkCommandBuffer commands, VkFence fence, const std::string& what) {
-  // What shaders and copies wrote is for the host, which reads it when the fence is signalled.
+  // The host reads what shaders and copies wrote once the fence is signalled.
   VkMemoryBarrier to_host = {VK_STRUCTURE_TYPE_MEMORY_BARRIER};
   to_host.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
   to_host.dstAccessMask = VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT;
@@ -264,18 +263,16 @@ rtapi::Status Gpu::submit(VkCommandBuffer commands, VkFence fence, const std::st
 rtapi::Error Gpu::error(VkResult result, const std::string& what) const {
   switch (result) {
     case VK_ERROR_DEVICE_LOST:
-      return {"KA0955", rtapi::ErrorCode::kDeviceRemoved,
-              "KA0955 the Vulkan device was lost: " + what + " on " + info_.Name + "."};
+      return runtime::make_error(runtime::Id::kVulkanDeviceLost, what + " on " + info_.Name + ".");
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_FRAGMENTATION:
-      return {"KA0990", rtapi::ErrorCode::kOutOfMemory,
-              "KA0990 out of memory: " + what + " could not be allocated (" + result_name(result) +
-                  ")."};
+      return runtime::make_error(runtime::Id::kOutOfMemory,
+                                 what + " could not be allocated (" + result_name(result) + ").");
     default:
-      return {"KA0952", rtapi::ErrorCode::kFailed,
-              "KA0952 Vulkan failed: " + what + " returned " + result_name(result) + " on " +
-                  info_.Name + "."};
+      return runtime::make_error(
+          runtime::Id::kVulkanFailed,
+          what + " returned " + result_name(result) + " on " + info_.Name + ".");
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // One Vulkan device with ray tracing pipelines: what it can do, its memory and its queue. Works
-// with any conforming one: sizes, alignments, limits and memory types are read.
+// with any conforming device: sizes, alignments, limits and memory types are queried.
 #pragma once
 
 #include <volk.h>
@@ -33,8 +33,8 @@ struct GpuProperties {
   VkPhysicalDeviceMemoryProperties memory = {};
 };
 
-// Optional abilities that were found and switched on; what must be there is checked when the device
-// is made.
+// Optional features that were found and enabled; required ones are checked when the device is
+// created.
 struct GpuFeatures {
   bool ray_query = false;  // VK_KHR_ray_query
   bool float64 = false;
@@ -58,8 +58,8 @@ struct GpuFeatures {
 
 class Gpu;
 
-// A buffer with memory of its own, with every usage that a D3D12 buffer may have. Its address is a
-// multiple of 64 KiB: commands take handle() and offset() + their own offset.
+// A buffer with its own memory, with every usage that a D3D12 buffer may have. Its address is a
+// multiple of 64 KiB: commands must add offset() to their own offset in handle().
 class GpuBuffer {
  public:
   ~GpuBuffer();
@@ -70,8 +70,8 @@ class GpuBuffer {
   uint64_t offset() const { return offset_; }
   uint64_t address() const { return address_; }
   uint64_t size_bytes() const { return size_bytes_; }
-  // Mapped as long as the buffer lives; null only where memory of the device was asked for and the
-  // host does not see it.
+  // Mapped for as long as the buffer lives; null only if device memory was asked for and the host
+  // cannot see it.
   uint8_t* host() const { return host_; }
 
  private:
@@ -85,22 +85,22 @@ class GpuBuffer {
   uint64_t address_ = 0;
   uint64_t size_bytes_ = 0;
   uint8_t* host_ = nullptr;
-  void* pages_ = nullptr;  // of the process, where the memory is an import of them
+  void* pages_ = nullptr;  // the process's own pages, if the memory was imported from them
   uint64_t pages_bytes_ = 0;
 };
 
-// kAny where everything is written before it is read: pages that nobody touches cost nothing.
+// kAny if everything is written before it is read: pages that nobody touches then cost nothing.
 enum class InitialContents : uint8_t { kZero, kAny };
 
 class Gpu : public std::enable_shared_from_this<Gpu> {
   friend class GpuBuffer;
 
  public:
-  // The devices that can run this backend, best first. Empty where there is none.
+  // The devices that can run this backend, best first; may be empty.
   static std::vector<rtapi::DeviceInfo> enumerate();
-  // The first device whose name holds `name_part`; environment KAAMOS_VULKAN_DEVICE where that is
-  // empty. Errors: KA0950 no such device, KA0951 validation layers asked for and absent, KA0952 it
-  // could not be started.
+  // The first device whose name contains `name_part`, or KAAMOS_VULKAN_DEVICE from the environment
+  // if that is empty. Errors: KA0950 no such device, KA0951 validation layers requested but
+  // missing, KA0952 the device could not be started.
   static rtapi::Result<std::shared_ptr<Gpu>> create(const std::string& name_part = "");
   ~Gpu();
   Gpu(const Gpu&) = delete;
@@ -114,7 +114,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   const GpuProperties& properties() const { return properties_; }
   const GpuFeatures& features() const { return features_; }
   const Workarounds& workarounds() const { return workarounds_; }
-  // Names in the environment's lists of workarounds that are none.
+  // Names in the environment's lists of workarounds that do not exist.
   const std::vector<std::string>& unknown_workarounds() const { return unknown_workarounds_; }
   bool is_lavapipe() const { return properties_.driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE; }
 
@@ -123,23 +123,23 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   rtapi::Result<std::unique_ptr<GpuBuffer>> create_buffer(
       uint64_t size_bytes, const std::string& what,
       InitialContents contents = InitialContents::kZero);
-  // For images: a type among `type_bits` that has all of `wanted`, and as much of `liked` as can
-  // be; UINT32_MAX where none has.
+  // For images: a memory type among `type_bits` that has all of `wanted` and as much of `liked` as
+  // possible; UINT32_MAX if there is none.
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted,
                        VkMemoryPropertyFlags liked = 0) const;
 
-  // Records, submits, and returns when all is done. One thread after another. Errors: KA0955 the
-  // device was lost, whose message says what ran; KA0990.
+  // Records, submits, and returns when all is done. For one thread at a time. Errors: KA0955 the
+  // device was lost (the message says what was running); KA0990.
   rtapi::Status run(const std::function<void(VkCommandBuffer)>& record, const std::string& what);
 
-  // For who records by himself [command_stream.h]: a pool with one command buffer, and a fence. The
-  // caller destroys pool and fence, also after a failure.
+  // For those who record themselves [command_stream.h]: a pool with one command buffer, and a
+  // fence. The caller destroys pool and fence, even after a failure.
   VkResult create_command_buffer(VkCommandPool* pool, VkCommandBuffer* commands,
                                  VkFence* fence) const;
   // Ends and submits what was recorded, waits, and resets the fence. Thread-safe. Errors: as run.
   rtapi::Status submit(VkCommandBuffer commands, VkFence fence, const std::string& what);
 
-  // A message for a failed call: KA0955 for a lost device, KA0990 for memory, else KA0952.
+  // The error for a failed call: KA0955 for a lost device, KA0990 for memory, otherwise KA0952.
   rtapi::Error error(VkResult result, const std::string& what) const;
 
  private:
@@ -148,7 +148,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   rtapi::Status create_device();
   // [gpu_buffer.cpp]
   VkResult allocate(GpuBuffer& buffer);
-  bool import_pages(GpuBuffer& buffer);  // false where that cannot be; nothing is left then
+  bool import_pages(GpuBuffer& buffer);  // false if impossible; leaves nothing behind then
   VkResult bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bits);
   void release(GpuBuffer& buffer);
 
@@ -164,7 +164,7 @@ class Gpu : public std::enable_shared_from_this<Gpu> {
   uint32_t queue_family_ = 0;
   VkQueue queue_ = VK_NULL_HANDLE;
   std::mutex queue_mutex_;
-  std::mutex run_mutex_;  // the members below
+  std::mutex run_mutex_;  // guards the members below
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
   VkFence fence_ = VK_NULL_HANDLE;

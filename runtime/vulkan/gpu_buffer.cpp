@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory of buffers. Where shaders run on the processor, large ones are pages of this process,
-// which are zero and cost nothing until somebody touches them; else Vulkan's memory, mapped and
-// cleared.
+// Memory of buffers. Where shaders run on the processor, large buffers are pages of this process,
+// which are zero and cost nothing until they are touched. Otherwise it is Vulkan's memory, mapped
+// and cleared.
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cstring>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {
 namespace {
 
-constexpr uint64_t kAddressAlignment = 64 * 1024;  // of buffers, as D3D12's
-constexpr uint64_t kFromPages = 1024 * 1024;       // smaller buffers are cleared at once
+constexpr uint64_t kAddressAlignment = 64 * 1024;  // for buffers, as in D3D12
+constexpr uint64_t kFromPages = 1024 * 1024;       // smaller buffers are cleared right away
 
 constexpr VkBufferUsageFlags kEveryUsage =
     VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -28,7 +29,7 @@ uint64_t rounded(uint64_t bytes) {
   return (bytes + kAddressAlignment - 1) / kAddressAlignment * kAddressAlignment;
 }
 
-// Pages at a multiple of the alignment; null without memory.
+// Pages at a multiple of the alignment; null if out of memory.
 void* map_pages(uint64_t bytes) {
   void* mapped = mmap(nullptr, bytes + kAddressAlignment, PROT_READ | PROT_WRITE,
                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -50,10 +51,10 @@ rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes
       std::min(properties_.vulkan13.maxBufferSize, properties_.vulkan11.maxMemoryAllocationSize) -
       2 * kAddressAlignment;
   if (size_bytes > limit) {
-    return rtapi::Error{"KA0956", rtapi::ErrorCode::kOutOfMemory,
-                        "KA0956 " + what + " of " + std::to_string(size_bytes) +
-                            " bytes is larger than " + info_.Name +
-                            " allows: " + std::to_string(limit) + " bytes; use several buffers."};
+    return runtime::make_error(
+        runtime::Id::kVulkanLimit,
+        what + " of " + std::to_string(size_bytes) + " bytes is larger than " + info_.Name +
+            " allows: " + std::to_string(limit) + " bytes; use several buffers.");
   }
   std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
   buffer->size_bytes_ = size_bytes;
@@ -76,8 +77,8 @@ VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bi
   VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
   info.pNext = &flags;
   info.allocationSize = std::max(needs.size, buffer.pages_bytes_);
-  // Memory of a graphics card that the host sees may be a small part of it: the next best type
-  // then.
+  // Only a small part of a graphics card's memory may be visible to the host; try the next best
+  // type then.
   VkResult r = VK_ERROR_FEATURE_NOT_PRESENT;
   for (uint32_t types = needs.memoryTypeBits & type_bits; types != 0;) {
     info.memoryTypeIndex = memory_type(
@@ -101,7 +102,7 @@ VkResult Gpu::bind_memory(GpuBuffer& buffer, const void* chain, uint32_t type_bi
 
 VkResult Gpu::allocate(GpuBuffer& buffer) {
   VkBufferCreateInfo info = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  // Where Vulkan puts it is only known afterwards: room to move up to the alignment.
+  // Where Vulkan places it is known only afterwards, so leave room to move up to the alignment.
   info.size = std::max<uint64_t>(buffer.size_bytes_, 1) + kAddressAlignment;
   info.usage = kEveryUsage;
   VkResult r = vk_.vkCreateBuffer(device_, &info, nullptr, &buffer.handle_);

@@ -119,7 +119,7 @@ FeatureChain::FeatureChain(VkPhysicalDevice device) {
   require(core.shaderStorageImageReadWithoutFormat, "shaderStorageImageReadWithoutFormat");
   require(core.shaderStorageImageWriteWithoutFormat, "shaderStorageImageWriteWithoutFormat");
 
-  // Not wanted: they cost speed or need care of their own.
+  // Not wanted: they cost speed, or need special care.
   features_.features.robustBufferAccess = VK_FALSE;
   vulkan11_.protectedMemory = VK_FALSE;
   vulkan12_.bufferDeviceAddressCaptureReplay = VK_FALSE;

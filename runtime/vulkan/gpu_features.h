@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a device must be able to do, and what it may: asked of a physical device, and in the same
-// structures switched on when the device is made.
+// What a device must support, and what it may support. The same structures query a physical device
+// and enable the features when the device is created.
 #pragma once
 
 #include <volk.h>
@@ -15,14 +15,15 @@ namespace kaamos::vulkan {
 
 GpuProperties read_properties(VkPhysicalDevice device);
 
-// The features and extensions to make a device with. Not to be moved: its structures are chained.
+// The features and extensions to create a device with. Must not be moved, because its structures
+// are chained.
 class FeatureChain {
  public:
   explicit FeatureChain(VkPhysicalDevice device);
   FeatureChain(const FeatureChain&) = delete;
   FeatureChain& operator=(const FeatureChain&) = delete;
 
-  // What the device lacks, e.g. "VK_KHR_ray_tracing_pipeline"; "" where it will do.
+  // What the device lacks, e.g. "VK_KHR_ray_tracing_pipeline"; "" if it lacks nothing.
   const std::string& missing() const { return missing_; }
   const VkPhysicalDeviceFeatures2& chain() const { return features_; }
   const std::vector<const char*>& extensions() const { return extensions_; }

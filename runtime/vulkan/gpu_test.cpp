@@ -28,7 +28,7 @@ TEST(Gpu, NoDeviceOfThatNameListsThoseThereAre) {
   KAAMOS_NEED_GPU(gpu);
   const auto none = Gpu::create("no such device");
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().id, "KA0953");
+  EXPECT_EQ(none.error().id.text(), "KA0953");
   EXPECT_NE(none.error().message.find(gpu->info().Name), std::string::npos);
 }
 
@@ -63,7 +63,7 @@ TEST(Gpu, TooMuchMemoryIsAnErrorThatNamesIt) {
   KAAMOS_NEED_GPU(gpu);
   const auto buffer = gpu->create_buffer(uint64_t{1} << 60, "the huge buffer");
   ASSERT_FALSE(buffer);
-  EXPECT_EQ(buffer.error().id, "KA0956");
+  EXPECT_EQ(buffer.error().id.text(), "KA0956");
   EXPECT_EQ(buffer.error().code, rtapi::ErrorCode::kOutOfMemory);
   EXPECT_NE(buffer.error().message.find("the huge buffer"), std::string::npos);
   EXPECT_NE(buffer.error().message.find("1152921504606846976"), std::string::npos);
@@ -94,13 +94,13 @@ TEST(Gpu, RunCopiesOnTheQueue) {
 TEST(Gpu, ALostDeviceSaysWhatRan) {
   KAAMOS_NEED_GPU(gpu);
   const auto lost = gpu->error(VK_ERROR_DEVICE_LOST, "DispatchRays, command 3");
-  EXPECT_EQ(lost.id, "KA0955");
+  EXPECT_EQ(lost.id.text(), "KA0955");
   EXPECT_EQ(lost.code, rtapi::ErrorCode::kDeviceRemoved);
   EXPECT_NE(lost.message.find("DispatchRays, command 3"), std::string::npos);
   EXPECT_NE(lost.message.find(gpu->info().Name), std::string::npos);
 }
 
-// In a process of its own, whose loader is shown no driver.
+// In a process of its own, whose loader finds no driver.
 TEST(Gpu, WithoutADriverThePackageIsNamed) {
   char path[4096] = {};
   ASSERT_GT(readlink("/proc/self/exe", path, sizeof(path) - 1), 0);
@@ -113,7 +113,7 @@ TEST(Gpu, WithoutADriverThePackageIsNamed) {
   std::string text;
   char line[512];
   while (fgets(line, sizeof(line), pipe) != nullptr) text += line;
-  EXPECT_EQ(pclose(pipe), 0);  // skipped
+  EXPECT_EQ(pclose(pipe), 0);  // the child skips its test
   EXPECT_NE(text.find("KA0950"), std::string::npos) << text;
   EXPECT_NE(text.find("mesa-vulkan-drivers"), std::string::npos) << text;
 }
@@ -123,7 +123,7 @@ TEST(Gpu, DevicesComeAndGo) {
     KAAMOS_NEED_GPU(gpu);
     auto buffer = gpu->create_buffer(64, "left over");
     ASSERT_TRUE(buffer);
-    gpu.reset();  // the buffer keeps the device
+    gpu.reset();  // the buffer keeps the device alive
     (*buffer)->host()[0] = 1;
   }
 }

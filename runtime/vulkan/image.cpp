@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/texture_format.h"
 
 namespace kaamos::vulkan {
@@ -139,7 +140,7 @@ VkImageCreateInfo Image::create_info() const {
   info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   if (wants_storage(desc_)) info.usage |= VK_IMAGE_USAGE_STORAGE_BIT;
-  // Views of typeless textures have formats of their own, some of which cannot be storage images.
+  // Views of typeless textures have their own formats, some of which cannot be storage images.
   if (typeless()) {
     info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
   }
@@ -151,9 +152,8 @@ VkImageCreateInfo Image::create_info() const {
 
 rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
   const auto unsupported = [&](const std::string& why) {
-    return rtapi::Error{"KA0960", rtapi::ErrorCode::kUnsupported,
-                        "KA0960 texture " + describe(desc_) + " not supported by " +
-                            gpu_->info().Name + ": " + why + "."};
+    return runtime::make_error(runtime::Id::kTextureUnsupported,
+                               describe(desc_) + " on " + gpu_->info().Name + ": " + why + ".");
   };
   if (info.format == VK_FORMAT_UNDEFINED) {
     return unsupported("textures of this format are not known to the Vulkan backend");
@@ -250,11 +250,10 @@ std::optional<TextureViewDesc> Image::storage_view(uint64_t index) const {
 
 rtapi::Status Image::check_view(const TextureViewDesc& desc) const {
   const auto unsupported = [&](const std::string& why) {
-    return rtapi::Error{"KA0961", rtapi::ErrorCode::kUnsupported,
-                        "KA0961 view with DXGI format " +
-                            std::to_string(static_cast<uint32_t>(desc.format)) + " of texture " +
-                            describe(desc_) + " not supported by " + gpu_->info().Name + ": " +
-                            why + "."};
+    return runtime::make_error(runtime::Id::kViewUnsupported,
+                               "DXGI format " + std::to_string(static_cast<uint32_t>(desc.format)) +
+                                   " of texture " + describe(desc_) + " on " + gpu_->info().Name +
+                                   ": " + why + ".");
   };
   const TextureFormat format = texture_format(desc.format);
   if (format.format == VK_FORMAT_UNDEFINED) return unsupported("there is no such texture format");
@@ -296,7 +295,7 @@ rtapi::Result<VkImageView> Image::create_view(const TextureViewDesc& desc) const
         swizzle_of(desc.swizzle[0], format.channels), swizzle_of(desc.swizzle[1], format.channels),
         swizzle_of(desc.swizzle[2], format.channels), swizzle_of(desc.swizzle[3], format.channels)};
     if (desc.min_lod > 0 && gpu_->features().image_view_min_lod) {
-      // Vulkan counts from the image's first mip.
+      // Vulkan counts from the first mip of the image.
       min_lod.minLod = std::min(desc.min_lod, static_cast<float>(desc.mip_count - 1)) +
                        static_cast<float>(desc.first_mip);
       min_lod.pNext = info.pNext;

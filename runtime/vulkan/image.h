@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A texture: Vulkan's image with its memory, always in layout GENERAL, and its views in the
+// A texture: a Vulkan image with its memory, always in layout GENERAL, and its views in the
 // bindless set.
 #pragma once
 
@@ -10,14 +10,15 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/descriptor_set.h"
 
 namespace kaamos::vulkan {
 
 class Image final : public runtime::BackendTexture {
  public:
-  // Filled with zeros. Errors: KA0960 the device has no such textures, KA0990 no memory.
+  // Filled with zeros. Errors: KA0960 the device does not support such textures, KA0990 out of
+  // memory.
   static rtapi::Result<std::shared_ptr<Image>> create(std::shared_ptr<Gpu> gpu,
                                                       std::shared_ptr<DescriptorSet> descriptors,
                                                       const rtapi::TextureDesc& desc);
@@ -32,10 +33,10 @@ class Image final : public runtime::BackendTexture {
     return type_ == VK_IMAGE_TYPE_3D ? 1 : uint32_t{desc_.DepthOrArraySize};
   }
 
-  // Its index in the bindless set; equal descs share one. Thread-safe. Errors: KA0961 the device
-  // has no such views, KA0956 too many views.
+  // The view's index in the bindless set; equal descs share one. Thread-safe. Errors: KA0961 the
+  // device does not support such views, KA0956 too many views.
   rtapi::Result<uint64_t> view(const runtime::TextureViewDesc& desc);
-  // The unordered access view with that index; none: it is no view of this texture.
+  // The unordered access view with that index; none if it is not a view of this texture.
   std::optional<runtime::TextureViewDesc> storage_view(uint64_t index) const;
 
  private:

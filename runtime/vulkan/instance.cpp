@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/instance.h"
+#include "runtime/backend/errors.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -31,9 +32,7 @@ bool has_layer(const char* name) {
 }
 
 rtapi::Error no_vulkan(const std::string& why) {
-  return rtapi::Error{
-      "KA0950", rtapi::ErrorCode::kUnsupported,
-      "KA0950 no Vulkan device with ray tracing pipelines: " + why + ". " + kWhatToInstall};
+  return runtime::make_error(runtime::Id::kNoVulkanDevice, why + ". " + kWhatToInstall);
 }
 
 }  // namespace
@@ -58,10 +57,10 @@ rtapi::Status Instance::start() {
   }
   const bool validation = validation_wanted();
   if (validation && !has_layer(kValidationLayer)) {
-    return rtapi::Error{
-        "KA0951", rtapi::ErrorCode::kUnsupported,
-        "KA0951 KAAMOS_VULKAN_VALIDATION is 1, but the layer VK_LAYER_KHRONOS_validation is not "
-        "installed (Debian: vulkan-validationlayers)."};
+    return runtime::make_error(
+        runtime::Id::kNoValidationLayer,
+        "KAAMOS_VULKAN_VALIDATION is 1, but the layer VK_LAYER_KHRONOS_validation is not "
+        "installed (Debian: vulkan-validationlayers).");
   }
   const char* const layers[] = {kValidationLayer};
   const char* const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The process's connection to Vulkan: made when first used, gone with the last device.
+// The process's connection to Vulkan: created at first use, destroyed with the last device.
 #pragma once
 
 #include <volk.h>
@@ -16,8 +16,7 @@ namespace kaamos::vulkan {
 
 class Instance {
  public:
-  // The same instance for all devices that live at the same time. Errors: KA0950 without a loader
-  // or driver.
+  // All devices that exist at the same time share the instance. Errors: KA0950 no loader or driver.
   static rtapi::Result<std::shared_ptr<Instance>> get();
   ~Instance();
   Instance(const Instance&) = delete;
@@ -26,8 +25,8 @@ class Instance {
   VkInstance handle() const { return handle_; }
   std::vector<VkPhysicalDevice> physical_devices() const;
 
-  // With KAAMOS_VULKAN_VALIDATION=1 the validation layers run. What they said from the message with
-  // number *position on, which becomes that of the next one.
+  // KAAMOS_VULKAN_VALIDATION=1 enables the validation layers. Returns their messages from number
+  // *position on, and advances it past the last.
   bool validates() const { return messenger_ != VK_NULL_HANDLE; }
   std::vector<std::string> validation_messages(size_t* position);
 
@@ -48,7 +47,7 @@ class Instance {
 // "VK_ERROR_DEVICE_LOST" and the like.
 std::string result_name(VkResult result);
 
-// What every message about an absent device ends with.
+// The end of every message about a missing device.
 extern const char kWhatToInstall[];
 
 }  // namespace kaamos::vulkan

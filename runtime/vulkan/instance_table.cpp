@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/instance_table.h"
+#include "runtime/backend/errors.h"
 
 #include <algorithm>
 #include <cstring>
@@ -48,14 +49,15 @@ rtapi::Result<InstanceTable::Range> InstanceTable::add(std::span<const InstanceE
   return Range(shared_from_this(), first, count);
 }
 
-// To at least `entries` more, at the end.
+// Grows by at least `entries` entries, at the end.
 rtapi::Status InstanceTable::grow(uint32_t entries) {
   if (entries > kLargestCapacity - capacity_) {
-    return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
-                        "KA0794 too many instances: the living top levels of a Vulkan device hold "
-                        "at most 2^24 together, and " +
-                            std::to_string(entries) +
-                            " more have no room. Free top levels that are no longer traced."};
+    return runtime::make_error(
+        runtime::Id::kTooManyElements,
+        "the living top levels of a Vulkan device hold "
+        "at most 2^24 together, and " +
+            std::to_string(entries) +
+            " more have no room. Free top levels that are no longer traced.");
   }
   const uint32_t capacity =
       std::min(std::max(capacity_ + entries, 2 * capacity_), kLargestCapacity);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What hit shaders need to know of an instance beside what the driver tells: one table for all top
-// levels of a device, as gl_InstanceCustomIndexEXT is the index into it.
+// What hit shaders need to know about an instance besides what the driver tells them. One table for
+// all top levels of a device, because gl_InstanceCustomIndexEXT is the index into it.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ class InstanceTable : public std::enable_shared_from_this<InstanceTable> {
  public:
   static rtapi::Result<std::shared_ptr<InstanceTable>> create(std::shared_ptr<Gpu> gpu);
 
-  // Entries of a top level, freed with this object.
+  // Entries of one top level, freed with this object.
   class Range {
    public:
     Range() = default;
@@ -45,8 +45,8 @@ class InstanceTable : public std::enable_shared_from_this<InstanceTable> {
     uint32_t first_ = 0;
     uint32_t count_ = 0;
   };
-  // Called while no dispatch runs: the table may move. Errors: KA0794 more than 2^24 in all living
-  // top levels, KA0990 no memory.
+  // Must not be called while a dispatch runs, because the table may move. Errors: KA0794 more than
+  // 2^24 entries in all live top levels, KA0990 out of memory.
   rtapi::Result<Range> add(std::span<const shader::spirv::InstanceEntry> entries);
 
   uint64_t address() const;
@@ -60,7 +60,7 @@ class InstanceTable : public std::enable_shared_from_this<InstanceTable> {
   mutable std::mutex mutex_;
   std::unique_ptr<GpuBuffer> buffer_;
   uint32_t capacity_ = 0;
-  std::map<uint32_t, uint32_t> free_;  // first -> count, never two side by side
+  std::map<uint32_t, uint32_t> free_;  // first -> count; adjacent ranges are always merged
 };
 
 }  // namespace kaamos::vulkan

@@ -61,7 +61,7 @@ TEST(InstanceTable, WhatIsFreedIsUsedAgain) {
     for (uint32_t j = 0; j < 10; ++j) ranges.push_back(*table->add(entries_of(100, j)));
     std::swap(ranges[i % 10], ranges[(7 * i) % 10]);
   }
-  EXPECT_EQ(table->address(), address);  // it never had to grow
+  EXPECT_EQ(table->address(), address);  // the table never had to grow
 }
 
 TEST(InstanceTable, MoreThanItsIndexHasBitsIsAnError) {
@@ -73,7 +73,7 @@ TEST(InstanceTable, MoreThanItsIndexHasBitsIsAnError) {
   const auto range = table->add({static_cast<const InstanceEntry*>(zeros), kTooMany});
   std::free(zeros);
   ASSERT_FALSE(range);
-  EXPECT_EQ(range.error().id, "KA0794");
+  EXPECT_EQ(range.error().id.text(), "KA0794");
   EXPECT_TRUE(table->add(entries_of(10, 1)));
 }
 

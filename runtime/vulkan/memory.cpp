@@ -8,7 +8,7 @@ namespace kaamos::vulkan {
 
 rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> Memory::create_buffer(
     Gpu& gpu, const rtapi::BufferDesc& desc, std::shared_ptr<Memory> self) {
-  // Of a buffer of acceleration structures only their headers are touched.
+  // In a buffer for acceleration structures only the headers are ever touched.
   const bool structures =
       desc.InitialState == rtapi::ResourceStates::kRaytracingAccelerationStructure;
   auto made = gpu.create_buffer(desc.SizeInBytes, "buffer \"" + desc.Name + "\"",

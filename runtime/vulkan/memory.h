@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The application's buffers: which device address is which byte of the host.
+// The application's buffers: which device address is which byte on the host.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <memory>
 #include <shared_mutex>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {
@@ -23,12 +23,12 @@ class Memory {
   rtapi::Result<std::shared_ptr<runtime::BackendBuffer>> create_buffer(
       Gpu& gpu, const rtapi::BufferDesc& desc, std::shared_ptr<Memory> self);
 
-  // The bytes [address, address + size_bytes) as the host sees them; null where they are not inside
-  // one live buffer. What GPU work wrote there is up to date only after CommandStream::flush.
+  // The bytes [address, address + size_bytes) as the host sees them; null unless they are inside
+  // one live buffer. To see what GPU work wrote there, call CommandStream::flush first.
   uint8_t* host(uint64_t address, uint64_t size_bytes) const;
 
-  // Called with the range of every buffer that ends, before its memory goes; null: nobody. Must not
-  // call back.
+  // The listener is called with the range of every buffer that ends, before its memory is freed;
+  // null: none. It must not call back.
   void on_buffer_end(std::function<void(uint64_t address, uint64_t size_bytes)> listener);
 
  private:
@@ -56,7 +56,7 @@ class Buffer final : public runtime::BackendBuffer {
   std::unique_ptr<GpuBuffer> gpu_;
 };
 
-// Every BackendBuffer that a command of this backend holds is one of the above.
+// Every BackendBuffer in a command for this backend is a Buffer.
 inline const GpuBuffer& gpu_buffer_of(const runtime::BackendBuffer& buffer) {
   return static_cast<const Buffer&>(buffer).gpu();
 }

@@ -20,7 +20,7 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
                               uint32_t trace_depth, uint32_t callable_depth) {
   uint64_t ray_generation = 0;
   uint64_t shading = 0;    // closest-hit and miss shaders, which may trace
-  uint64_t traversal = 0;  // intersection shaders with the any-hit shaders that they call
+  uint64_t traversal = 0;  // intersection shaders plus the any-hit shaders that they call
   uint64_t callable = 0;
   for (uint32_t i = 0; i < records.size(); ++i) {
     const auto bytes = [&](uint32_t used, VkShaderGroupShaderKHR shader) -> uint64_t {
@@ -48,7 +48,7 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
         break;
     }
   }
-  // As the specification of Vulkan computes the default, with more levels of callables.
+  // The default as the Vulkan specification computes it, but with more levels of callables.
   uint64_t total = ray_generation + callable_depth * callable;
   if (trace_depth > 0) total += std::max(shading, traversal) + (trace_depth - 1) * shading;
   return static_cast<uint32_t>(std::min<uint64_t>(total, UINT32_MAX));
@@ -57,7 +57,7 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
 uint32_t nested_payload_limit(uint32_t payload_bytes, uint64_t stack_bytes) {
   constexpr uint64_t kLanes = 8;
   constexpr uint64_t kHeaderBytes = 16;
-  const uint64_t for_payloads = stack_bytes / 4 * 3;  // the rest is for all else
+  const uint64_t for_payloads = stack_bytes / 4 * 3;  // the rest is for everything else
   return static_cast<uint32_t>(for_payloads / (2 * kLanes * (payload_bytes + kHeaderBytes)));
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/build_inputs.h"
-#include "runtime/instances.h"
+#include "runtime/structures/build_inputs.h"
+#include "runtime/structures/instances.h"
 
 namespace kaamos::vulkan {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The primitives of a bottom level as the driver gets them: without those that are never hit, and
-// in the order that suits it, with the way back to the application's numbers.
+// The primitives of a bottom level as the driver gets them: without those that are never hit, in
+// the order that suits the driver, and with the map back to the application's numbers.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 #include <rtapi/raytracing.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/sort.h"
 #include "runtime/vulkan/workarounds.h"
 
@@ -18,7 +18,7 @@ namespace kaamos::vulkan {
 
 struct ListOptions {
   bool sort = true;           // kSortPrimitives
-  bool drop_inactive = true;  // kSanitizeNan; drivers know inactive primitives by a NaN in x
+  bool drop_inactive = true;  // kSanitizeNan; drivers detect inactive primitives by a NaN in x
 };
 ListOptions list_options(const Workarounds& workarounds);
 
@@ -26,18 +26,18 @@ class PrimitiveList {
  public:
   explicit PrimitiveList(ListOptions options) : options_(options) {}
 
-  // Geometries in their order, then finish(). A triangle goes that cannot be hit: a NaN in a
+  // Add the geometries in order, then call finish(). Drops triangles that cannot be hit: a NaN in a
   // corner, a coordinate of 1.8e18 or more, two equal indices. [DXR: Inactive primitives and
-  // instances] `indices` are below the count of `xyz`.
+  // instances] `indices` must be below the number of vertices in `xyz`.
   void add_triangles(std::span<const float> xyz, std::span<const uint32_t> indices);
-  // The boxes as a traversal gets them (runtime::padded_bounds).
+  // Adds the boxes as a traversal gets them (runtime::padded_bounds).
   void add_boxes(std::span<const rtapi::RaytracingAabb> boxes);
   void finish();
 
   size_t geometry_count() const { return begins_.size(); }
-  // SortItem::primitive in the order for the driver.
+  // SortItem::primitive, in the driver's order.
   std::span<const SortItem> items(size_t geometry) const;
-  // spirv::InstanceEntry::primitive_remap; empty: the driver's numbers are the application's.
+  // spirv::InstanceEntry::primitive_remap; empty if the driver's numbers are the application's.
   std::vector<uint32_t> remap_words() const;
   bool empty() const { return items_.empty(); }
   const runtime::Bounds& bounds() const { return bounds_; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/vulkan/sampler.h"
+#include "runtime/backend/errors.h"
 
 #include <algorithm>
 #include <cstring>
@@ -22,7 +23,7 @@ constexpr uint32_t kComparison = 0x80;
 constexpr uint32_t kMinimum = 0x100;
 
 bool equal(const SamplerDesc& a, const SamplerDesc& b) {
-  static_assert(sizeof(SamplerDesc) == 13 * 4);  // no padding
+  static_assert(sizeof(SamplerDesc) == 13 * 4);  // it has no padding
   return std::memcmp(&a, &b, sizeof(a)) == 0;
 }
 
@@ -41,7 +42,7 @@ VkSamplerAddressMode address_mode(TextureAddressMode mode) {
   }
 }
 
-// One of Vulkan's fixed colours; none: a colour of its own.
+// One of Vulkan's fixed colours; none if it needs a custom one.
 std::optional<VkBorderColor> fixed_border(const float color[4]) {
   const auto is = [&](float rgb, float a) {
     return color[0] == rgb && color[1] == rgb && color[2] == rgb && color[3] == a;
@@ -53,11 +54,11 @@ std::optional<VkBorderColor> fixed_border(const float color[4]) {
 }
 
 rtapi::Error lacking(const Gpu& gpu, const char* what) {
-  return rtapi::Error{"KA0962", rtapi::ErrorCode::kUnsupported,
-                      "KA0962 sampler not supported: " + gpu.info().Name + " has no " + what + "."};
+  return runtime::make_error(runtime::Id::kSamplerUnsupported,
+                             gpu.info().Name + " has no " + what + ".");
 }
 
-// Plain numbers for what comparisons and clamps must not meet.
+// Replaces numbers that comparisons and clamps cannot handle by plain ones.
 float lod(float value) {
   return std::clamp(value, -VK_LOD_CLAMP_NONE, VK_LOD_CLAMP_NONE);
 }

@@ -14,7 +14,8 @@
 
 namespace kaamos::vulkan {
 
-// The samplers of a device, in its bindless set. They live as long as it, and equal ones are one.
+// The samplers of a device, in its bindless set. They live as long as the device, and equal ones
+// are shared.
 class SamplerPool {
  public:
   SamplerPool(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors)
@@ -23,7 +24,7 @@ class SamplerPool {
   SamplerPool(const SamplerPool&) = delete;
   SamplerPool& operator=(const SamplerPool&) = delete;
 
-  // Thread-safe. Errors: KA0956 too many, KA0962 the device lacks what it needs.
+  // Thread-safe. Errors: KA0956 too many, KA0962 the device does not support it.
   rtapi::Result<uint64_t> sampler(const rtapi::SamplerDesc& desc);
 
  private:

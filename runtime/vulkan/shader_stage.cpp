@@ -2,6 +2,7 @@
 #include "runtime/vulkan/shader_stage.h"
 
 #include "kaamos/shader/spirv_interface.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::vulkan {
 namespace {
@@ -91,18 +92,18 @@ StageList::~StageList() {
 rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& shader) {
   if (const auto it = modules_.find(shader.code); it != modules_.end()) return it->second;
   if (shader.code->spirv == nullptr) {
-    return rtapi::Error{
-        "KA0954", rtapi::ErrorCode::kUnsupported,
-        "KA0954 shader \"" + shader.name + "\" of " + shader.library->name +
+    return runtime::make_error(
+        runtime::Id::kNoSpirv,
+        "shader \"" + shader.name + "\" of " + shader.library->name +
             " has no code for Vulkan: its library was compiled without SPIR-V; compile it again "
-            "with kaamos-hlsl of a build that has glslang, and without -no-spirv."};
+            "with kaamos-hlsl of a build that has glslang, and without -no-spirv.");
   }
   if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
-    return rtapi::Error{
-        "KA0963", rtapi::ErrorCode::kUnsupported,
-        "KA0963 shader \"" + shader.name + "\" of " + shader.library->name +
+    return runtime::make_error(
+        runtime::Id::kNoRayQuery,
+        "shader \"" + shader.name + "\" of " + shader.library->name +
             " uses RayQuery, and the device has no VK_KHR_ray_query: take another device "
-            "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay."};
+            "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
   }
   auto made = create_module({shader.code->spirv, shader.code->spirv_words},
                             "the module of shader \"" + shader.name + "\"");

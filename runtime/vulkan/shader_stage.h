@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Linked shaders as stages of a Vulkan pipeline: the module of the export, and the specialization
-// constants that say where its bindings come from (spirv_interface.h).
+// constants that say where its bindings are (spirv_interface.h).
 #pragma once
 
 #include <deque>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {
@@ -25,7 +25,7 @@ struct StageOptions {
 
 VkShaderStageFlagBits stage_of(shader::Stage stage);
 
-// The values of a stage's constants, as pSpecializationInfo has them.
+// The values of a stage's constants, as VkSpecializationInfo takes them.
 struct StageConstants {
   std::vector<VkSpecializationMapEntry> entries;
   std::vector<uint32_t> values;
@@ -33,7 +33,8 @@ struct StageConstants {
 StageConstants stage_constants(const runtime::LinkedShader& shader, uint32_t workaround_bits,
                                const StageOptions& options);
 
-// Stages of one pipeline while it is made. Modules go with it; pipelines do not need them.
+// The stages of one pipeline while it is being created. Modules are destroyed with it; pipelines do
+// not need them.
 class StageList {
  public:
   StageList(Gpu& gpu, const StageOptions& options) : gpu_(gpu), options_(options) {}
@@ -41,14 +42,15 @@ class StageList {
   StageList(const StageList&) = delete;
   StageList& operator=(const StageList&) = delete;
 
-  // The index of the shader's stage, the same for each call unless `own`. Errors: KA0954 no SPIR-V
-  // for it, KA0952.
+  // The index of the shader's stage; repeated calls share the stage unless `own`. Errors: KA0954
+  // the shader has no SPIR-V, KA0952.
   rtapi::Result<uint32_t> add(const runtime::LinkedShader& shader, bool own = false);
-  // One of the backend's own, after all others; `constant` is its specialization constant 0.
+  // Adds one of the backend's own shaders, after all others; `constant` is its specialization
+  // constant 0.
   rtapi::Result<uint32_t> add(std::span<const uint32_t> spirv, shader::Stage stage,
                               uint32_t constant);
   const std::vector<VkPipelineShaderStageCreateInfo>& stages() const { return stages_; }
-  // Of each stage that is not the backend's own.
+  // The shader of each stage, without the backend's own stages.
   const std::vector<const runtime::LinkedShader*>& shaders() const { return shaders_; }
 
  private:
@@ -61,7 +63,7 @@ class StageList {
   StageOptions options_;
   std::vector<VkPipelineShaderStageCreateInfo> stages_;
   std::vector<const runtime::LinkedShader*> shaders_;
-  std::deque<StageConstants> constants_;  // do not move: the infos point to them
+  std::deque<StageConstants> constants_;  // in a deque, because the infos point to them
   std::deque<VkSpecializationInfo> infos_;
   std::vector<VkShaderModule> all_modules_;
   std::map<const shader::ExportDesc*, VkShaderModule> modules_;

@@ -9,7 +9,7 @@ uint64_t translate_table(const ApplicationTable& table, runtime::RecordKind kind
   const uint64_t stride = layout.stride();
   const uint64_t count = table.count();
   uint64_t unknown = kNoRecord;
-  // Records with the same shaders mostly follow each other.
+  // Neighbouring records often have the same shaders.
   uint8_t last_identifier[kIdentifierBytes] = {};
   const uint8_t* last_handle = nullptr;
   for (uint64_t i = 0; i < count; ++i, out += stride) {

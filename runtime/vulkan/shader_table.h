@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Shader tables, from the application's to the driver's. The application's records stay where they
-// are: a record of the driver's table is the handle of the group that the identifier names, and the
-// address of the local arguments. A null record, all zero, runs nothing. [DXR: Shader tables]
+// Translates the application's shader tables into the driver's. The application's records stay
+// where they are: a record of the driver's table is the handle of the group that the identifier
+// stands for, and the address of the local arguments. A null record, all zero, runs nothing. [DXR:
+// Shader tables]
 #pragma once
 
 #include <cstdint>
@@ -10,14 +11,14 @@
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/linked_pipeline.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::vulkan {
 
-// Bytes of a shader identifier, at the start of every record. [DXR: Shader identifier]
+// Size of a shader identifier, at the start of every record. [DXR: Shader identifier]
 inline constexpr uint64_t kIdentifierBytes = 32;
 
-// The driver's handle of each record's shaders.
+// The driver's handles for the shaders of records.
 class GroupHandles {
  public:
   explicit GroupHandles(uint32_t handle_bytes = 32) : handle_bytes_(handle_bytes) {}
@@ -25,7 +26,7 @@ class GroupHandles {
     offsets_[record] = bytes_.size();
     bytes_.insert(bytes_.end(), handle, handle + handle_bytes_);
   }
-  // Null for a record without a group: nothing runs for it.
+  // Null for a record without a group, for which nothing runs.
   const uint8_t* find(const runtime::LinkedRecord* record) const {
     const auto it = offsets_.find(record);
     return it == offsets_.end() ? nullptr : bytes_.data() + it->second;
@@ -45,21 +46,21 @@ struct ApplicationTable {
   uint64_t size_bytes = 0;
   uint64_t stride_bytes = 0;
 
-  // Records inside size_bytes; 1 for a stride of 0, which makes every index the first record.
-  // [DXR: Shader record stride]
+  // How many records are inside size_bytes; 1 for a stride of 0, where every index means the first
+  // record. [DXR: Shader record stride]
   uint64_t count() const {
     if (host == nullptr || size_bytes < kIdentifierBytes) return 0;
     return stride_bytes == 0 ? 1 : (size_bytes - kIdentifierBytes) / stride_bytes + 1;
   }
 };
 
-// How a driver wants its tables.
+// What layout a driver wants for its tables.
 struct TableLayout {
   uint32_t handle_bytes = 32;
   uint32_t handle_alignment = 32;
   uint32_t base_alignment = 64;
 
-  // Between records: handle and spirv::RecordData.
+  // The distance between records, each of which has a handle and spirv::RecordData.
   uint64_t stride() const {
     return (handle_bytes + sizeof(uint64_t) + handle_alignment - 1) / handle_alignment *
            handle_alignment;
@@ -71,9 +72,9 @@ struct TableLayout {
 
 inline constexpr uint64_t kNoRecord = UINT64_MAX;
 
-// Writes the records of `table` to `out`, layout.stride() apart; every record has its bytes
-// written. Returns the index of a record whose identifier is not null and no `kind` of this
-// pipeline, for which a null record is written; kNoRecord if there is none.
+// Writes the records of `table` to `out`, layout.stride() apart, with every byte defined. A record
+// whose identifier is not null and not a `kind` of this pipeline becomes a null record; returns the
+// index of one of those, or kNoRecord.
 uint64_t translate_table(const ApplicationTable& table, runtime::RecordKind kind,
                          const runtime::IdentifierTable& identifiers, const GroupHandles& groups,
                          const TableLayout& layout, uint8_t* out);

@@ -65,7 +65,7 @@ TEST(ShaderTable, CountsRecordsAsTheOtherBackendDoes) {
   EXPECT_EQ((ApplicationTable{&byte, 1, 31, 32}.count()), 0u);
   EXPECT_EQ((ApplicationTable{&byte, 1, 32, 32}.count()), 1u);
   EXPECT_EQ((ApplicationTable{&byte, 1, 95, 64}.count()), 1u);
-  EXPECT_EQ((ApplicationTable{&byte, 1, 96, 64}.count()), 2u);  // a last record without arguments
+  EXPECT_EQ((ApplicationTable{&byte, 1, 96, 64}.count()), 2u);  // the last record has no arguments
   EXPECT_EQ((ApplicationTable{&byte, 1, 4096, 0}.count()), 1u);
   EXPECT_EQ((ApplicationTable{nullptr, 0, 4096, 32}.count()), 0u);
 }
@@ -109,7 +109,7 @@ TEST(ShaderTable, WhatIsNoIdentifierOfTheKindIsNullAndReported) {
   put(table, 0, miss);
   put(table, 64, callable);
   put(table, 128, miss);
-  table[128 + 31] ^= 1;  // one bit off
+  table[128 + 31] ^= 1;  // one wrong bit
   put(table, 192, miss);
   const Translated t = translate(pipeline, table, 64, layout);
   EXPECT_EQ(t.unknown, 1u);

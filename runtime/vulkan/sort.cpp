@@ -9,14 +9,14 @@
 namespace kaamos::vulkan {
 namespace {
 
-constexpr size_t kParallelItems = 1 << 14;  // below, a task costs more than it brings
+constexpr size_t kParallelItems = 1 << 14;  // below that, a task costs more than it saves
 
 class Sorter {
  public:
   Sorter(std::span<SortItem> items, std::span<const uint32_t> begins)
       : items_(items), begins_(begins) {}
 
-  // Items first..last, both included, as the driver counts.
+  // Items first..last, both inclusive, the way the driver counts.
   void sort(size_t first, size_t last) const {
     if (first >= last) return;
     const size_t mid = (first + last) / 2;
@@ -30,7 +30,7 @@ class Sorter {
   }
 
  private:
-  // first..mid and mid + 1..last become the sides of a split, as far as the geometry of mid goes.
+  // Makes first..mid and mid + 1..last the sides of a split, within the geometry that contains mid.
   void divide(size_t first, size_t last, size_t mid) const {
     const auto after = std::upper_bound(begins_.begin(), begins_.end(), mid);
     const size_t begin = std::max<size_t>(first, *std::prev(after));

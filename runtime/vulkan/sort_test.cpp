@@ -31,7 +31,8 @@ bool equal(const Items& a, const Items& b) {
   });
 }
 
-// Walks the driver's tree: whether each node inside one geometry is a median split of its items.
+// Walks the driver's tree and checks that each node inside one geometry is a median split of its
+// items.
 void expect_split(const Items& items, uint32_t first, uint32_t last,
                   const std::vector<uint32_t>& begins, uint32_t& nodes) {
   if (first >= last) return;

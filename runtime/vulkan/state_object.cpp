@@ -17,13 +17,13 @@ constexpr VkShaderStageFlags kAllStages =
     VK_SHADER_STAGE_INTERSECTION_BIT_KHR | VK_SHADER_STAGE_CALLABLE_BIT_KHR |
     VK_SHADER_STAGE_COMPUTE_BIT;
 
-// Groups of the pipeline, and the records whose identifiers stand for the first ones.
+// Groups of the pipeline. The first ones belong to the records, in order.
 struct Groups {
   std::vector<VkRayTracingShaderGroupCreateInfoKHR> infos;
   std::vector<const runtime::LinkedRecord*> records;
 };
 
-// Adds the stage of a shader that may be absent.
+// Adds the stage of a shader, which may be absent.
 rtapi::Status add_stage(StageList& stages, const runtime::LinkedShader* shader, bool own,
                         uint32_t* index) {
   *index = VK_SHADER_UNUSED_KHR;
@@ -47,8 +47,8 @@ rtapi::Status add_group(const runtime::LinkedRecord& record, bool own_intersecti
                         StageList& stages, Groups& groups) {
   const bool procedural = record.kind == runtime::RecordKind::kHitGroup &&
                           record.hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
-  // Vulkan has no procedural group without an intersection shader. Nothing is ever hit through it,
-  // which a null record does as well.
+  // Vulkan has no procedural group without an intersection shader. Nothing is ever hit through such
+  // a group, so a null record serves as well.
   if (procedural && record.intersection == nullptr) return {};
   VkRayTracingShaderGroupCreateInfoKHR info = general_group(VK_SHADER_UNUSED_KHR);
   if (record.kind != runtime::RecordKind::kHitGroup) {

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Linked pipelines as Vulkan's.
+// Linked pipelines as Vulkan pipelines.
 #pragma once
 
 #include <memory>
 #include <unordered_map>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/descriptor_set.h"
 #include "runtime/vulkan/gpu.h"
 #include "runtime/vulkan/shader_table.h"
 
 namespace kaamos::vulkan {
 
-// The bindless set and a push constant, the address of the DispatchBlock: of every pipeline.
+// The layout that every pipeline uses: the bindless set and a push constant, the address of the
+// DispatchBlock.
 class PipelineLayout {
  public:
   static rtapi::Result<std::shared_ptr<PipelineLayout>> create(
@@ -27,7 +28,7 @@ class PipelineLayout {
   VkPipelineLayout handle() const { return handle_; }
   Gpu& gpu() const { return *gpu_; }
   bool collect_statistics() const { return collect_statistics_; }
-  // Binds a pipeline, the set and the address of a block.
+  // Bind a pipeline and the set; push the address of a block.
   void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
   void push(VkCommandBuffer commands, uint64_t block_address) const;
 
@@ -50,14 +51,14 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
 
   const runtime::LinkedPipeline& linked() const { return *linked_; }
   const PipelineLayout& layout() const { return *layout_; }
-  // Null where the pipeline has no ray generation shader: then nothing can run.
+  // Null if the pipeline has no ray generation shader, so that nothing can run.
   VkPipeline handle() const { return handle_; }
   const GroupHandles& groups() const { return groups_; }
-  // Binds it; a block is still to be pushed.
+  // Binds it; the caller still has to push a block.
   void bind(VkCommandBuffer commands) const;
-  // Traces nested in each other that it was made for: what it declares, or the device's limit.
+  // How deep traces may nest: what the pipeline declares, or the device's limit if that is lower.
   uint32_t max_trace_depth() const { return max_trace_depth_; }
-  // By kShaderConstant - 1.
+  // Indexed by kShaderConstant - 1.
   const std::vector<const runtime::LinkedShader*>& stage_shaders() const { return stage_shaders_; }
 
  private:
@@ -72,7 +73,7 @@ class RaytracingPipeline final : public runtime::BackendPipeline {
   VkPipeline handle_ = VK_NULL_HANDLE;
   std::vector<const runtime::LinkedShader*> stage_shaders_;
   uint32_t max_trace_depth_ = 0;
-  uint32_t stack_bytes_ = 0;  // 0: what Vulkan takes by default
+  uint32_t stack_bytes_ = 0;  // 0: Vulkan's default
   GroupHandles groups_;
 };
 
@@ -96,10 +97,10 @@ class ComputePipeline final : public runtime::BackendPipeline {
   VkPipeline handle_ = VK_NULL_HANDLE;
 };
 
-// Levels of callable shaders that call each other. DXR bounds them by the stack alone, and drivers
-// have no way to ask. [DXR: Ray recursion limit]
+// How deep callable shaders may nest. In DXR only the stack limits them, and drivers offer no way
+// to query it. [DXR: Ray recursion limit]
 inline constexpr uint32_t kMaxCallableDepth = 63;
-// Of lavapipe without workaround CALLABLES.
+// On lavapipe without workaround CALLABLES.
 inline constexpr uint32_t kMaxBareCallableDepth = 31;
 
 }  // namespace kaamos::vulkan

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/clear_view.h"
+#include "runtime/backend/clear_view.h"
 #include "runtime/shader/texture/format_codec.h"
 #include "runtime/vulkan/image.h"
 #include "runtime/vulkan/memory.h"
@@ -37,28 +37,29 @@ VkExtent3D extent_of(const CopyTextureCommand& command) {
   return {command.extent[0], command.extent[1], command.extent[2]};
 }
 
-// Where a copy begins in its buffer.
+// The byte of its buffer at which a copy begins.
 uint64_t first_byte(const TextureCopyPlace& place, uint32_t texel_bytes) {
   return place.offset + place.origin[2] * place.slice_pitch +
          uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * texel_bytes;
 }
 
-// The same in its VkBuffer.
+// The same, in its VkBuffer.
 uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t texel_bytes) {
   return gpu_buffer_of(*place.buffer).offset() + first_byte(place, texel_bytes);
 }
 
-// Whether Vulkan's way to describe rows and slices can say it: all in whole texels and rows.
+// Whether Vulkan can describe these rows and slices: everything must be a whole number of texels
+// and rows.
 bool expressible(const TextureCopyPlace& place, uint32_t texel_bytes) {
   return place.row_pitch % texel_bytes == 0 &&
          buffer_offset(place, texel_bytes) % texel_bytes == 0 &&
          place.slice_pitch % place.row_pitch == 0;
 }
 
-// Texels in rows and slices without gaps.
+// Memory for texels in rows and slices without gaps.
 struct Staging {
   std::shared_ptr<GpuBuffer> buffer;
-  uint64_t offset = 0;  // in the VkBuffer, a multiple of the texel
+  uint64_t offset = 0;  // in the VkBuffer; a multiple of the texel size
   uint8_t* host = nullptr;
 };
 
@@ -78,7 +79,7 @@ uint64_t texel_count(const CopyTextureCommand& command) {
   return uint64_t{command.extent[0]} * command.extent[1] * command.extent[2];
 }
 
-// The region between a texture and a buffer whose first byte is at `buffer_offset`.
+// The region for a copy between a texture and a buffer that begins at `buffer_offset`.
 VkBufferImageCopy region_of(const TextureCopyPlace& texture, uint64_t buffer_offset,
                             const VkExtent3D& extent) {
   VkBufferImageCopy region = {};
@@ -107,8 +108,8 @@ class Textures final : public TextureStore {
   rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override {
     return samplers_.sampler(desc);
   }
-  // Of typed buffers, which shaders convert themselves. What textures of this device cannot have is
-  // said by KA0960 and KA0961.
+  // For typed buffers, which shaders convert themselves. What textures of this device do not
+  // support is reported by KA0960 and KA0961.
   bool supports_format(rtapi::Format format, bool unordered_access) const override {
     const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
     return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
@@ -158,7 +159,8 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
   return {};
 }
 
-// Vulkan copies between images of different dimension in some cases only.
+// Copies through a buffer, because Vulkan allows copies between images of different dimensions only
+// in some cases.
 rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& dest = image_of(command.dest);
   auto between = stage(*gpu_, texel_count(command), dest.texel_bytes());
@@ -261,12 +263,12 @@ rtapi::Status Textures::clear(CommandStream& stream, const runtime::ClearUavComm
   if (command.view.kind != shader::DescriptorKind::kTexture) return clear_buffer(stream, command);
   const auto* texture = static_cast<const runtime::BackendTexture*>(command.resource.get());
   const auto& image = static_cast<const Image&>(*texture);
-  // A descriptor that is left over from another texture is like a null one.
+  // A descriptor left over from another texture counts as a null one.
   const auto view = image.storage_view(command.view.address);
   return view ? clear_texture(stream, image, *view, command) : rtapi::Status{};
 }
 
-// By the host, as its conversions are those of typed stores.
+// On the host, whose conversions are those of typed stores.
 rtapi::Status Textures::clear_buffer(CommandStream& stream,
                                      const runtime::ClearUavCommand& command) {
   if (auto s = stream.flush(); !s) return s;
@@ -277,8 +279,8 @@ rtapi::Status Textures::clear_buffer(CommandStream& stream,
   return {};
 }
 
-// A few rows of the texel, copied to wherever they go: exact for every format, and for views of
-// some slices of a volume.
+// Fills a few rows with the texel and copies them wherever they must go: exact for every format,
+// and for views of some slices of a volume.
 rtapi::Status Textures::clear_texture(CommandStream& stream, const Image& image,
                                       const runtime::TextureViewDesc& view,
                                       const runtime::ClearUavCommand& command) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/descriptor_set.h"
 
@@ -18,7 +18,7 @@ class TextureStore {
       std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors);
   virtual ~TextureStore() = default;
 
-  // As BackendDevice's functions of these names.
+  // Like BackendDevice's functions of the same names.
   virtual rtapi::Result<std::shared_ptr<runtime::BackendTexture>> create_texture(
       const rtapi::TextureDesc& desc) = 0;
   virtual rtapi::Result<uint64_t> create_view(runtime::BackendTexture& texture,
@@ -26,9 +26,9 @@ class TextureStore {
   virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
   virtual bool supports_format(rtapi::Format format, bool unordered_access) const = 0;
 
-  // Recorded after everything before; images stay in layout GENERAL.
+  // Recorded after everything before it; images stay in layout GENERAL.
   virtual rtapi::Status copy(CommandStream& stream, const runtime::CopyTextureCommand& command) = 0;
-  // Views of textures and of buffers alike.
+  // For views of textures and of buffers.
   virtual rtapi::Status clear(CommandStream& stream, const runtime::ClearUavCommand& command) = 0;
 };
 

@@ -135,7 +135,7 @@ TextureFormat texture_format(F format) {
                        VK_COMPONENT_SWIZZLE_ZERO, VK_COMPONENT_SWIZZLE_R};
     result.plain = false;
   } else if (format == F::kB8G8R8X8Unorm || format == F::kB8G8R8X8UnormSrgb) {
-    result.channels.a = VK_COMPONENT_SWIZZLE_ONE;  // what is stored there is never read by a store
+    result.channels.a = VK_COMPONENT_SWIZZLE_ONE;  // no read returns what stores put there
   }
   return result;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Formats of textures as Vulkan has them.
+// Vulkan's formats for textures.
 #pragma once
 
 #include <volk.h>
@@ -13,13 +13,13 @@ namespace kaamos::vulkan {
 
 struct TextureFormat {
   VkFormat format = VK_FORMAT_UNDEFINED;  // UNDEFINED: textures cannot have it
-  // Where the channels of the DXGI format are found.
+  // Where to find the channels of the DXGI format.
   VkComponentMapping channels = {VK_COMPONENT_SWIZZLE_R, VK_COMPONENT_SWIZZLE_G,
                                  VK_COMPONENT_SWIZZLE_B, VK_COMPONENT_SWIZZLE_A};
-  bool plain = true;  // channels are where Vulkan has them: storage images need that
+  bool plain = true;  // channels are in Vulkan's own places, which storage images need
 };
 
-// Typeless formats are a member of their family, for images whose views have formats of their own.
+// A typeless format gives a member of its family, for images whose views have their own formats.
 TextureFormat texture_format(rtapi::Format format);
 
 }  // namespace kaamos::vulkan

@@ -67,7 +67,7 @@ constexpr uint32_t kSide = 8;
 // Lavapipe's polynomial for sRGB is off by up to 0.0012.
 constexpr float kSrgbTolerance = 1.5e-3f;
 
-// One texel that means a number in each channel, so that no NaN is among them.
+// Fills one texel with a valid number in each channel, so that no NaN is among them.
 void fill_texel(const shader::FormatCodec& codec, std::mt19937& random, uint8_t* element) {
   if (codec.encode == nullptr) {
     for (uint32_t i = 0; i < codec.bytes; ++i) element[i] = static_cast<uint8_t>(random());
@@ -158,7 +158,7 @@ TEST(VulkanTexture, EveryWritableFormatIsStoredAndCleared) {
     auto texture = h.textures->create_texture(desc);
     if (!texture) {
       // Formats without unordered access, and 96-bit and alpha-only ones.
-      EXPECT_EQ(texture.error().id, "KA0960");
+      EXPECT_EQ(texture.error().id.text(), "KA0960");
       continue;
     }
     ASSERT_NE(codec.encode, nullptr);
@@ -240,7 +240,7 @@ TEST(VulkanTexture, ACopyFillsTheRightSubresource) {
   copy.dest.origin[0] = 2;
   copy.source.origin[0] = 1;
   ASSERT_TRUE(h.copy(copy));
-  // From there to another texture, of one dimension.
+  // From there to a one-dimensional texture.
   auto line_desc = desc_of(8, 1, 1, 1, Format::kR32Uint);
   line_desc.Dimension = rtapi::ResourceDimension::kTexture1D;
   auto line = *h.textures->create_texture(line_desc);
@@ -284,7 +284,7 @@ TEST(VulkanTexture, RowsThatVulkanCannotDescribeAreCopiedOneByOne) {
   desc.Dimension = rtapi::ResourceDimension::kTexture3D;
   auto texture = h.textures->create_texture(desc);
   if (!texture) GTEST_SKIP() << texture.error().message;
-  // 256 bytes are no whole number of 12-byte texels.
+  // 256 bytes are not a whole number of 12-byte texels.
   const auto source = h.buffer(256 * 12);
   for (uint32_t i = 0; i < 256 * 12; ++i) source->host()[i] = static_cast<uint8_t>(i * 7 % 61);
   auto copy = upload_of(*texture, source, 5, 4);
@@ -372,7 +372,7 @@ TEST(VulkanTexture, SomeSlicesAreCleared) {
   runtime::ClearUavCommand clear;
   clear.view.kind = shader::DescriptorKind::kTexture;
   clear.view.address = *h.textures->create_view(*texture, view);
-  clear.values[0] = 70000;  // is cut to the format
+  clear.values[0] = 70000;  // truncated to the format
   clear.values[1] = 5;
   clear.resource = std::shared_ptr<runtime::BackendTexture>(texture);
   ASSERT_TRUE(h.textures->clear(h.stream, clear));
@@ -423,11 +423,11 @@ TEST(VulkanTexture, WhatTheDeviceLacksIsAnError) {
   for (const Format format : {Format::kBC1Unorm, Format::kD32Float, Format::kUnknown}) {
     const auto texture = h.textures->create_texture(desc_of(4, 4, 1, 1, format));
     ASSERT_FALSE(texture);
-    EXPECT_EQ(texture.error().id, "KA0960");
+    EXPECT_EQ(texture.error().id.text(), "KA0960");
   }
   const auto large = h.textures->create_texture(desc_of(1u << 20, 1, 1, 1, Format::kR8Unorm));
   ASSERT_FALSE(large);
-  EXPECT_EQ(large.error().id, "KA0960");
+  EXPECT_EQ(large.error().id.text(), "KA0960");
 }
 
 TEST(VulkanSampler, EqualOnesAreOne) {

@@ -13,8 +13,9 @@ namespace {
 
 using shader::spirv::InstanceEntry;
 
-// The record for the driver; `custom_index` is its place in the instance table. What cannot be hit
-// has no bottom level and a plain transform: a NaN would hide its neighbours (B6).
+// The driver's record; `custom_index` is the instance's place in the instance table. An instance
+// that cannot be hit gets no bottom level and a plain transform, because a NaN would hide its
+// neighbours (B6).
 VkAccelerationStructureInstanceKHR record_of(const runtime::Instance& instance,
                                              uint32_t custom_index) {
   VkAccelerationStructureInstanceKHR record = {};
@@ -25,8 +26,8 @@ VkAccelerationStructureInstanceKHR record_of(const runtime::Instance& instance,
   std::memcpy(&record.transform, desc.Transform, sizeof(record.transform));
   record.mask = desc.InstanceMask;
   record.instanceShaderBindingTableRecordOffset = desc.InstanceContributionToHitGroupIndex;
-  // The bits have the numbers of D3D12's. Both opacities at once are not allowed; opaque wins, as
-  // on Embree.
+  // The bits have the same values as D3D12's. Both opacities at once are not allowed; opaque wins,
+  // as on Embree.
   uint32_t flags = desc.Flags & 0xFu;
   if ((flags & runtime::kInstanceForceOpaque) != 0) flags &= ~runtime::kInstanceForceNonOpaque;
   record.flags = flags & 0xFu;
@@ -53,7 +54,7 @@ uint64_t largest_record_of(const runtime::Instance& instance) {
 }
 
 // The instances for the driver, as positions in the input. Lavapipe halves their list as it does
-// with primitives; there those that cannot be hit are left out.
+// for primitives; for it, instances that cannot be hit are left out.
 std::vector<uint32_t> driver_order(const Workarounds& workarounds,
                                    std::span<const runtime::Instance> instances) {
   std::vector<uint32_t> order;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A top level: one of Vulkan's, its part of the instance table, and the bottom levels that it keeps
-// alive.
+// A top level: a Vulkan acceleration structure, its part of the instance table, and the bottom
+// levels that it keeps alive.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/instances.h"
+#include "runtime/structures/instances.h"
 #include "runtime/vulkan/bottom_level.h"
 #include "runtime/vulkan/instance_table.h"
 
@@ -19,16 +19,16 @@ namespace kaamos::vulkan {
 
 class TopLevel final : public runtime::TopLevelBase {
  public:
-  // `instances` in the order of the input: its index is InstanceIndex. Errors: KA0794 too many
-  // instances, KA0990 no memory.
+  // `instances` are in input order: the index is InstanceIndex. Errors: KA0794 too many instances,
+  // KA0990 out of memory.
   static rtapi::Result<std::shared_ptr<TopLevel>> build(
       const std::shared_ptr<Gpu>& gpu, InstanceTable& table,
       std::span<const runtime::Instance> instances, runtime::BuildFlags flags);
 
   uint64_t address() const { return structure_->address(); }  // what accelerationStructureEXT takes
   uint64_t held_bytes() const { return held_bytes_; }
-  // The largest index of a hit record that a ray can ask for: contributions of ray and geometry at
-  // their largest, 15 and 15 per geometry. [DXR: Hit group table indexing]
+  // The largest index of a hit record that a ray can ask for: the ray contributes at most 15, and
+  // the geometries at most 15 each. [DXR: Hit group table indexing]
   uint64_t largest_hit_record() const { return largest_hit_record_; }
 
  private:
@@ -38,7 +38,7 @@ class TopLevel final : public runtime::TopLevelBase {
   InstanceTable::Range entries_;
   uint64_t held_bytes_ = 0;
   uint64_t largest_hit_record_ = 0;
-  std::vector<std::shared_ptr<const runtime::BottomLevelBase>> bottom_levels_;  // each once
+  std::vector<std::shared_ptr<const runtime::BottomLevelBase>> bottom_levels_;  // each appears once
 };
 
 }  // namespace kaamos::vulkan

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Dispatches whose rays meet geometry: which record runs, how deep traces nest.
+// Dispatches whose rays hit geometry: which record runs, and how deep traces nest.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,8 +22,9 @@ using testing::words_of;
 
 constexpr uint32_t kNothing = 7;
 
-// Cell x: a ray along +z from (4 * x, 0, 0), with miss index arguments[2] + x and the contribution
-// to the hit index arguments[3]. arguments[0]: what came into the payload; [1]: the top level.
+// Cell x traces a ray along +z from (4 * x, 0, 0), with miss index arguments[2] + x and a
+// contribution of arguments[3] to the hit index. arguments[0] gets the payload; [1] is the top
+// level.
 constexpr char kTrace[] = R"(
 struct Payload { uint depths; uint value; };
 layout(location = 0) rayPayloadEXT Payload payload;
@@ -38,7 +39,7 @@ void main() {
 }
 )";
 
-// Answers 100 * number + its record's first argument.
+// Answers 100 * number + the first argument of its record.
 std::string answer(uint32_t number) {
   return "struct Payload { uint depths; uint value; };\n"
          "layout(location = 0) rayPayloadInEXT Payload payload;\n"
@@ -74,13 +75,13 @@ TEST(Tracing, MissRecordsByIndex) {
   const auto pipeline = bench.create(builder.pipeline());
   ASSERT_TRUE(pipeline) << pipeline.error().message;
   const auto out = bench.buffer(64);
-  // A null structure, and an address where none stands, are missed alike.
+  // A null structure and an address without a structure both miss.
   for (const uint64_t scene : {uint64_t{0}, out->address()}) {
     auto result = bench.rays(*pipeline, tables.desc(6), {out->address(), scene, 0, 0});
     ASSERT_TRUE(result.status) << result.status.error().message;
     const uint32_t expected[6] = {100, 201, kNothing, 103, kNothing, kNothing};
     for (int i = 0; i < 6; ++i) EXPECT_EQ(words_of(out)[i], expected[i]) << i;
-    // The largest index there is. [DXR: Miss shader table indexing]
+    // The largest possible index. [DXR: Miss shader table indexing]
     result = bench.rays(*pipeline, tables.desc(1), {out->address(), scene, 65535, 0});
     ASSERT_TRUE(result.status) << result.status.error().message;
     EXPECT_EQ(words_of(out)[0], kNothing);
@@ -119,8 +120,8 @@ TEST(Tracing, HitRecordsByIndexEvenPastTheTable) {
   auto result = bench.rays(*pipeline, tables.desc(8), {out->address(), scene, 0, 0});
   ASSERT_TRUE(result.status) << result.status.error().message;
   EXPECT_TRUE(result.warnings.empty());
-  // Nothing runs for a hit group without shaders, a null record, and what is past the table: it is
-  // a hit all the same, so that the miss shader does not run.
+  // Nothing runs for a hit group without shaders, a null record, or a record past the table; but
+  // these still count as hits, so the miss shader does not run.
   const uint32_t expected[8] = {100, 201, kNothing, kNothing, 204, kNothing, kNothing, 907};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(words_of(out)[i], expected[i]) << i;
   // With the ray's own contribution.
@@ -130,7 +131,7 @@ TEST(Tracing, HitRecordsByIndexEvenPastTheTable) {
   EXPECT_EQ(words_of(out)[1], 204u);
 }
 
-// A miss shader that traces again until arguments[3] traces are nested.
+// A miss shader that traces again until traces are nested arguments[3] deep.
 constexpr char kTraceAgain[] = R"(
 struct Payload { uint depths; uint value; };
 layout(location = 0) rayPayloadInEXT Payload given;
@@ -166,13 +167,13 @@ TEST(Tracing, NestsToTheDeclaredDepthAndRemovesTheDeviceBeyond) {
     for (int i = 0; i < 8; ++i) EXPECT_EQ(words_of(out)[i], depth);
     result = bench.rays(*pipeline, desc, {out->address(), 0, 0, 200});
     ASSERT_FALSE(result.status);
-    EXPECT_EQ(result.status.error().id, "KA0890");
+    EXPECT_EQ(result.status.error().id.text(), "KA0890");
     EXPECT_THAT(result.status.error().message,
                 HasSubstr("MaxTraceRecursionDepth " + std::to_string(depth) + " "));
   }
 }
 
-// B2: one intersection shader, two hit groups with any-hit shaders of their own.
+// B2: one intersection shader, shared by two hit groups with their own any-hit shaders.
 std::pair<uint32_t, uint32_t> hits_of_shared_intersection(std::shared_ptr<Gpu> gpu) {
   Bench bench(gpu);
   PipelineBuilder builder;
@@ -209,7 +210,7 @@ TEST(Tracing, HitGroupsShareIntersectionShaders) {
   KAAMOS_NEED_GPU(gpu);
   EXPECT_EQ(hits_of_shared_intersection(gpu), (std::pair<uint32_t, uint32_t>(100, 901)));
   if (!gpu->is_lavapipe()) return;
-  // The fault is still there: when it no longer is, the table of workarounds gets a last version.
+  // The fault still exists. When this fails, the table of workarounds needs a last version.
   setenv("KAAMOS_VULKAN_DISABLE_WORKAROUNDS", "B2", 1);
   auto without = Gpu::create();
   unsetenv("KAAMOS_VULKAN_DISABLE_WORKAROUNDS");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The functions of Vulkan, found at run time: nothing links libvulkan, so that a program runs
-// without one and says so.
+// Vulkan's functions, found at run time. Nothing links libvulkan, so a program can run without it
+// and report that.
 #define VOLK_IMPLEMENTATION
 #include <volk.h>

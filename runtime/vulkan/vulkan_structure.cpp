@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/backend/errors.h"
 #include "runtime/vulkan/box_padding.h"
 
 namespace kaamos::vulkan {
@@ -12,7 +13,8 @@ namespace {
 using rtapi::HasAny;
 using runtime::BuildFlags;
 
-// Updates are builds here, and a compacted copy shares the original's memory: no flags for those.
+// Updates are builds here, and a compacted copy shares the original's memory, so neither needs a
+// flag.
 VkBuildAccelerationStructureFlagsKHR build_flags(BuildFlags flags) {
   VkBuildAccelerationStructureFlagsKHR result = 0;
   if (HasAny(flags, BuildFlags::kPreferFastTrace)) {
@@ -28,10 +30,10 @@ VkBuildAccelerationStructureFlagsKHR build_flags(BuildFlags flags) {
 
 rtapi::Status check_limit(const Gpu& gpu, const char* what, uint64_t count, uint64_t limit) {
   if (count <= limit) return {};
-  return rtapi::Error{"KA0794", rtapi::ErrorCode::kInvalidArgument,
-                      std::string("KA0794 too many ") + what + ": " + std::to_string(count) + ", " +
-                          gpu.info().Name + " takes at most " + std::to_string(limit) +
-                          ". Split it into several acceleration structures."};
+  return runtime::make_error(runtime::Id::kTooManyElements,
+                             std::to_string(count) + " " + what + ", and " + gpu.info().Name +
+                                 " takes at most " + std::to_string(limit) +
+                                 ". Split it into several acceleration structures.");
 }
 
 rtapi::Status check_limits(const Gpu& gpu, VkAccelerationStructureTypeKHR type,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One of Vulkan's acceleration structures with the memory it lies in.
+// A Vulkan acceleration structure, with its memory.
 #pragma once
 
 #include <volk.h>
@@ -11,7 +11,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/structure_map.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/gpu.h"
 
 namespace kaamos::vulkan {
@@ -24,7 +24,7 @@ struct StructureGeometry {
 class VulkanStructure {
  public:
   // Builds on the queue and waits. `extra_bytes` of memory, a multiple of 4, come with it. Errors:
-  // KA0794 more geometries, primitives or instances than the device takes, KA0990 no memory.
+  // KA0794 more geometries, primitives or instances than the device supports, KA0990 out of memory.
   static rtapi::Result<std::unique_ptr<VulkanStructure>> build(
       std::shared_ptr<Gpu> gpu, VkAccelerationStructureTypeKHR type, runtime::BuildFlags flags,
       std::span<const StructureGeometry> geometries, uint64_t extra_bytes);

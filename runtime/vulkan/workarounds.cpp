@@ -11,7 +11,7 @@ namespace {
 
 constexpr VkDriverId kLavapipe = VK_DRIVER_ID_MESA_LLVMPIPE;
 constexpr uint32_t kFirst = 24003;   // the first Mesa whose lavapipe traces rays
-constexpr uint32_t kOpen = 9999999;  // no version is known that mends it
+constexpr uint32_t kOpen = 9999999;  // no version is known to fix it
 
 constexpr WorkaroundInfo kTable[] = {
     {Workaround::kRestoreAttributes, "B1", kLavapipe, kFirst, kOpen, true,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Faults of drivers that this backend works around: which, for whom, and how to do without. The
-// README of this folder explains each.
+// Driver faults that this backend works around: which, on which drivers, and how to disable each.
+// The README of this folder explains them.
 #pragma once
 
 #include <volk.h>
@@ -29,14 +29,14 @@ enum class Workaround : uint32_t {
   kReserveCallables,       // CALLABLES
 };
 
-// Versions of drivers as one number: major * 1000 + minor.
+// Driver versions as one number: major * 1000 + minor.
 struct WorkaroundInfo {
   Workaround workaround;
-  const char* name;  // "B1": what KAAMOS_VULKAN_DISABLE_WORKAROUNDS lists
+  const char* name;  // "B1": the name that KAAMOS_VULKAN_DISABLE_WORKAROUNDS lists
   VkDriverId driver;
   uint32_t first_version;
   uint32_t last_version;
-  bool by_default;      // false: only where KAAMOS_VULKAN_ENABLE_WORKAROUNDS lists it
+  bool by_default;      // false: only if KAAMOS_VULKAN_ENABLE_WORKAROUNDS lists it
   uint32_t shader_bit;  // shader::spirv::Workaround, or 0
   const char* reason;
 };
@@ -47,7 +47,7 @@ class Workarounds {
   bool has(Workaround workaround) const {
     return (bits_ >> static_cast<uint32_t>(workaround) & 1) != 0;
   }
-  // For kWorkaroundsConstant.
+  // The value of kWorkaroundsConstant.
   uint32_t shader_bits() const { return shader_bits_; }
 
   void insert(const WorkaroundInfo& info) {
@@ -60,11 +60,11 @@ class Workarounds {
   uint32_t shader_bits_ = 0;
 };
 
-// "Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)" is 25000; 0 where no version of that form is in it.
+// "Mesa 25.0.7-2~bpo12+1 (LLVM 15.0.6)" gives 25000; 0 if there is no such version in it.
 uint32_t driver_version(std::string_view driver_info);
 
-// Those for a driver. `disabled` and `enabled` are lists of names with commas between; "all" is
-// each of them. Names that are none go to `unknown`.
+// The workarounds for a driver. `disabled` and `enabled` are comma-separated lists of names; "all"
+// means every one. Unknown names go to `unknown`.
 Workarounds workarounds_for(VkDriverId driver, std::string_view driver_info,
                             std::string_view disabled, std::string_view enabled,
                             std::vector<std::string>* unknown);

@@ -50,7 +50,8 @@ TEST(Workarounds, EachHasASwitch) {
   EXPECT_FALSE(of(VK_DRIVER_ID_MESA_LLVMPIPE, kMesa, "all").has(Workaround::kCopyHitBuiltins));
 }
 
-// On 8 MiB 64 KiB at depth 31 end the process, 16 KiB do not (tests/vulkan/driver_stress).
+// With a stack of 8 MiB, 64 KiB payloads at depth 31 end the process, 16 KiB ones do not
+// (tests/vulkan/driver_stress).
 TEST(Workarounds, LargePayloadsNestLessDeep) {
   constexpr uint64_t kStack = 8u << 20;
   EXPECT_EQ(nested_payload_limit(64 << 10, kStack), 5u);

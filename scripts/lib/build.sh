@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Configures and builds a preset; turns the usual failures into sentences.
+# Configures and builds a preset, and explains the usual failures.
 
 cmake_minimum=3.25  # as in CMakeLists.txt
 
@@ -14,16 +14,17 @@ require_tools() {
   version_at_least "$version" "$cmake_minimum" ||
     die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
       "Debian 12 brings 3.25 as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
-  # CXX may hold options after the name.
+  # CXX may hold options after the compiler's name.
   if [[ -n ${CXX:-} ]]; then
     command -v "${CXX%% *}" >/dev/null ||
-      die "CXX names a compiler that is not there: \"$CXX\"." "Unset CXX to use the system's, or correct it."
+      die "CXX names a compiler that does not exist: \"$CXX\"." "Unset CXX to use the system's, or correct it."
   elif ! command -v c++ >/dev/null && ! command -v g++ >/dev/null && ! command -v clang++ >/dev/null; then
     die "there is no C++ compiler in PATH." "On Debian: apt-get install g++"
   fi
 }
 
-# All cores, but no more compilers at once than memory holds (a large file takes about 1 GiB).
+# Uses all cores, but starts no more compilers than fit into memory (a large file takes about 1
+# GiB).
 choose_jobs() {
   local cores memory
   cores=$(nproc 2>/dev/null || echo 2)
@@ -35,7 +36,7 @@ choose_jobs() {
   fi
 }
 
-# A failure on a full disk looks like a failure of anything; say it first.
+# A full disk can look like any other failure, so check for it first.
 die_build() {
   local free
   free=$(free_mib "$root/build")
@@ -51,14 +52,14 @@ configure() {
   if [[ -f $folder/CMakeCache.txt ]]; then
     home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$folder/CMakeCache.txt")
     if [[ $home != "$root" ]]; then
-      say "note: \"$folder\" was configured for \"$home\"; starting it anew."
+      say "note: \"$folder\" was configured for \"$home\"; configuring it from scratch."
       fresh=(--fresh)
     fi
   fi
   step "Configuring (preset $preset)"
   run_step configure cmake -S "$root" --preset "$preset" "${fresh[@]}" "$@" ||
-    die_build "configuring failed; CMake says above what it misses." \
-      "What each package is for stands in scripts/packages.txt, the whole log in \"$log\"."
+    die_build "configuring failed; CMake says above what is missing." \
+      "scripts/packages.txt says what each package is for. The whole log: \"$log\"."
 }
 
 # build PRESET [targets]
@@ -68,6 +69,6 @@ build() {
   if (($#)); then arguments=(--target "$@"); fi
   step "Building${*:+ $*} with $jobs jobs"
   NINJA_STATUS='[%f/%t] ' run_step build cmake --build --preset "$preset" -j "$jobs" "${arguments[@]}" ||
-    die_build "the build failed; the compiler's message stands above." "The whole log: \"$log\"."
+    die_build "the build failed; the compiler's message is above." "The whole log: \"$log\"."
   say "    built in $(duration "$step_seconds")."
 }

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT
-# Shared by scripts/test and scripts/demo: messages, the log file, progress lines.
-# The caller sets `program` (its name in messages) and sources this file first.
+# Shared by scripts/test and scripts/demo: messages, the log file, progress lines. The caller sets
+# `program` (its name in messages) and sources this file first.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd -P)
 build_dir="$root/build/release"
 log=/dev/null  # open_log points it into build/
 
-# Messages go to the terminal and, where there is one, into the log.
+# Messages go to the terminal, and into the log once there is one.
 say() {
   printf '%s\n' "$*"
   printf '%s\n' "$*" >>"$log"
@@ -19,7 +19,8 @@ complain() {
   printf '%s\n' "$*" >>"$log"
 }
 
-# die MESSAGE...: one line per argument, the first one says what went wrong, the others what to do.
+# die MESSAGE...: one line per argument. The first says what went wrong, the others what to do about
+# it.
 die() {
   complain "$program: error: $1"
   shift
@@ -28,7 +29,8 @@ die() {
   exit 1
 }
 
-# An empty message for a file system that can be written; otherwise the reason in the system's words.
+# Opens the log NAME below build/, or dies with the system's reason for not being able to write
+# there.
 open_log() {
   local reason
   if ! reason=$(mkdir -p "$root/build" 2>&1); then
@@ -42,7 +44,7 @@ open_log() {
     return 0
   fi
   die "cannot write into \"$root/build\": $reason." \
-    "The build and its results stand beside the sources, in build/ and out/. Use a checkout that" \
+    "The build and its results go beside the sources, into build/ and out/. Use a checkout that" \
     "$(id -un 2>/dev/null || id -u) may write, or copy this one to a folder that you own."
 }
 
@@ -51,10 +53,10 @@ free_mib() { df -Pm "$1" 2>/dev/null | awk 'NR == 2 { print $4 }'; }
 die_disk_full() {
   log=/dev/null
   die "the disk that holds \"$root/build\" is full ($(free_mib "$root") MiB free)." \
-    "A build needs about 3 GB. Make room, then run $program again: it goes on where it stopped."
+    "A build needs about 3 GB. Make room, then run $program again: it continues where it stopped."
 }
 
-# require_space: early, because a compiler that meets a full disk says so in a dozen odd ways.
+# require_space: checks early, because compilers report a full disk in a dozen odd ways.
 require_space() {
   local free
   free=$(free_mib "$root/build")
@@ -65,19 +67,19 @@ require_space() {
   fi
 }
 
-# One run at a time in one build folder.
+# Only one run at a time may use a build folder.
 lock_build() {
   command -v flock >/dev/null || return 0
   exec 8>"$root/build/.lock"
   if ! flock -n 8; then
-    say "Another scripts/test or scripts/demo works in this checkout; waiting for it."
+    say "Another scripts/test or scripts/demo is running in this checkout; waiting for it."
     flock 8
   fi
 }
 
-# progress KIND: reads a command's output. Everything goes into the log. Lines that only tell how far
-# it got become one changing line on a terminal, and one line per ten seconds elsewhere; all other
-# lines (warnings, errors, what a failed test printed) are shown as they are.
+# progress KIND: reads a command's output and writes all of it to the log. Lines that only report
+# progress become one changing line on a terminal, and one line every ten seconds elsewhere; all
+# other lines (warnings, errors, output of a failed test) are shown as they are.
 progress() {
   local kind=$1 line text shown=$SECONDS width=0 quiet note=0 tty=0
   if [[ -t 1 ]]; then
@@ -90,7 +92,8 @@ progress() {
     case $kind in
       build) [[ $line =~ ^\[[0-9]+/[0-9]+ ]] || quiet=0 ;;
       configure)
-        # What CMake only notes begins with "--" and may go on over lines; warnings begin anew.
+        # CMake's notes begin with "--" and may continue over several lines; warnings start a new
+        # message.
         if [[ $line == --* || $line == 'Preset '* ]]; then
           note=1
         elif [[ $line =~ ^CMake\ [A-Z] ]]; then
@@ -112,7 +115,7 @@ progress() {
         else
           quiet=0
         fi
-        # ctest's own summary repeats what the closing report says.
+        # The closing report repeats ctest's own summary.
         if [[ $line =~ ^[0-9]+%\ tests\ passed ]]; then
           while IFS= read -r line; do printf '%s\n' "$line" >>"$log"; done
           break
@@ -136,8 +139,8 @@ progress() {
   return 0
 }
 
-# run_step KIND COMMAND...: the command's own exit status, its output through progress. The time it
-# took stands in step_seconds.
+# run_step KIND COMMAND...: runs the command with its output going through progress, and returns its
+# exit status. step_seconds is set to the time it took.
 run_step() {
   local kind=$1 start=$SECONDS status
   shift
@@ -152,4 +155,4 @@ duration() {
   if (($1 < 60)); then printf '%d s' "$1"; else printf '%d min %d s' $(($1 / 60)) $(($1 % 60)); fi
 }
 
-trap 'printf "\n%s: interrupted; run it again to go on from here.\n" "$program" >&2; exit 130' INT TERM
+trap 'printf "\n%s: interrupted; run it again to continue from here.\n" "$program" >&2; exit 130' INT TERM

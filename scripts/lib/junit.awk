@@ -6,7 +6,7 @@
 #   time<TAB>seconds<TAB>name
 #   total<TAB>passed<TAB>failed<TAB>skipped
 # ctest calls a test "notrun" both when it skipped itself and when it could not be started; only the
-# first is a skip. A file that ends early, or holds fewer tests than it announces, fails.
+# first counts as a skip. A file that ends early or holds fewer tests than it announces is an error.
 
 function unescape(s) {
   gsub(/&lt;/, "<", s); gsub(/&gt;/, ">", s); gsub(/&quot;/, "\"", s); gsub(/&apos;/, "'", s)

@@ -17,7 +17,7 @@ list_packages() {
 # missing_packages PURPOSE...: the same lines, only those that are not installed or are too old.
 missing_packages() {
   local installed package role name version
-  # Names come as "libpng-dev"; dpkg-query would fail on those it does not know, so ask for all.
+  # Asks for all packages at once: dpkg-query would fail on names it does not know.
   installed=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 2>/dev/null |
     awk '$1 == "installed" { print $2, $3 }')
   while IFS=$'\t' read -r package role; do
@@ -33,7 +33,7 @@ missing_packages() {
 
 version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
 
-# system_fact KEY: a value of os-release, without its quotes.
+# system_fact KEY: a value from os-release, without its quotes.
 system_fact() {
   cat /etc/os-release 2>/dev/null | sed -n "s/^$1=\"\{0,1\}\([^\"]*\)\"\{0,1\}\$/\1/p"
 }
@@ -51,7 +51,8 @@ print_roles() {
   done <<<"$1"
 }
 
-# choose_root PACKAGES: how a command runs as root, in as_root: plainly for root, else through sudo.
+# choose_root PACKAGES: sets as_root to the prefix that runs a command as root: env for root, else
+# sudo.
 choose_root() {
   local package plain='' lines=()
   for package in $1; do
@@ -69,13 +70,13 @@ choose_root() {
     as_root=(env)
   elif ! command -v sudo >/dev/null; then
     die "packages are missing, and installing them takes root: $(id -un) is not root and there is no sudo." \
-      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
+      "Have someone with root access run this, then run $program again:" "${lines[@]/#/  }"
   elif sudo -n true 2>/dev/null; then
     as_root=(sudo -n env)
   elif [[ -t 0 && -t 2 ]]; then
     say "sudo installs them and may ask for your password; nothing else runs as root."
-    sudo -v || die "sudo did not let $(id -un) in." \
-      "Have somebody with root run this, then run $program again:" "${lines[@]/#/  }"
+    sudo -v || die "sudo refused $(id -un)." \
+      "Have someone with root access run this, then run $program again:" "${lines[@]/#/  }"
     as_root=(sudo env)
   else
     die "packages are missing, and sudo wants a password but has no terminal to ask for it." \
@@ -89,7 +90,7 @@ apt() {
     -o Acquire::https::Timeout=30 -o Dpkg::Use-Pty=0 "$@"
 }
 
-# Why apt-get failed, from what it wrote into the log after line $1.
+# Explains why apt-get failed, from what it wrote into the log after line $1.
 explain_apt() {
   local said
   said=$(tail -n "+$1" "$log")
@@ -108,32 +109,32 @@ explain_apt() {
       die "apt-get does not know some of these packages on $(system_name):" \
         "$(grep -oE "Unable to locate package .*|Package '.*' has no installation candidate" <<<"$said" |
           sort -u | paste -sd ';')" \
-        "Debian 12 has them all. On another system install what stands for them, by the role above," \
+        "Debian 12 has them all. On another system, install their counterparts by the roles listed above," \
         "and run $program --no-install." ;;
   esac
   die "apt-get failed. What it said is in \"$log\"; its last lines:" "$(tail -n 3 "$log")"
 }
 
-# Tells what is needed where apt is not at hand. Going on is right: the packages may be there
-# under other names, and CMake says which is not.
+# Lists what is needed on systems without apt, and goes on: the packages may be installed under
+# other names, and CMake says which one is missing.
 explain_foreign() {
   say "This is $(system_name): $program installs packages only with apt (Debian and its relatives)."
   say "These are needed, under Debian's names:"
   print_roles "$(list_packages "$@")"
-  say "Going on with what is installed."
+  say "Continuing with what is installed."
 }
 
-# candidate PACKAGE: the version that apt-get install would bring; empty for none.
+# candidate PACKAGE: the version that apt-get install would bring; empty if there is none.
 candidate() {
   { apt-cache policy "$1" 2>/dev/null || true; } |
     awk '$1 == "Candidate:" && $2 != "(none)" { print $2 }'
 }
 
-# Lines "server suite/component" of what apt knows.
+# Prints "server suite/component" for everything that apt knows.
 known_suites() { { apt-cache policy 2>/dev/null || true; } | awk '$3 ~ "/" { print $2, $3 }'; }
 
-# add_backports: makes apt know bookworm-backports, from the server that bookworm itself comes from.
-# Packages come from there only where they are asked for (apt gives the suite priority 100).
+# add_backports: adds bookworm-backports to apt's sources, from the server that bookworm itself
+# comes from. apt takes packages from there only on request (it gives the suite priority 100).
 add_backports() {
   local server file=/etc/apt/sources.list.d/kaamos-backports.sources
   server=$(known_suites | awk '$2 == "bookworm/main" && !n++ { print $1 }')
@@ -147,8 +148,9 @@ add_backports() {
   apt update || true
 }
 
-# install_new_enough PACKAGE VERSION: where apt's own is too old, from backports on Debian 12. Elsewhere
-# nobody but the user can know a source: say what is needed and go on; what it is for says so again.
+# install_new_enough PACKAGE VERSION: where apt's own version is too old, installs it from backports
+# on Debian 12. Elsewhere only the user can know a source: say what is needed and go on. Whatever
+# needs the package will say so again.
 install_new_enough() {
   local package=$1 wanted=$2 known start
   start=$(($(wc -l <"$log") + 1))
@@ -161,7 +163,7 @@ install_new_enough() {
     apt install --no-install-recommends -t bookworm-backports "$package" || explain_apt "$start"
   else
     say "note: $package $wanted or newer is needed; apt on $(system_name) has ${known:-none}." \
-      "Going on without it: install it from elsewhere for what runs on Vulkan."
+      "Continuing without it: to run on Vulkan, install it from elsewhere."
   fi
 }
 
@@ -186,7 +188,7 @@ install_packages() {
   print_roles "$missing"
   mapfile -t names < <(cut -f1 <<<"$missing")
   choose_root "${names[*]}"
-  # apt-get update ends well even when servers are out of reach; the install is what tells.
+  # apt-get update succeeds even when servers are out of reach; only the installation shows it.
   start=$(($(wc -l <"$log") + 1))
   apt update || true
   local plain=()
@@ -198,6 +200,6 @@ install_packages() {
     [[ $name != *'>='* ]] || install_new_enough "${name%>=*}" "${name#*>=}"
   done
   missing=$(missing_packages "$@" | grep -v '^[^[:space:]]*>=' || true)
-  [[ -z $missing ]] || die "apt-get ended well but these packages are still missing:" "$missing"
+  [[ -z $missing ]] || die "apt-get succeeded, but these packages are still missing:" "$missing"
   say "    installed."
 }

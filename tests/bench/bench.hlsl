@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shaders of dispatch/...: as little as a program can do with a ray, and two that do a little
+// The shaders of dispatch/...: the least that a program can do with a ray, and two that do a little
 // more (an alpha test, a textured hit). Layouts are those of scene_data.h and embree_loops.h.
 
 struct Ray {
@@ -44,7 +44,7 @@ RWStructuredBuffer<Closest> g_closest : register(u0);
 RWStructuredBuffer<uint> g_visible : register(u1);
 RWStructuredBuffer<Shaded> g_shaded : register(u2);
 
-// Of the hit record.
+// The hit record's local arguments.
 ByteAddressBuffer l_vertices : register(t0, space2);
 ByteAddressBuffer l_indices : register(t1, space2);
 ConstantBuffer<HitConstants> l_hit : register(b0, space2);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// build/...: acceleration structures against the same builds by hand on Embree, which copies the
-// same buffers.
+// build/...: building acceleration structures against the same builds by hand on Embree, which
+// copies the same buffers.
 #include <malloc.h>
 #include <rtapi/upload.h>
 #include <unistd.h>
@@ -121,7 +121,7 @@ Line blas_time(Fixtures& fixtures, const Measure& measure) {
   return {"build/blas-time", times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", false};
 }
 
-// Of the whole process; what is free goes back to the system first.
+// Resident bytes of the whole process, after returning free memory to the system.
 double resident_bytes() {
   malloc_trim(0);
   uint64_t total = 0;
@@ -130,8 +130,8 @@ double resident_bytes() {
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Memory that stays resident while a structure stands. Four at once: the smaller a part the
-// allocators' own pages are, the better.
+// Memory that stays resident while a structure exists. Measured with four at once, so that the
+// allocators' own pages matter less.
 Line blas_memory(Fixtures& fixtures, const Measure& measure) {
   constexpr int kStructures = 4;
   const Rock rock(rock_size(fixtures));
@@ -161,7 +161,7 @@ Line blas_memory(Fixtures& fixtures, const Measure& measure) {
           bytes.baseline / kUnit, "MB",        false};
 }
 
-// Instances of one small mesh on a grid, each turned another way.
+// Instances of one small mesh on a grid, each with another rotation.
 std::vector<std::array<float, 12>> instance_transforms(uint32_t count) {
   std::vector<std::array<float, 12>> out;
   const uint32_t edge = static_cast<uint32_t>(std::ceil(std::cbrt(count)));

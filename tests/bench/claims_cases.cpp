@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// claims/...: what the seeds say of costs. The others: northlight --claims.
+// claims/...: what the talk says about costs. northlight --claims measures the other claims.
 #include "effect_run.h"
 
 namespace kaamos::bench {
@@ -8,8 +8,8 @@ namespace {
 
 constexpr uint32_t kRays = 16;
 
-// "Linear in rays: 5 ms with one, 80 ms with 16." [GDC 2018 talk] Against the line through the
-// times of one ray and of four.
+// "Linear in rays: 5 ms with one, 80 ms with 16." [GDC 2018 talk] The time of 16 rays against the
+// line through the times of one ray and of four.
 Line ao_linear(Fixtures& fixtures, const Measure& measure) {
   EffectRun run(kAoEffect, fixtures);
   const auto time_of = [&](uint32_t rays) {
@@ -25,8 +25,8 @@ Line ao_linear(Fixtures& fixtures, const Measure& measure) {
   return {"claims/ao-linear", times.ratio, 1e3 * times.ours, 1e3 * times.baseline, "ms", false};
 }
 
-// The same against as many times one ray: less, because what a pixel needs before its first ray is
-// paid once.
+// The same against 16 times one ray. The ratio is below 1, because what a pixel needs before its
+// first ray is paid once.
 Line ao_proportional(Fixtures& fixtures, const Measure& measure) {
   EffectRun run(kAoEffect, fixtures);
   const Pairs times = time_pairs(

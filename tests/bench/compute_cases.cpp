@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// compute/split/...: kernels with barriers, cut at them, over the same kernels on fibers.
-// compute/interpreted: a kernel by the interpreter, over the same in native code.
+// compute/split/...: kernels with barriers, split at the barriers, against the same kernels on
+// fibers. compute/interpreted: a kernel in the interpreter against the same in native code.
 #include <dlfcn.h>
 #include <kaamos/shader/abi.h>
 #include <rtapi/rtapi.h>
@@ -9,11 +9,11 @@
 #include <stdexcept>
 
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/interpret/interpret.h"
 #include "temporary_folder.h"
 
 namespace kaamos::bench {
@@ -69,7 +69,7 @@ void main(uint i : SV_GroupIndex, uint3 id : SV_DispatchThreadID) {
 })"},
 };
 
-// One kernel in all ways, with a device to run it on.
+// One kernel in each variant, and a device to run it on.
 class Comparison {
  public:
   Comparison(const Kernel& kernel, uint32_t groups)

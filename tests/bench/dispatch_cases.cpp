@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// dispatch/...: Mrays/s of DispatchRays against a loop by hand on the same rays, and whether both
-// found the same.
+// dispatch/...: Mrays/s of DispatchRays against a hand-written loop over the same rays, and a check
+// that both found the same.
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -11,9 +11,9 @@
 namespace kaamos::bench {
 namespace {
 
-// Both sides may differ where rounding of the ray transform decides.
+// Both sides may differ where rounding in the ray transform decides.
 constexpr double kAllowedDifference = 1e-4;
-// At 1,000 km robust precision moves an instance's rays by some centimetres.
+// At 1,000 km, robust precision moves an instance's rays by some centimetres.
 constexpr double kAllowedFarAway = 0.1;
 
 bool is_hit(uint32_t visible) {
@@ -26,7 +26,7 @@ bool is_hit(const ShadedResult& result) {
   return result.t >= 0;
 }
 
-// Sums that agree when the hits do: distance, and colour.
+// Sums that agree when the hits agree: distances and colours.
 double sum_of(uint32_t visible) {
   return visible;
 }
@@ -49,7 +49,7 @@ void check_same(const std::vector<T>& ours, const std::vector<T>& baseline,
     sums[1] += sum_of(baseline[i]);
   }
   const double rays = static_cast<double>(ours.size());
-  // One ray of a small grid may differ.
+  // Allows one ray of a small grid to differ.
   const double allowed = std::max(allowed_difference * rays, 1.0);
   if (std::fabs(hits[0] - hits[1]) > allowed) {
     throw std::runtime_error("results differ: " + std::to_string(hits[0]) + " hits, the baseline " +
@@ -61,14 +61,14 @@ void check_same(const std::vector<T>& ours, const std::vector<T>& baseline,
   }
 }
 
-// Times, turned into rates.
+// Turns times into rates.
 template <typename T, typename Baseline>
 Line compare(const std::string& name, Fixtures& fixtures, const Measure& measure, DxrScene& scene,
              Program program, const RayGrid& grid, Baseline baseline,
              double allowed_difference = kAllowedDifference) {
   DxrDispatch dispatch(scene, program, grid);
   std::vector<T> expected(grid.rays.size());
-  // Short dispatches are repeated, so that a run takes some tens of milliseconds.
+  // Repeats short dispatches, so that a run takes some tens of milliseconds.
   const uint64_t rays = grid.rays.size();
   const int repeats = fixtures.options().quick ? 1 : static_cast<int>(1 + 800000 / rays);
   const Pairs times = time_pairs(
@@ -116,7 +116,7 @@ Case same_tlas_case(RaySet set) {
           }};
 }
 
-// Exact precision over robust, both through DispatchRays, with the lounge and its camera at a
+// Exact precision against robust, both through DispatchRays, with the lounge and its camera at a
 // distance from the origin.
 template <typename T>
 Line compare_precisions(const std::string& name, Fixtures& f, const Measure& measure,
@@ -124,7 +124,7 @@ Line compare_precisions(const std::string& name, Fixtures& f, const Measure& mea
   using rtapi::TraversalPrecision;
   const RayGrid& grid = f.rays(set, distance);
   DxrDispatch robust(f.scene_of(TraversalPrecision::kRobust, distance), program, grid);
-  bool read = false;  // by the run that warms up
+  bool read = false;  // by the warm-up run
   const auto run_robust = [&](const RayGrid&, std::vector<T>& out) {
     robust.run();
     if (!std::exchange(read, true)) out = robust.results<T>();
@@ -145,13 +145,13 @@ Case exact_case(RaySet set, float distance, const char* suffix) {
           }};
 }
 
-// A checked device over the usual one, both through DispatchRays.
+// A checked device against an ordinary one, both through DispatchRays.
 template <typename T>
 Line compare_checked(const std::string& name, Fixtures& f, const Measure& measure, Program program,
                      RaySet set) {
   const RayGrid& grid = f.rays(set);
   DxrDispatch usual(f.scene_of(rtapi::TraversalPrecision::kRobust), program, grid);
-  bool read = false;  // by the run that warms up
+  bool read = false;  // by the warm-up run
   return compare<T>(name, f, measure, f.checked_scene(), program, grid,
                     [&](const RayGrid&, std::vector<T>& out) {
                       usual.run();

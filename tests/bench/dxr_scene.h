@@ -16,7 +16,7 @@
 
 namespace kaamos::bench {
 
-// Builds a structure and waits. The result buffer goes to `result`; scratch memory is freed.
+// Builds a structure and waits. `result` receives the result buffer; scratch memory is freed.
 void build_structure(const rtapi::Device& device, rtapi::CommandQueue& queue,
                      const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
                      rtapi::Buffer& result);
@@ -24,8 +24,8 @@ void build_structure(const rtapi::Device& device, rtapi::CommandQueue& queue,
 // The lounge's buffers, textures and structures.
 class DxrScene {
  public:
-  // `alpha_tested`: plants are not opaque; else everything is. `distance`: how far all instances
-  // are moved, in metres along x and z.
+  // `alpha_tested`: plants are not opaque; otherwise everything is. `distance`: how far all
+  // instances are moved, in metres along x and z.
   DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
            const std::string& backend = "embree",
            rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust,
@@ -63,16 +63,16 @@ class DxrScene {
   std::vector<rtapi::Texture> images_;
 };
 
-// Which shaders run, and so what is written: ClosestResult, uint32_t or ShadedResult.
+// Selects the shaders, and so the type of the results: ClosestResult, uint32_t or ShadedResult.
 enum class Program { kClosest, kVisible, kAlphaTested, kShaded };
 
-// One DispatchRays, ready to be run again and again.
+// One DispatchRays that can be run again and again.
 class DxrDispatch {
  public:
   DxrDispatch(DxrScene& scene, Program program, const RayGrid& grid);
 
   void run();
-  // Of the last run.
+  // Results of the last run.
   template <typename T>
   std::vector<T> results();
 

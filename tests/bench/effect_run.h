@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One effect over the lounge, with its rays in the pixels' order or sorted by direction.
+// Runs one effect over the lounge, with its rays in pixel order or sorted by direction.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct BenchEffect {
   const char* name;
   effects::RayPassDesc (*pass)(rtapi::ShaderLibrary);
   rtapi::Result<rtapi::ShaderLibrary> (*library)();
-  bool own_picture;  // it adds to one of its own, not to one of the frame's
+  bool own_picture;  // it adds to a picture of its own, not to one of the frame's
 };
 extern const BenchEffect kAoEffect, kSunEffect, kReflectionsEffect;
 
@@ -26,9 +26,9 @@ class EffectRun {
  public:
   EffectRun(const BenchEffect& effect, Fixtures& fixtures);
 
-  // Keys of the rays, and their order.
+  // Computes the rays' keys and sorts them.
   void sort();
-  // One dispatch, `samples` rays a pixel.
+  // One dispatch with `samples` rays per pixel.
   void trace(bool sorted, uint32_t samples = 1);
 
  private:

@@ -50,7 +50,7 @@ struct Triangle {
   }
 };
 
-// Colours of 8 bits to linear.
+// The linear values of 8-bit colours.
 const std::array<float, 256>& linear_values(bool srgb) {
   static const auto table = [](bool decode) {
     std::array<float, 256> values;
@@ -65,7 +65,7 @@ const std::array<float, 256>& linear_values(bool srgb) {
   return srgb ? kSrgb : kLinear;
 }
 
-// Bilinear, repeated, level 0.
+// Bilinear filtering, repeat addressing, level 0.
 struct Footprint {
   const uint8_t* texels[4];
   float weights[4];
@@ -255,7 +255,7 @@ uint64_t EmbreeScene::trace(tbb::task_arena& arena, const std::vector<FrameRay>&
   constexpr uint32_t kTask = 256;
   const auto tasks = static_cast<uint32_t>((rays.size() + kTask - 1) / kTask);
   std::atomic<uint64_t> hits = 0;
-  // Cells of a grid one cell high: 16 tasks to a tile.
+  // Uses a grid one cell high, so that a tile holds 16 tasks.
   for_each_cell(arena, tasks, 1, [&] {
     shim::QueryContext query;
     shim::init(query);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The baselines: what somebody would write by hand on Embree for the same rays. Robust scenes,
-// Embree's own instances, 16 x 16 tiles on oneTBB, denormals flushed, one ray per call.
+// The baselines: what one would write by hand on Embree for the same rays. Robust scenes, Embree's
+// own instances, 16 x 16 tiles on oneTBB, denormals flushed, one ray per call.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -15,7 +15,7 @@
 
 namespace kaamos::bench {
 
-// What the shaders write; the layouts are bench.hlsl's. A miss has t = -1.
+// What the shaders write; the layouts are those of bench.hlsl. A miss has t = -1.
 struct ClosestResult {
   float t;
   uint32_t primitive;
@@ -35,13 +35,13 @@ struct RayGrid {
   std::vector<Ray> rays;
 };
 
-// A ray of a frame, and whether only the existence of a hit counts.
+// A ray of a frame, and whether it only asks if there is a hit.
 struct FrameRay {
   Ray ray;
   bool visibility = false;
 };
 
-// As the Embree backend starts it.
+// Configured like the Embree backend's device.
 RTCDevice new_embree_device();
 
 // A geometry with its own copies of a geometry's buffers, not committed.
@@ -49,26 +49,26 @@ RTCGeometry new_triangles(RTCDevice device, const MeshData& mesh, const Geometry
 
 class EmbreeScene {
  public:
-  // `alpha_tested`: plants get a filter that tests their texture; else everything is opaque.
+  // `alpha_tested`: plants get a filter that tests their texture; otherwise everything is opaque.
   EmbreeScene(const SceneData& data, bool alpha_tested);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
 
-  // The camera's hits; rays that miss get the point of the ray before.
+  // The hits of the camera's rays; a ray that misses gets the previous ray's point.
   std::vector<SurfacePoint> surface_points(const RayGrid& primary) const;
 
   void closest(tbb::task_arena& arena, const RayGrid& grid,
                std::vector<ClosestResult>& results) const;
-  // 1 where nothing is hit. Through the filters, if there are any.
+  // Writes 1 where nothing is hit. Calls the filters if there are any.
   void visible(tbb::task_arena& arena, const RayGrid& grid, std::vector<uint32_t>& results) const;
   void shaded(tbb::task_arena& arena, const RayGrid& grid,
               std::vector<ShadedResult>& results) const;
 
-  // Traces them in their order, 256 to a task, and returns how many hit something.
+  // Traces the rays in order, 256 to a task, and returns how many hit something.
   uint64_t trace(tbb::task_arena& arena, const std::vector<FrameRay>& rays) const;
 
-  // For the filter.
+  // What the filter needs.
   struct GeometryUse {
     const EmbreeScene* scene;
     const MeshData* mesh;

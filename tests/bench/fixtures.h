@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What several cases need, each made when first asked for.
+// What several cases need; each part is made on first use.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -30,11 +30,11 @@ class Fixtures {
   tbb::task_arena& arena() { return arena_; }
 
   const SceneData& scene();
-  // `distance`: from the origin, as DxrScene's.
+  // `distance`: from the origin, as in DxrScene.
   const RayGrid& rays(RaySet set, float distance = 0);
   const EmbreeScene& embree_scene(bool alpha_tested);
   DxrScene& dxr_scene(bool alpha_tested);
-  // Everything opaque. Scenes at a distance replace each other.
+  // Everything is opaque. A scene at a distance replaces the previous one.
   DxrScene& scene_of(rtapi::TraversalPrecision precision, float distance = 0);
   DxrScene& checked_scene();  // on a checked device, everything opaque
   const OwnTopLevel& own_top_level();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // frame/...: the whole frame of the lounge against its rays alone, and SVGF against the same filter
-// by hand.
+// written by hand.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -18,16 +18,16 @@
 namespace kaamos::bench {
 namespace {
 
-// The frame's rays and a raw Embree scene for them.
+// The frame's rays and a plain Embree scene for them.
 struct Rays {
   std::vector<FrameRay> rays;
   SceneData data;
   EmbreeScene scene;
 
-  // Of the whole frame, or of a part of it.
+  // Records the rays of the whole frame, or of one part of it.
   explicit Rays(FrameRun& run, const std::string& part = "")
       : data(run.scene_at_camera()), scene(data, true) {
-    run.trace_and_shade();  // shadow maps and history as in any later frame
+    run.trace_and_shade();  // so that shadow maps and history are as in any later frame
     rays = run.record(hits_, part);
   }
   void trace(Fixtures& fixtures) const {
@@ -46,7 +46,7 @@ struct Rays {
 Line compare_frame(const char* name, Fixtures& fixtures, const Measure& measure, bool whole) {
   FrameRun& run = fixtures.frame_run();
   const Rays rays(run);
-  // As in the middle of a sequence: filters have their history.
+  // As in the middle of a sequence: the filters have their history.
   for (uint32_t frame = 0; whole && frame < effects::kFramesOfHistory; ++frame) {
     run.trace_and_shade();
     run.denoise_and_compose();
@@ -94,7 +94,7 @@ void check_same(const effects::FloatImage& ours, const std::vector<Float4>& base
   }
 }
 
-// A cut and the frame behind it: variance over pixels and over time, with and without history.
+// A cut and the frame after it: variance over pixels and over time, with and without history.
 constexpr int kFrames = 2;
 
 Line svgf(Fixtures& fixtures, const Measure& measure) {

@@ -18,7 +18,7 @@ namespace {
 // What RayListener writes to: a list for each thread.
 std::mutex heard_mutex;
 std::vector<std::unique_ptr<std::vector<FrameRay>>> heard;
-std::atomic<uint32_t> recording = 0;  // a number for each
+std::atomic<uint32_t> recording = 0;  // numbers the recordings
 
 void hear(const shader::TraceRayArguments& arguments, shader::RayLanes origin,
           shader::RayLanes direction) {
@@ -44,7 +44,7 @@ northlight::Options frame_options(uint32_t width, uint32_t height) {
   options.height = height;
   options.local = options.contact = options.gi = options.reflections = options.transparent = true;
   options.ao_samples = options.sun_samples = 1;
-  options.gi_bake_samples = 4;  // what the volume holds costs nothing
+  options.gi_bake_samples = 4;  // the time does not depend on what the volume holds
   return options;
 }
 
@@ -97,8 +97,8 @@ void FrameRun::trace_and_shade(const std::string& part) {
   rtapi::CommandList list = device_.CreateCommandList().value();
   effects_.begin_frame(scene_.cameras.front().position(), false);
   effects::PassConstants constants;
-  // Other samples in each frame, as in a sequence: noise that stands still would be no noise to
-  // the filters.
+  // Each frame uses other samples, as in a sequence: to the filters, noise that stands still would
+  // not be noise.
   constants.first_sample = frames_++;
   constants.sample_count = 1;
   constants.radius = 4;

@@ -17,30 +17,30 @@
 
 namespace kaamos::bench {
 
-// The parts of trace and shade in their order; "lights": their lists and shadow maps, and what they
-// send to each pixel.
+// The parts of tracing and shading, in order. "lights" is their lists and shadow maps, and the
+// light that they send to each pixel.
 inline constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
                                            "contact", "gi",     "reflections"};
 
 class FrameRun {
  public:
-  // One ray a pixel for each effect, and what their hits need more.
+  // One ray per pixel for each effect, plus the rays that their hits need.
   FrameRun(uint32_t width, uint32_t height, uint32_t threads);
 
-  // Every part; or one, which reads what the others wrote the last time.
+  // Runs every part, or one part, which reads what the others last wrote.
   void trace_and_shade(const std::string& part = "");
-  // Denoises every signal and puts the frame together.
+  // Denoises every signal and composes the frame.
   void denoise_and_compose();
 
-  // The rays of one frame, or of a part of it, in the order in which each thread traced them;
-  // `hits`: what they hit.
+  // The rays of one frame, or of a part of it, in the order in which each thread traced them.
+  // `hits`: how many hit something.
   std::vector<FrameRay> record(uint64_t& hits, const std::string& part = "");
 
   const rtapi::Device& device() const { return device_; }
   rtapi::CommandQueue& queue() { return queue_; }
   const effects::Frame& frame() const { return frame_; }
   const effects::Scene& scene() const { return scene_; }
-  // The lounge where the frame's top level has it: relative to the camera.
+  // The lounge as in the frame's top level: relative to the camera.
   SceneData scene_at_camera() const;
 
  private:
@@ -55,7 +55,7 @@ class FrameRun {
   northlight::ShaderLibraries libraries_;
   northlight::FrameEffects effects_;
   std::vector<Record> parts_;  // as kFrameParts
-  uint32_t frames_ = 0;        // that were traced
+  uint32_t frames_ = 0;        // traced so far
 };
 
 }  // namespace kaamos::bench

@@ -29,7 +29,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Block {
 layout(push_constant, scalar) uniform Push { Block block; };
 )";
 
-// Launch rows take turns between the halves, which the driver gives to one thread each.
+// Launch rows alternate between the picture's halves, each of which the driver gives to one thread.
 constexpr const char* kIndex = R"(
 uint ray_index() {
   uint rows = gl_LaunchSizeEXT.y, half_rows = (rows + 1) / 2, y = gl_LaunchIDEXT.y;
@@ -79,7 +79,7 @@ struct Block {
   uint64_t top_level, rays, results;
 };
 
-// Ray generation, miss and, for closest hits, a hit group; each in a table of one record.
+// Ray generation, miss and, for closest hits, a hit group, each in a table with one record.
 struct Program {
   raw::Pipeline pipeline;
   raw::Buffer table;

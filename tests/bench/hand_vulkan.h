@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The baseline of vulkan/...: the least Vulkan program for the same rays, on the same driver, with
-// the triangles in the order that it is given: one hit group without records, the result straight
-// from the payload, rows alternating between the halves of the picture as the backend's do.
+// the triangles in the order that it is given. One hit group without records, results straight from
+// the payload, rows alternating between the halves of the picture as the backend's do.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct HandMesh {
   std::vector<std::vector<uint32_t>> geometries;
 };
 
-// The meshes of the scene, their triangles in the order that the backend would give the driver, or
-// (`sorted` false) in the scene's.
+// The meshes of the scene, with their triangles in the order in which the backend would pass them
+// to the driver, or (`sorted` false) in the scene's order.
 std::vector<HandMesh> hand_meshes(const SceneData& data, bool sorted);
 // Sorts the triangles of one mesh.
 void sort_for_driver(HandMesh& mesh);

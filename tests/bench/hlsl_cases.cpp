@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// hlsl/...: the compiler's front end on a large library that is mostly dead, and loading a library
-// that is in the cache.
+// hlsl/...: the compiler's front end on a large library of mostly dead code, and loading a library
+// from the cache.
 #include <dlfcn.h>
 #include <rtapi/shader_compiler.h>
 
@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "fixtures.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/preprocess.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/front/preprocess.h"
 #include "temporary_folder.h"
 
 namespace kaamos::bench {
@@ -30,8 +30,8 @@ std::string replaced(std::string text, const std::string& number, const std::str
   return text;
 }
 
-// A library of `functions` functions of ten lines, of which the ray generation shader reaches the
-// first `live` (a multiple of ten). They call each other in chains of ten.
+// A library of `functions` functions of ten lines each. The ray generation shader reaches the first
+// `live` of them (a multiple of ten), which call each other in chains of ten.
 std::string make_library(int functions, int live) {
   std::string text = "RWStructuredBuffer<float4> g_out : register(u0);\n";
   text += "float4 Function0(float4 p, uint n) { return p * float(n); }\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A build without the Vulkan backend.
+// For builds without the Vulkan backend.
 #include "suite.h"
 
 namespace kaamos::bench {

@@ -17,7 +17,7 @@ namespace shim = embree::shim;
 
 constexpr uint8_t kEveryClass[3] = {embree::kAllClasses, embree::kAllClasses, embree::kAllClasses};
 
-// What does not change from ray to ray.
+// The state that does not change from ray to ray.
 RayState make_state(const embree::TopLevel& top_level) {
   RayState state = {};
   shim::init(state.query);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The baseline of dispatch/same-tlas: the Embree backend's own two levels, called by a loop without
-// shaders, shader tables or a dispatch. What is left is the price of running HLSL.
+// The baseline of dispatch/same-tlas: a loop that calls the Embree backend's own two levels,
+// without shaders, shader tables or a dispatch. The difference is the price of running HLSL.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -17,8 +17,8 @@ namespace kaamos::bench {
 
 class OwnTopLevel {
  public:
-  // The very structure that DispatchRays traverses: a copy of it lies elsewhere in memory, which
-  // alone makes differences of some per cent.
+  // Uses the very structure that DispatchRays traverses: a copy would lie elsewhere in memory,
+  // which alone makes a difference of a few per cent.
   explicit OwnTopLevel(const DxrScene& scene);
 
   void closest(tbb::task_arena& arena, const RayGrid& grid,

@@ -33,7 +33,7 @@ constexpr Column kColumns[] = {
     {"Vulkan, boxes padded", "vulkan", TraversalPrecision::kRobust, true},
 };
 
-// The environment chooses the padding while a device starts.
+// Sets the padding through the environment while a device is created.
 class PaddingOf {
  public:
   explicit PaddingOf(const Column& column) {
@@ -80,7 +80,7 @@ class Table {
     out_ << "\n" << std::flush;
   }
 
-  // The best of some runs, in turn.
+  // Takes the medians of several runs, in turn.
   void print_speeds() {
     Fixtures fixtures(options_);
     std::vector<std::unique_ptr<DxrScene>> scenes;

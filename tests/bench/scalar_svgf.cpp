@@ -7,7 +7,7 @@
 
 #include "tiles.h"
 
-// Compiled for AVX2 too, as the shaders are, with all that it calls.
+// Compiled for AVX2 too, like the shaders, with everything that it calls.
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define KAAMOS_AS_SHADERS [[gnu::target_clones("avx2", "default"), gnu::flatten]]
@@ -25,7 +25,7 @@ float luminance(const Float4& color) {
   return color.x * 0.2126f + color.y * 0.7152f + color.z * 0.0722f;
 }
 
-// The square of more light, summed over a filter, would not be finite.
+// Squares of larger values, summed over a filter, would overflow.
 constexpr float kMostLight = 1e17f;
 
 float finite_or_zero(float light) {
@@ -53,7 +53,7 @@ float lerp(float a, float b, float t) {
 
 }  // namespace
 
-// What the edge-stopping weights of a pixel ask of its surface.
+// What a pixel's edge-stopping weights need to know about its surface.
 struct ScalarSvgf::Center {
   Float4 guide;  // normal, view depth
   float gradient[2];
@@ -340,7 +340,7 @@ void ScalarSvgf::run(tbb::task_arena& arena, const SvgfInput& input) {
   pass([&](int x, int y) { prepare_guides(input, x, y); });
   pass([&](int x, int y) { accumulate(input, x, y); });
   pass([&](int x, int y) { estimate_variance(x, y); });
-  // The first pass's result is what the next frame starts from.
+  // The result of the first pass is where the next frame starts.
   pass([&](int x, int y) { filter(scratch_, history_, 1, x, y); });
   const std::vector<Float4>* from = &history_;
   const uint32_t iterations =

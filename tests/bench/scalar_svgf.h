@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The baseline of frame/svgf: effects/denoise's filter as somebody would write it by hand in plain
-// C++, one pixel at a time, on tiles over the same threads. Same equations, same order of sums.
-// [effects-spec B6.3; Schied et al. 2017]
+// The baseline of frame/svgf: the filter of effects/denoise written by hand in plain C++, one pixel
+// at a time, on tiles over the same threads. Same equations, same order of sums. [effects-spec
+// B6.3; Schied et al. 2017]
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -29,7 +29,7 @@ struct SvgfInput {
   std::vector<Float4> motion;
 };
 
-// What a frame's G-buffer and a picture of one float or four hold.
+// Takes it from a frame's G-buffer and a picture with one or four floats per pixel.
 SvgfInput svgf_input(const rtapi::Device& device, rtapi::CommandQueue& queue,
                      const effects::Frame& frame, const rtapi::Texture& signal);
 
@@ -37,7 +37,7 @@ class ScalarSvgf {
  public:
   ScalarSvgf(uint32_t width, uint32_t height, const effects::DenoiseDesc& desc);
 
-  // Filters one frame, the next after that of the call before.
+  // Filters one frame, which follows the frame of the previous call.
   void run(tbb::task_arena& arena, const SvgfInput& input);
   void reset() { frames_ = 0; }
   const std::vector<Float4>& result() const { return result_; }

@@ -21,7 +21,7 @@ float uniform(uint32_t pixel, uint32_t dimension) {
   return static_cast<float>(((state >> 22) ^ state) >> 8) * 0x1p-24f;
 }
 
-// A frame with `n` as its third axis.
+// Transforms from a local frame whose third axis is `n`.
 glm::vec3 from_local(const glm::vec3& n, const glm::vec3& local) {
   const glm::vec3 up = std::fabs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
   const glm::vec3 x = glm::normalize(glm::cross(up, n));
@@ -34,7 +34,7 @@ glm::vec3 cosine_direction(const glm::vec3& n, float u, float v) {
   return from_local(n, {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)});
 }
 
-// The view reflected about a half vector of a GGX lobe of roughness 0.3. [Walter 2007]
+// Reflects the view about a half vector from a GGX lobe of roughness 0.3. [Walter 2007]
 glm::vec3 ggx_direction(const glm::vec3& n, const glm::vec3& view, float u, float v) {
   constexpr float kAlpha = 0.3f * 0.3f;
   const float cosine = std::sqrt((1 - u) / (1 + (kAlpha * kAlpha - 1) * u));
@@ -136,7 +136,8 @@ std::vector<Ray> secondary_rays(const effects::Scene& scene,
     const float v = uniform(i, 1);
     switch (set) {
       case RaySet::kSun: {
-        // From the side that faces the sun: a renderer does not trace what it knows to be dark.
+        // Starts on the side that faces the sun: a renderer does not trace rays for points that it
+        // knows to be dark.
         const glm::vec3 direction = sun_direction(sun, u, v);
         const bool behind = glm::dot(normal, direction) < 0;
         rays.push_back(

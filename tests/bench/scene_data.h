@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The lounge as both sides read it: vertices as they are, indices of 32 bits, and the ray sets.
+// The lounge as both sides read it: vertices unchanged, 32-bit indices, and the ray sets.
 #pragma once
 
 #include <kaamos/shader/abi.h>
@@ -45,11 +45,11 @@ struct SceneData {
 
 SceneData make_scene_data();
 
-// What a hit shader looks up. The layout is bench.hlsl's.
+// What a hit shader looks up. The layout is that of bench.hlsl.
 struct MaterialData {
   float base_color[4];
   float alpha_cutoff;
-  int32_t image;  // of the base colour; -1: none
+  int32_t image;  // of the base colour; -1: no image
 };
 std::vector<MaterialData> materials_of(const effects::Scene& scene);
 
@@ -57,18 +57,18 @@ enum class RaySet { kPrimary, kSun, kAmbientOcclusion, kGgx, kDiffuse };
 inline constexpr RaySet kRaySets[] = {RaySet::kPrimary, RaySet::kSun, RaySet::kAmbientOcclusion,
                                       RaySet::kGgx, RaySet::kDiffuse};
 const char* name_of(RaySet set);  // "primary", "sun", "ao", "ggx", "diffuse"
-// Whether only the existence of a hit counts.
+// Whether the rays only ask if there is a hit.
 bool is_visibility(RaySet set);
 
-// A surface point in the camera's view.
+// A surface point seen by the camera.
 struct SurfacePoint {
-  float position[3];  // off the surface, towards the camera
+  float position[3];  // moved off the surface, towards the camera
   float normal[3];    // geometric, towards the camera
   float view[3];      // unit, from the camera
 };
 
 std::vector<Ray> primary_rays(const effects::Scene& scene, uint32_t width, uint32_t height);
-// One ray for each point; the same at every call.
+// One ray for each point; every call returns the same rays.
 std::vector<Ray> secondary_rays(const effects::Scene& scene,
                                 const std::vector<SurfacePoint>& points, RaySet set);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// sorting/...: an effect over the lounge with its rays sorted by direction, over the same unsorted.
-// .../trace is the dispatch alone, .../net has the keys and the sort in it. [effects-spec B1.5]
+// sorting/...: an effect over the lounge with its rays sorted by direction, against the same rays
+// unsorted. .../trace times the dispatch alone, .../net includes keys and sorting. [effects-spec
+// B1.5]
 #include "effect_run.h"
 
 namespace kaamos::bench {

@@ -51,7 +51,7 @@ bool parse_size(const std::string& text, uint32_t& width, uint32_t& height) {
          parse_number(text.substr(x + 1), 1, 4096, height);
 }
 
-// Reads the value of the option at `i`; false where it is missing or wrong.
+// Reads the value of the option; false if it is missing or wrong.
 bool parse_value(const std::string& option, const std::string& value, Options& options,
                  std::string& allowed) {
   uint32_t number = 0;

@@ -20,19 +20,19 @@ struct Options {
   bool list = false;
   bool help = false;
   bool version = false;
-  std::string only;  // prefix of the names; empty: all
+  std::string only;  // prefix of the names; empty: all cases
   int pairs = 9;
   Clock clock = Clock::kWall;
   uint32_t threads = 0;  // 0: as many as the machine has
   uint32_t width = 640;  // rays of a dispatch
   uint32_t height = 360;
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;  // of Embree
-  bool precision_table = false;  // instead of the cases: precision_table.h
-  bool quick = false;            // small inputs: shows that it works, measures nothing
+  bool precision_table = false;  // print precision_table.h's table instead of running the cases
+  bool quick = false;            // small inputs: shows that everything works, measures nothing
 };
 
-// One line of the output. `ours` and `baseline` are in `unit`; `value` is what counts: a ratio for
-// most, for others the figure itself (then it equals `ours`).
+// One line of the output. `ours` and `baseline` are in `unit`; `value` is the result: a ratio for
+// most cases, for others the figure itself (then it equals `ours`).
 struct Line {
   std::string name;
   double value = 0;
@@ -42,7 +42,7 @@ struct Line {
   bool higher_is_better = true;
 };
 
-// name, value, ours, baseline, unit, higher or lower, between tabs; without the line's end.
+// name, value, ours, baseline, unit, higher or lower, separated by tabs; without a newline.
 std::string format_line(const Line& line);
 
 // What the cases share and only some of them need; made on first use.
@@ -50,7 +50,7 @@ class Fixtures;
 
 struct Case {
   std::string name;
-  // Throws std::runtime_error, with a message for people.
+  // Throws std::runtime_error with a readable message.
   std::function<Line(Fixtures&, const Measure&)> run;
 };
 
@@ -63,11 +63,12 @@ std::vector<Case> claims_cases();    // claims_cases.cpp
 std::vector<Case> frame_cases();     // frame_cases.cpp
 std::vector<Case> vulkan_cases();    // vulkan_cases.cpp; empty where there is no Vulkan device
 
-// Empty: `error` says which argument is wrong and what it may be. `arguments` without the program.
+// If it fails, `error` says which argument is wrong and what is allowed. `arguments` excludes the
+// program.
 bool parse_arguments(const std::vector<std::string>& arguments, Options& options,
                      std::string& error);
 
-// The whole program; returns its exit status: 0, 1 where a case failed, 2 for wrong arguments.
+// Runs the whole program; returns its exit status: 0, 1 if a case failed, 2 for wrong arguments.
 int run_program(const std::vector<std::string>& arguments, std::ostream& out, std::ostream& errors,
                 bool errors_are_terminal);
 

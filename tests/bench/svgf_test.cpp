@@ -26,7 +26,7 @@ TEST(ScalarSvgf, GivesThePicturesOfTheShaders) {
       frame.create_picture(device, "signal", rtapi::Format::kR32G32B32A32Float).value();
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
-  // Two pixels to each side, and some that come from nowhere.
+  // Two pixels to each side, and some that come from outside the picture.
   effects::FloatImage motion(kWidth, kHeight, 4, 0.0f);
   for (size_t i = 0; i < motion.values.size(); i += 4) {
     motion.values[i] = 2 * uniform(random) / kWidth;

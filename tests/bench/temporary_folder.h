@@ -9,7 +9,7 @@
 
 namespace kaamos::bench {
 
-// A folder that ends with the object.
+// A folder that is removed with the object.
 struct TemporaryFolder {
   std::filesystem::path path;
 

@@ -10,8 +10,8 @@
 
 namespace kaamos::bench {
 
-// Calls cell(y * width + x) for each cell of a grid in tiles of 16 x 16 on the arena's threads,
-// with denormals flushed. make_cell() gives a cell function for one run of tiles.
+// Calls cell(y * width + x) for each cell of a grid, in tiles of 16 x 16 on the arena's threads,
+// with denormals flushed. make_cell() returns a cell function for one run of tiles.
 template <typename MakeCell>
 void for_each_cell(tbb::task_arena& arena, uint32_t width, uint32_t height, MakeCell make_cell) {
   constexpr uint32_t kEdge = 16;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// vulkan/...: the Vulkan backend against a minimal program by hand, what sorting triangles gains,
-// what the first dispatch costs. backends/...: Embree over Vulkan.
+// vulkan/...: the Vulkan backend against a minimal hand-written program, the gain from sorting
+// triangles, and the cost of the first dispatch. backends/...: Embree against Vulkan.
 #include <rtapi/upload.h>
 #include <stdlib.h>
 
@@ -30,7 +30,7 @@ bool is_hit(const ClosestResult& result) {
   return result.t >= 0;
 }
 
-// Hits may differ in 1 of 10,000 rays.
+// Hits may differ for 1 of 10,000 rays.
 template <typename T>
 void check_same_hits(const std::vector<T>& a, const std::vector<T>& b) {
   size_t different = a.size() == b.size() ? 0 : a.size();
@@ -42,7 +42,7 @@ void check_same_hits(const std::vector<T>& a, const std::vector<T>& b) {
   }
 }
 
-// Rates of two runs over the same rays.
+// Compares the rates of two runs over the same rays.
 Line rates(const std::string& name, const Measure& measure, const RayGrid& grid,
            const std::function<void()>& ours, const std::function<void()>& baseline) {
   const Pairs times = time_pairs(measure, ours, baseline);
@@ -89,7 +89,7 @@ Case backends_case(RaySet set) {
           }};
 }
 
-// Sets a variable of the environment for as long as it lives.
+// Sets an environment variable for the lifetime of the object.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {
@@ -111,7 +111,7 @@ class Environment {
   std::optional<std::string> old_;
 };
 
-// One mesh, once.
+// A scene with one instance of one mesh.
 struct MeshScene {
   std::vector<effects::Vertex> vertices;
   SceneData data;
@@ -131,8 +131,8 @@ struct MeshScene {
   MeshScene& operator=(const MeshScene&) = delete;
 };
 
-// The scanned dragon of the scenes that lie beside the checkout; elsewhere a coiled body with
-// waves, wound row by row.
+// The scanned dragon from the scenes beside the checkout; without them, a coiled, wavy body with
+// triangles in row order.
 std::unique_ptr<MeshScene> make_dragon(bool quick) {
   auto loaded =
       effects::load_gltf(std::string(KAAMOS_SOURCE_DIR) + "/../shared/scenes/chinesedragon.gltf");
@@ -177,7 +177,7 @@ void shuffle_triangles(MeshScene& scene) {
   }
 }
 
-// From around the mesh to points in it.
+// Rays from around the mesh to points in it.
 RayGrid rays_at(const MeshScene& scene, uint32_t count) {
   glm::vec3 low(INFINITY);
   glm::vec3 high(-INFINITY);
@@ -242,7 +242,8 @@ Case first_dispatch_case(bool cached) {
             std::string folder = (fs::temp_directory_path() / "kaamos-bench-XXXXXX").string();
             if (mkdtemp(folder.data()) == nullptr)
               throw std::runtime_error("no folder for a cache");
-            // The driver looks at it when an instance is made, which goes with its last device.
+            // The driver reads this when an instance is created; an instance lives as long as its
+            // last device.
             const Environment cache("MESA_SHADER_CACHE_DIR", folder);
             Measure wall = measure;  // the driver compiles on threads of its own
             wall.clock = Clock::kWall;
@@ -279,7 +280,7 @@ bool has_vulkan() {
 std::vector<Case> vulkan_cases() {
   std::vector<Case> cases;
   if (!has_vulkan()) return cases;
-  // First, while no other case has started the driver.
+  // First, before another case has started the driver.
   for (const bool cached : {false, true}) cases.push_back(first_dispatch_case(cached));
   for (const RaySet set : kVulkanRaySets) cases.push_back(hand_case(set));
   for (const bool shuffled : {false, true}) cases.push_back(sorting_case(shuffled));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each ray generation shader makes one mistake, for the settings that a test gives it.
+// Each ray generation shader makes one mistake, with the settings that a test gives it.
 
 struct Payload {
   float3 color;
@@ -63,7 +63,7 @@ RayDesc ray_at(float x) {
   result[0] = payload.depth;
 }
 
-// One RayDesc for both.
+// One RayDesc for both traces.
 [shader("raygeneration")] void TraceTwice() {
   RayDesc ray = ray_at(0);
   Payload payload = {float3(0, 0, 0), 0};
@@ -120,7 +120,7 @@ RayDesc ray_at(float x) {
   result[0] = payload.depth;
 }
 
-// All that the others do, rightly.
+// Everything that the others do, but correctly.
 [shader("raygeneration")] void Clean() {
   Payload payload = {vertices[3].xyz, 0};
   TraceRay(scene, RAY_FLAG_FORCE_NON_OPAQUE, 0xFF, 0, 1, 0, ray_at(0), payload);
@@ -177,7 +177,7 @@ RayDesc ray_at(float x) {
   result[0] = asuint(pictures[index].Load(int3(0, 0, 0)));
 }
 
-// Nothing of these calls is a constant.
+// None of these calls has constant arguments.
 [shader("raygeneration")] void TraceAny() {
   Payload payload = {float3(0, 0, 0), 0};
   TraceRay(scene, 0, 0xFF, index & 0xFF, 0, index >> 8, ray_at(0), payload);

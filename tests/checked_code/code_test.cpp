@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/checked_library.h"
+#include "rtapi/src/checked_library.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::checks {
@@ -57,7 +57,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     queue_ = device_.CreateCommandQueue().value();
     library_ = executor == "interpreted" ? interpreted_library()
                                          : LoadShaderLibrary(kaamos_shaders_code()).value();
-    vertices_ = upload(std::vector<float>(104, 1.0f), "sofa.vb");  // 26 of 16 bytes
+    vertices_ = upload(std::vector<float>(104, 1.0f), "sofa.vb");  // 26 vertices of 16 bytes
     leaf_ = upload(std::vector<uint32_t>(8, 4), "leaf.mask");
     result_ = buffer(64, "result");
     build_scene();
@@ -128,7 +128,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     inputs.InstanceDescs = upload(instances, "instances").GetGPUVirtualAddress();
     scene_ = build(inputs, "scene");
   }
-  // Slot 0: "raw" as it should be; slot 1: a typed buffer.
+  // Slot 0: "raw", as it should be. Slot 1: a typed buffer.
   void build_heap() {
     DescriptorHeapDesc desc;
     desc.NumDescriptors = 6;
@@ -223,7 +223,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     std::memcpy(out.data(), bytes.data(), out.size() * 4);
     return out;
   }
-  // What was told under this id; empty: nothing.
+  // The message with this id; empty if there is none.
   std::string told(const std::string& id) const {
     for (const std::string& message : messages_) {
       if (message.starts_with(id)) return message;
@@ -235,7 +235,8 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     for (const std::string& message : messages_) out += message + "\n";
     return out;
   }
-  // The message of this id has these parts in this order, and no other one of code was told.
+  // The message with this id must contain these parts in this order, and shader code reports
+  // nothing else.
   void expect(const std::string& id, const std::vector<std::string>& parts) {
     const std::string text = told(id);
     ASSERT_NE(text, "") << "no " << id << " among:\n" << all();
@@ -259,14 +260,14 @@ class CheckedCode : public testing::TestWithParam<const char*> {
   DescriptorHeap heap_;
   std::vector<Buffer> keep_;
   std::vector<std::string> messages_;
-  std::vector<std::string> told_before_;  // when the pipeline was made
+  std::vector<std::string> told_before_;  // messages from creating the pipeline
   Status status_;
-  // What a test spoils.
+  // What tests break.
   uint64_t leaf_address_ = 0;
   uint64_t vertices_address_ = 0;
   uint32_t table_slot_ = 0;
   uint32_t width_ = 1;
-  std::function<void(CommandList&)> before_, after_;  // more commands of the list
+  std::function<void(CommandList&)> before_, after_;  // more commands for the list
   const char* callable_ = "Call";
   const char* box_hit_ = "BoxHit";
 };
@@ -303,7 +304,7 @@ TEST_P(CheckedCode, WriteAndAtomicPastARootBuffer) {
   expect("KA0417", {"parameter u0 \"result\": changes bytes 1073741824..1073741828 of buffer"});
 }
 
-// Allocations are apart by more than that.
+// Allocations are further apart than that.
 TEST_P(CheckedCode, RootAddressOfNoBuffer) {
   leaf_address_ = leaf_.GetGPUVirtualAddress() + 4096;
   run("Clean", {127});
@@ -358,7 +359,7 @@ TEST_P(CheckedCode, FreedResourceInAnArray) {
   ShaderResourceViewDesc view;
   view.ViewDimension = SrvDimension::kBuffer;
   view.Format = Format::kR32Typeless;
-  // Deep inside, where the small buffers of the next run do not come to lie.
+  // Far inside the buffer, where the small buffers of the next run do not end up.
   view.Buffer.FirstElement = 200000;
   view.Buffer.NumElements = 4;
   view.Buffer.Flags = BufferSrvFlags::kRaw;
@@ -388,7 +389,7 @@ TEST_P(CheckedCode, FreedResourceInAnArray) {
   expect("KA0425", {"parameter t0, space 4 \"pictures\": element 3 is a texture, which was freed"});
 }
 
-// Which of an array are used only the code knows; the layer knows what state each is in.
+// Only the code knows which elements of an array are used; the layer knows the state of each.
 TEST_P(CheckedCode, StatesOfTexturesInArrays) {
   const auto texture = [&](const char* name, ResourceStates state, uint32_t slot) {
     TextureDesc desc;
@@ -419,9 +420,9 @@ TEST_P(CheckedCode, StatesOfTexturesInArrays) {
                       "kNonPixelShaderResource. Record ResourceBarrier::Transition from "
                       "kUnorderedAccess to kNonPixelShaderResource before."});
   }
-  // It is used all the same.
+  // The access happens all the same.
   EXPECT_EQ(result_of()[0], 0x7FC0u);
-  // Only the subresources of the view count.
+  // Only the view's subresources count.
   before_ = [&](CommandList& list) {
     list.ResourceBarrier(ResourceBarrier::Transition(wall, ResourceStates::kUnorderedAccess,
                                                      ResourceStates::kNonPixelShaderResource, 1));
@@ -434,7 +435,7 @@ TEST_P(CheckedCode, StatesOfTexturesInArrays) {
                                                      ResourceStates::kNonPixelShaderResource, 0));
   };
   run("ReadPicture", {3});
-  // What an array's read promoted to may be named in a barrier, in the same list.
+  // A barrier in the same list may name the state that an array read promoted the texture to.
   after_ = [&](CommandList& list) {
     list.ResourceBarrier(ResourceBarrier::Transition(floor, ResourceStates::kNonPixelShaderResource,
                                                      ResourceStates::kCopyDest));
@@ -493,19 +494,18 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
   box_hit_ = "BoxHitOther";
   run("TraceBox");
   ASSERT_EQ(told_before_.size(), 1u);
-  EXPECT_EQ(
-      told_before_[0],
-      "KA0412 attributes of another type: hit group \"Boxes\": the attributes of intersection "
-      "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
-      "other scalars. All shaders of a hit group must use one type.");
+  EXPECT_EQ(told_before_[0],
+            "KA0412 attribute type mismatch: hit group \"Boxes\": the attributes of intersection "
+            "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
+            "other scalars. All shaders of a hit group must use one type.");
 }
 
-// Libraries as they may come from elsewhere: without their source, to a machine without a compiler.
-// Also when nobody had it meanwhile.
+// Libraries from elsewhere, loaded without their source on a machine without a compiler. The second
+// load must not compile again, even if nobody held the library in between.
 TEST(CheckedLibrary, ALibraryThatIsLoadedAgainIsNotCompiledAgain) {
   const auto variant = [] {
     const ShaderLibrary library = LoadShaderLibrary(kaamos_shaders_code()).value();
-    return runtime::checked_variant(library, false).library.impl().get();
+    return rtapi::detail::checked_variant(library, false).library.impl().get();
   };
   const auto* first = variant();
   EXPECT_EQ(variant(), first);

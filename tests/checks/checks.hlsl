@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shaders for the messages of checked mode's layer: they do nothing wrong themselves.
+// Shaders for the messages of checked mode's layer; they make no mistakes themselves.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWByteAddressBuffer results : register(u0);
@@ -75,7 +75,7 @@ void CopyBytes() {
   results.Store4(0, source.Load4(0));
 }
 
-// Spoils what stands behind u0.
+// Overwrites what is bound to u0.
 [shader("raygeneration")]
 void RayGenWrites() {
   Payload payload = { 0 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Errors that only a command's execution shows, in any mode: they end the list with their text.
+// Errors that only show when a command executes, in any mode: they end the list with their text.
 #include <cstring>
 
 #include "tests/checks/world.h"
@@ -19,13 +19,13 @@ class Errors : public World {
     const Status status = execute(commands);
     ASSERT_FALSE(status.ok());
     const std::string text = status.error().message;
-    EXPECT_EQ(status.error().id, id) << text;
+    EXPECT_EQ(status.error().id.text(), id) << text;
     EXPECT_EQ(text.substr(0, id.size()), id) << text;
     for (const std::string& part : parts) {
       EXPECT_NE(text.find(part), std::string::npos) << "no \"" << part << "\" in: " << text;
     }
   }
-  // As large as any structure here.
+  // Large enough for any structure here.
   Buffer copy_of(const Buffer& source, const std::string& name) {
     return buffer(source.size(), name, true);
   }

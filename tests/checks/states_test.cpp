@@ -26,7 +26,7 @@ class Indirect : public World {
         device_.CreateCommandSignature({sizeof(DispatchRaysDesc), {rays}}, RootSignature()).value();
     arguments_ = buffer(2 * sizeof(DispatchRaysDesc), "arguments");
   }
-  // The arguments come to their buffer in the same list.
+  // The same list writes the arguments into their buffer.
   void run(const std::vector<DispatchRaysDesc>& dispatches, bool barrier = true) {
     CommandList commands = list();
     commands.CopyBufferRegion(arguments_, 0, upload(dispatches, "new arguments"), 0,
@@ -78,7 +78,7 @@ TEST_P(Indirect, TablesThatADispatchOfItWrites) {
   TableSet second = make_tables(pipeline_);
   run({set_.desc, second.desc});
   expect_none();
-  // The first dispatch writes into the second one's miss table.
+  // The first dispatch writes into the miss table of the second.
   std::vector<std::byte> miss(64);
   std::memcpy(miss.data(), second.tables[1].buffer().data<std::byte>().data(), 32);
   results_ = buffer(256, "results and a table");
@@ -143,7 +143,7 @@ class Textures : public World {
     desc.EntryPoint = entry;
     return device_.CreateComputePipelineState(desc).value();
   }
-  // The view to write is of the first mip, that to read of the last one.
+  // The view to write covers the first mip, the view to read the last one.
   void create(ResourceStates state, uint16_t mips = 1) {
     TextureDesc desc;
     desc.Width = desc.Height = 4;
@@ -195,13 +195,13 @@ TEST_P(Textures, RightStatesAreSilent) {
   transition(commands, kUav, kRead);
   record(commands, look_);
   run(commands);
-  // A state that a transition made stays when the list ends.
+  // A state that a transition set outlasts the list.
   CommandList next = list();
   record(next, look_);
   transition(next, kRead, kUav);
   record(next, paint_);
   run(next);
-  // Reads promote from the common state, and it comes back with the end of the list.
+  // Reads promote a texture from the common state; it decays back when the list ends.
   create(ResourceStates::kCommon);
   CommandList read = list();
   record(read, look_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Acceleration structures: their lives, what builds read, barriers and states.
+// Acceleration structures: their lifetime, what builds read, barriers and states.
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Shader tables, as checked mode proves them before a dispatch.
+// Shader tables, which checked mode proves before a dispatch.
 #include <cstring>
 
 #include "tests/checks/world.h"
@@ -16,7 +16,7 @@ class Tables : public World {
     World::SetUp();
     if (!IsSkipped()) build_scene();
   }
-  // The bytes of a table, to spoil.
+  // The bytes of a table, for tests to damage.
   std::span<std::byte> bytes(TableSet& set, size_t table) {
     return set.tables[table].buffer().data<std::byte>();
   }
@@ -26,7 +26,7 @@ TEST_P(Tables, NothingWrongNothingSaid) {
   TableSet set = make_tables(pipeline_, "RayGen", {"WithData"});
   dispatch(set.desc);
   dispatch(set.desc);
-  // Records that nothing can reach may hold anything. [SBT-24]
+  // Records that no ray can reach may contain anything. [SBT-24]
   set = make_tables(pipeline_, "RayGen", {"Plain", "Plain"});
   std::memset(bytes(set, 2).data() + set.desc.HitGroupTable.StrideInBytes, 0xAB, 32);
   dispatch(set.desc);
@@ -54,7 +54,7 @@ TEST_P(Tables, RecordOutsideItsTable) {
       << texts[0];
 }
 
-// The rays of this world hit: the miss table is not reached, which is legal. [SBT-24]
+// Every ray in this scene hits, so the miss table is never reached, which is legal. [SBT-24]
 TEST_P(Tables, RecordsThatCouldBeReached) {
   TableSet set = make_tables(pipeline_);
   set.desc.MissShaderTable = {};
@@ -65,7 +65,7 @@ TEST_P(Tables, RecordsThatCouldBeReached) {
                         "record 0, reached from ray generation shader \"RayGen\" (checks.hlsl",
                         "there is no such table"});
   dispatch(set.desc);
-  expect_none();  // said once
+  expect_none();  // reported only once
   set = make_tables(pipeline_, "RayGen", {"Plain", "Plain"});
   bottom_ = build(bottom_inputs(triangles()), "floor");
   auto aside = instance(bottom_, 1);
@@ -182,7 +182,7 @@ TEST_P(Tables, ArgumentOfAFreedBuffer) {
   TableSet set = make_tables(pipeline_, "RayGen", {"WithData"});
   const uint64_t wild = 0x123456780;
   std::memcpy(bytes(set, 2).data() + 32, &wild, 8);
-  // On the CPU a wild address may end in the device's removal: only the messages count.
+  // On the CPU a wild address may remove the device, so only the messages are checked.
   CommandList commands = list();
   record_dispatch(commands, set.desc);
   (void)execute(commands);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A small world with nothing wrong in it, on a device in checked mode; each test spoils one thing.
+// A small scene without mistakes on a device in checked mode; each test breaks one thing in it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class World : public ::testing::TestWithParam<const char*> {
     return keep_.back();
   }
 
-  // One triangle around (0, 0) at z = 0, as often as asked for.
+  // `geometries` times the same triangle around (0, 0) at z = 0.
   std::vector<rtapi::RaytracingGeometryDesc> triangles(uint32_t geometries = 1);
   rtapi::RaytracingGeometryDesc box();
   rtapi::BuildRaytracingAccelerationStructureInputs bottom_inputs(
@@ -40,7 +40,7 @@ class World : public ::testing::TestWithParam<const char*> {
   rtapi::BuildRaytracingAccelerationStructureInputs top_inputs(
       const std::vector<rtapi::RaytracingInstanceDesc>& instances);
   rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom, uint32_t contribution = 0);
-  // Memory for a build, and a list with the build.
+  // Memory for a build; and a list that contains the build.
   rtapi::Buffer structure_for(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
                               const std::string& name);
   void record_build(rtapi::CommandList& list, const rtapi::Buffer& dest,
@@ -48,7 +48,7 @@ class World : public ::testing::TestWithParam<const char*> {
                     uint64_t source = 0);
   rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
                       const std::string& name);
-  // A bottom level "floor" and a top level "scene" of one instance.
+  // A bottom level "floor" and a top level "scene" with one instance of it.
   void build_scene(uint32_t geometries = 1, uint32_t contribution = 0);
 
   static rtapi::ShaderLibrary pipeline_library();
@@ -60,14 +60,14 @@ class World : public ::testing::TestWithParam<const char*> {
 
   void record_dispatch(rtapi::CommandList& list, const rtapi::DispatchRaysDesc& desc);
   void dispatch(const rtapi::DispatchRaysDesc& desc);
-  // 16 bytes, by a compute shader: copies to structures are refused.
+  // Copies 16 bytes with a compute shader, because copy commands into structures are refused.
   void copy_bytes(const rtapi::Buffer& dest, const rtapi::Buffer& source);
   rtapi::CommandList list() { return device_.CreateCommandList().value(); }
   rtapi::Status execute(rtapi::CommandList& commands) { return queue_.ExecuteAndWait(commands); }
 
   // The messages of checked mode since the last call.
   std::vector<std::string> told();
-  // Exactly one, with this id, and all parts in this order.
+  // There must be exactly one message, with this id and all parts in this order.
   void expect_one(const std::string& id, const std::vector<std::string>& parts);
   void expect_none();
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Instance descs written by a shader, and which primitives an intersection shader was run for.
+// Instance descs written by a shader; which primitives an intersection shader ran for.
 #include "standard.hlsl"
 
-// A "ray" is 64 bytes, as an instance desc is.
+// A "ray" has 64 bytes here, like an instance desc.
 [shader("raygeneration")]
 void WriteInstances() {
   const uint i = DispatchRaysIndex().x;

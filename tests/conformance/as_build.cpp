@@ -39,7 +39,7 @@ void layouts_of_descs(Context& t) {
                                                          instance(t.build(through_pointers), 3)};
   const auto expected = picture(t, t.top_level(instances));
   for (const bool swapped : {false, true}) {
-    // Far apart, and not in their order.
+    // Far apart and out of order.
     const Buffer first = t.upload(std::vector{instances[swapped ? 1 : 0]});
     const Buffer second = t.upload(std::vector{instances[swapped ? 0 : 1]});
     std::vector<GpuVirtualAddress> addresses = {first.GetGPUVirtualAddress(),
@@ -69,9 +69,9 @@ void when_inputs_are_read(Context& t) {
   list.BuildRaytracingAccelerationStructure(bottom_build);
   list.ResourceBarrier(ResourceBarrier::Uav());
   list.BuildRaytracingAccelerationStructure(top_build);
-  bottom.geometries[0] = {};  // host memory was copied
+  bottom.geometries[0] = {};  // host memory has been copied by now
   bottom_build = top_build = {};
-  overwrite(vertices, triangle(7).vertices);  // GPU memory was not
+  overwrite(vertices, triangle(7).vertices);  // GPU memory has not been copied
   overwrite(instances, std::vector{instance(bottom_memory)});
   t.queue().ExecuteAndWait(list).value();
   t.close("t of vertices written between recording and execution", t_of_top(t, top_memory), 7,
@@ -93,7 +93,7 @@ void inputs_may_go(Context& t) {
     inputs.instances = instances.GetGPUVirtualAddress();
     top = build_new(t, inputs);
   }
-  // What stands where they stood says something else.
+  // Other data takes the place of the old buffers.
   for (int i = 0; i < 4; ++i) t.upload(triangle(8, 100).vertices);
   t.close("t", t_of_top(t, top), 5, 1e-3f);
 }
@@ -107,7 +107,7 @@ std::vector<float> expanded(const std::vector<float>& vertices,
   return out;
 }
 
-// Geometry 0 with indices into its own vertices.
+// Geometry 0 with these indices into its own vertices.
 Inputs indexed_inputs(Context& t, const std::vector<uint32_t>& indices, Format format) {
   Inputs out = bottom_inputs(t, {meadow()[0]});
   auto& triangles = out.geometries[0].Triangles;
@@ -165,7 +165,7 @@ void index_formats(Context& t) {
   });
 }
 
-// Our policy: such a triangle is never hit, and nothing outside is read.
+// Our policy: such a triangle is never hit, and nothing out of bounds is read.
 void indices_past_the_vertices(Context& t) {
   std::vector<uint32_t> indices(24);
   for (uint32_t i = 0; i < indices.size(); ++i) indices[i] = i;
@@ -197,7 +197,7 @@ void box_addresses_and_strides(Context& t) {
   t.equal("primitives of stride 0 that the intersection shader ran for",
           boxes_met(t, t.top_level({instance(build_new(t, inputs))}), 0), 0xFu);
 
-  // min and max in their places, at stride 40.
+  // min and max interleaved, at stride 40.
   const std::vector<float> spread = {-1, -1, 4, 1, 1, 6, 0, 0, 0, 0, 49, -1, 4, 51, 1, 6};
   desc.AABBCount = 2;
   desc.AABBs = {t.upload(spread).GetGPUVirtualAddress(), 40};
@@ -227,7 +227,7 @@ void instances_written_by_a_shader(Context& t) {
     const uint64_t address = bottom.GetGPUVirtualAddress();
     std::memcpy(&raw[word + 14], &address, 8);
   };
-  // x' = 2 y + 20, y' = x / 4, z' = z + 3: rows, then columns.
+  // x' = 2 y + 20, y' = x / 4, z' = z + 3, row by row.
   write(0, {0, 2, 0, 20, 0.25f, 0, 0, 0, 0, 0, 1, 3}, 0xABCDEF, 0x40, 2, 0);
   // Front faces are counterclockwise.
   write(16, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 7, 0x81, 1, 2);
@@ -267,7 +267,8 @@ void instances_written_by_a_shader(Context& t) {
   t.equal("InstanceIndex of the second", seen[1].instance_index, 1u);
   t.equal("record of the second", seen[1].record, 1u);
   t.equal("a ray without the first's mask", seen[2].end, kMissRan);
-  // A triangle(): clockwise from the front. The first is mirrored, which does not count.
+  // A triangle() is clockwise seen from its front. Mirroring the first instance does not change
+  // that.
   t.equal("kind of hit of the first", seen[0].hit_kind, kHitKindTriangleFrontFace);
   t.equal("kind of hit of the second", seen[1].hit_kind, kHitKindTriangleBackFace);
 

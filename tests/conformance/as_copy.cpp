@@ -57,7 +57,7 @@ void copies_leave_the_source(Context& t) {
             "KA0796");
 }
 
-// Addresses in the instance descs of a top level, as tools see them.
+// The addresses in a top level's instance descs, as tools see them.
 std::vector<uint64_t> instanced_addresses(Context& t, const Buffer& top, size_t count) {
   const auto words = words64(t.read(copy_new(t, top, CopyMode::kVisualizationDecodeForTools)));
   std::vector<uint64_t> out;
@@ -121,13 +121,13 @@ void serialized_form(Context& t) {
   const Buffer bottom = build_new(t, bottom_in);
   const Inputs top_in = top_inputs(t, {instance(bottom), instance(bottom, 9)});
   const Buffer top = build_new(t, top_in);
-  // Bottom levels need not be there.
+  // The bottom levels need not exist.
   build(t, bottom_inputs(t, {triangle(5)}), bottom).value();
   const std::pair<Buffer, Inputs> all[] = {{bottom, bottom_inputs(t, {triangle(5)})},
                                            {top, top_in}};
   for (const auto& [structure, inputs] : all) {
     const auto sizes = info_of(t, structure, InfoType::kSerialization);
-    // Whatever lies behind the end stays.
+    // The bytes behind the end stay as they are.
     const Buffer dest = t.zeros(sizes[0] + 64);
     t.accepted("serialize", copy(t, dest, structure, CopyMode::kSerialize));
     const auto words = words64(t.read(dest));
@@ -158,7 +158,7 @@ void deserialized_structures(Context& t) {
   const Inputs top_in = top_inputs(t, {instance(bottom), RaytracingInstanceDesc{}, moved}, flags);
   const Buffer top = build_new(t, top_in);
   const auto expected = picture(t, top);
-  // To new addresses; the old structures are gone by then.
+  // To new addresses, after the old structures have been destroyed.
   std::vector<std::vector<uint64_t>> saved;
   for (const Buffer& each : {bottom, procedural, top}) {
     saved.push_back(words64(t.read(copy_new(t, each, CopyMode::kSerialize))));
@@ -188,7 +188,7 @@ void deserialized_structures(Context& t) {
   const Buffer there = copy_new(other, other.upload(saved[0]), CopyMode::kDeserialize);
   same_picture(t, "on another device", picture_of_bottom(other, there),
                picture_of_bottom(t, t.bottom_level(meadow())));
-  // What is damaged is refused.
+  // Damaged data is refused.
   saved[0][saved[0].size() / 2] ^= 1;
   t.refused("damaged data", copy(other, other.structure_memory(saved[0][5]), other.upload(saved[0]),
                                  CopyMode::kDeserialize));
@@ -223,7 +223,7 @@ void copies_touch_no_bottom_level(Context& t) {
   const Inputs inputs = bottom_inputs(t, meadow());
   const Buffer bottom = build_new(t, inputs);
   const Buffer top = build_new(t, top_inputs(t, {instance(bottom)}, kCompactable));
-  // The bottom level goes, and comes again at its place after the copies.
+  // Another build overwrites the bottom level, which is rebuilt in its place after the copies.
   build(t, top_inputs(t, {}), bottom).value();
   const Buffer clone = copy_new(t, top, CopyMode::kClone);
   const Buffer compact = copy_new(t, top, CopyMode::kCompact);

@@ -46,7 +46,7 @@ void sizes_read_no_gpu_memory(Context& t) {
                       real[2]));
 }
 
-// Everything that is smaller in a part takes no more.
+// Inputs with any part smaller need no more memory.
 void sizes_suffice_for_less(Context& t) {
   const auto check = [&](const std::string& what, const Inputs& larger, const Inputs& smaller) {
     const Sizes a = sizes_of(t, larger), b = sizes_of(t, smaller);
@@ -93,7 +93,7 @@ void sizes_suffice_for_less(Context& t) {
       check("instances", top, less);
     }
   }
-  // And a build of less fits.
+  // And a smaller build fits into the memory.
   const Buffer memory = memory_for(t, bottom_inputs(t, meadow()));
   build(t, bottom_inputs(t, {meadow()[1]}), memory).value();
   same_picture(t, "less in the memory of more", picture_of_bottom(t, memory),
@@ -163,7 +163,7 @@ void current_sizes(Context& t) {
 
 void serialization_sizes(Context& t) {
   const Buffer a = t.bottom_level({triangle(5)}), b = t.bottom_level(boxes());
-  // Three instances of two bottom levels, and one of none.
+  // Three instances of two bottom levels, and one without a bottom level.
   const Buffer top =
       t.top_level({instance(a), instance(b, 5, 4), instance(a, 10), RaytracingInstanceDesc{}});
   const std::pair<const char*, Buffer> all[] = {{"top level", top}, {"bottom level", a}};
@@ -199,7 +199,7 @@ void postbuild_info(Context& t) {
     const Buffer out = t.upload(std::vector<uint32_t>(1));
     const Buffer array = t.zeros(8 * (3 * each + 2));
     t.accepted("emit", execute(t, [&](CommandList& list) {
-                 // At 8 bytes: the natural alignment.
+                 // At 8 bytes, the natural alignment.
                  list.EmitRaytracingAccelerationStructurePostbuildInfo(
                      {array.GetGPUVirtualAddress() + 8, info_type}, sources);
                }));
@@ -232,7 +232,7 @@ void postbuild_info(Context& t) {
             }));
 }
 
-// Rebuilds from what tools decode, and compares.
+// Decodes a structure as a tool would, rebuilds it from the result, and compares.
 void decoding_for_tools(Context& t) {
   const Buffer triangles = t.bottom_level(meadow()), procedural = t.bottom_level(boxes());
   const auto decoded_words = [&](const Buffer& structure) {
@@ -255,7 +255,7 @@ void decoding_for_tools(Context& t) {
       continue;
     }
     same_picture(t, "triangles", picture(t, scene), picture_of_bottom(t, bottom));
-    // Geometry 0 has no transform: its floats come back as they were.
+    // Geometry 0 has no transform, so its floats come back unchanged.
     const auto& first = again.geometries[0].Triangles;
     const auto vertices = meadow()[0].vertices;
     t.equal("vertices", first.VertexCount, static_cast<uint32_t>(vertices.size() / 3));

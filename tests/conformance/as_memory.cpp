@@ -59,8 +59,9 @@ void addresses_are_aligned(Context& t) {
             "KA0711");
 }
 
-// A bottom level at an address that is no multiple of 256 cannot exist; our policy for instances
-// that name one is that for every address without a bottom level: they are inactive.
+// No bottom level can lie at an address that is not a multiple of 256. Our policy treats instances
+// that name such an address like those that name any address without a bottom level: they are
+// inactive.
 void instanced_addresses_are_aligned(Context& t) {
   const Buffer bottom = t.bottom_level({triangle(5)});
   auto misaligned = instance(bottom);
@@ -121,7 +122,7 @@ void the_state_is_permanent(Context& t) {
   t.accepted("the device works on", t.device().GetDeviceRemovedReason());
 }
 
-// Buffers have memory of their own: what structures lie in overlaps nothing else.
+// Each buffer has memory of its own, so the structures in it overlap nothing else.
 void structures_share_no_memory(Context& t) {
   struct Range {
     GpuVirtualAddress first, last;
@@ -145,7 +146,7 @@ void structures_share_no_memory(Context& t) {
   }
 }
 
-// Of inputs in NON_PIXEL_SHADER_RESOURCE, on the default heap, and results in UNORDERED_ACCESS.
+// Inputs on the default heap in state NON_PIXEL_SHADER_RESOURCE, results in UNORDERED_ACCESS.
 void states_of_inputs_and_results(Context& t) {
   const auto on_default_heap = [&](const auto& elements) {
     const Buffer buffer = t.zeros(elements.size() * sizeof(elements[0]));
@@ -181,7 +182,7 @@ void states_of_inputs_and_results(Context& t) {
   }
   meets_boxes(t, "boxes on the default heap", t.top_level({instance(build_new(t, procedural))}));
 
-  // What is written must allow it.
+  // A buffer that is written must allow unordered access.
   const Buffer read_only = t.upload(std::vector<uint32_t>(65536));
   const Buffer memory = memory_for(t, inputs);
   auto build = build_desc(t, inputs, memory.GetGPUVirtualAddress());
@@ -203,7 +204,7 @@ void states_of_inputs_and_results(Context& t) {
   }
 }
 
-// Everything of a frame in one list: builds, a trace, an update and a rebuild, a trace.
+// A whole frame in one list: builds, a trace, an update and a rebuild, a trace.
 void uav_barriers_order(Context& t) {
   const Buffer early = t.upload(triangle(5).vertices), late = t.upload(triangle(7).vertices);
   Inputs bottom =
@@ -345,7 +346,8 @@ void allowed_on_compute_lists(Context& t) {
   t.close("t of the copy", t_of_bottom(t, other), 5, 1e-3f);
 }
 
-// By CopyBufferRegion it is refused; what a shader copied is no structure.
+// CopyBufferRegion into a structure is refused, and a structure's bytes copied by a shader are no
+// structure.
 void structures_are_immutable(Context& t) {
   const Buffer built = t.bottom_level({triangle(5)}), plain = t.zeros(65536);
   const Buffer other = t.structure_memory(built.size());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr BuildFlags kUpdatable = BuildFlags::kAllowUpdate;
 
-// What removes a device is done to one of its own.
+// Runs a command that removes the device on a device of its own.
 void refused_apart(Context& t, const std::string& what, const std::function<Status(Context&)>& work,
                    const char* id = "KA0793") {
   Context own(t.target());
@@ -21,7 +21,7 @@ void refused_apart(Context& t, const std::string& what, const std::function<Stat
   for (const std::string& failure : own.failures()) t.fail(what + ": " + failure);
 }
 
-// Builds `first` and updates it to `changed`; the result of the update.
+// Builds `first`, updates it to `changed`, and returns the status of the update.
 Status updated_to(Context& t, const Inputs& first, const Inputs& changed) {
   const Buffer memory = build_new(t, first);
   return update(t, changed, memory, memory);
@@ -42,7 +42,7 @@ void combinations_of_build_flags(Context& t) {
       continue;
     }
     const bool updates = HasAny(flags, BuildFlags::kPerformUpdate);
-    if (updates) inputs.flags = inputs.flags | kUpdatable;  // a source needs it
+    if (updates) inputs.flags = inputs.flags | kUpdatable;  // the source of an update needs it
     const Buffer memory = build_new(t, inputs);
     if (updates) {
       inputs.flags = flags;
@@ -203,7 +203,8 @@ void updates_take_the_sources_memory(Context& t) {
 void chained_updates(Context& t) {
   Inputs inputs = bottom_inputs(t, meadow(), kUpdatable);
   const Buffer first = build_new(t, inputs), second = memory_for(t, inputs);
-  // Two sets of inputs in turn, so that each update changes something; the last is the second.
+  // Alternates between two sets of inputs, so that each update changes something; the second comes
+  // last.
   auto updating = inputs;
   updating.flags = kUpdatable | BuildFlags::kPerformUpdate;
   const std::vector<RaytracingGeometryDesc> sets[] = {t.describe(meadow(3)), t.describe(meadow(1))};
@@ -258,7 +259,7 @@ void updates_of_triangles(Context& t) {
 }
 
 void updates_of_boxes(Context& t) {
-  // From far away, and from each other's places.
+  // The boxes move in from far away and from each other's places.
   auto before = boxes();
   std::swap(before[0].boxes[0], before[0].boxes[1]);
   before[1] = box(11, 4000);
@@ -269,7 +270,8 @@ void updates_of_boxes(Context& t) {
   meets_boxes(t, "after it", t.top_level({instance(memory)}));
 }
 
-// Our policy: what can be told from the descs is refused; the indices of the build stay.
+// Our policy: changes that the descs reveal are refused; changed indices are ignored in favour of
+// the build's.
 void what_updates_may_not_change(Context& t) {
   const auto check = [&](const char* what, const std::function<void(Context&, Inputs&)>& change) {
     refused_apart(t, what, [&](Context& own) {
@@ -315,7 +317,7 @@ void what_updates_may_not_change(Context& t) {
 
 void inputs_at_other_addresses(Context& t) {
   const Buffer memory = build_new(t, bottom_inputs(t, meadow(), kUpdatable));
-  // New buffers for everything; those of the build say something else by then.
+  // New buffers for everything; the build's buffers hold other data by then.
   t.accepted("the update", update(t, bottom_inputs(t, meadow(1), kUpdatable), memory, memory));
   same_picture(t, "after it", picture_of_bottom(t, memory),
                picture_of_bottom(t, t.bottom_level(meadow(1))));

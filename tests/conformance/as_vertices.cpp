@@ -11,12 +11,12 @@ using namespace rtapi;
 
 namespace {
 
-// Vertex data of one format: how a component is written, and what it then is.
+// One vertex format: how a component is encoded, and which value that gives.
 struct VertexCase {
   Format format;
   const char* name;
-  int components;       // that are read
-  int component_bytes;  // of 10:10:10:2 all together
+  int components;       // as read by the build
+  int component_bytes;  // for 10:10:10:2, all components together
   uint32_t low, one, half;
   float half_value;
   bool is_signed;
@@ -40,8 +40,8 @@ constexpr VertexCase kVertexCases[] = {
     {Format::kR8G8B8A8Snorm, "R8G8B8A8_SNORM", 3, 1, 0x80, 0x7F, 0x40, 64 / 127.0f, true},
 };
 
-// (low, low), (1, low), (low, 1) at z = half. Where an A component follows, it is all ones, and
-// with `overlap` the next vertex takes its place.
+// (low, low), (1, low), (low, 1) at z = half. An A component, where there is one, is all ones; with
+// `overlap` the next vertex takes its place.
 std::vector<uint8_t> encoded_triangle(const VertexCase& format, bool overlap, uint32_t& stride) {
   const uint32_t corners[3][3] = {{format.low, format.low, format.half},
                                   {format.one, format.low, format.half},
@@ -117,7 +117,7 @@ void flat_formats_are_transformed_in_space(Context& t) {
   auto& desc = inputs.geometries[0].Triangles;
   desc.VertexFormat = Format::kR32G32Float;
   desc.VertexBuffer = {t.upload(flat).GetGPUVirtualAddress(), 8};
-  // z = x / 2 + 5, and a third column that nothing may come of.
+  // z = x / 2 + 5; the third column must have no effect.
   desc.Transform3x4 =
       t.upload(std::vector<float>{1, 0, 40, 0, 0, 1, 50, 0, 0.5f, 0, 60, 5}).GetGPUVirtualAddress();
   Standard program(t);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Callables.
+// Callable shaders.
 #include "common.hlsli"
 
 struct Number {
   uint value;
 };
 
-// Calls the index in the ray's `contribution`; writes what came back and its own ordinal.
+// Calls the shader at the ray's `contribution`; writes what it returned and its own ordinal.
 [shader("raygeneration")]
 void CallOne() {
   Number number;
@@ -21,7 +21,7 @@ void Answer(inout Number number) {
   number.value = ordinal;
 }
 
-// Calls what its first constant after the ordinal says, and adds its own ordinal afterwards.
+// Calls the shader that the constant after its ordinal names, then adds its own ordinal.
 [shader("callable")]
 void Forward(inout Number number) {
   const uint mine = ordinal;

@@ -13,7 +13,7 @@ DeviceDesc in_checked_mode(const Context& t,
                            const std::shared_ptr<std::vector<Message>>& messages) {
   DeviceDesc desc = t.target().device_desc();
   desc.Checked = true;
-  // Messages of a list come before ExecuteAndWait returns, one at a time.
+  // A list's messages arrive before ExecuteAndWait returns, one at a time.
   desc.OnMessage = [messages](const Message& message) { messages->push_back(message); };
   return desc;
 }
@@ -29,7 +29,7 @@ Checked::~Checked() {
 
 void Checked::told(const std::string& what, const char* id) {
   for (const Message& message : take_messages()) {
-    if (message.Id == id) return;
+    if (message.Id.text() == id) return;
   }
   fail(what + ": no message " + id);
 }
@@ -37,7 +37,7 @@ void Checked::told(const std::string& what, const char* id) {
 void Checked::silent(const std::string& what) {
   for (const Message& message : take_messages()) {
     if (message.Severity == MessageSeverity::kInfo) continue;
-    if (message.Id >= "KA0400" && message.Id < "KA0500") fail(what + ": " + message.Text);
+    if (message.Id.number >= 400 && message.Id.number < 500) fail(what + ": " + message.Text);
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the tests of errors work with: a context in checked mode that hears what it says, and a
-// small scene on it of which each test spoils one thing.
+// What the tests of errors share: a context in checked mode that records messages, and a small
+// scene in which each test breaks one thing.
 #pragma once
 
 #include <memory>
@@ -13,14 +13,14 @@
 
 namespace kaamos::conformance {
 
-// A context of its own whose failures go to the rule's.
+// A context with its own device; its failures count as the rule's.
 class Checked : public Context {
  public:
   explicit Checked(Context& t) : Checked(t, std::make_shared<std::vector<rtapi::Message>>()) {}
   ~Checked();
-  // The message must have been told since the last call.
+  // The message must have arrived since the last call.
   void told(const std::string& what, const char* id);
-  // No error or warning of checked mode since then.
+  // No error or warning of checked mode may have arrived since then.
   void silent(const std::string& what);
   rtapi::Status execute(rtapi::CommandList& list) { return queue().ExecuteAndWait(list); }
   rtapi::CommandList list() { return device().CreateCommandList().value(); }
@@ -34,15 +34,15 @@ class Checked : public Context {
   Messages messages_;
 };
 
-// errors.hlsl, with one ray that hits a triangle. Hit groups Plain, Nested, Boxes, Odd.
+// errors.hlsl with one ray that hits a triangle. Hit groups: Plain, Nested, Boxes, Odd.
 class CheckedScene : public Program {
  public:
   explicit CheckedScene(Checked& t);
-  // A record of each table but callables.
+  // Adds a record to each table except the callable table.
   void add(const std::string& hit_group, const Constants& constants = {});
 };
 
-// Those of err_tests that are of dispatches.
+// The tests of err_tests that are about dispatches.
 std::vector<RuleTest> err_dispatch_tests();
 
 }  // namespace kaamos::conformance

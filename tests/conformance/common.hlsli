@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the shaders of the rules share: rays in, words out, records with a number of their own.
+// What the rules' shaders share: rays in, words out, records with an ordinal each.
 
 struct Ray {
   float3 origin;
@@ -14,13 +14,13 @@ struct Ray {
   uint3 extra;
 };
 
-// What became of a ray. `end`: 0 no shader ran after traversal, 1 closest hit, 2 miss.
+// What happened to a ray. `end`: 0 no shader ran after traversal, 1 closest hit, 2 miss.
 struct Seen {
   uint end;
   uint record;     // of the closest-hit or miss shader
   uint anyHits;    // invocations
-  uint anyRecord;  // of the last one
-  uint boxRecord;  // of the intersection shader whose hit was committed
+  uint anyRecord;  // of the last any-hit invocation
+  uint boxRecord;  // of the intersection shader that reported the committed hit
   uint instanceIndex;
   uint instanceID;
   uint geometry;
@@ -42,7 +42,7 @@ RaytracingAccelerationStructure scene : register(t0);
 StructuredBuffer<Ray> rays : register(t1);
 RWByteAddressBuffer words : register(u0);
 
-// Local arguments of every record.
+// The local arguments of every record.
 cbuffer Record : register(b0, space1) {
   uint ordinal;
   float reportedT;      // of intersection shaders

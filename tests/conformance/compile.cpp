@@ -12,7 +12,7 @@ rtapi::Status compile(const std::string& source, const std::string& target,
   options.Source = source;
   options.Target = target;
   options.PayloadQualifiers = payload_qualifiers;
-  // The front end decides; no C++ compiler is needed.
+  // The front end alone accepts or refuses a source, so no C++ compiler is needed.
   options.Interpret = true;
   options.Spirv = false;
   return rtapi::CompileShaderLibrary(options).Status;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rules that the HLSL compiler keeps: sources that it takes or refuses.
+// Rules that the HLSL compiler enforces: sources that it accepts or refuses.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace kaamos::conformance {
 
-// The error of compiling this library, or success.
+// Success, or the error from compiling this library.
 rtapi::Status compile(const std::string& source, const std::string& target = "lib_6_6",
                       std::optional<bool> payload_qualifiers = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every test of a rule on each backend as a test of ctest.
+// Every test of a rule, on each backend, as a ctest test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace kaamos::conformance {
 namespace {
 
-// The tests of a section run in one process, so that they share its device and its pipelines.
+// The tests of a section run in one process, so that they share its device and pipelines.
 class RulesHold : public testing::Test {
  public:
   RulesHold(Section section, Target target)
@@ -67,8 +67,9 @@ const bool kRegistered = [] {
                             [=]() -> RulesHold* { return new RulesHold(section, target); });
     }
   }
-  // Nothing is told of sound programs in checked mode. On Vulkan a part of the rules, since drivers
-  // take seconds for a pipeline of checked code; `kaamos-conformance --checked` holds all of them.
+  // Checked mode reports nothing about correct programs. On Vulkan only some of the rules run,
+  // since drivers take seconds to compile a checked pipeline; `kaamos-conformance --checked` runs
+  // all of them.
   for (Target target : {Target(), vulkan}) {
     const std::string suite = "Checked_" + target.backend;
     target.checked = true;
@@ -135,7 +136,7 @@ TEST(ConformanceList, ACrashFailsTheTestAlone) {
   EXPECT_EQ(found, (std::vector<std::string>{"", "ended by Killed\n", "seen\n"}));
 }
 
-// Drivers take seconds for a pipeline of checked code: one for each test would be minutes in all.
+// Drivers take seconds to compile a checked pipeline: one for each test would add up to minutes.
 TEST(ConformanceList, ProgramsThatAreAlikeShareTheirPipeline) {
   Context t({});
   for (int i = 0; i < 2; ++i) {

@@ -42,7 +42,8 @@ RaytracingInstanceDesc instance(const Buffer& bottom_level, float x, uint32_t co
 
 namespace {
 
-// Of this process, by Target::name(). Never taken down: at exit a driver may be gone first.
+// The devices of this process by Target::name(). Never destroyed: at exit a driver may already be
+// gone.
 using Pool = std::map<std::string, std::vector<std::unique_ptr<SharedDevice>>>;
 Pool& pool() {
   static Pool& devices = *new Pool;
@@ -53,7 +54,7 @@ std::unique_ptr<SharedDevice> new_device(DeviceDesc desc) {
   SharedDevice out;
   if (desc.Checked && !desc.OnMessage) {
     out.messages = std::make_shared<std::vector<Message>>();
-    // One at a time: each device is one context's.
+    // Messages arrive one at a time, because one context at a time uses a device.
     desc.OnMessage = [to = out.messages](const Message& message) { to->push_back(message); };
   }
   out.device = CreateDevice(desc).value();
@@ -95,7 +96,7 @@ std::vector<std::string> Context::reports() const {
   if (!shared_->messages) return out;
   for (const Message& message : *shared_->messages) {
     if (message.Severity == MessageSeverity::kInfo) continue;
-    if (message.Id >= "KA0400" && message.Id < "KA0500") out.push_back(message.Text);
+    if (message.Id.number >= 400 && message.Id.number < 500) out.push_back(message.Text);
   }
   return out;
 }
@@ -113,7 +114,7 @@ bool Context::is_distance(float found, float expected) const {
                       target_.precision != rtapi::TraversalPrecision::kExact &&
                       !__builtin_cpu_supports("avx512vl");
   if (!rounds) return found == expected;
-  // An ulp is between epsilon / 2 and epsilon of the number.
+  // One ulp of a number lies between epsilon / 2 and epsilon times that number.
   return std::abs(found - expected) <= std::numeric_limits<float>::epsilon() * std::abs(expected);
 }
 
@@ -132,7 +133,7 @@ void Context::close(const std::string& what, float found, float expected, float 
 void Context::refused(const std::string& what, const Status& status, const char* id) {
   if (status) {
     fail(what + ": accepted, expected an error");
-  } else if (id != nullptr && status.error().id != id) {
+  } else if (id != nullptr && status.error().id.text() != id) {
     fail(what + ": expected " + id + ", found " + status.error().message);
   }
 }

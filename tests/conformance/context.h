@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the test of a rule works with: a device, checks, and short ways to make scenes.
+// What a rule's test works with: a device, checks, and shortcuts for making scenes.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -20,25 +20,26 @@ struct Target {
   std::string backend = "embree";
   rtapi::TraversalPrecision precision = rtapi::TraversalPrecision::kRobust;
   bool checked = false;      // checked mode
-  std::string name() const;  // "embree/robust", "vulkan"; the same for checked ones
+  std::string name() const;  // "embree/robust", "vulkan"; checked targets have the same names
   rtapi::DeviceDesc device_desc() const;
 };
 
-// One geometry: triangles of nine floats each, or boxes.
+// One geometry: triangles with nine floats each, or boxes.
 struct Geometry {
   std::vector<float> vertices = {};
   std::vector<rtapi::RaytracingAabb> boxes = {};
   rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque;
   std::vector<float> transform = {};  // Transform3x4; empty: none
 };
-// A triangle that rays along z meet at t = z, front first, within 1 of (x, 0).
+// A triangle around (x, 0), within 1 of it, that rays along z hit at t = z from the front.
 Geometry triangle(float z, float x = 0,
                   rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
-// A box of edge 2 around (x, 0, z).
+// A box with edges of length 2 around (x, 0, z).
 Geometry box(float z, float x = 0,
              rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque);
 
-// A device with the pipelines that tests share: both take a driver longer than most tests.
+// A device and the pipelines that tests share; making either takes a driver longer than most tests
+// run.
 struct SharedDevice {
   struct Pipeline {
     rtapi::StateObject object;
@@ -46,16 +47,16 @@ struct SharedDevice {
   };
   rtapi::Device device;
   std::map<std::string, Pipeline> pipelines = {};  // by Program's name for them
-  // What the device said; not of a description of the test's own.
+  // Messages of the device. Not connected where a test passes a description of its own.
   std::shared_ptr<std::vector<rtapi::Message>> messages = {};
 };
 
 class Context {
  public:
-  // Errors here and below leave as rtapi::ResultError and fail the rule. The device is this
-  // context's alone while it lives; a later one goes on with it, unless it was removed.
+  // Errors here and below are thrown as rtapi::ResultError and fail the rule. The device belongs to
+  // this context alone while it lives; a later context reuses it unless it was removed.
   explicit Context(const Target& target);
-  // On a new device with further options; `desc` has the target's backend.
+  // On a new device with further options; `desc` names the target's backend.
   Context(const rtapi::DeviceDesc& desc, const Target& target);
   ~Context();
   Context(const Context&) = delete;
@@ -66,14 +67,15 @@ class Context {
   rtapi::CommandQueue& queue() { return queue_; }
   std::map<std::string, SharedDevice::Pipeline>& pipelines() { return shared_->pipelines; }
 
-  // Checks: each that does not hold fails the rule with what was found and expected.
+  // Checks: a failed one fails the rule and reports what was found and expected.
   template <class T>
   void equal(const std::string& what, const T& found, const std::type_identity_t<T>& expected) {
     if (!(found == expected)) fail(what + ": " + show(found) + ", expected " + show(expected));
   }
   void close(const std::string& what, float found, float expected, float tolerance);
-  // Of a triangle's t, which must be a float: to the bit, but where Embree multiplies with a
-  // reciprocal that has an error (robust and fast precision, CPUs without AVX-512) within 2 ulps.
+  // Compares a triangle's t with an expected value that is exactly a float: bit by bit, except
+  // where Embree multiplies by an inexact reciprocal (robust and fast precision, CPUs without
+  // AVX-512), which may be off by 2 ulps.
   bool is_distance(float found, float expected) const;
   void distance(const std::string& what, float found, float expected) {
     if (!is_distance(found, expected))
@@ -84,7 +86,7 @@ class Context {
   void holds(const std::string& what, bool condition) {
     if (!condition) fail(what + ": does not hold");
   }
-  // The call must have returned an error; of this id where one is given.
+  // The call must have returned an error, with this id if one is given.
   void refused(const std::string& what, const rtapi::Status& status, const char* id = nullptr);
   template <class T>
   void refused(const std::string& what, const rtapi::Result<T>& result, const char* id = nullptr) {
@@ -99,7 +101,7 @@ class Context {
   }
   void fail(std::string message) { failures_.push_back(std::move(message)); }
   const std::vector<std::string>& failures() const { return failures_; }
-  // Of checked mode (KA0400 to KA0499) since the context began.
+  // Messages of checked mode (KA0400 to KA0499) since the context began.
   std::vector<std::string> reports() const;
 
   // Buffers live as long as the context.
@@ -111,11 +113,11 @@ class Context {
   rtapi::Buffer structure_memory(uint64_t bytes);  // for acceleration structures
   std::vector<uint32_t> read(const rtapi::Buffer& buffer);
 
-  // Of geometries in upload buffers.
+  // Descs of these geometries, whose data goes into upload buffers.
   std::vector<rtapi::RaytracingGeometryDesc> describe(const std::vector<Geometry>& geometries);
   rtapi::Buffer bottom_level(const std::vector<Geometry>& geometries);
   rtapi::Buffer top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);
-  // A bottom level of its own for these, in one instance.
+  // Makes a bottom level of these and a top level with one instance of it.
   rtapi::Buffer scene(const std::vector<Geometry>& geometries, uint32_t contribution = 0,
                       uint32_t flags = 0);
   rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs);
@@ -135,7 +137,7 @@ class Context {
 
   Target target_;
   std::unique_ptr<SharedDevice> shared_;
-  bool goes_on_ = false;  // a later context may have the device
+  bool goes_on_ = false;  // a later context may reuse the device
   rtapi::Device device_;
   rtapi::CommandQueue queue_;
   std::vector<rtapi::Buffer> keep_;
@@ -145,12 +147,12 @@ class Context {
 rtapi::RaytracingInstanceDesc instance(const rtapi::Buffer& bottom_level, float x = 0,
                                        uint32_t contribution = 0, uint32_t flags = 0);
 
-// A rule's test. `rules`: their numbers, "SBT-03, SBT-04".
+// The test of one or more rules. `rules` lists them: "SBT-03, SBT-04".
 struct RuleTest {
   const char* rules;
   void (*run)(Context& t);
-  // Messages of checked mode that its breaches must bring, "KA0401, KA0402"; others are false
-  // alarms. "*": its purpose is what checked mode speaks of.
+  // Messages of checked mode that the test's violations must cause, "KA0401, KA0402"; any others
+  // are false alarms. "*": the test is about what checked mode reports.
   const char* provokes = "";
 };
 struct Section {

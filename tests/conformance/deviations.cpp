@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rules that a target breaks by a fault of its driver, each with its evidence, or by design. A rule
-// that holds shows as a pass, entry or not.
+// Rules that a target breaks because of a driver fault, each with its evidence, or by design. A
+// rule that passes is shown as a pass whether it has an entry or not.
 #include "tests/conformance/rules.h"
 
 namespace kaamos::conformance {
@@ -14,7 +14,7 @@ constexpr char kEmbreesEdges[] =
 constexpr char kEmbreesT[] =
     "by design: Embree's default triangles round t, so that it misses the ends of an interval by "
     "an ulp; precisions robust and exact keep the rule";
-// Counted by these tests. Vulkan itself lets a ray hit both triangles of a shared edge.
+// Counted by these tests. Vulkan itself lets a ray hit both triangles at a shared edge.
 constexpr char kLavapipesEdges[] =
     "fault of Mesa 25.0's triangle test: edges belong to both of their triangles, so that rays "
     "that meet one exactly hit both";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grids, and dispatches whose arguments stand in memory.
+// Grids, and dispatches whose arguments are in GPU memory.
 
 RaytracingAccelerationStructure scene : register(t0);
 ByteAddressBuffer numbers : register(t1);
@@ -18,13 +18,13 @@ uint cellOf(uint3 at, uint3 size) {
   return at.x + size.x * (at.y + size.y * at.z);
 }
 
-// One more in the word of the cell.
+// Adds one to the cell's word.
 [shader("raygeneration")]
 void CountCell() {
   words.InterlockedAdd(4 * cellOf(DispatchRaysIndex(), DispatchRaysDimensions()), 1u);
 }
 
-// The invocations, and the index and dimensions that the last cell sees.
+// Counts the invocations; the last cell notes its index and dimensions.
 [shader("raygeneration")]
 void LastCell() {
   words.InterlockedAdd(0, 1u);
@@ -36,7 +36,7 @@ void LastCell() {
   }
 }
 
-// Per command: 32 bytes from 32 on, in the order of execution; each cell counts.
+// Each command has 32 bytes from 32 on, in order of execution; each cell counts.
 [shader("raygeneration")]
 void Note() {
   const uint3 at = DispatchRaysIndex();
@@ -48,7 +48,7 @@ void Note() {
   words.Store3(base + 12, DispatchRaysDimensions());
 }
 
-// The same for the first word behind t1.
+// The same for the first word of t1.
 [shader("raygeneration")]
 void NoteNumbers() {
   uint slot;
@@ -56,8 +56,8 @@ void NoteNumbers() {
   words.Store(32 + 32 * slot, numbers.Load(0));
 }
 
-// Two commands of {constant, description}: dimensions 3x2x1 and 4x1x1, the ray generation record at
-// the address in `numbers`.
+// Writes two commands of {constant, description}: dimensions 3x2x1 and 4x1x1, the ray generation
+// record at the address in `numbers`.
 [shader("compute")]
 [numthreads(1, 1, 1)]
 void WriteArguments() {
@@ -70,7 +70,7 @@ void WriteArguments() {
   }
 }
 
-// How many threads ran with this number.
+// Counts the threads that ran with this number.
 [shader("compute")]
 [numthreads(4, 1, 1)]
 void CountThreads() {

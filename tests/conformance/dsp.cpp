@@ -29,7 +29,7 @@ class Dispatches : public Program {
     create();
   }
 
-  // A record of this shader, in a table of its own.
+  // A record of this shader in a table of its own.
   DispatchRaysDesc rays(const std::string& shader, uint32_t width = 1, uint32_t height = 1,
                         uint32_t depth = 1, uint32_t ordinal = 0) {
     ShaderTable table(pipeline, shader);
@@ -53,7 +53,7 @@ class Dispatches : public Program {
         .value();
   }
 
-  // A list with the pipeline, and `words` behind u0.
+  // A list with the pipeline set and `words` bound to u0.
   CommandList list(const Buffer& words) {
     CommandList out = context_.device().CreateCommandList().value();
     out.SetComputeRootSignature(global);
@@ -94,7 +94,7 @@ void up_to_2_30_threads(Context& t) {
   t.refused("2^30 + 1", closes((1u << 30) + 1, 1, 1), "KA0814");
   t.refused("2^16 x 2^15 x 1", closes(1u << 16, 1u << 15, 1), "KA0814");
   t.refused("2^32 - 1 in each dimension", closes(~0u, ~0u, ~0u), "KA0814");
-  // No dimension has a limit of its own.
+  // No single dimension has a limit of its own.
   const uint32_t sizes[][3] = {{70001, 1, 1}, {1, 70001, 1}, {1, 1, 70001}, {257, 3, 70}};
   for (const auto& size : sizes) {
     const auto words = program.words_of([&](CommandList& list) {
@@ -155,7 +155,7 @@ void pipeline_must_be_set(Context& t) {
   t.accepted("the device afterwards", t.device().GetDeviceRemovedReason());
 }
 
-// Every description that breaks a rule of tables.
+// Every description that breaks a rule of shader tables.
 std::vector<std::pair<const char*, DispatchRaysDesc>> misaligned(const DispatchRaysDesc& good) {
   const uint64_t start = good.RayGenerationShaderRecord.StartAddress;
   std::vector<std::pair<const char*, DispatchRaysDesc>> out;
@@ -223,7 +223,7 @@ IndirectArgumentDesc constants(uint32_t offset, uint32_t count) {
   return {.Type = Type::kConstant, .Constant = {3, offset, count}};
 }
 
-// Commands in bytes, without padding.
+// Commands as bytes, without padding.
 struct Arguments {
   template <class T>
   Arguments& put(const T& value) {
@@ -253,7 +253,7 @@ void three_commands_of_which_two_count(Context& t) {
   Dispatches program(t);
   const CommandSignature signature = constant_and_rays(t, program, 160);
   Arguments arguments;
-  arguments.pad_to(8);  // an offset
+  arguments.pad_to(8);  // the offset of the first command
   for (uint32_t i = 0; i < 3; ++i) {
     arguments.put(uint32_t{40 + i}).put(program.rays("Note", i + 1, 2, 1, 50 + i));
     arguments.pad_to(8 + 160 * (i + 1));
@@ -377,8 +377,8 @@ void arguments_written_by_a_shader(Context& t) {
   t.equal("the second", cut(found, 16, 6), {71u, 0u, 60u, 4u, 1u, 1u});
 }
 
-// Our policy for what memory may hold and rules forbid: the command does not run, the device is
-// removed, the message says which command and why.
+// Our policy for GPU memory that holds arguments against the rules: the command does not run, the
+// device is removed, and the message says which command and why.
 void bad_indirect_arguments(Context& t) {
   const auto run = [&](const char* what, void (*spoil)(DispatchRaysDesc&)) {
     Context own(t.target());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the runtime must say of dispatches, their tables, rays and shaders, and when: errors of
-// calls, and the messages of checked mode.
+// What the runtime must say about dispatches, their tables, rays and shaders, and when: errors of
+// calls, and messages of checked mode.
 #include <limits>
 
 #include "tests/conformance/checked.h"
@@ -122,8 +122,8 @@ void reported_hits(Context& t) {
   }
 }
 
-// An index times a stride needs 64 bits: in 32 record 2^20 + 1 of stride 4096 is record 1, which
-// stands there.
+// An index times a stride needs 64 bits: in 32 bits, record 2^20 + 1 at stride 4096 would be record
+// 1, which exists.
 void far_records(Context& t) {
   Checked c(t);
   CheckedScene s(c);
@@ -190,7 +190,7 @@ void strides_of_records(Context& t) {
   c.told("a table of 40 bytes", "KA0440");
 }
 
-// What one dispatch of an ExecuteIndirect writes is the table of the next one.
+// One dispatch of an ExecuteIndirect writes the table that the next one uses.
 void tables_that_change(Context& t) {
   Checked c(t);
   CheckedScene s(c);

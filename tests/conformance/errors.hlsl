@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays whose shader table indices are constants: what they can reach is known before the dispatch.
+// Rays with constant shader table indices, so what they can reach is known before the dispatch.
 #include "common.hlsli"
 
 [shader("raygeneration")]
@@ -12,7 +12,7 @@ void One() {
 [shader("miss")]
 void Sky(inout Seen seen) { seen.end = 2; }
 
-// Traces again, and again.
+// Traces again and again.
 [shader("closesthit")]
 void Deeper(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   Seen inner = nothingSeen();
@@ -33,7 +33,7 @@ void Front() {
   ReportHit(1.0, 0, attributes);
 }
 
-// A hit kind of the record's choosing.
+// Reports a hit kind that the record chooses.
 [shader("intersection")]
 void Reports() {
   BuiltInTriangleIntersectionAttributes attributes;
@@ -41,7 +41,7 @@ void Reports() {
   ReportHit(reportedT, reportedKind, attributes);
 }
 
-// One ray with a query, which commits boxes at `extra.x`.
+// Traces one ray with a query that commits boxes at `extra.x`.
 [shader("raygeneration")]
 void Commits() {
   RayQuery<RAY_FLAG_SKIP_TRIANGLES> query;

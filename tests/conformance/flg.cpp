@@ -45,8 +45,8 @@ void flags_are_echoed(Context& t) {
   t.equal("RayFlags() in the closest-hit shader", seen.back().flags, 0x15u);
 }
 
-// Two geometry flags x three instance flags x three ray flags: how many any-hit shaders ran, as 0
-// or 1, where they should have.
+// Two geometry flags x three instance flags x three ray flags: how many any-hit shaders ran (0 or
+// 1) against how many should have.
 void opacity_matrix(Context& t, const std::string& group, Geometry (*make)(RaytracingGeometryFlags),
                     uint32_t ray_kinds, uint32_t instance_kinds) {
   Standard program(t);
@@ -141,7 +141,7 @@ void opacity_culling_of_all_primitives(Context& t) {
   }
 }
 
-// The triangle of the rule, at z = 0, and the ray from z = -1.
+// The rule's triangle at z = 0, and a ray from z = -1.
 Seen facing(Context& t, uint32_t instance_flags, uint32_t ray_flags, float instance_scale_x = 1,
             float geometry_scale_x = 1) {
   Standard program(t);
@@ -323,7 +323,7 @@ void flags_belong_to_one_trace(Context& t) {
   program.record("Plain");
   program.scene = t.scene({triangle(5), triangle(10)});
   const Seen seen = program.trace(with_flags(kAcceptFirst | kForceOpaque));
-  // The first hit may be either triangle: from the far one the inner ray misses.
+  // Either triangle may be hit first; if it is the far one, the inner ray misses.
   t.equal("RayFlags() before the nested trace", seen.flags, 0x5u);
   t.equal("RayFlags() of the nested trace", seen.any_record, 0x11u);
   t.equal("RayFlags() after the nested trace", seen.geometry, 0x5u);

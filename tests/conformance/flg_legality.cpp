@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Flags that may not stand together or need another tier. Where only the shader knows them, normal
-// mode gives them a meaning: what any of them drops is dropped, an instance's FORCE_OPAQUE is
-// stronger than its FORCE_NON_OPAQUE, and of a ray's one counts, the same for all rays.
+// Flags that must not be combined or that need another tier. Where only the shader knows them,
+// normal mode defines the result: a primitive that any of the flags would drop is dropped, an
+// instance's FORCE_OPAQUE overrides its FORCE_NON_OPAQUE, and of a ray's conflicting flags one
+// wins, the same one for all rays.
 #include <bit>
 
 #include "tests/conformance/judge.h"
@@ -33,7 +34,7 @@ Legality walk(Context& t, const std::vector<uint32_t>& flags, uint32_t instance_
   return out;
 }
 
-// Rays with these flags against the reference, which knows that meaning.
+// Traces rays with these flags and compares with the reference, which follows this definition.
 void expect_our_meaning(Context& t, const std::vector<uint32_t>& flags,
                         uint32_t instance_flags = 0) {
   const Legality found = walk(t, flags, instance_flags);
@@ -53,7 +54,7 @@ size_t differing(const Legality& found, uint32_t flags) {
   return out;
 }
 
-// The same legal flags if what is culled is decided after a ray's FORCE flag, not before it.
+// The legal flags that these amount to if culling is decided after a ray's FORCE flag, not before.
 uint32_t with_culling_last(uint32_t flags) {
   if (flags == 0x41 || flags == 0x82) return 0xC0;
   return flags & 0x3;
@@ -144,7 +145,7 @@ void later_tiers_are_refused(Context& t) {
     program.set_pipeline_flags(static_cast<RaytracingPipelineFlags>(flag));
     t.refused("pipeline flag " + std::to_string(flag), program.try_create());
   }
-  // What the device alone sees has no effect.
+  // Flags that only the device sees have no effect.
   Standard program(t);
   program.record("Plain");
   program.scene = t.scene({geometry}, 0, 0x30);

@@ -11,10 +11,10 @@ namespace kaamos::conformance {
 namespace {
 
 constexpr uint32_t kAcceptFirst = 0x4, kSkipClosest = 0x8;
-constexpr double kTie = 2e-4;  // relative: nearer hits than this may change places
+constexpr double kTie = 2e-4;  // relative: hits closer together than this may swap
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One ray with what the reference says of it.
+// One ray and what the reference says about it.
 struct Case {
   Case(const Scene& scene, const Ray& ray_of_case, const Walked& found)
       : records(scene.records), ray(ray_of_case), walked(found), all(candidates(scene, ray)) {
@@ -42,8 +42,8 @@ struct Case {
   const Ray& ray;
   const Walked& walked;
   std::vector<Candidate> all;              // nearest first
-  std::vector<const Candidate*> accepted;  // commit, nearest first
-  std::vector<const Candidate*> ending;    // and end the search
+  std::vector<const Candidate*> accepted;  // those that commit, nearest first
+  std::vector<const Candidate*> ending;    // those that commit and end the search
   bool certain = true;
 };
 
@@ -63,7 +63,8 @@ std::string name_of(uint32_t packed) {
   return name_of(each);
 }
 
-// Whether the candidate must have reached its any-hit shader, whatever the order.
+// Whether the candidate must have reached its any-hit shader, in whatever order traversal visits
+// it.
 bool must_run(const Case& each, const Candidate& candidate) {
   if (candidate.commits || !candidate.certain || !each.ending.empty()) return false;
   for (const Candidate* nearer : each.accepted) {
@@ -107,7 +108,7 @@ std::string judge_events(const Case& each, Coverage& coverage) {
   return "";
 }
 
-// Which commits may end the trace, whatever the order.
+// The commits that may end the trace, in whatever order traversal visits them.
 std::vector<const Candidate*> possible_hits(const Case& each) {
   std::vector<const Candidate*> out = each.ending;
   const double end = each.ending.empty() ? kInfinity : each.ending.front()->t;

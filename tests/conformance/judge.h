@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Holds what rays met against the reference.
+// Compares what rays met with the reference.
 #pragma once
 
 #include <string>
@@ -10,20 +10,20 @@
 
 namespace kaamos::conformance {
 
-// What a random test covered, so that it cannot pass on nothing.
+// What a random test covered, so that it cannot pass without having tested anything.
 struct Coverage {
   uint32_t rays = 0;
-  uint32_t certain = 0;  // rays that rounding cannot turn
+  uint32_t certain = 0;  // rays whose result cannot depend on rounding
   uint32_t hits = 0;
   uint32_t events = 0;
   uint32_t required_events = 0;
 };
 
-// What differs from the reference for one ray, or nothing.
+// How one ray differs from the reference; empty if it does not.
 std::string judge_ray(const Scene& scene, const Ray& ray, const Walked& walked, Coverage& coverage);
 
-// Compares each ray with the reference: the any-hit shaders that ran, in the order in which they
-// did, and what ended it. Fails the rule with the first few rays that differ.
+// Compares each ray with the reference: which any-hit shaders ran, in which order, and what ended
+// the ray. Fails the rule with the first few rays that differ.
 Coverage judge(Context& t, const Scene& scene, const std::vector<Ray>& rays,
                const std::vector<Walked>& walked);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-conformance: holds a machine and its drivers against DXR's rules.
+// kaamos-conformance: tests a machine and its drivers against DXR's rules.
 #include <rtapi/version.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ using namespace kaamos::conformance;
 
 bool g_summary_only = false;
 
-// A line that stays while tests run, for one who waits at a terminal; elsewhere nothing.
+// Shows a status line at a terminal while tests run; prints nothing elsewhere.
 void show(const std::string& line) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (terminal && g_summary_only) std::cerr << "\r\033[K" << line << std::flush;
@@ -41,14 +41,14 @@ void list_rules(const std::string& filter) {
     });
     std::cout << rule.id << " [" << rule.tag << "] " << rule.title
               << (tested                ? ""
-                  : rule.tag == 'F'     ? " (free: nothing is asserted)"
+                  : rule.tag == 'F'     ? " (free: tests assert nothing)"
                   : rule.not_applicable ? " (not applicable)"
                                         : " (not yet tested)")
               << "\n";
   }
 }
 
-// Without a precision Embree's two that keep most rules.
+// Without --precision, the two Embree precisions that keep the most rules.
 std::vector<Target> targets_of(const std::string& backend, const std::string& precision,
                                bool checked) {
   using rtapi::TraversalPrecision;
@@ -65,19 +65,20 @@ std::vector<Target> targets_of(const std::string& backend, const std::string& pr
   return out;
 }
 
-// What was asked for and cannot be; empty: nothing.
+// What is wrong with the request; empty if nothing is.
 std::string misuse(const std::string& backend, const std::string& precision,
                    const std::string& filter) {
   if (backend == "vulkan" && !precision.empty()) {
-    return "--precision is of embree, the triangle test of a Vulkan driver is its own: leave out "
-           "one of --backend vulkan and --precision";
+    return "--precision applies to embree only, because Vulkan drivers have triangle tests of "
+           "their own: leave out one of --backend vulkan and --precision";
   }
   const auto& rules = all_rules();
   const bool any = std::any_of(rules.begin(), rules.end(), [&](const Rule& rule) {
     return std::string_view(rule.id).substr(0, filter.size()) == filter;
   });
   if (any) return {};
-  return "no rule's number begins with \"" + filter + "\"; --list prints all, SBT-01 is one";
+  return "no rule's number begins with \"" + filter +
+         "\"; --list prints all of them, such as SBT-01";
 }
 
 }  // namespace
@@ -85,19 +86,19 @@ std::string misuse(const std::string& backend, const std::string& precision,
 int main(int argc, char** argv) {
   std::string backend, filter, json, precision;
   bool list = false, checked = false;
-  CLI::App app("Holds this machine's backends against the rules of DirectX Raytracing.");
+  CLI::App app("Tests this machine's backends against the rules of DirectX Raytracing.");
   app.set_version_flag("--version", std::string("kaamos-conformance ") + rtapi::GetVersion());
-  app.add_option("--backend", backend, "embree or vulkan; without it every one there is")
+  app.add_option("--backend", backend, "embree or vulkan; default: every backend there is")
       ->check(CLI::IsMember({"embree", "vulkan"}));
   app.add_option("--precision", precision,
-                 "of embree: fast, robust or exact; without it exact and robust")
+                 "precision of embree: fast, robust or exact; default: exact and robust")
       ->check(CLI::IsMember({"fast", "robust", "exact"}));
-  app.add_option("--filter", filter, "only rules whose number begins so, e.g. SBT-");
-  app.add_option("--json", json, "writes the results into this file");
+  app.add_option("--filter", filter, "only rules whose number begins with this, such as SBT-");
+  app.add_option("--json", json, "write the results into this file");
   app.add_flag("--checked", checked,
-               "in checked mode; what it says of a test without a breach fails the rule");
-  app.add_flag("--list", list, "prints the rules and runs nothing");
-  app.add_flag("--summary", g_summary_only, "prints failures and the summary only");
+               "run in checked mode; a message about a test without a violation fails the rule");
+  app.add_flag("--list", list, "print the rules and run nothing");
+  app.add_flag("--summary", g_summary_only, "print only failures and the summary");
   CLI11_PARSE(app, argc, argv);
   for (char& c : filter) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (const std::string error = misuse(backend, precision, filter); !error.empty()) {

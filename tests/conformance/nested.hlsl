@@ -2,8 +2,8 @@
 // Closest-hit shaders that trace again.
 #include "standard.hlsl"
 
-// Traces from behind the hit with other flags; notes its own flags before and after, and the inner
-// ray's.
+// Traces on from behind the hit with other flags; notes its own flags before and after, and the
+// inner ray's flags.
 [shader("closesthit")]
 void NestedFlags(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   const uint before = RayFlags();
@@ -21,7 +21,7 @@ void NestedFlags(inout Seen seen, BuiltInTriangleIntersectionAttributes attribut
   seen.geometry = RayFlags();
 }
 
-// Notes its own hit only after the nested trace has found another.
+// Notes its own hit only after the nested trace has found another one.
 [shader("closesthit")]
 void NestedValues(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   RayDesc ray;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Payload access qualifiers. What DXR leaves undefined is 0 here, and a NULL shader leaves fields
-// as they are.
+// Payload access qualifiers. Fields that DXR leaves undefined are 0 here, and a NULL shader leaves
+// fields unchanged.
 #include <shaders/qualified.h>
 #include <shaders/qualified66.h>
 
@@ -14,7 +14,7 @@ using namespace rtapi;
 
 namespace {
 
-// Places in qualified.hlsl's note().
+// Indices into what qualified.hlsl's note() writes.
 enum Field : uint32_t {
   kToStages,
   kAnswer,
@@ -40,7 +40,7 @@ Words seen_after(const Words& words) {
   return part(words, 512);
 }
 
-// One ray against one triangle; hit record 0 is of group "Qualified".
+// One ray against one triangle; hit record 0 belongs to group "Qualified".
 struct Qualified : Standard {
   explicit Qualified(Context& t, const char* closest = "ClosestQualified", const char* any = "")
       : Standard(t, kaamos_shaders_qualified(),

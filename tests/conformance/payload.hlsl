@@ -14,7 +14,7 @@ struct Wide {
   uint values[64];
 };
 
-// Two ray types with payloads of their own.
+// Two ray types with a payload type each.
 [shader("raygeneration")]
 void TraceTwoTypes() {
   Seen seen = nothingSeen();
@@ -81,7 +81,7 @@ void ClosestFour(inout Seen seen, FourFloats attributes) {
   seen.end = 1;
 }
 
-// Notes how many any-hit shaders it sees to have run, and adds one.
+// Notes how many any-hit shaders have run as far as it sees, and adds one.
 [shader("closesthit")]
 void ClosestOfChain(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   seen.end = 1;
@@ -96,7 +96,7 @@ void MissOfChain(inout Seen seen) {
   seen.anyHits += 1000;
 }
 
-// Forwards its own payload; a copy keeps what it was.
+// Passes on its own payload; a copy keeps the old contents.
 [shader("closesthit")]
 void Forwards(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   seen.geometry = 7;

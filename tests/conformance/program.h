@@ -18,11 +18,11 @@ struct LibraryDesc;
 namespace kaamos::conformance {
 
 inline constexpr char kGlobalSignature[] = "SRV(t0), SRV(t1), UAV(u0)";
-// Of every record of common.hlsli.
+// Every record of common.hlsli has this signature.
 inline constexpr char kRecordSignature[] =
     "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b0, space = 1, num32BitConstants = 4)";
 
-// common.hlsli's structures.
+// The structures of common.hlsli.
 struct Ray {
   float origin[3] = {0.1f, 0.2f, 0};
   float t_min = 0;
@@ -33,7 +33,7 @@ struct Ray {
   uint32_t contribution = 0;
   uint32_t multiplier = 0;
   uint32_t miss = 0;
-  uint32_t extra[3] = {};  // what a test's own shaders take
+  uint32_t extra[3] = {};  // arguments for a test's own shaders
 };
 enum End : uint32_t { kNothingRan, kClosestHitRan, kMissRan };
 struct Seen {
@@ -56,7 +56,7 @@ struct Seen {
 static_assert(sizeof(Ray) == 64 && sizeof(Seen) == 64);
 Ray ray_at(float x, float y = 0.2f);
 
-// Bytes of the buffer behind u0 unless a test wants more, and the word in it that counts
+// Size in bytes of the buffer at u0 unless a test wants more, and the word in it that counts
 // intersection shaders.
 inline constexpr uint32_t kWordBytes = 65536;
 inline constexpr uint32_t kIntersectionWord = 32768 / 4;
@@ -70,46 +70,47 @@ struct Constants {
 
 class Program {
  public:
-  // Without `exports` everything in the library. Change `desc` before the first record or run.
+  // Empty `exports` export everything in the library. Change `desc` before the first record or run.
   Program(Context& t, const shader::LibraryDesc* library, std::vector<std::string> exports = {},
           const char* global_signature = kGlobalSignature);
 
-  // A hit group; with an intersection shader a procedural one.
+  // Adds a hit group; one with an intersection shader is procedural.
   void group(const std::string& name, const std::string& closest, const std::string& any = "",
              const std::string& intersection = "");
   void local(const std::string& signature, const std::vector<std::string>& exports);
 
-  // Makes the pipeline; called by everything below. `try_create` for tests of refusals.
+  // Creates the pipeline; everything below calls it. Tests of refusals use `try_create`.
   void create();
   rtapi::Result<rtapi::StateObject> try_create() const {
     return context_->device().CreateStateObject(desc);
   }
 
-  // Append records; return their index.
+  // Append records and return their index.
   uint32_t miss(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
   uint32_t hit(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
   uint32_t callable(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
   uint32_t raygen(const std::string& name, std::vector<rtapi::LocalArgument> arguments = {});
 
   rtapi::DispatchRaysDesc tables();
-  // With a miss table of null records, for rays that are meant to hit.
+  // With a miss table of null records, for rays that must hit.
   rtapi::DispatchRaysDesc tables_without_miss();
-  // All words of u0 after the dispatch; they start at zero.
+  // Dispatches and returns all words of u0, which start at zero.
   std::vector<uint32_t> run(const rtapi::DispatchRaysDesc& desc);
   std::vector<uint32_t> run(uint32_t width = 1, uint32_t height = 1, uint32_t depth = 1);
 
   rtapi::StateObjectDesc desc;
   rtapi::StateObject pipeline;
   rtapi::RootSignature global;
-  rtapi::Buffer scene;               // behind t0
-  rtapi::Buffer rays;                // behind t1
-  uint64_t word_bytes = kWordBytes;  // of u0
+  rtapi::Buffer scene;               // at t0
+  rtapi::Buffer rays;                // at t1
+  uint64_t word_bytes = kWordBytes;  // size of u0
   // Further root arguments and descriptor heaps.
   std::function<void(rtapi::CommandList&)> bind = {};
   std::vector<rtapi::ShaderTable> shader_tables;  // ray generation, miss, hit, callable
 
  protected:
-  // Later programs of this device with the same name and nothing added to `desc` get the pipeline.
+  // Later programs on this device with the same name and nothing added to `desc` reuse the
+  // pipeline.
   void share_as(const std::string& name);
 
  private:
@@ -117,15 +118,15 @@ class Program {
                const std::vector<rtapi::LocalArgument>& arguments);
   Context* context_;
   std::string shared_name_ = {};  // empty: not shared
-  size_t shared_size_ = 0;        // subobjects when it was named
+  size_t shared_size_ = 0;        // number of subobjects when it was named
 };
 
 // standard.hlsl: hit groups Plain, Counted, Ignored, Box, BoxCounted, BoxIgnored. Hit record i has
-// the ordinal i, miss record i 1000 + i.
+// the ordinal i, miss record i has 1000 + i.
 class Standard : public Program {
  public:
   explicit Standard(Context& t) : Standard(t, nullptr, {}) {}
-  // Of a library that includes standard.hlsl, with more of its exports.
+  // For a library that includes standard.hlsl; adds some of its exports.
   Standard(Context& t, const shader::LibraryDesc* library, std::vector<std::string> more_exports,
            const char* global_signature = kGlobalSignature);
   void set_pipeline_flags(rtapi::RaytracingPipelineFlags flags);
@@ -134,7 +135,7 @@ class Standard : public Program {
   void records(const std::string& group, uint32_t count);
   void miss_records(uint32_t count);
 
-  // Adds the ray generation record, and one miss record if there is none.
+  // Adds the ray generation record, and a miss record if there is none.
   std::vector<Seen> trace(const std::vector<Ray>& list);
   Seen trace(const Ray& ray) { return trace(std::vector<Ray>{ray})[0]; }
   Seen trace(const rtapi::Buffer& top_level, const Ray& ray = {});

@@ -69,7 +69,7 @@ void QUALIFIED(ClosestQualified)(inout Qualified q,
 [shader("closesthit")]
 void QUALIFIED(ClosestIdle)(inout Qualified q, BuiltInTriangleIntersectionAttributes attributes) {}
 
-// Hands its own payload on to a second trace, and traces with one of its own.
+// Passes its own payload to a second trace, then traces with a new one.
 [shader("closesthit")]
 void QUALIFIED(ClosestNested)(inout Qualified q, BuiltInTriangleIntersectionAttributes attributes) {
   RayDesc ray;
@@ -91,8 +91,8 @@ void QUALIFIED(MissQualified)(inout Qualified q) {
   q = numbered(200);
 }
 
-// What record 0 says: 1 writes nothing, 2 writes, 3 writes and ignores the hit, 4 writes and ends
-// the search, 5 the same from a function.
+// Record 0 chooses: 1 writes nothing, 2 writes, 3 writes and ignores the hit, 4 writes and ends the
+// search, 5 does the same from a function.
 void endFrom(inout Qualified q) {
   q.everywhere += 7;
   AcceptHitAndEndSearch();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Inline ray tracing: queries that note what they were told.
+// Inline ray tracing: queries that note what they see.
 #include "standard.hlsl"
 
-// What one query came to.
+// The outcome of one query.
 struct Asked {
   uint status;
   uint triangles;  // candidates
@@ -18,15 +18,15 @@ struct Asked {
   uint flags;
   float2 barycentrics;
   uint statusOnTheWay;  // 1 << status for each that was seen between the candidates
-  uint proceeds;        // that gave TRUE, of five more at the end
+  uint proceeds;        // how many of five further Proceed calls returned true
 };
 
 // Bits of Ray.contribution: what to do with candidates. Boxes are hit at asfloat(Ray.extra.x).
 static const uint kCommitTriangles = 1;
 static const uint kCommitBoxes = 2;
-static const uint kAbort = 4;     // after the first
-static const uint kTwice = 8;     // each commit
-static const uint kStop = 16;     // leave the loop after the first
+static const uint kAbort = 4;     // after the first candidate
+static const uint kTwice = 8;     // commit each one twice
+static const uint kStop = 16;     // leave the loop after the first candidate
 
 void meet(RayQuery<RAY_FLAG_NONE> query, Ray ray, inout Asked asked) {
   if (query.CandidateType() == CANDIDATE_NON_OPAQUE_TRIANGLE) {
@@ -84,7 +84,7 @@ void Ask() {
   words.Store<Asked>(64 * i, ask(scene, rays[i]));
 }
 
-// Template flags that differ from shader to shader.
+// Template flags, which differ from shader to shader.
 template <uint Flags>
 void askWith(uint place) {
   RayQuery<Flags> query;
@@ -111,7 +111,7 @@ void AskWithFlags() {
   askWith<RAY_FLAG_CULL_NON_OPAQUE>(5);
 }
 
-// rays[0] is given up for rays[1] after its first candidate.
+// Abandons rays[0] for rays[1] after its first candidate.
 [shader("raygeneration")]
 void Restart() {
   RayQuery<RAY_FLAG_NONE> query;
@@ -136,7 +136,7 @@ void Values() {
   words.Store2(12, uint2(CANDIDATE_NON_OPAQUE_TRIANGLE, CANDIDATE_PROCEDURAL_PRIMITIVE));
 }
 
-// Everything that may be asked about a candidate and a committed hit; 48 words each.
+// Everything that a query says about a candidate and a committed hit; 48 words each.
 [shader("raygeneration")]
 void Accessors() {
   RayQuery<RAY_FLAG_NONE> query;
@@ -206,7 +206,7 @@ void Aliases() {
                         other.Proceed()));
 }
 
-// rays[0] and rays[1] in turn.
+// Steps rays[0] and rays[1] in turn.
 [shader("raygeneration")]
 void Interleaved() {
   RayQuery<RAY_FLAG_NONE> a;

@@ -10,8 +10,8 @@ using namespace rtapi;
 
 namespace {
 
-// How near to a decision a candidate may lie before rounding may turn it: of barycentrics, of t
-// relative to its size, and of the cosine between ray and plane.
+// How close to a decision a candidate may be before rounding can change it: in barycentrics, in t
+// relative to its size, and in the cosine between ray and plane.
 constexpr double kEdgeMargin = 2e-4;
 constexpr double kIntervalMargin = 1e-4;
 constexpr double kGrazing = 0.02;
@@ -59,7 +59,7 @@ struct Line {
   Vec origin, direction;
 };
 
-// Flags that decide for one geometry of one instance.
+// The flags that apply to one geometry of one instance.
 struct Rules {
   bool skipped = false;
   bool opaque = false;
@@ -70,7 +70,7 @@ Rules rules_of(const Geometry& geometry, uint32_t instance_flags, uint32_t ray_f
   Rules out;
   out.opaque = (static_cast<uint32_t>(geometry.flags) &
                 static_cast<uint32_t>(RaytracingGeometryFlags::kOpaque)) != 0;
-  // FORCE_NON_OPAQUE and FORCE_OPAQUE may not stand together; of ours the latter counts.
+  // FORCE_NON_OPAQUE and FORCE_OPAQUE must not be combined; our policy lets the latter win.
   if ((instance_flags & 8) != 0) out.opaque = false;
   if ((instance_flags & 4) != 0) out.opaque = true;
   const bool triangles = geometry.boxes.empty();
@@ -90,7 +90,7 @@ bool near(double a, double b) {
   return std::abs(a - b) <= kIntervalMargin * std::max({1.0, std::abs(a), std::abs(b)});
 }
 
-// Adds the candidate if t lies in the interval, or so near to its ends that rounding may decide.
+// Adds the candidate if t lies in the interval, or so close to its ends that rounding decides.
 void add(std::vector<Candidate>& out, Candidate candidate, const Ray& ray, bool ends_included) {
   const double t = candidate.t;
   const bool inside =

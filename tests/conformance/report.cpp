@@ -39,7 +39,7 @@ std::string line_of(const RuleResult& result) {
   std::istringstream detail(result.detail);
   int lines = 0;
   for (std::string line; std::getline(detail, line);) {
-    // The reason, and of what was found the first line; JSON has the rest.
+    // Prints the reason and the first line of what was found; JSON has the rest.
     if (result.outcome == Outcome::kKnownDeviation && ++lines > 2) break;
     out += result.outcome == Outcome::kNotApplicable ? ": " + line : "\n    " + line;
   }

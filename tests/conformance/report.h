@@ -13,7 +13,7 @@ namespace kaamos::conformance {
 
 using TargetResults = std::pair<Target, std::vector<RuleResult>>;
 
-// "pass SBT-02  The record hit is ...", and indented lines behind it.
+// "pass SBT-02  The record hit is ...", with indented lines after it.
 std::string line_of(const RuleResult& result);
 // "vulkan: 41 of 262 tests, now FLG-02, FLG-03"
 std::string line_of(const Target& target, const Progress& progress);

@@ -19,7 +19,7 @@ constexpr char kExampleSignature[] =
     "SRV(t2, space = 1), RootConstants(b2, space = 1, num32BitConstants = 3),"
     "DescriptorTable(SRV(t3, space = 1))";
 
-// Bytes of a record, written at offsets counted from its start.
+// A record's bytes, written at offsets from its start.
 struct RawRecord {
   explicit RawRecord(size_t size) : bytes(size) {}
   RawRecord& identifier(const StateObject& pipeline, const char* name, size_t offset = 0) {
@@ -122,7 +122,7 @@ void offsets_count_from_the_record(Context& t) {
   program.record("Plain");
   const Buffer zeroth = words_buffer(t, 700);
   const Buffer fifth = words_buffer(t, 705);
-  // A stride of 96: record 5 begins at 480, which is a multiple of 32 and not of 64.
+  // At a stride of 96, record 5 begins at 480, a multiple of 32 but not of 64.
   RawRecord table(6 * 96);
   for (const size_t i : {0, 5}) {
     table.identifier(program.pipeline, "MissReads", 96 * i)
@@ -264,8 +264,8 @@ void each_shader_has_its_own(Context& t) {
 constexpr char kFirstSignature[] =
     "RootFlags(LOCAL_ROOT_SIGNATURE), RootConstants(b1, space = 1, num32BitConstants = 1)";
 
-// A pipeline of CallsFunctions; `function` has the local root signature `of_function`, the shader
-// `of_shader` where that is not empty.
+// A pipeline of CallsFunctions. `function` gets the local root signature `of_function`, the shader
+// gets `of_shader` unless that is empty.
 Program calls_functions(Context& t, const std::string& function, const std::string& of_function,
                         const std::string& of_shader) {
   Program program(t, kaamos_shaders_root(), {"CallsFunctions", "firstOfRecord", "twiceFirst"});

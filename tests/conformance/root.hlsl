@@ -55,7 +55,7 @@ void OrdinalAroundTrace() {
   words.Store(8, ordinal);
 }
 
-// One set of compute root arguments, read by both kinds of work.
+// One set of compute root arguments, which both kinds of work read.
 cbuffer Shared : register(b0, space2) {
   uint place;
   uint value;
@@ -87,7 +87,7 @@ void TraceBound() {
   }
 }
 
-// Functions that are exports of the library themselves.
+// Functions that are themselves exports of the library.
 export uint firstOfRecord() {
   return first;
 }

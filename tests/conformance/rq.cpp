@@ -60,14 +60,14 @@ void flags_add_up(Context& t) {
   const auto words = query.run_rays(structure, {asking(0, kAcceptFirst)});
   const uint32_t template_flags[] = {0,          kForceOpaque,  kForceNonOpaque, kSkipTriangles,
                                      kSkipBoxes, kCullNonOpaque};
-  // What the query with both kinds of flags meets: candidates among triangles, boxes, its end.
+  // What the query with both kinds of flags meets: candidate triangles, candidate boxes, its end.
   const std::array<uint32_t, 3> expected[] = {{1, 1, kNothing}, {0, 0, kTriangle},
                                               {1, 1, kNothing}, {0, 1, kNothing},
                                               {1, 0, kNothing}, {0, 0, kNothing}};
   for (size_t i = 0; i < 6; ++i) {
     const std::string what = "template flags " + std::to_string(template_flags[i]) + ": ";
     t.equal(what + "RayFlags()", words[4 * i], template_flags[i] | kAcceptFirst);
-    // After the forced-opaque triangle ends the search the box may have been a candidate before.
+    // The box may have been a candidate before the forced-opaque triangle ends the search.
     t.equal(what + "triangles", words[4 * i + 1], expected[i][0]);
     if (i != 1) t.equal(what + "any boxes", words[4 * i + 2] > 0 ? 1u : 0u, expected[i][1]);
     t.equal(what + "status", words[4 * i + 3], expected[i][2]);
@@ -105,7 +105,7 @@ void proceed_tells_of_candidates(Context& t) {
     t.equal("candidates of " + what + ", culled", ask(t, boxes, asking(0, cull)).boxes, 0u);
     t.equal("candidates of " + what + ", skipped", ask(t, boxes, asking(0, kSkipBoxes)).boxes, 0u);
   }
-  // What lies behind a commit is no candidate any more.
+  // Nothing behind a committed hit is a candidate any more.
   const Buffer mixed = t.scene({triangle(5, 0, kOpaque), triangle(9, 0, kOnce)});
   const Asked both = ask(t, mixed, asking(kCommitTriangles));
   t.distance("t of the closest of both", both.t, 5.0f);
@@ -115,7 +115,7 @@ void proceed_tells_of_candidates(Context& t) {
   t.equal("candidates out of range", ask(t, mixed, short_ray).triangles, 0u);
 }
 
-// Geometry, then instance, then ray: the last that speaks decides.
+// Geometry, then instance, then ray: the last one with a flag decides.
 bool is_opaque(bool geometry, uint32_t instance_flags, uint32_t ray_flags) {
   if (ray_flags & kForceOpaque) return true;
   if (ray_flags & kForceNonOpaque) return false;
@@ -246,7 +246,7 @@ void boxes_say_whether_they_are_opaque(Context& t) {
   });
 }
 
-// Random rays by a query and by TraceRay with an any-hit shader that accepts.
+// Random rays, traced both by a query and by TraceRay with an any-hit shader that accepts.
 void queries_agree_with_traces(Context& t) {
   SceneOptions options;
   options.instance_flags = true;

@@ -10,7 +10,7 @@
 
 namespace kaamos::conformance {
 
-// Of query.hlsl.
+// The bits of query.hlsl's Ray.contribution.
 enum Do : uint32_t {
   kCommitTriangles = 1,
   kCommitBoxes = 2,
@@ -58,7 +58,7 @@ T at(const std::vector<uint32_t>& words, size_t byte_offset) {
 // A ray whose query does `what` (Do).
 Ray asking(uint32_t what, uint32_t flags = 0, float x = 0);
 
-// One shader of query.hlsl; no hit groups, no tables but its own.
+// One shader of query.hlsl, without hit groups, and no table but its own.
 class Query : public Program {
  public:
   Query(Context& t, const char* shader);
@@ -72,7 +72,7 @@ class Query : public Program {
 std::vector<Asked> ask(Context& t, const rtapi::Buffer& top_level, const std::vector<Ray>& list);
 Asked ask(Context& t, const rtapi::Buffer& top_level, const Ray& ray);
 
-// Those of rq_tests that are of what queries say, and of where they live.
+// The tests of rq_tests about what queries report and where they may live.
 std::vector<RuleTest> rq_accessors_tests();
 
 }  // namespace kaamos::conformance

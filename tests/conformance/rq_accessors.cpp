@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Inline ray tracing: what a query says of its ray, candidate and hit, and where queries may live.
+// Inline ray tracing: what a query says about its ray, candidate and hit, and where queries may
+// live.
 #include <shaders/query.h>
 
 #include "tests/conformance/compile.h"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr auto kOnce = RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;  // not opaque
 
-// What a hit and a candidate say of instance 1: object x = (x - 1) / 2.
+// What a hit and a candidate report for instance 1: object x = (x - 1) / 2.
 void check_hit(Context& t, const std::string& of, const std::vector<uint32_t>& words, size_t start,
                uint32_t kind) {
   const auto word = [&](size_t byte) { return words[(start + byte) / 4]; };

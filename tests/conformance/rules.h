@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The rules of DXR that Kaamos keeps, and what is known not to be kept.
+// The rules of DXR that Kaamos keeps, and the known deviations.
 #pragma once
 
 #include <optional>
@@ -16,8 +16,8 @@ struct Rule {
   // application's duty; F freedom of implementations; I our reading; C computed.
   char tag;
   const char* title;
-  const char* not_applicable = nullptr;  // why the rule cannot hold or be broken here
-  const char* partly = nullptr;          // which part of it does not apply
+  const char* not_applicable = nullptr;  // why the rule cannot be kept or broken here
+  const char* partly = nullptr;          // which part of the rule does not apply
 
   bool required() const { return tag == 'R'; }
 };
@@ -25,11 +25,11 @@ struct Rule {
 std::span<const Rule> all_rules();
 const Rule* find_rule(std::string_view id);
 
-// A rule that a target is known to break, and why.
+// A rule that a target is known to break, and the reason.
 struct Deviation {
   const char* rule;
   const char* target;  // Target::name()
-  const char* driver;  // a part of the device's name; "" for every one
+  const char* driver;  // part of the device's name; "" means every device
   const char* reason;
 };
 const Deviation* find_deviation(std::string_view rule, std::string_view target,

@@ -37,8 +37,8 @@ bool read_all(int from, void* data, size_t bytes) {
   return true;
 }
 
-// Runs works `first` to `count` - 1 in a forked process; their texts come back through a pipe, each
-// behind its size. Returns the number of texts that came and waitpid's status.
+// Runs works `first` to `count` - 1 in a forked process. Their texts come back through a pipe, each
+// preceded by its size. Returns the number of texts that arrived and waitpid's status.
 struct End {
   size_t done = 0;
   int status = 0;
@@ -196,7 +196,7 @@ bool chosen(const Rule& rule, const std::string& filter) {
   return std::string_view(rule.id).substr(0, filter.size()) == filter;
 }
 
-// Of all tests of the chosen rules, in the rules' order: each once, though one may cover several.
+// All tests of the chosen rules, in the rules' order; each appears once, even if it covers several.
 std::vector<RuleTest> tests_of(const std::string& filter) {
   std::vector<RuleTest> out;
   const std::vector<RuleTest> tests = all_tests();
@@ -243,7 +243,7 @@ std::vector<RuleResult> run_rules(
   std::vector<double> seconds(tests.size());
   std::vector<RuleResult> out;
   auto rule = all_rules().begin();
-  // Rules all of whose tests are done, of which there are `done`.
+  // Reports the rules whose tests are all done; `done` counts tests.
   const auto tell = [&](size_t done) {
     for (; rule != all_rules().end(); ++rule) {
       if (!chosen(*rule, filter)) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Running the rules' tests, and what came of each rule.
+// Runs the rules' tests and collects what came of each rule.
 #pragma once
 
 #include <functional>
@@ -17,18 +17,19 @@ std::vector<Section> all_sections();
 std::vector<RuleTest> all_tests();
 bool test_covers(const RuleTest& test, std::string_view rule);
 
-// Whether a message of checked mode is what the test's breaches must bring.
+// Whether this message of checked mode is one that the test's violations must cause.
 bool may_provoke(const RuleTest& test, std::string_view report);
 
-// In this process. What was expected and found, one a line; empty: the rules hold.
+// Runs in this process. Returns what was expected and found, one a line; empty: the rules hold.
 std::string run_here(const RuleTest& test, const Target& target);
-// In order, in another process, so that a driver that crashes or hangs fails one test: the next
-// one gets a new process. On Vulkan a crash is repeated once: drivers have faults that come and go.
-// `on_result` gets each test's index and what run_here() says, as they end.
+// Runs the tests in order in another process, so that a driver that crashes or hangs fails only one
+// test: the next test gets a new process. A crash on Vulkan is repeated once, since some driver
+// faults come and go. `on_result` gets each test's index and what run_here() returned, as tests
+// end.
 void run_apart(const std::vector<RuleTest>& tests, const Target& target,
                const std::function<void(size_t index, const std::string& failures)>& on_result);
 
-// The device's name, or why there is none.
+// The device's name, or why there is no device.
 struct DeviceCheck {
   std::string name = {};
   std::string error = {};
@@ -40,9 +41,9 @@ struct RuleResult {
   const Rule* rule = nullptr;
   Outcome outcome = Outcome::kNotTested;
   std::string detail = {};
-  double seconds = 0;  // of its tests, of which others may cover more rules
+  double seconds = 0;  // of its tests, which may cover other rules too
 };
-// Where a run stands: tests that ended, of how many, and the rules of the one that runs now.
+// How far a run is: tests done, tests in all, and the rules of the current test.
 struct Progress {
   size_t done = 0;
   size_t total = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr auto kNonOpaque = RaytracingGeometryFlags::kNone;
 
-// Geometries side by side at x = 0, 10, 20, ..., at t = 5.
+// Geometries side by side at x = 0, 10, 20, ..., each at t = 5.
 std::vector<Geometry> row(uint32_t count) {
   std::vector<Geometry> out;
   for (uint32_t i = 0; i < count; ++i) out.push_back(triangle(5, 10.0f * static_cast<float>(i)));
@@ -27,7 +27,7 @@ Ray ray_to(uint32_t geometry, uint32_t contribution = 0, uint32_t multiplier = 1
   return ray;
 }
 
-// `count` hit records over `geometries` in one instance of this contribution.
+// `count` hit records, and `geometries` in one instance with this contribution.
 struct Row : Standard {
   Row(Context& t, uint32_t geometries, uint32_t count, uint32_t contribution = 0,
       uint32_t flags = 0)
@@ -237,7 +237,7 @@ void null_hit_group_is_opaque(Context& t) {
   program.scene = t.scene({triangle(5, 0, kNonOpaque), triangle(10)});
   Seen seen = program.trace(ray);
   t.equal("end behind a NULL record", seen.end, kNothingRan);
-  // The hit limits the ray, whichever of the two is met first.
+  // The nearer hit limits the ray, whichever of the two is met first.
   program.scene = t.scene({triangle(10, 0, kNonOpaque), triangle(5)});
   seen = program.trace(ray);
   t.equal("end before a NULL record", seen.end, kClosestHitRan);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What DXR leaves undefined of shader tables. Here a record that is none counts as NULL: nothing
-// runs, and a hit is committed all the same.
+// Shader table contents that DXR leaves undefined. Here an invalid record counts as NULL: nothing
+// runs, but a hit is still committed.
 #include <shaders/calls.h>
 #include <shaders/standard.h>
 
@@ -42,12 +42,13 @@ void records_past_the_end(Context& t) {
   }
 }
 
-// Records whose bytes were never those of an identifier, or of one that has gone.
+// Records whose bytes never were an identifier, or that hold the identifier of a destroyed
+// pipeline.
 void stale_records(Context& t) {
   std::vector<std::byte> gone;
   {
     Standard other(t);
-    other.desc.Add(NodeMask{});  // so that it shares its pipeline with nothing, and it goes
+    other.desc.Add(NodeMask{});  // keeps the pipeline from being shared, so that it is destroyed
     other.record("Plain");
     other.tables();
     gone = other.shader_tables[2].bytes();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// State objects: what they are made of, and what is associated with what.
+// State objects: what they consist of, and what is associated with what.
 #include "tests/conformance/compile.h"
 #include "tests/conformance/states.h"
 
@@ -165,7 +165,8 @@ void reach_of_defaults(Context& t) {
   outer.Add(states(named({"MissB"})));
   t.equal("a collection's default stays inside",
           local_bytes(make(t, outer).value(), {"MissA", "MissB"}), Bytes{12, 0});
-  // In HLSL: the library's own exports, and not those of another library beside it.
+  // Written in HLSL, an association covers the library's own exports but not those of another
+  // library.
   StateObjectDesc beside = configs();
   beside.Add(subobjects(named({"MissA", "Three"})));
   beside.Add(states(named({"MissB"})));
@@ -245,7 +246,7 @@ void state_objects_override_libraries(Context& t) {
   by_default.Associate(by_default.Add(local(t, 2)), {});
   t.equal("overridden by a default", local_bytes(make(t, by_default).value(), {"MissA", "MissB"}),
           Bytes{8, 8});
-  // Library in collection in pipeline.
+  // A library in a collection in a pipeline.
   StateObjectDesc inner = in_hlsl(kCollection);
   inner.Associate(inner.Add(local(t, 2)), {"MissA"});
   StateObjectDesc outer = configs();
@@ -298,7 +299,7 @@ void required_subobjects(Context& t) {
   depths.Associate(1, {"MissA"});
   depths.Associate(depths.Add(RaytracingPipelineConfig{2}), {"MissB"});
   t.refused("different pipeline configs", make(t, depths), "KA0514");
-  // The state object config is local: that of a collection says nothing about the pipeline.
+  // The state object config is local: a collection's says nothing about the pipeline.
   StateObjectDesc outer = configs();
   outer.Add(ExistingCollectionDesc::Of(make(t, misses(t, kCollection, kAdditions)).value()));
   const auto pipeline = make(t, outer).value();

@@ -175,7 +175,7 @@ void shader_configs_match(Context& t) {
   t.refused("payloads of 16 and 32", make(t, different), "KA0513");
 }
 
-// What each lacks.
+// State objects that each lack one thing.
 std::vector<std::pair<const char*, StateObjectDesc>> incomplete(Context& t,
                                                                 StateObjectFlags flags) {
   std::vector<std::pair<const char*, StateObjectDesc>> out;
@@ -236,7 +236,7 @@ void others_may_use_a_collection(Context& t) {
     } else {
       t.refused("a group of its shader" + with, make(t, outer), "KA0525");
     }
-    // An association that reaches outside.
+    // An association that reaches outside its collection.
     StateObjectDesc speaker = configs(kCollection, flags);
     speaker.Add(states(named({"MissA"})));
     speaker.Associate(speaker.Add(local(t, 3)), {"MissA", "MissB"});

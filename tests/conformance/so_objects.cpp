@@ -119,7 +119,7 @@ void bad_stack_sizes_are_dropped(Context& t) {
 constexpr char kStackSignature[] =
     "SRV(t0), SRV(t1), UAV(u0), RootConstants(b0, num32BitConstants = 1)";
 
-// A triangle whose hit traces again, and a callable that calls itself, as deep as the limit says.
+// A triangle whose hit traces again, and a callable that calls itself, as deep as the limit allows.
 class Deep : public Program {
  public:
   Deep(Context& t, const std::string& raygen_shader, uint32_t declared_depth,
@@ -161,7 +161,8 @@ class Deep : public Program {
   Buffer words_;
 };
 
-// Of a device that lives for this alone: how the program with so many levels ends.
+// Runs the program with so many levels on a device of its own, and checks that this removes the
+// device.
 void removes(Context& t, const std::string& what, const char* id, const std::string& raygen,
              uint32_t declared_depth, uint32_t limit, uint64_t stack_bytes = 0) {
   Context own(t.target());
@@ -335,17 +336,17 @@ void stack_size_of_additions(Context& t) {
   t.equal("the parent's afterwards", parent.GetPipelineStackSize(), uint64_t{54321});
 }
 
-// Our policy for identifiers that a pipeline does not know: nothing runs, a message says so.
+// Our policy for identifiers that a pipeline does not know: nothing runs, and a message says so.
 void new_identifiers_through_older_objects(Context& t) {
   DeviceDesc desc = t.target().device_desc();
-  std::vector<std::string> ids;
-  desc.OnMessage = [&](const Message& message) { ids.push_back(message.Id); };
+  std::vector<uint16_t> ids;
+  desc.OnMessage = [&](const Message& message) { ids.push_back(message.Id.number); };
   Context own(desc, t.target());
   const auto parent = make(own, parent_of(own)).value();
   const auto child = own.device().AddToStateObject(addition_of(named({"CallB"})), parent).value();
   const auto answers = call(own, parent, {"CallA", "CallB"}, &child);
   t.equal("answers through the parent", answers, Bytes{1, 77});
-  t.holds("the message KA0896", std::count(ids.begin(), ids.end(), "KA0896") > 0);
+  t.holds("the message KA0896", std::count(ids.begin(), ids.end(), 896) > 0);
   t.equal("answers through the child", call(own, child, {"CallA", "CallB"}), Bytes{1, 2});
 }
 
@@ -369,7 +370,7 @@ void one_pipeline_at_a_time(Context& t) {
   CommandList empty = t.device().CreateCommandList().value();
   empty.SetPipelineState1(StateObject());
   t.refused("SetPipelineState1 of nothing", empty.Close());
-  // The last one set is the one that runs.
+  // The last pipeline set is the one that runs.
   Deep one(t, "CallDeep", 1);
   Deep other(t, "TraceDeep", 1);
   DispatchRaysDesc dispatch = one.tables();

@@ -20,7 +20,7 @@ RayDesc straight() {
   return ray;
 }
 
-// Writes the levels that ran plus one.
+// Writes the number of levels that ran, plus one.
 [shader("raygeneration")]
 void TraceDeep() {
   Level level;

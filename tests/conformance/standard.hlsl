@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays of a buffer into a scene, and shaders that note where they stood. For most rules.
+// Traces a buffer of rays into a scene; the shaders note the state they ran in. Serves most rules.
 #include "common.hlsli"
 
 [shader("raygeneration")]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// State objects of states.hlsl and subobjects.hlsl.
+// State objects made from states.hlsl and subobjects.hlsl.
 #pragma once
 
 #include <string>
@@ -19,22 +19,22 @@ inline constexpr auto kOthersMayUse =
     rtapi::StateObjectFlags::kAllowExternalDependenciesOnLocalDefinitions;
 inline constexpr auto kAdditions = rtapi::StateObjectFlags::kAllowStateObjectAdditions;
 
-// Of its exports those that are named; none: all.
+// The library with only these exports; an empty list exports all.
 rtapi::DxilLibraryDesc states(std::vector<rtapi::ExportDesc> exports = {});
-// The same of the library with subobjects.
+// The same for the library with subobjects.
 rtapi::DxilLibraryDesc subobjects(std::vector<rtapi::ExportDesc> exports);
 std::vector<rtapi::ExportDesc> named(const std::vector<std::string>& names);
 
-// n constants, so that what was associated shows as 4 n bytes.
+// n constants, so that an association shows as 4 n bytes of arguments.
 rtapi::LocalRootSignature local(Context& t, uint32_t constants);
-// Feeds Start's buffer.
+// Binds the buffer of Start.
 rtapi::GlobalRootSignature global(Context& t);
 
-// Both configs: payload 16, attributes 8, depth 1; then the flags, if any.
+// Both configs (payload 16, attributes 8, depth 1), then the flags, if any.
 rtapi::StateObjectDesc configs(rtapi::StateObjectType type = kPipeline,
                                rtapi::StateObjectFlags flags = kNoFlags, uint32_t depth = 1,
                                uint32_t payload_bytes = 16);
-// These, a global root signature and the library.
+// The configs, a global root signature and the library.
 rtapi::StateObjectDesc complete(Context& t, std::vector<rtapi::ExportDesc> exports = {},
                                 rtapi::StateObjectType type = kPipeline,
                                 rtapi::StateObjectFlags flags = kNoFlags);
@@ -43,12 +43,12 @@ rtapi::HitGroupDesc triangles(const std::string& name, const std::string& closes
 
 rtapi::Result<rtapi::StateObject> make(Context& t, const rtapi::StateObjectDesc& desc);
 bool has(const rtapi::StateObject& object, const std::string& name);
-// Bytes of local arguments of each of these exports.
+// Size in bytes of the local arguments of each of these exports.
 std::vector<uint32_t> local_bytes(const rtapi::StateObject& object,
                                   const std::vector<std::string>& names);
 
-// Runs Start with these callables in the table; what they answered. `identifiers`: whose
-// identifiers stand in the table, if not the pipeline's.
+// Runs Start with these callables in the table and returns their answers. `identifiers`: whose
+// identifiers the table holds, if not the pipeline's own.
 std::vector<uint32_t> call(Context& t, const rtapi::StateObject& pipeline,
                            const std::vector<std::string>& callables,
                            const rtapi::StateObject* identifiers = nullptr);

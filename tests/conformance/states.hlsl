@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small shaders for state objects to be made of. Only Start needs an argument, of the global kind.
+// Small shaders to make state objects from. Only Start needs an argument, a global one.
 RWByteAddressBuffer words : register(u0);
 
 struct Payload {
@@ -9,7 +9,7 @@ struct Attributes {
   float2 barycentrics;
 };
 
-// Calls the callable shaders 0 and 1; one word each.
+// Calls the callable shaders 0 and 1, which return one word each.
 [shader("raygeneration")]
 void Start() {
   for (uint i = 0; i < 2; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Subobjects in HLSL. Tests export those that they want by name.
+// Subobjects in HLSL. Tests export the ones they want by name.
 #include "states.hlsl"
 
 GlobalRootSignature Global = {"UAV(u0)"};

@@ -141,7 +141,7 @@ void world_ray_is_unmodified(Context& t) {
   t.equal("in the miss shader", floats_at(words, 22000, 7), other);
 }
 
-// An instance whose inverse has exact floats: x' = 2 y + 3, y' = -4 x, z' = z / 2 + 1.
+// An instance whose inverse is exact in float: x' = 2 y + 3, y' = -4 x, z' = z / 2 + 1.
 RaytracingInstanceDesc turned(const Buffer& bottom_level) {
   RaytracingInstanceDesc desc = instance(bottom_level);
   const float transform[3][4] = {{0, 2, 0, 3}, {-4, 0, 0, 0}, {0, 0, 0.5f, 1}};
@@ -152,7 +152,7 @@ RaytracingInstanceDesc turned(const Buffer& bottom_level) {
 std::vector<uint32_t> trace_turned(Context& t, const Ray& ray, Seen* seen = nullptr) {
   Rays program(t);
   Geometry geometry = triangle(4);
-  geometry.transform = {1, 0, 0, 0.25f, 0, 1, 0, 0.25f, 0, 0, 1, 2};  // lies at z = 6 then
+  geometry.transform = {1, 0, 0, 0.25f, 0, 1, 0, 0.25f, 0, 0, 1, 2};  // puts it at z = 6
   program.scene = t.top_level({turned(t.bottom_level({geometry}))});
   program.prepare({ray});
   const auto words = program.run();

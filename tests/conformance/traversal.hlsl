@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Any-hit shaders that keep a log and decide by a number of the ray; intersection shaders that
-// report spheres, or what a script says.
+// Any-hit shaders that keep a log and decide by a number that the ray carries; intersection shaders
+// that report spheres, or whatever a script says.
 #include "standard.hlsl"
 
-// One any-hit invocation: who, packed as pack() does, and RayTCurrent().
+// One any-hit invocation: its identity as packed by pack(), and RayTCurrent().
 static const uint kEventsPerRay = 48;
 static const uint kEvents = 65536;  // byte offset in `words`
-// Bytes in `words`: how often any-hit shaders of a ray overlapped, or ran after its closest hit.
+// How often (bytes in `words`) a ray's any-hit shaders overlapped or ran after its closest hit.
 static const uint kFaults = 32772;
-static const uint kGuards = 40960;  // a word of each ray, set while an any-hit shader runs
+static const uint kGuards = 40960;  // a word per ray, set while one of its any-hit shaders runs
 
 enum Mode : uint {
   kIgnoreAll,
@@ -75,8 +75,8 @@ void report(float t, uint kind) {
   ReportHit(t, kind, attributes);
 }
 
-// The sphere that the box holds, where the ray enters it (kind 1) and where it leaves it (kind 2);
-// odd primitives report in the other order. The record says where its geometry's boxes begin.
+// Reports the sphere inside the box where the ray enters it (kind 1) and leaves it (kind 2); odd
+// primitives report in the other order. The record says where its geometry's boxes begin.
 [shader("intersection")]
 void Sphere() {
   const Box box = boxes[reportedKind + PrimitiveIndex()];
@@ -98,17 +98,17 @@ void Sphere() {
   }
 }
 
-// What Script reports: its ray's extra.x is the first, extra.y their number.
+// A report of Script. The ray's extra.x is the first one, extra.y their number.
 struct Report {
   float t;
   uint kind;
-  uint value;     // goes through the attributes
-  uint decision;  // as of decide()
+  uint value;     // passed through the attributes
+  uint decision;  // as returned by decide()
 };
 StructuredBuffer<Report> script : register(t3);
 
-// Of each report {RayTCurrent() before, 1 if accepted or 2, RayTCurrent() after, RayTMin()}; words
-// of a report that did not return stay 0. Of each ray a word that says that Script came to its end.
+// For each report {RayTCurrent() before, 1 if accepted or 2, RayTCurrent() after, RayTMin()}; all 0
+// if it did not return. One word per ray says that Script reached its end.
 static const uint kScriptEnds = 49152;
 
 [shader("intersection")]
@@ -142,7 +142,7 @@ void ScriptAny(inout Seen seen, BoxAttributes attributes) {
   }
 }
 
-// How many any-hit shaders ran, in a word of each ray from kEvents on.
+// Counts the any-hit shaders that ran, in one word per ray from kEvents on.
 [shader("raygeneration")]
 void CountCandidates() {
   const uint i = DispatchRaysIndex().x;
@@ -153,7 +153,7 @@ void CountCandidates() {
   words.Store(kEvents + 4 * i, seen.anyHits);
 }
 
-// Accepts what another instance (mask 2) hides from the light in +x, asked by an inline query.
+// Accepts a hit if an inline query finds another instance (mask 2) that shadows it from +x.
 [shader("anyhit")]
 void Shadowed(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes) {
   const float before = RayTCurrent();
@@ -170,7 +170,7 @@ void Shadowed(inout Seen seen, BuiltInTriangleIntersectionAttributes attributes)
   if (query.CommittedStatus() != COMMITTED_TRIANGLE_HIT) IgnoreHit();
 }
 
-// Four traces with one payload, then four calls; what else is alive stays.
+// Four traces with one payload, then four calls; other live values must survive.
 struct Sum {
   uint value;
 };
@@ -197,7 +197,7 @@ void AddTen(inout Sum sum) {
 
 globallycoherent RWByteAddressBuffer board : register(u1);
 
-// A word from the caller to the callee, and one back.
+// Passes a word from caller to callee and one back.
 [shader("raygeneration")]
 void WriteBoard() {
   const uint at = 16 * DispatchRaysIndex().x;
@@ -238,7 +238,7 @@ void QueryWithSkip() {
   words.Store2(0, uint2(fixed.CommittedStatus(), dynamic.CommittedStatus()));
 }
 
-// Bits of what does not hold of this thread's wave.
+// A bit for each property that this thread's wave violates.
 uint waveFaults(uint x) {
   const uint lane = WaveGetLaneIndex();
   const uint4 ballot = WaveActiveBallot(true);
@@ -258,7 +258,7 @@ uint waveFaults(uint x) {
   return faults;
 }
 
-// Before and after a trace, where waves may be packed anew.
+// Before and after a trace, where an implementation may regroup waves.
 [shader("raygeneration")]
 void Waves() {
   const uint x = DispatchRaysIndex().x;

@@ -71,7 +71,7 @@ void a_null_structure_is_missed(Context& t) {
   t.equal("end in an empty top level", program.trace(t.top_level({})).end, kMissRan);
 }
 
-// Rays at x = 0, 10, ... into triangles there, one vertex or row of which has a NaN.
+// Rays at x = 0, 10, ... into triangles there, with a NaN in one vertex or one row each.
 void a_nan_in_any_x_deactivates(Context& t) {
   Standard program(t);
   program.record("Plain");
@@ -98,7 +98,7 @@ void inactive_boxes_and_instances(Context& t) {
   inactive.AccelerationStructure = 0;
   program.scene = t.top_level({inactive, instance(t.bottom_level({boxes}))});
   const auto seen = program.trace({ray_at(0), ray_at(10), ray_at(20)});
-  // Boxes may be enlarged, so a ray beside one may meet it; what is inactive is met by none.
+  // Boxes may be enlarged, so a ray beside one may meet it; but no ray meets an inactive one.
   for (const Seen& each : seen) {
     t.holds("no inactive box or instance is hit",
             each.end == kMissRan || (each.primitive == 1 && each.instance_index == 1));
@@ -123,7 +123,7 @@ void degenerate_triangles_are_never_hit(Context& t) {
   Geometry geometry;
   geometry.vertices = {0.1f, -1,   5, 0.1f, 0,    5, 0.1f, 1,    5,   // collinear
                        0.1f, 0.2f, 5, 0.1f, 0.2f, 5, 0.1f, 0.2f, 5,   // a point
-                       -1,   0.2f, 5, 1,    0.2f, 5, -1,   0.2f, 5};  // a vertex twice
+                       -1,   0.2f, 5, 1,    0.2f, 5, -1,   0.2f, 5};  // one vertex twice
   t.equal("end", program.trace(t.scene({geometry})).end, kMissRan);
   t.distance("t behind them", program.trace(t.scene({geometry, triangle(6)})).t, 6.0f);
 }

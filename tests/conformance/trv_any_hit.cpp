@@ -21,7 +21,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const char* const kRayStages[] = {"raygeneration", "intersection", "anyhit",
                                   "closesthit",    "miss",         "callable"};
 
-// Inside the extents x not culled x not opaque x an any-hit shader in the group.
+// Every combination of inside the extents, not culled, not opaque, and an any-hit shader in the
+// group.
 void any_hit_truth_table(Context& t) {
   Standard program(t);
   program.record("Counted");
@@ -62,7 +63,7 @@ void any_hit_shaders_may_query(Context& t) {
   }
   Walker walker(t);
   walker.record("ShadowedTriangle");
-  // Five triangles at z = 1 ... 5; a wall at x = 8 from z = 2.5 on hides the light from three.
+  // Five triangles at z = 1 ... 5; a wall at x = 8 from z = 2.5 on shadows three of them.
   std::vector<Geometry> sheets;
   for (int i = 1; i <= 5; ++i) sheets.push_back(triangle(static_cast<float>(i), 0, kOnce));
   Geometry wall;
@@ -127,7 +128,7 @@ void no_derivatives_no_group_sync(Context& t) {
   }
 }
 
-// What holds for waves of any size; here each thread is one.
+// What holds for waves of any size; here each thread is a wave.
 void waves(Context& t) {
   Walker walker(t);
   walker.record("WavesOfHit");
@@ -145,7 +146,7 @@ void waves(Context& t) {
   }
 }
 
-// The policy of normal mode for rays that DXR leaves undefined: nothing is hit, nothing hangs.
+// What normal mode does with rays that DXR leaves undefined: nothing is hit, nothing hangs.
 void odd_rays(Context& t) {
   Standard program(t);
   program.record("Plain");
@@ -197,7 +198,7 @@ void rays_without_direction(Context& t) {
   t.equal("end away from everything", seen[3].end, kMissRan);
 }
 
-// Long triangles across each other, which builders like to split; each shows once.
+// Long crossing triangles, which builders like to split; each must be reported once.
 void long_triangles_show_once(Context& t) {
   Walker walker(t);
   walker.record("Ignored");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Shared edges and vertices: rays that meet them hit one triangle of a surface, and no gap.
+// Shared edges and vertices: rays that meet them hit one triangle of a surface, and never slip
+// through.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +20,7 @@ using Point = std::array<float, 3>;
 using Triangle = std::array<Point, 3>;
 
 // A closed surface around the origin, star-shaped as seen from near it: a ray from there leaves it
-// through one point. Poles and equator lie on axes, so that many edges are parallel to one.
+// through one point. Its poles and equator lie on the axes, so many edges are parallel to an axis.
 std::vector<Triangle> lumpy_sphere(Random& random, uint32_t rings, uint32_t segments) {
   std::vector<std::vector<Point>> grid(rings + 1);
   for (uint32_t i = 0; i <= rings; ++i) {
@@ -62,7 +63,7 @@ std::vector<Triangle> cube(float size) {
   return out;
 }
 
-// One geometry, or triangles dealt out to several.
+// One geometry with all triangles, or several that share them out.
 std::vector<Geometry> geometries_of(const std::vector<Triangle>& triangles, size_t count = 1) {
   std::vector<Geometry> out(count);
   for (Geometry& each : out) each.flags = kOnce;
@@ -83,7 +84,7 @@ Ray aimed(Random& random, const std::vector<Triangle>& triangles, Aim aim, float
   const uint32_t corner = random.below(3);
   const Point& a = triangle[corner];
   const Point& b = triangle[(corner + 1) % 3];
-  // Half of the edges at simple fractions, which floats often meet exactly.
+  // Half of the edges are hit at simple fractions, which floats often meet exactly.
   const float along = aim == Aim::kVertices ? 0
                       : random.chance(0.5)  ? 0.25f * static_cast<float>(1 + random.below(3))
                                             : random.between(0, 1);
@@ -117,7 +118,7 @@ void expect_none_wrong(Context& t, const std::string& what, const Wrong& wrong) 
          " rays hit nothing, " + std::to_string(wrong.several) + " hit several triangles");
 }
 
-// Where the origin of the surface goes, and rays with it.
+// Moves the surface's origin, and the rays with it.
 RaytracingInstanceDesc moved(const Buffer& bottom_level, const std::vector<float>& transform) {
   RaytracingInstanceDesc out = instance(bottom_level);
   if (!transform.empty()) std::copy(transform.begin(), transform.end(), &out.Transform[0][0]);
@@ -167,7 +168,7 @@ void one_triangle_of_a_manifold(Context& t) {
   expect_none_wrong(t, "aimed at vertices", vertices);
 }
 
-// From outside, past the silhouette too: a closed surface is crossed an even number of times.
+// Rays from outside, some past the silhouette: they cross a closed surface an even number of times.
 void parity_from_outside(Context& t) {
   Walker walker(t);
   walker.record("Ignored");
@@ -211,7 +212,7 @@ struct FanCase {
 };
 
 void non_manifold_edges_and_vertices(Context& t) {
-  // Two open cones around one apex at the origin, rims behind it.
+  // Two open cones with a common apex at the origin and their rims behind it.
   std::vector<Triangle> cones;
   for (const float depth : {1.0f, 2.0f}) {
     for (int i = 0; i < 6; ++i) {
@@ -246,7 +247,7 @@ void non_manifold_edges_and_vertices(Context& t) {
     Random random(13);
     std::vector<Ray> rays;
     for (int i = 0; i < 300; ++i) {
-      // Near enough to the z axis that each side stays the side that the ray sees.
+      // Close enough to the z axis that the ray sees the same sides.
       Ray ray = ray_at(random.between(-0.4f, 0.4f), random.between(-0.3f, 0.3f));
       ray.origin[2] = -3;
       const float y = at_vertex ? 0 : 0.125f * static_cast<float>(random.below(13)) - 0.75f;
@@ -270,7 +271,7 @@ void non_manifold_edges_and_vertices(Context& t) {
   }
 }
 
-// Rays from inside never escape. `exponent`: of two, the size.
+// Counts rays from inside that escape; there must be none. The size is 2^exponent.
 uint32_t escapes(Context& t, Walker& walker, Random& random, int exponent) {
   const float scale = std::ldexp(1.0f, exponent);
   auto triangles = lumpy_sphere(random, 8, 10);
@@ -285,14 +286,14 @@ uint32_t escapes(Context& t, Walker& walker, Random& random, int exponent) {
   for (int i = 0; i < 600; ++i) {
     rays.push_back(
         aimed(random, triangles, i % 2 == 0 ? Aim::kEdges : Aim::kVertices, 0.3f * scale));
-    // Also with t of about `scale`, not 1.
+    // Also with t of about `scale` instead of 1.
     if (i % 3 == 0) {
       for (float& each : rays.back().direction) each /= scale;
     }
     rays.back().t_max = std::numeric_limits<float>::infinity();
   }
   uint32_t out = 0;
-  // The sphere and the cube: two surfaces, each of which must be met.
+  // The sphere and the cube are two surfaces, and the ray must hit both.
   for (const uint32_t each : walker.count(rays)) out += each < 2 ? 1 : 0;
   return out;
 }
@@ -316,7 +317,7 @@ void coincident_triangles(Context& t) {
   std::vector<Ray> rays;
   std::vector<RaytracingInstanceDesc> instances;
   Random random(15);
-  // At x = 20 i: the same tilted triangle three times, in one geometry, in three, in instances.
+  // At x = 20 i: the same tilted triangle three times, in one geometry, in three, and in instances.
   for (uint32_t i = 0; i < 60; ++i) {
     Geometry one = triangle(random.between(2, 50), 0, kOnce);
     for (float& each : one.vertices) each += random.between(-0.4f, 0.4f);

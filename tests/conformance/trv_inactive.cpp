@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Inactive and degenerate primitives, and updates that make and mend them.
+// Inactive and degenerate primitives, and updates that make them active or inactive.
 #include <algorithm>
 #include <limits>
 
@@ -82,7 +82,7 @@ Geometry collapsed(Geometry triangle) {
   return triangle;
 }
 
-// DXR leaves it open; here such a triangle or box is inactive too.
+// DXR leaves this open; here such a triangle or box is inactive too.
 void a_nan_beside_x(Context& t) {
   Standard program(t);
   program.record("Plain");
@@ -115,7 +115,7 @@ void a_nan_beside_x(Context& t) {
   t.equal("its PrimitiveIndex()", met[5].primitive, 5u);
 }
 
-// Vertices of 2 or 4 components at these bit patterns; rays straight through the middle.
+// Vertices with 2 or 4 components of these bit patterns; rays go straight through the middle.
 template <class T>
 void expect_active(Context& t, const std::string& what, Format format,
                    const std::vector<T>& vertices, uint32_t stride, float x, float y) {
@@ -139,7 +139,7 @@ void expect_active(Context& t, const std::string& what, Format format,
 }
 
 void normalised_vertices_are_active(Context& t) {
-  // (-1, -1), (1, -1), (0, 1); -32768 is -1 too.
+  // (-1, -1), (1, -1), (0, 1); -32768 also means -1.
   expect_active<int16_t>(t, "R16G16_SNORM", Format::kR16G16Snorm,
                          {-32768, -32768, 32767, -32768, 0, 32767}, 4, -0.98f, -0.99f);
   expect_active<int16_t>(
@@ -173,7 +173,7 @@ void degenerate_ones_count(Context& t) {
   t.equal("end at the box", seen[1].end, kClosestHitRan);
 }
 
-// Boxes may be enlarged, so nothing is said of rays near the point.
+// Boxes may be enlarged, so nothing can be demanded of rays near the point.
 void inverted_boxes(Context& t) {
   Standard program(t);
   program.record("Box", 5);
@@ -189,7 +189,7 @@ void inverted_boxes(Context& t) {
   program.scene = structure.scene();
   seen = program.trace(rays);
   t.equal("end once an update has mended it", seen[0].end, kClosestHitRan);
-  // Mended and alone: index 0 answers.
+  // Repaired, and alone: index 0 is hit.
   Updatable alone(t, inverted);
   alone.update(box(5));
   program.scene = alone.scene();
@@ -216,7 +216,7 @@ void updates_collapse_and_restore(Context& t) {
   }
 }
 
-// DXR leaves it open; here an update decides anew which primitives are active.
+// DXR leaves this open; here an update decides again which primitives are active.
 void updates_change_activity(Context& t) {
   Standard program(t);
   program.record("Plain");

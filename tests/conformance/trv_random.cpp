@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Random scenes against the reference, a test for each group of rules.
+// Random scenes against the reference, one test for each group of rules.
 #include "tests/conformance/judge.h"
 
 namespace kaamos::conformance {
@@ -13,7 +13,7 @@ struct Options {
   uint32_t seed = 1;
   SceneOptions scene = {};
   Mode mode = kIgnoreAll;
-  std::vector<uint32_t> flags = {0};  // each ray picks one
+  std::vector<uint32_t> flags = {0};  // each ray takes one of these
   void (*change)(Random& random, Ray& ray) = nullptr;
 };
 
@@ -32,7 +32,7 @@ Coverage walk_and_judge(Context& t, const Options& options) {
   return out;
 }
 
-// All are ignored: each primitive that a ray crosses shows, and shows once.
+// All hits are ignored: each primitive that a ray crosses must show up, exactly once.
 void every_primitive_once(Context& t) {
   const Coverage coverage = walk_and_judge(t, {});
   t.holds("hundreds of primitives were crossed", coverage.required_events > 500);
@@ -80,7 +80,7 @@ void intervals(Context& t) {
   options.seed = 5;
   options.mode = kAcceptSome;
   options.change = [](Random& random, Ray& ray) {
-    // The target lies at 1 / stretch, between 0.5 and 20.
+    // The target is at 1 / stretch, between 0.5 and 20.
     ray.t_min = random.chance(0.5) ? random.between(0, 2) : 0;
     ray.t_max = ray.t_min + random.between(0.1f, 6);
   };

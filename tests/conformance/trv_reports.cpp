@@ -14,17 +14,17 @@ using namespace rtapi;
 namespace {
 
 constexpr uint32_t kAcceptFirst = 0x4;
-// Of traversal.hlsl.
+// As in traversal.hlsl.
 constexpr size_t kReportWord = 65536 / 4, kEndWord = 49152 / 4;
 
 struct Report {
   float t;
   uint32_t kind;
-  uint32_t value;  // comes back in Seen::box_record
+  uint32_t value;  // returned in Seen::box_record
   Decision decision = kAccept;
 };
 
-// A ray into a box whose intersection shader reports these.
+// A ray into a box whose intersection shader makes these reports.
 struct Story {
   std::vector<Report> reports = {};
   float t_min = 0;
@@ -33,9 +33,9 @@ struct Story {
   bool has_any_hit = true;
 };
 
-// What became of a report, and of a story.
+// The outcome of a report, and of a story.
 struct Told {
-  uint32_t accepted;  // 1 yes, 2 no, 0: did not return
+  uint32_t accepted;  // 1 yes, 2 no, 0 did not return
   float before, after, t_min;
 };
 struct Outcome {
@@ -92,7 +92,7 @@ std::vector<uint32_t> answers(const Outcome& outcome) {
 
 constexpr uint32_t kYes = 1, kNo = 2, kDidNotReturn = 0;
 
-// The rules of [DXR: ReportHit], one report after the other.
+// Applies the rules of [DXR: ReportHit], one report after the other.
 void check_story(Context& t, const std::string& name, const Story& story, const Outcome& found) {
   float current = story.t_max;
   uint32_t any_hits = 0, end = kMissRan, kind = 0xFFFFFFFF, value = 0xFFFFFFFF;
@@ -130,7 +130,7 @@ void check_story(Context& t, const std::string& name, const Story& story, const 
   t.equal(name + ": attributes", found.seen.box_record, value);
 }
 
-// Up to four reports at few different t, so that ends of intervals and ties are common.
+// Up to four reports at a few different t, so that interval ends and ties are common.
 void random_stories(Context& t) {
   Random random(7);
   std::vector<Story> stories(300);
@@ -176,7 +176,7 @@ void the_last_of_equal_reports(Context& t) {
   t.equal("attributes", found.seen.box_record, 2u);
 }
 
-// Boxes that report the same t: whichever comes last is the hit.
+// Boxes that report the same t: the one that comes last is the hit.
 void the_last_of_equal_boxes(Context& t) {
   Standard program(t);
   for (uint32_t kind = 0; kind < 3; ++kind) program.record("BoxCounted", 5, kind);

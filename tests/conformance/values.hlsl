@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// System values, each where a word says.
+// System values, each written where a word says.
 #include "standard.hlsl"
 
 struct Echo {
@@ -19,7 +19,7 @@ RayDesc straight() {
   return ray;
 }
 
-// Three traces deep, then a callable.
+// Three nested traces, then a callable.
 [shader("raygeneration")]
 void EchoGrid() {
   Echo echo = (Echo)0;

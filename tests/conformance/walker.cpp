@@ -12,13 +12,13 @@ using namespace rtapi;
 
 namespace {
 
-// Of traversal.hlsl.
+// As in traversal.hlsl.
 constexpr uint64_t kEventsAt = 65536;
 constexpr size_t kFaultWord = 32772 / 4;
 
 using Matrix = std::vector<float>;  // 3x4, row-major
 
-// Rotated about two axes, scaled, sheared, perhaps mirrored, moved within `reach`.
+// Rotated about two axes, scaled, sheared, perhaps mirrored, moved by up to `reach`.
 Matrix random_transform(Random& random, float reach) {
   const float a = random.between(0, 6.28f), b = random.between(0, 6.28f);
   const float rotation[3][3] = {
@@ -73,7 +73,7 @@ GroupKind random_group(Random& random, const SceneOptions& options) {
   return roll == 0 ? GroupKind::kNull : roll < 3 ? GroupKind::kNoAnyHit : GroupKind::kAnyHit;
 }
 
-// A point of the scene, in world space, on or in one of its primitives.
+// A world-space point on or in one of the scene's primitives.
 void random_target(Random& random, const Scene& scene, float* world) {
   const auto& instance =
       scene.instances[random.below(static_cast<uint32_t>(scene.instances.size()))];
@@ -115,7 +115,7 @@ Scene random_scene(Random& random, const SceneOptions& options) {
       geometries.push_back(i < 4 ? random_triangles(random) : random_boxes(random));
       geometries.back().flags = RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
       if (options.opaque && random.chance(0.3)) {
-        geometries.back().flags = static_cast<RaytracingGeometryFlags>(3);  // and opaque
+        geometries.back().flags = static_cast<RaytracingGeometryFlags>(3);  // opaque as well
       }
     }
     out.bottom_levels.push_back(std::move(geometries));
@@ -176,7 +176,7 @@ Walker::Walker(Context& t)
   group("WavesOfHit", "WavesInHit");
   local(kRecordSignature, {"ShadowedTriangle", "Board", "WavesOfHit", "WalkTriangle", "WalkSphere",
                            "PlainSphere", "WalkScript", "PlainScript"});
-  // The largest of all pipelines: Vulkan drivers take seconds for each.
+  // The largest pipeline of all; Vulkan drivers take seconds to compile it.
   share_as("walker");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Random scenes and rays, and the program that logs every any-hit shader in them.
+// Random scenes and rays, and the program whose any-hit shaders log every call.
 #pragma once
 
 #include <random>
@@ -12,7 +12,7 @@ namespace kaamos::conformance {
 
 struct Random {
   explicit Random(uint32_t seed) : engine(seed) {}
-  // The same on every standard library, unlike its distributions.
+  // Gives the same numbers with every standard library, unlike its distributions.
   uint32_t below(uint32_t end) { return static_cast<uint32_t>(engine() % end); }
   bool chance(double p) { return engine() < p * 4294967296.0; }
   float between(float low, float high) {
@@ -24,17 +24,17 @@ struct Random {
 struct SceneOptions {
   bool instance_flags = false;
   bool opaque = false;       // some geometries
-  bool null_groups = false;  // and groups without any-hit shaders
+  bool null_groups = false;  // and some groups without any-hit shaders
   bool boxes = true;
 };
-// Bottom levels of triangles and of boxes, instanced with rotations, mirrored, sheared and scaled.
+// Bottom levels of triangles and of boxes, in rotated, mirrored, sheared and scaled instances.
 // Every geometry has NO_DUPLICATE_ANYHIT_INVOCATION.
 Scene random_scene(Random& random, const SceneOptions& options);
-// At points on the scene's primitives, from around it; some miss. Of `flags` each picks one.
+// Rays from around the scene at points on its primitives; some miss. Each takes one of `flags`.
 std::vector<Ray> random_rays(Random& random, const Scene& scene, uint32_t count, Mode mode,
                              const std::vector<uint32_t>& flags = {0});
 
-// An any-hit shader that ran.
+// One run of an any-hit shader.
 struct Event {
   uint32_t packed;  // Candidate::packed()
   float t;          // RayTCurrent()
@@ -44,7 +44,7 @@ struct Walked {
   std::vector<Event> events;
 };
 
-// The library, and groups for Scene's records.
+// The program for this library, with groups for Scene's records.
 inline constexpr uint32_t kEventsPerRay = 48;
 class Walker : public Standard {
  public:
@@ -53,7 +53,8 @@ class Walker : public Standard {
   std::vector<Walked> walk(const std::vector<Ray>& rays);
   // How many any-hit shaders ran for each ray, in a scene whose record 0 is "Ignored".
   std::vector<uint32_t> count(const std::vector<Ray>& rays);
-  // In the last walk: any-hit shaders that ran beside another of their ray, or after its end.
+  // Any-hit shaders in the last walk that overlapped another one of their ray, or ran after its
+  // end.
   uint32_t faults() const { return faults_; }
 
  private:

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# gdb_test.sh GDB PROGRAM SHADER [PRINTERS]: a breakpoint on a line of an .hlsl file, called from an any-hit shader,
-# stops there, shows the whole stack down to the ray generation shader, and the shader's variables.
+# gdb_test.sh GDB PROGRAM SHADER [PRINTERS]: gdb stops at a breakpoint in an .hlsl file, in code
+# called by an any-hit shader, and shows the shader's variables and the whole stack down to the ray
+# generation shader.
 set -u
 gdb=$1
 program=$2
@@ -38,7 +39,7 @@ expect "transmittance = 1" "the payload's value"
 expect "thickness = 1\.25" "a local variable's value"
 if [ -n "$printers" ]; then
   expect " = Payload = \{transmittance = 1, layers = 0, " "the payload by its HLSL name"
-  # Embree's reciprocal has an error on some CPUs.
+  # Embree's reciprocal is inexact on some CPUs.
   expect " = float2\(0\.2(5|49999985), 0\.2(5|49999985)\)" "a vector as HLSL writes it"
 fi
 if [ "$failed" != 0 ]; then

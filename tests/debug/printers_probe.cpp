@@ -2,12 +2,12 @@
 // Values for printers_test.sh to print; the debugger stops in Stop.
 #include <kaamos/shader/prelude.h>
 
+#include "runtime/backend/linked_pipeline.h"
 #include "runtime/embree/shader_record.h"
-#include "runtime/linked_pipeline.h"
 
 namespace ks = kaamos::shader;
 
-// Shaders' structs stand in namespaces of such names.
+// Shaders' structs are in namespaces with such names.
 namespace unit_probe::u {
 struct Payload {
   ks::vec<float, 3> color;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# printers_test.sh GDB PROGRAM PRINTERS: gdb prints shaders' values in HLSL's words.
+# printers_test.sh GDB PROGRAM PRINTERS: gdb prints shader values the way HLSL writes them.
 set -u
 gdb=$1
 program=$2

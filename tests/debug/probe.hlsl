@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the debugger test stops in: an any-hit shader below a ray generation shader.
+// The debugger test stops in here, in an any-hit shader below a ray generation shader.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWByteAddressBuffer results : register(u0);

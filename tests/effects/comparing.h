@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How far two renderings of the same thing are apart.
+// How far apart two renderings of the same scene are.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,24 @@
 
 namespace kaamos::test {
 
-// The names of pictures that do not hold the same bytes; those in `but` are not looked at.
+// The names of pictures that differ in any byte, leaving out those in `but`.
 std::string differing(const Pictures& a, const Pictures& b, const std::vector<std::string>& but);
 
 // 20 log10 of the reference's largest finite value over the root mean square difference; 200 for
-// equal pictures. What is finite in one picture alone counts as off by that value.
+// equal pictures. A value that is finite in only one picture counts as off by that largest value.
 double decibels(const effects::FloatImage& a, const effects::FloatImage& reference);
 
-// Pixels that have a channel further apart than `relative` times the reference's largest value.
+// The number of pixels with a channel off by more than `relative` times the reference's largest
+// value.
 std::uint32_t pixels_off(const effects::FloatImage& a, const effects::FloatImage& reference,
                          double relative);
 
-// The picture from right to left.
+// The picture flipped left to right.
 effects::FloatImage reversed(const effects::FloatImage& image);
 
-// How many values are not finite, over all pictures or in one.
+// The number of values that are not finite, in all pictures or in one.
 std::uint32_t not_finite(const effects::FloatImage& image);
-// Names and counts of pictures with values that are not finite.
+// Names and counts of pictures with non-finite values.
 std::string not_finite(const Pictures& pictures);
 
 }  // namespace kaamos::test

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Broken inputs: what is not a number stays where it came from and does not outlive its frame.
-// [effects-spec E.1, form 2]
+// Broken inputs: a NaN stays where it came from and does not outlive its frame. [effects-spec E.1,
+// form 2]
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,8 +33,8 @@ Scene with_metal(const std::function<void(MaterialConstants&)>& change) {
   return scene;
 }
 
-// A material that is broken is one whose broken values are 0, for every effect alike: in its own
-// pixels, in mirrors, in the volume of indirect light.
+// A broken material behaves as if its broken values were 0, for every effect alike: in its own
+// pixels, in mirrors and in the volume of indirect light.
 TEST(Contained, BrokenMaterialsAreBlackOnes) {
   struct {
     const char* what;
@@ -62,7 +62,7 @@ TEST(Contained, BrokenMaterialsAreBlackOnes) {
   }
 }
 
-// The triangle's own normal instead.
+// The triangle's own normal is used instead.
 TEST(Contained, BrokenNormalsAndTangents) {
   for (const float broken : {kNan, kInfinity, -kInfinity, 0.0f, 1e38f, 1e-40f}) {
     Scene scene = make_room();
@@ -107,7 +107,7 @@ const Breakage kBroken[] = {
     {"sky", [](Scene& s) { s.sky.zenith = glm::vec3(kInfinity, 0, kNan); }},
 };
 
-// What shines brokenly does not shine; the rest of the room is as it was.
+// A NaN light does not shine; the rest of the room is unchanged.
 TEST(Contained, BrokenLightsAreDarkOnes) {
   for (const Breakage& broken : kBroken) {
     Scene scene = make_room();
@@ -120,8 +120,8 @@ TEST(Contained, BrokenLightsAreDarkOnes) {
   EXPECT_EQ(differing(render(broken, all_effects()), render(dark, all_effects()), {}), "");
 }
 
-// A frame whose light is broken leaves nothing behind in any history. Light that is enormous is no
-// breakage, but its square is beyond floats.
+// A frame with broken light leaves nothing behind in any history. Enormous light is not broken, but
+// its square overflows a float.
 TEST(Contained, BrokenFramesLeaveNothingBehind) {
   const Breakage enormous = {"1e30 cd", [](Scene& s) {
                                for (Light& light : s.lights) light.intensity = 1e30f;

@@ -73,7 +73,7 @@ TEST(SunExtremes, ASunWithoutAreaHasNoNoise) {
   EXPECT_EQ(one.at("sun").values, render(scene, options).at("sun").values);
 }
 
-// A basis about the sun's direction must exist for every direction.
+// Every direction of the sun has a valid basis.
 TEST(SunExtremes, EveryDirectionHasItsDisk) {
   const RigOptions options = small(kRigSun | kRigReflections | kRigGlass);
   for (int axis = 0; axis < 3; ++axis) {
@@ -93,7 +93,8 @@ TEST(SunExtremes, EveryDirectionHasItsDisk) {
           exact = now;
           continue;
         }
-        // Surfaces along the light are lit or not by rounding; the walls are none of them here.
+        // Rounding decides whether surfaces parallel to the light are lit; none of the walls are
+        // here.
         EXPECT_LE(pixels_off(now.at("sun"), exact.at("sun"), 0.6), 4u) << what;
       }
     }
@@ -121,7 +122,7 @@ TEST(SunExtremes, ASunOfHalfTheSkyIsFinite) {
   }
 }
 
-// A page of 0.1 mm, seen from near and far: light falls on one side and never through it.
+// A page 0.1 mm thick, from near and far: light reaches one side and never passes through.
 TEST(SunExtremes, NoLightGoesThroughAPage) {
   Scene scene = make_room();
   scene.meshes.resize(1);
@@ -167,15 +168,14 @@ TEST(LightExtremes, ALightWithoutRadiusHasAHardShadow) {
   Scene scene = make_room();
   for (Light& light : scene.lights) light.radius = 0;
   RigOptions options = small(kRigLocal | kRigContact);
-  options.contact.length = 1e6f;  // to the light
+  options.contact.length = 1e6f;  // reaches the light
   options.samples = 1;
   const Pictures one = render(scene, options);
   options.samples = 8;
   EXPECT_EQ(one.at("contact").values, render(scene, options).at("contact").values);
 }
 
-// Where lights may stand and how they may be: nothing of it makes a pixel that is no number, or
-// negative.
+// Wherever lights stand and whatever their values, no pixel becomes NaN, infinite or negative.
 TEST(LightExtremes, NoPlaceAndNoStrengthBreaksAPixel) {
   const Scene room = make_room();
   const RigOptions options =
@@ -247,7 +247,7 @@ TEST(LightExtremes, NoPlaceAndNoStrengthBreaksAPixel) {
   }
 }
 
-// The place of a pixel, exactly.
+// A light exactly at a pixel's position.
 TEST(LightExtremes, APixelAtALightIsFinite) {
   Scene scene = make_room();
   const RigOptions options = small(kRigLocal | kRigContact | kRigReflections);
@@ -291,7 +291,7 @@ TEST(ReflectionExtremes, RoughnessStaysInItsRange) {
   }
 }
 
-// 200 m for a mirror, 3 m for a rough surface: rays never shade what is further away.
+// Rays reach 200 m for a mirror and 3 m for a rough surface, and never shade anything further away.
 TEST(ReflectionExtremes, RaysAreAsLongAsTheirRoughnessAllows) {
   double before = 1e30;
   for (const float roughness : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f}) {
@@ -335,7 +335,7 @@ TEST(GlassExtremes, FullCoverageLetsNothingThrough) {
 
 TEST(GlassExtremes, ACameraInTheGlassSeesTheWayOut) {
   Scene scene = make_room();
-  // As thick as the room, about the camera.
+  // As thick as the room, and around the camera.
   Instance& pane = scene.instances.back();
   pane.transform = translate(scene.cameras.front().position()) *
                    glm::dmat4(glm::dmat3(1.0, 0, 0, 0, 1.0, 0, 0, 0, 32.0));
@@ -396,8 +396,8 @@ TEST(VolumeExtremes, BlackIsBlackAndOutsideIsTheSky) {
   }
 }
 
-// A field that grows evenly is exact under interpolation: no cell, no corner and no border of a
-// brick shows. Bricks of 8 cells end within the room.
+// Interpolation reproduces a linear field exactly: no cell, corner or brick border shows. Bricks of
+// 8 cells end inside the room.
 TEST(VolumeExtremes, BordersOfCellsAndBricksDoNotShow) {
   for (const float cell : {0.25f, 0.125f}) {
     const IndirectVolume volume =
@@ -410,7 +410,7 @@ TEST(VolumeExtremes, BordersOfCellsAndBricksDoNotShow) {
     for (std::size_t i = 0; i < position.values.size() / 4; ++i) {
       const float u = normal.values[2 * i], v = normal.values[2 * i + 1];
       glm::dvec3 n(u, v, 1 - std::abs(u) - std::abs(v));
-      // The ball is smooth and its normals are not those of its triangles.
+      // The ball is smooth, so its normals are not those of its triangles.
       if (pictures.at("ids").values[2 * i] == 7) continue;
       if (n.z < 0) {
         n.x = (1 - std::abs(v)) * (u >= 0 ? 1 : -1);
@@ -426,11 +426,11 @@ TEST(VolumeExtremes, BordersOfCellsAndBricksDoNotShow) {
       }
     }
     std::printf("cells of %g m: off by up to %.1e of 11\n", static_cast<double>(cell), worst);
-    EXPECT_LE(worst, 8 * 9.6e-7);  // 8 steps of a float of 8 to 16
+    EXPECT_LE(worst, 8 * 9.6e-7);  // 8 ulps of a float between 8 and 16
   }
 }
 
-// A slope that is steeper than the mean is high leaves less than nothing on its dark side.
+// If light falls off steeply enough, extrapolation gets below zero on the dark side.
 TEST(VolumeExtremes, LightIsNeverNegative) {
   IndirectVolume volume = filled({-8, -8, -8}, 1, {2, 2, 2}, one);
   for (VolumeCell& cell : volume.cells) cell.slope_x = cell.slope_y = glm::vec3(-9);
@@ -442,10 +442,11 @@ TEST(VolumeExtremes, LightIsNeverNegative) {
 }
 
 TEST(VolumeExtremes, CellsOfAnySize) {
-  // Kilometres: the room lies in one cell.
+  // Cells of a kilometre: the room lies in one of them.
   expect_all(render_volume(filled(glm::dvec3(-4000), 1000, {1, 1, 1}, one)).at("indirect"), 1,
              "1000 m");
-  // Millimetres: a spot on the floor; micrometres, tenths: hardly a pixel. All else is the sky's.
+  // Millimetres cover a spot on the floor, micrometres and less hardly a pixel. The rest is lit by
+  // the sky.
   for (const float cell : {1e-3f, 1e-6f, 1e-7f}) {
     const Pictures pictures = render_volume(filled({0, -4e-3, 0}, cell, {8, 1, 8}, one));
     EXPECT_EQ(not_finite(pictures), "") << cell;
@@ -455,7 +456,7 @@ TEST(VolumeExtremes, CellsOfAnySize) {
 
 // --- Parameters
 
-// Lengths of rays: none, endless, no number. Nothing hangs, nothing is no number.
+// Zero, infinite and NaN ray lengths: nothing hangs, and no NaN gets into the picture.
 TEST(ParameterExtremes, LengthsOfRays) {
   const Scene scene = make_room();
   for (const float length : {0.0f, -1.0f, 1e-40f, 1e38f, kInfinity, kNan}) {
@@ -524,7 +525,7 @@ TEST(CameraExtremes, FieldsOfView) {
   }
 }
 
-// Straight along an axis, where some bases break.
+// Straight along an axis, where some ways to build a basis fail.
 TEST(CameraExtremes, DirectionsAlongAxes) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {1.0, -1.0}) {

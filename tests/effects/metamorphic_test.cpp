@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What must not change a picture, however the scene is stated. [effects-spec E.1, form 1]
+// What must not change a picture, however the scene is expressed. [effects-spec E.1, form 1]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void multiply(Pictures& pictures, const std::vector<std::string>& names, float k
   }
 }
 
-// The scaled room in the units of the first.
+// Renders the scaled room, with results in the units of the original.
 Pictures render_scaled(double s, bool by_transforms) {
   const Case larger = scaled({make_room(), {}}, s, by_transforms);
   Pictures out = render(larger.scene, larger.options);
@@ -52,7 +52,7 @@ void expect_decibels(const char* what, const Pictures& a, const Pictures& refere
   std::printf("%-28s %4.0f dB at least (%s)\n", what, worst, worst_name.c_str());
 }
 
-// Else the tests below would say little.
+// Otherwise the tests below would prove little.
 TEST(Metamorphic, TheRoomShowsEveryEffect) {
   for (const char* name : {"ao", "sun", "contact", "indirect", "reflection", "local", "glass"}) {
     const auto& values = room().at(name).values;
@@ -63,8 +63,8 @@ TEST(Metamorphic, TheRoomShowsEveryEffect) {
   EXPECT_EQ(not_finite(room()), "");
 }
 
-// Scaling by a power of two rounds nothing: only a length that is not one of the scene's, a number
-// of metres somewhere in a shader, can change a bit.
+// Scaling by a power of two rounds nothing. A bit can only change because of a length that is not
+// the scene's, a number of metres somewhere in a shader.
 TEST(Metamorphic, PowersOfTwoChangeNoBit) {
   EXPECT_EQ(differing(render_scaled(0x1p-20, true), room(), {}), "");
   EXPECT_EQ(differing(render_scaled(0x1p-10, false), room(), {}), "");
@@ -94,14 +94,14 @@ TEST(Metamorphic, ThousandsChangeRoundingOnly) {
   expect_decibels("scale 1e6", render_scaled(1e6, false), room(), 60);
 }
 
-// Places relative to the camera are the same to the bit as long as doubles hold them: the world's
-// origin is nowhere in the picture.
+// Positions relative to the camera are the same to the bit as long as doubles can represent them:
+// the world's origin must not show anywhere in the picture.
 TEST(Metamorphic, DistanceFromTheOriginChangesNoBit) {
   for (const double t : {1e2, 1e4, 1e6}) {
     EXPECT_EQ(differing(render(moved(make_room(), {t, -t, t}), {}), room(), {}), "") << t;
   }
   const glm::dvec3 uneven(1234567.891, -0.123456789, 7654321.12345);
-  RigOptions options;  // the volume's cells stand on a lattice of the world
+  RigOptions options;  // the cells of a baked volume are aligned to the world
   options.volume = IndirectVolume{};
   expect_decibels("moved by 7.7e6 m, uneven", render(moved(make_room(), uneven), options),
                   render(make_room(), options), 60);
@@ -115,11 +115,10 @@ TEST(Metamorphic, FlatteningChangesRoundingOnly) {
   expect_decibels("instances flattened", render(flattened(make_room()), {}), room(), 60);
 }
 
-// Scales of 64:1 and skewing in an instance: where rays start and how normals go along hang on
-// both matrices.
+// Instances that scale by 64:1 and skew: ray origins and normals depend on both matrices.
 TEST(Metamorphic, UnevenTransformsChangeRoundingOnly) {
   RigOptions options;
-  options.volume = IndirectVolume{};  // boxes about skewed meshes are larger, and so is its lattice
+  options.volume = IndirectVolume{};  // skewed meshes' larger boxes would move a baked one's cells
   expect_decibels("instances stretched", render(stretched(make_room()), options),
                   render(make_room(), options), 60);
 }
@@ -133,7 +132,7 @@ TEST(Metamorphic, TilesAndThreadsChangeNoBit) {
   }
 }
 
-// All of light is linear: nothing clamps that nobody asked to.
+// Light is linear throughout: nothing clamps unless asked to.
 TEST(Metamorphic, LightTimesKIsOutputTimesK) {
   const std::vector<std::string> light = {
       "indirect", "indirect_denoised", "reflection", "direct", "reflection_denoised",
@@ -148,7 +147,7 @@ TEST(Metamorphic, LightTimesKIsOutputTimesK) {
   expect_decibels("light times 1000", render(brightened(make_room(), 1000), {}), expected, 60);
 }
 
-// Effects without a random direction: hard sun, hard lights, mirrors.
+// Effects without random directions: hard sun, hard lights, mirrors.
 Case hard_room() {
   Case out{make_room(), {}};
   out.scene.sun->angular_radius = 0;
@@ -161,8 +160,8 @@ Case hard_room() {
   return out;
 }
 
-// The maps of local lights have axes of the world, so edges of their shadows move by a part of a
-// texel.
+// The shadow maps of local lights are aligned to the world's axes, so the edges of their shadows
+// move by a fraction of a texel.
 void expect_same_but_edges(const std::string& what, const Pictures& a, const Pictures& reference) {
   const auto pixels = static_cast<double>(reference.at("view_z").values.size());
   for (const char* name :
@@ -206,12 +205,12 @@ TEST(Metamorphic, TurningTheWorldTurnsNothingOfThePicture) {
       "uneven turn: ", render(turned(upright.scene, uneven_turn()), upright.options), reference);
 }
 
-// Where directions are random, they are others in a turned world: the same in the mean, and no
-// further apart than two seeds are.
+// Random directions differ in a turned world: the results agree in the mean and are no further
+// apart than those of two seeds.
 TEST(Metamorphic, TurningTheWorldChangesNoiseOnly) {
   RigOptions options;
   options.effects = kRigAo | kRigSun | kRigLocal | kRigContact | kRigReflections | kRigIndirect;
-  options.volume = IndirectVolume{};  // its cells have axes of the world
+  options.volume = IndirectVolume{};  // its cells are aligned to the world's axes
   options.samples = 16;
   options.width = 32;
   options.height = 18;

@@ -39,7 +39,7 @@ class Rig {
   IndirectVolume volume() const { return volume_; }
 
  private:
-  // An effect that adds to a sum, and the denoiser behind it.
+  // An effect that adds to a sum, and its denoiser.
   struct Step {
     std::string name;
     RayPass pass;
@@ -77,7 +77,7 @@ class Rig {
   IndirectVolume volume_;
   GpuVolume gpu_volume_;
   RayPass gbuffer_;
-  std::vector<std::unique_ptr<PassViews>> views_;  // arguments point at them
+  std::vector<std::unique_ptr<PassViews>> views_;  // arguments point to them
   std::vector<std::unique_ptr<Step>> steps_;
   std::optional<ComposePass> compose_;
   std::optional<RayPass> glass_pass_;
@@ -272,7 +272,7 @@ Pictures Rig::read() {
   const auto take = [&](const std::string& name, const rtapi::Texture& texture) {
     out[name] = read_picture(device_, queue_, texture).value();
   };
-  // Colours, and what stands in their fourth channel apart.
+  // Splits a picture into its colours and what its fourth channel holds.
   const auto split = [&](const std::string& name, const std::string& fourth) {
     FloatImage& from = out[name];
     FloatImage color(from.width, from.height, 3), rest(from.width, from.height, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A whole frame through the effects' libraries, every picture of it read back: what tests compare.
+// Renders a whole frame through the effects' libraries and reads back every picture, for tests to
+// compare.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -27,7 +28,7 @@ namespace kaamos::test {
 enum RigEffect : std::uint32_t {
   kRigAo = 1,
   kRigSun = 2,
-  kRigLocal = 4,    // main lighting; with kRigContact all but the strongest two lights
+  kRigLocal = 4,    // main lighting; with kRigContact, all but the two strongest lights
   kRigContact = 8,  // needs kRigLocal
   kRigIndirect = 16,
   kRigReflections = 32,
@@ -40,32 +41,32 @@ struct RigOptions {
   std::uint32_t effects = kRigAll;
   std::uint32_t width = 48;
   std::uint32_t height = 27;
-  std::uint32_t samples = 4;  // of every effect but glass
+  std::uint32_t samples = 4;  // for every effect except glass
   std::uint32_t seed = 1;
   std::uint32_t threads = 0;
-  std::uint32_t rows = 0;  // of a dispatch; 0: all
+  std::uint32_t rows = 0;  // rows per dispatch; 0: all
   float ao_radius = 2.0f;  // metres
   effects::ContactShadowConstants contact;
   effects::IndirectConstants indirect;
   effects::ReflectionConstants reflection;
   effects::TransparentConstants glass;
-  float cell = 1.0f;  // metres, of the volume
+  float cell = 1.0f;  // cell size of the volume in metres
   std::uint32_t bake_samples = 4;
-  std::optional<effects::IndirectVolume> volume;  // instead of one that is baked
+  std::optional<effects::IndirectVolume> volume;  // used instead of baking one
   effects::DenoiseMethod denoise = effects::DenoiseMethod::kSvgf;
 };
 
-// By name: ids, view_z, normal, position, motion, radiance; of the effects that were rendered ao,
+// Pictures by name: ids, view_z, normal, position, motion, radiance; for each rendered effect ao,
 // sun, contact, indirect, reflection (means over the samples), NAME_denoised, direct, local, glass,
-// transmittance, and what those that are colours hold beside them: indirect_length,
+// transmittance; and the fourth channels of the colours among them: indirect_length,
 // reflection_length, glass_depth, glass_layers.
 using Pictures = std::map<std::string, effects::FloatImage>;
 
-// One frame. Throws rtapi::ResultError.
+// Renders one frame. Throws rtapi::ResultError.
 Pictures render(const effects::Scene& scene, const RigOptions& options);
 
-// Frames of one geometry, the camera at rest: each takes lights, sun and sky of its own scene, all
-// else of the first one.
+// Renders frames of one geometry with the camera at rest. Each frame takes lights, sun and sky from
+// its own scene and everything else from the first one.
 std::vector<Pictures> render_frames(std::span<const effects::Scene> scenes,
                                     const RigOptions& options);
 

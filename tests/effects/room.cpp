@@ -24,7 +24,7 @@ Material material(const char* name, const glm::vec4& color, float metallic, floa
   return out;
 }
 
-// White, with holes: alpha is 0 on every second field.
+// White, with holes: alpha is 0 in every second field.
 TextureImage holes() {
   TextureImage image;
   image.name = "holes";
@@ -61,7 +61,7 @@ Shape ball(double radius) {
   return revolve(profile, 24);
 }
 
-// No roughness stands in the middle of two steps of 8 bits, where each backend may round its way.
+// No roughness lies halfway between two 8-bit steps, where each backend may round its own way.
 void add_materials(Scene& scene) {
   scene.materials = {
       material("wall", {0.7f, 0.6f, 0.5f, 1}, 0, 1),
@@ -104,7 +104,7 @@ void add_lights(Scene& scene) {
   bare.position = {0.5, 0.25, 0.75};
   bare.radius = 0;
   scene.lights = {bulb, spot, bare};
-  // One that follows from the intensity would change the light's fall-off with it.
+  // A range derived from the intensity would change the light's fall-off with it.
   for (Light& light : scene.lights) light.range = 8;
 }
 
@@ -242,7 +242,7 @@ Scene stretched(Scene scene) {
   for (Mesh& mesh : scene.meshes) {
     for (Vertex& v : mesh.vertices) {
       v.position = glm::vec3(squeeze * glm::dvec3(v.position));
-      // Not unit: between vertices other lengths would make other directions.
+      // Not normalised: other lengths would change the directions interpolated between vertices.
       v.normal = glm::vec3(glm::transpose(undo) * glm::dvec3(v.normal));
       v.tangent = glm::vec4(glm::vec3(squeeze * glm::dvec3(v.tangent)), v.tangent.w);
     }
@@ -258,7 +258,7 @@ Scene mirrored(Scene scene) {
   for (Camera& camera : scene.cameras) {
     glm::dmat4& m = camera.camera_to_world;
     m = flip * m;
-    m[0] = -m[0];  // a camera does not mirror; its picture is turned instead
+    m[0] = -m[0];  // a camera cannot mirror, so its picture is flipped instead
   }
   for (Light& light : scene.lights) {
     light.position.x = -light.position.x;

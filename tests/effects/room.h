@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A small room that gives every effect something to do, and the ways in which tests move, turn and
-// take it apart. All places are multiples of 1/64 m: adding a whole number of metres rounds
-// nothing.
+// take it apart. All positions are multiples of 1/64 m, so adding whole metres rounds nothing.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -11,7 +10,7 @@
 
 namespace kaamos::test {
 
-// What stands where among the materials.
+// The index of each material.
 enum RoomMaterial : std::uint32_t {
   kRoomWall,
   kRoomFloor,   // glossy
@@ -22,8 +21,8 @@ enum RoomMaterial : std::uint32_t {
   kRoomLamp,  // emits
 };
 
-// Four walls less one, a mirror, a ball of rough metal, a card with holes, a pane, a lamp, three
-// local lights, sun and an even sky.
+// Three of four walls, a mirror, a ball of rough metal, a card with holes, a pane, a lamp, three
+// local lights, the sun and a uniform sky.
 effects::Scene make_room();
 
 struct Case {
@@ -31,22 +30,23 @@ struct Case {
   RigOptions options;
 };
 
-// Everything that is measured in metres times `s`: geometry, lights, camera, and the effects' own
-// lengths. Illuminances stay. `by_transforms`: meshes stay as they are and instances grow.
+// Multiplies everything measured in metres by `s`: geometry, lights, camera, and the effects' own
+// lengths. Illuminances stay the same. `by_transforms`: instances grow instead of meshes.
 Case scaled(Case of, double s, bool by_transforms = false);
 effects::Scene moved(effects::Scene scene, const glm::dvec3& by);
-// `turn`: a rotation. The sky must be even.
+// `turn` is a rotation. The sky must be uniform.
 effects::Scene turned(effects::Scene scene, const glm::dmat3& turn);
-// Triangles of every geometry in another order, their corners turned.
+// The triangles of every geometry in another order, with their corners rotated.
 effects::Scene reordered(effects::Scene scene);
-// Every instance a mesh of its own whose vertices stand in the world.
+// Makes every instance a mesh of its own with vertices in world space.
 effects::Scene flattened(effects::Scene scene);
-// Every instance a mesh that was squeezed by 1:64, skewed, and a transform that undoes it.
+// Squeezes every instance's mesh by 1:64, skews it, and gives the instance a transform that undoes
+// this.
 effects::Scene stretched(effects::Scene scene);
-// The mirror image in x; the picture is that of the room from right to left. Instances get
-// transforms of negative determinant.
+// The mirror image in x, which shows the room's picture flipped left to right. Instances get
+// transforms with a negative determinant.
 effects::Scene mirrored(effects::Scene scene);
-// Local lights, sun, sky and lamps k times as bright.
+// Makes local lights, sun, sky and lamps k times as bright.
 effects::Scene brightened(effects::Scene scene, float k);
 
 }  // namespace kaamos::test

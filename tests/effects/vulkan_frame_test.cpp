@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The whole frame, every effect of it, on both backends. Pipelines of the software driver take most
-// of the time, so few frames do much.
+// The whole frame with every effect on both backends. Compiling the software driver's pipelines
+// takes most of the time, so a few frames test a lot.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -23,17 +23,17 @@ void expect_parity(const Pictures& vulkan, const Pictures& embree) {
     const std::uint32_t off = pixels_off(vulkan.at(name), image, 1e-3);
     std::printf("%-22s %4.0f dB, %u pixels off by more than 1e-3\n", name.c_str(), db, off);
     EXPECT_GE(db, 75) << name;
-    // A comparison of distances at a hit that rounding decides, and what a filter makes of it.
+    // A hit where rounding decides a comparison of distances, and what a filter makes of it.
     EXPECT_LE(off, 4u) << name;
   }
-  // What is counted in rays: not one of them may go another way.
+  // Not a single ray of effects that count rays may go another way.
   EXPECT_LE(pixels_off(vulkan.at("ids"), embree.at("ids"), 0), 2u);  // the triangle beside an edge
   for (const char* name : {"ao", "sun", "contact", "glass_layers"}) {
     EXPECT_EQ(vulkan.at(name).values, embree.at(name).values) << name;
   }
 }
 
-// Two frames: the second filters with a history.
+// Two frames, so that the second filters with a history.
 TEST(VulkanWholeFrame, DrawsWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   const std::vector<Scene> scenes(2, make_room());
@@ -46,7 +46,7 @@ TEST(VulkanWholeFrame, DrawsWhatEmbreeDraws) {
   expect_parity(vulkan[1], embree[1]);
 }
 
-// The scene of the pictures, with its textures, leaves and lamps.
+// The scene of the README's pictures, with its textures, leaves and lamps.
 TEST(VulkanWholeFrame, DrawsTheLounge) {
   KAAMOS_NEED_VULKAN();
   const Scene scene = make_lounge();
@@ -57,8 +57,7 @@ TEST(VulkanWholeFrame, DrawsTheLounge) {
   expect_parity(render(scene, options), embree);
 }
 
-// Where it is free to choose what min and max make of what is no number, a driver must not get to
-// choose.
+// Drivers may define min and max of a NaN as they like; the shaders must not depend on it.
 TEST(VulkanWholeFrame, ContainsWhatIsBroken) {
   KAAMOS_NEED_VULKAN();
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

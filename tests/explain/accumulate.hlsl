@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Adds to what textures hold.
+// Adds to the contents of textures.
 
 RWTexture2D<float> total : register(u0);
 RWTexture2D<float4> totals[2] : register(u1);

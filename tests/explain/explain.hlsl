@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What the explanations explain: x selects what the ray generation shader does.
+// The shaders to be explained: x selects what the ray generation shader does.
 
 RaytracingAccelerationStructure scene : register(t0);
 RWStructuredBuffer<float4> results : register(u0);
 
 cbuffer Leaf : register(b0, space1) {
-  float cutout;  // a hit whose barycentrics.x is below it is a hole
+  float cutout;  // hits with a barycentrics.x below this fall into a hole
   uint leaf_id;
 };
 StructuredBuffer<float4> colors : register(t0, space1);

@@ -13,7 +13,7 @@ KAAMOS_EXPLAIN_SUITE(Explain);
 
 namespace {
 
-// Without the two lines that name device and executor.
+// The text without the two lines that name device and executor.
 std::string tree_of(const PixelExplanation& explanation) {
   const std::string text = ToText(explanation);
   return text.substr(text.find('\n', text.find('\n') + 1) + 1);
@@ -82,7 +82,7 @@ TEST_P(Explain, IgnoredHitsOfALeafAreShownInOrderAndSoIsEverythingElse) {
 TEST_P(Explain, TheListRunsAndTheReplayLeavesNoTrace) {
   CommandList list = record();
   ASSERT_TRUE(ExplainPixel(queue_, list, {.X = 3}).ok());
-  // The shader adds to what is there: twice, had the replay's writes stayed.
+  // The shader adds to what is there, so it would be added twice if the replay's writes stayed.
   const std::vector<float> with = results();
   CommandList plain = record();
   queue_.ExecuteAndWait(plain).value();
@@ -129,7 +129,7 @@ TEST_P(Explain, ARayQueryTellsWhatItsShaderDecided) {
                                        CandidateOutcome::kOutsideRange};
   for (size_t i = 0; i < 7; ++i) EXPECT_EQ(query.Candidates[i].Outcome, expected[i]) << i;
   EXPECT_EQ(query.HitT, 2);
-  EXPECT_FLOAT_EQ(results()[4], 2.0f);  // within Embree's reciprocal
+  EXPECT_FLOAT_EQ(results()[4], 2.0f);  // within the error of Embree's reciprocal
 }
 
 TEST_P(Explain, ACallableShowsItsDataBeforeAndAfter) {
@@ -178,7 +178,7 @@ TEST_P(Explain, StatisticsCountWhatTheTreeShows) {
 }
 
 TEST_P(Explain, AFaultOfAShaderEndsTheReplayAndTheTreeUpToThereIsReturned) {
-  // The descriptor of the wall's colors, with an address where no memory is.
+  // The descriptor of the wall's colors, pointed at an address without memory.
   shader::Descriptor* slot = nullptr;
   const size_t handle = heap_.GetCPUDescriptorHandle(2).ptr;
   std::memcpy(&slot, &handle, sizeof slot);
@@ -197,9 +197,9 @@ TEST_P(Explain, AFaultOfAShaderEndsTheReplayAndTheTreeUpToThereIsReturned) {
 TEST_P(Explain, ErrorsNameWhatIsWrong) {
   CommandList list = record();
   CommandQueue none;
-  EXPECT_EQ(ExplainPixel(none, list, {}).error().id, "KA0904");
+  EXPECT_EQ(ExplainPixel(none, list, {}).error().id.text(), "KA0904");
   CommandList empty;
-  EXPECT_EQ(ExplainPixel(queue_, empty, {}).error().id, "KA0904");
+  EXPECT_EQ(ExplainPixel(queue_, empty, {}).error().id.text(), "KA0904");
   EXPECT_EQ(ExplainPixel(queue_, list, {.X = 4}).error().message,
             "KA0916 cannot be explained: index (4, 0, 0) is outside of the dispatch (4 x 1 x 1)");
   CommandList again = record();

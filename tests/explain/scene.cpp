@@ -78,7 +78,7 @@ Buffer Scene::build(const BuildRaytracingAccelerationStructureInputs& inputs, co
 }
 
 void Scene::build_structures() {
-  // Clockwise as seen along z: a front face.
+  // Clockwise as seen along z, so these are front faces.
   vertices_ =
       CreateUploadBuffer(device_, std::vector<Vertex>{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, "vertices")
           .value();

@@ -13,13 +13,13 @@
 
 namespace kaamos::explain_test {
 
-// Seen from (0.25, 0.25, 0) along z: two leaves with holes at t 1 and 2, an instance of another
-// mask at 3, a back face at 4, the wall at 5, a triangle behind it at 6, one beyond TMax at 7.
-// At x = 10.25 a procedural box from z 2 to 4.
+// Seen from (0.25, 0.25, 0) along z: two leaves with holes at t 1 and 2, an instance with another
+// mask at 3, a back face at 4, the wall at 5, a triangle behind it at 6, one beyond TMax at 7. At x
+// = 10.25 a procedural box from z 2 to 4.
 class Scene : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override;
-  // A fresh list with the dispatch of 4 x 1 x 1.
+  // A new list with the 4 x 1 x 1 dispatch.
   rtapi::CommandList record();
   // results[x].
   std::vector<float> results();

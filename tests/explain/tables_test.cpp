@@ -73,8 +73,9 @@ std::byte* bytes_of(const Buffer& table, size_t offset) {
 }
 
 TEST_P(Tables, WhatCannotBeAsItWasMeantIsAProblem) {
-  // Garbage where record 1 of the miss table had its identifier; an address that nobody has where
-  // the wall's descriptor table was; a stride that makes the leaf's arguments reach into the next.
+  // Overwrites the identifier of record 1 of the miss table with garbage and the address of the
+  // wall's descriptor table with one that nobody owns, and sets a stride so small that the leaf's
+  // arguments overlap the next record.
   std::memset(bytes_of(tables_[1], 32), 0x5A, 32);
   const uint64_t wild = 0x1234;
   std::memcpy(bytes_of(tables_[2], 160), &wild, 8);
@@ -98,8 +99,8 @@ TEST_P(Tables, WhatCannotBeAsItWasMeantIsAProblem) {
 TEST_P(Tables, ErrorsNameWhatIsWrong) {
   TableDescriptionDesc desc;
   desc.Dispatch = dispatch_;
-  EXPECT_EQ(DescribeShaderTables({}, pipeline_, desc).error().id, "KA0904");
-  EXPECT_EQ(DescribeShaderTables(device_, {}, desc).error().id, "KA0904");
+  EXPECT_EQ(DescribeShaderTables({}, pipeline_, desc).error().id.text(), "KA0904");
+  EXPECT_EQ(DescribeShaderTables(device_, {}, desc).error().id.text(), "KA0904");
   desc.TopLevel = results_.GetGPUVirtualAddress();
-  EXPECT_EQ(DescribeShaderTables(device_, pipeline_, desc).error().id, "KA0915");
+  EXPECT_EQ(DescribeShaderTables(device_, pipeline_, desc).error().id.text(), "KA0915");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Replays that write textures: a texture holds afterwards what one dispatch makes of it.
+// Replays that write textures: afterwards a texture holds the result of exactly one dispatch.
 #include <gtest/gtest.h>
 #include <rtapi/explain.h>
 #include <rtapi/rtapi.h>

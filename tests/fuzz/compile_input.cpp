@@ -2,19 +2,19 @@
 #include "compile_input.h"
 
 #include "interpret_input.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/ir_dump.h"
-#include "runtime/hlsl/ir_verify.h"
-#include "runtime/hlsl/reflect.h"
-#include "runtime/hlsl/spirv.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/reflect.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/ir/dump.h"
+#include "runtime/hlsl/ir/verify.h"
 
 namespace kaamos::test {
 
 std::string compile_input(const Corpus& corpus, const std::vector<std::string>& include_folders,
                           const Input& input, uint64_t choice) {
-  // From memory only: a damaged #include must not open whatever lies on the disk.
+  // Includes come from memory only: a damaged #include must not open files on the disk.
   hlsl::MemoryFileLoader loader(corpus.texts);
   hlsl::SourceManager sources(loader);
   hlsl::FrontendOptions options;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One input through the whole compiler but the host's C++ compiler.
+// Sends one input through the whole compiler except the host's C++ compiler.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace kaamos::test {
 
-// Empty, or which promise of the compiler was broken. `choice` picks the options.
+// Returns which of the compiler's guarantees was broken; empty if none. `choice` picks the options.
 std::string compile_input(const Corpus& corpus, const std::vector<std::string>& include_folders,
                           const Input& input, uint64_t choice);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Feeds damaged HLSL to the compiler, which must neither crash, hang, nor eat memory. Inputs are
-// compiled in a child process; the parent watches it, and when it dies writes down what it ate.
+// Feeds damaged HLSL to the compiler, which must not crash, hang or exhaust memory. A child process
+// compiles the inputs; the parent watches it and records the input that killed it.
 #include <signal.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -29,11 +29,11 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
-constexpr double kMaxCpuSeconds = 60;  // for one input; everything takes ten times as long
+constexpr double kMaxCpuSeconds = 60;  // for one input, when everything takes ten times as long
 #else
 constexpr double kMaxCpuSeconds = 5;
 #endif
-constexpr uint64_t kMaxMegabytes = 3000;  // with what a sanitizer needs
+constexpr uint64_t kMaxMegabytes = 3000;  // including what a sanitizer needs
 constexpr int kMaxFindings = 20;
 constexpr size_t kTextBytes = 8u << 20;
 
@@ -43,10 +43,10 @@ constexpr char kUsage[] =
     "  SOURCE          folders with the HLSL files to damage\n"
     "  --seed N        which sequence of inputs (default 1)\n"
     "  --seconds S     how long (default 3)\n"
-    "  --long S        as --seconds, but KAAMOS_FUZZ_SECONDS in the environment comes first\n"
+    "  --long S        like --seconds, but KAAMOS_FUZZ_SECONDS in the environment overrides it\n"
     "  --first N       begin with input N of the sequence (default 0)\n"
-    "  --out FOLDER    where inputs that were too much are written (default .)\n"
-    "  --replay PATH   compiles this file, or the .hlsl files of this folder, as they are\n";
+    "  --out FOLDER    where to write failing inputs (default .)\n"
+    "  --replay PATH   compile this file, or the .hlsl files of this folder, unchanged\n";
 
 struct Arguments {
   uint64_t seed = 1;
@@ -57,14 +57,14 @@ struct Arguments {
   std::vector<std::string> folders;
 };
 
-// What the child tells the parent, also when it dies.
+// What the child tells the parent; readable even after the child has died.
 struct Shared {
-  std::atomic<uint64_t> number;    // of the input in work
+  std::atomic<uint64_t> number;    // of the current input
   std::atomic<uint64_t> finished;  // inputs done by all children
   std::atomic<uint64_t> bytes;
   char text[kTextBytes];
   char path[4096];
-  char broken[65536];  // promise that was broken; empty where the child died of something else
+  char broken[65536];  // the guarantee that was broken; empty if the child died of something else
 };
 
 std::optional<Arguments> parse_arguments(int argc, char** argv) {
@@ -89,7 +89,8 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
       char* end = nullptr;
       out.seconds = std::strtod(text.c_str(), &end);
       if (end == text.c_str() || *end != '\0' || !(out.seconds > 0)) {
-        std::fprintf(stderr, "hlsl_fuzz: \"%s\" is no number of seconds above 0\n", text.c_str());
+        std::fprintf(stderr, "hlsl_fuzz: \"%s\" is not a number of seconds above 0\n",
+                     text.c_str());
         return std::nullopt;
       }
     } else if (word == "--out") {
@@ -104,7 +105,7 @@ std::optional<Arguments> parse_arguments(int argc, char** argv) {
   return out;
 }
 
-// The inputs of a run: mutations until the time is over, or files as they are.
+// The inputs of a run: mutations until time is up, or the given files as they are.
 class Inputs {
  public:
   explicit Inputs(const Arguments& arguments)
@@ -132,7 +133,7 @@ class Inputs {
     text << file.rdbuf();
     return {files_[number].string(), text.str()};
   }
-  // All options of a file of its own, one mutation's options by its number.
+  // A replayed file is tried with all options, a mutation with those that its number picks.
   uint64_t choices() const { return arguments_.replay.empty() ? 1 : 64; }
 
  private:
@@ -183,7 +184,7 @@ uint64_t resident_megabytes(pid_t process) {
   return resident * static_cast<uint64_t>(sysconf(_SC_PAGESIZE)) >> 20;
 }
 
-// Waits for the child's end. Empty: it finished all inputs; else what happened.
+// Waits for the child to end. Empty: it finished all inputs; otherwise says what happened.
 std::string watch(pid_t process, Shared& shared) {
   uint64_t done = shared.finished;
   double began = cpu_seconds(process);

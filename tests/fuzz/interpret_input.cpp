@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "runtime/hlsl/interpret.h"
+#include "runtime/hlsl/interpret/interpret.h"
 
 namespace kaamos::test {
 namespace {
@@ -14,8 +14,8 @@ using namespace shader;
 
 constexpr uint64_t kSteps = 5000;
 constexpr uint32_t kBufferBytes = 256;
-constexpr uint32_t kMaxStackBytes = 1 << 20;  // beyond it a backend's guard page is what ends it
-constexpr uint32_t kTableSlots = 4;           // of each binding
+constexpr uint32_t kMaxStackBytes = 1 << 20;  // past this, a backend's guard page would end it
+constexpr uint32_t kTableSlots = 4;           // for each binding
 
 Services make_services() {
   Services out = {};
@@ -24,7 +24,7 @@ Services make_services() {
     return t > 0 ? ReportHitResult::kEndSearch : ReportHitResult::kAccepted;
   };
   out.call_shader = [](Invocation&, uint32_t, void*, uint32_t) {};
-  // Candidates of both kinds without end, so that loops end at the limit of steps.
+  // Endless candidates of both kinds, so that loops end at the limit of steps.
   out.begin_query = [](Invocation&, RayQuery& query, const RayQueryArguments& arguments,
                        const RayDesc& ray) {
     query = RayQuery();
@@ -77,7 +77,7 @@ DescriptorKind kind_of(BindingType type) {
   }
 }
 
-// What stands behind the bindings of a library.
+// The resources behind a library's bindings.
 class World {
  public:
   explicit World(const LibraryDesc& library) : buffer_(kBufferBytes) {
@@ -113,7 +113,8 @@ class World {
     Invocation invocation;
     invocation.dispatch = &dispatch_;
     invocation.slots = slots_.data();
-    // Exactly as long as the library says, on the heap: a sanitizer sees what lies beyond.
+    // On the heap and exactly as long as the library says, so that a sanitizer sees accesses past
+    // the end.
     std::vector<uint64_t> payload((code.payload_storage_bytes + 7) / 8);
     const std::vector<uint64_t> attributes(4);
     switch (code.stage) {
@@ -172,7 +173,7 @@ std::string interpret_input(std::shared_ptr<const hlsl::ir::Module> module) {
   options.step_limit = kSteps;
   std::string error;
   const auto library = hlsl::InterpretedLibrary::create(std::move(module), options, error);
-  // A value that is too large for the stack is an error of its own; no other may happen here.
+  // A value too large for the stack is an error of its own kind; no other error may occur here.
   if (library == nullptr) {
     return error.find("use a C++ compiler instead") != std::string::npos ? "" : error;
   }

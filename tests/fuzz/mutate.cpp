@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using Pieces = std::vector<std::string>;
 
-constexpr size_t kMaxPieces = 20000;  // an input is a few times the largest test
+constexpr size_t kMaxPieces = 20000;  // an input is a few times as large as the largest test
 
-// Values and words at which compilers have stumbled, and what opens a nesting.
+// Values and words that compilers have stumbled over, and tokens that open a nesting level.
 const char* const kHurtful[] = {
     "0x7fffffff", "0x80000000", "0xffffffff", "4294967296", "18446744073709551615",
     "-1",         "1e38",       "1e-45",      "1e400",      "0.0",
@@ -73,7 +73,7 @@ class Mutator {
   Pieces::iterator place() {
     return pieces_.begin() + static_cast<ptrdiff_t>(below(pieces_.size()));
   }
-  // A run of pieces of any file: often a few, at times a whole declaration.
+  // A run of pieces from any file: often a few, sometimes a whole declaration.
   Pieces any_run() {
     const Pieces& from =
         below(2) == 0 ? pieces_ : corpus_.files[below(corpus_.files.size())].pieces;
@@ -119,7 +119,7 @@ class Mutator {
     }
   }
 
-  // One name takes the place of another everywhere: types and functions change their meaning.
+  // Replaces one name by another everywhere, which changes what types and functions mean.
   void rename_all() {
     const std::string from = *place();
     const std::string to = any_token();

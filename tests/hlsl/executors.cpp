@@ -6,15 +6,15 @@
 #include <cstdlib>
 #include <vector>
 
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/interpret.h"
-#include "runtime/hlsl/spirv.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/interpret/interpret.h"
 
 namespace kaamos::test {
 namespace {
 
-// The interpreter's table of a module with SPIR-V in place of its functions.
+// The interpreter's table of a module, with SPIR-V in place of its functions.
 struct SpirvTables {
   std::shared_ptr<const hlsl::InterpretedLibrary> interpreted;
   hlsl::SpirvLibrary spirv;

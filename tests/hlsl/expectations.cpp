@@ -106,7 +106,7 @@ HlslTest read_test(const fs::path& path, const fs::path& folder) {
   return test;
 }
 
-// Distance of two floats in steps between neighbours.
+// The distance of two floats in ulps.
 int64_t ulps_between(float a, float b) {
   const auto ordered = [](float v) {
     const auto bits = std::bit_cast<int32_t>(v);

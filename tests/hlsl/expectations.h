@@ -37,11 +37,11 @@ struct HlslTest {
   std::string error;  // what is wrong with the comments
 };
 
-// Every .hlsl file in these parts of `folder`, in the order of their names.
+// Every .hlsl file in these parts of `folder`, ordered by name.
 std::vector<HlslTest> find_hlsl_tests(const std::string& folder,
                                       const std::vector<std::string>& parts);
 
-// Empty, or what was found and what was expected.
+// What was found and what was expected; empty if they agree.
 std::string compare(const Expectation& expectation, const std::vector<std::byte>& results);
 
 }  // namespace kaamos::test

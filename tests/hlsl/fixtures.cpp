@@ -15,11 +15,11 @@ namespace {
 using namespace rtapi;
 
 constexpr uint32_t kResultBytes = 65536;
-constexpr uint32_t kTableSlots = 8;    // of each table, also of an unbounded array
+constexpr uint32_t kTableSlots = 8;    // in each table, also for an unbounded array
 constexpr uint32_t kHeapSlots = 4;     // of ResourceDescriptorHeap
 constexpr uint32_t kSamplerSlots = 2;  // of SamplerDescriptorHeap
 
-// The root signature that a library's bindings ask for, and what stands behind each parameter.
+// The root signature that a library's bindings need, and the resources behind its parameters.
 struct Fixture {
   Fixture(const Device& device, const shader::LibraryDesc& library);
 
@@ -43,7 +43,7 @@ Device single_threaded_device(const std::string& backend, std::vector<std::strin
   if (told != nullptr) {
     desc.Checked = true;
     desc.OnMessage = [told](const Message& message) {
-      const bool of_compiling = message.Id == "KA0423" || message.Id == "KA0424";
+      const bool of_compiling = message.Id.number == 423 || message.Id.number == 424;
       if (message.Severity != MessageSeverity::kInfo && !of_compiling) {
         told->push_back(message.Text);
       }
@@ -116,7 +116,7 @@ void add_binding(Fixture& f, const shader::BindingDesc& b) {
   }
 }
 
-// Slots of ResourceDescriptorHeap come first, those of the tables behind them.
+// The slots of ResourceDescriptorHeap come first, followed by those of the tables.
 void set_heaps(Fixture& f, CommandList& list) {
   const auto tables = static_cast<uint32_t>(f.tables.size());
   const auto heap = [&f](DescriptorHeapType type, uint32_t slots) {
@@ -130,7 +130,7 @@ void set_heaps(Fixture& f, CommandList& list) {
   list.SetDescriptorHeaps({f.heap, f.sampler_heap});
 }
 
-// Sets every root argument of the open list.
+// Sets every root argument on the open list.
 void bind(Fixture& f, CommandList& list) {
   for (uint32_t i = 0; i < f.tables.size(); ++i) {
     const auto& [parameter, binding] = f.tables[i];

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What an HLSL test finds behind its registers, and running it.
+// The resources behind the registers of an HLSL test, and how to run it.
 //
-// `results` (u0) is 64 KiB of zeros. Every other buffer holds 256 words, word i is i.
+// `results` (u0) is 64 KiB of zeros. Every other buffer holds 256 words; word i is i.
 //
 // A texture is 8 x 8 with two mips; texel (x, y) of mip m of element e is (x, y, m, e). Its name
 // says what it is, because bindings do not: "_1d", "_3d" (depth 2, e is z), "_cube" (12 faces),
-// "_array" after these or alone for a 2D array (2 elements); "_uint" makes it one whole number
-// x + 10 y + 100 m + 1000 e. Samplers are point and clamp, comparison samplers LESS.
+// "_array" after these, or alone for a 2D array (2 elements); "_uint" makes each texel one integer,
+// x + 10 y + 100 m + 1000 e. Samplers use point filtering and clamp, comparison samplers LESS.
 //
 // ResourceDescriptorHeap: slot 0 a Texture2D, 1 a ByteAddressBuffer, 2 a constant buffer, 3
 // `results`. SamplerDescriptorHeap: slot 0 point and clamp, 1 point and wrap.
@@ -26,9 +26,10 @@ struct LibraryDesc;
 
 namespace kaamos::test {
 
-// Runs the compute export as `size` groups, or the ray generation export as `size` threads, and
-// returns what is in `results`. With `told` on a device in checked mode: its errors and warnings,
-// apart from those that the library was not compiled for the device (it may be checked already).
+// Runs the compute export with `size` groups, or the ray generation export with `size` threads, and
+// returns the contents of `results`. With `told`, uses a checked device and returns its errors and
+// warnings there, except that the library was not compiled for the device (it may be checked
+// already).
 std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
                                      const uint32_t (&size)[3], std::string& error,
                                      std::vector<std::string>* told = nullptr);

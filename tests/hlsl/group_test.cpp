@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute shaders with barriers, on every way there is to run a group: cut at the barriers, on
-// fibers, interpreted. All must write the same bytes, and what can be cut must be.
+// Compute shaders with barriers, run in every way in which a group can run: split at the barriers,
+// on fibers, interpreted. All must write the same bytes, and everything that can be split must be.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
@@ -10,9 +10,9 @@
 
 #include "executors.h"
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/split_groups.h"
+#include "runtime/hlsl/analysis/split_groups.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/host_compiler.h"
 
 namespace kaamos::test {
 namespace {
@@ -23,7 +23,7 @@ struct Case {
   const char* body;
 };
 
-// In front of each. Word i of the constant buffer is i.
+// Precedes each case. Word i of the constant buffer is i.
 constexpr char kHead[] = R"(
 RWByteAddressBuffer results : register(u0);
 cbuffer Numbers : register(b0) { uint zero; uint one; uint two; uint three; uint4 more; };
@@ -216,7 +216,7 @@ void main(uint n : SV_GroupIndex, uint3 thread : SV_DispatchThreadID, uint3 grou
   WAIT;
   results.Store(4 * thread.x, size ^ ctx << 1);
 })"},
-    // What must stay on fibers.
+    // Cases that must stay on fibers.
     {"condition_of_the_thread", false, R"(
 [shader("compute")] [numthreads(16, 1, 1)]
 void main(uint i : SV_GroupIndex, uint3 id : SV_DispatchThreadID) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Every .hlsl file in core, compute, extended and traps is a test for each executor: it is compiled
-// as a user's would be, runs on a device, and what it wrote to `results` must be what its EXPECT
-// comments say. Native code: a batch of files becomes one shared object, because starting the C++
-// compiler costs more than compiling a small shader. Checked executors run a sample of the files,
-// or all with KAAMOS_FULL=1: the same results, and no message but those that BREAKS names.
+// like a user's shader and run on a device, and `results` must hold what its EXPECT comments say.
+// For native code, a batch of files becomes one shared object, because starting the C++ compiler
+// costs more than compiling a small shader. Checked executors run a sample of the files, or all
+// with KAAMOS_FULL=1: they must give the same results, and no messages except those that BREAKS
+// names.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
@@ -21,8 +22,8 @@
 #include "executors.h"
 #include "expectations.h"
 #include "fixtures.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/host_compiler.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/driver/host_compiler.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::test {
@@ -58,14 +59,14 @@ hlsl::FrontendOptions options_of(const HlslTest& test, bool checked) {
   return options;
 }
 
-// The emitted C++ of a file; empty with `error` where it does not compile.
+// The emitted C++ of a file; empty, with `error` set, if it does not compile.
 std::string emit(size_t index, bool checked, hlsl::WideThreads wide, std::string& error) {
   const auto module = compile_module(options_of(all_tests()[index], checked), error);
   return module ? hlsl::emit_cpp(*module, {.entry_point = unit_name(index, checked), .wide = wide})
                 : std::string();
 }
 
-// Of the files that checked executors run.
+// Whether a file is in the sample that checked executors run.
 bool in_checked_sample(size_t index) {
   const char* full = std::getenv("KAAMOS_FULL");
   return (full != nullptr && *full == '1') || index % 12 == 0;
@@ -107,7 +108,7 @@ Compiled compile_native(size_t index, bool checked) {
   return batches[batch][index];
 }
 
-// A way to run HLSL. Its name stands before that of the file in the test's.
+// A way to run HLSL. A test's name is its name followed by the file's.
 struct Executor {
   const char* name;
   const char* backend;
@@ -122,7 +123,7 @@ Compiled vulkan(size_t index, bool checked) {
 }
 const Executor kExecutors[] = {
     {"native", "embree", compile_native<hlsl::WideThreads::kNever>},
-    // Compute shaders several threads at once, of which one is there.
+    // Compute shaders that run several threads at once, of which only one exists.
     {"wide", "embree", compile_native<hlsl::WideThreads::kAlways>},
     {"interpreted", "embree", interpreted},
     {"vulkan", "vulkan", vulkan},
@@ -131,8 +132,8 @@ const Executor kExecutors[] = {
     {"checked_vulkan", "vulkan", vulkan, true},
 };
 
-// Of the messages that a device in checked mode told: those that the file does not name, and those
-// that it names and that are missing.
+// The messages of a checked device that the file does not name, and those that it names but that
+// are missing.
 std::string unexpected(const HlslTest& test, const std::vector<std::string>& told) {
   std::string out;
   const auto is_of = [](const std::string& text, const std::string& id) {
@@ -151,7 +152,7 @@ std::string unexpected(const HlslTest& test, const std::vector<std::string>& tol
   return out;
 }
 
-// Empty, or everything that is wrong.
+// Everything that is wrong; empty if nothing is.
 std::string run(const Executor& executor, size_t index) {
   const HlslTest& test = all_tests()[index];
   if (!test.error.empty()) return test.path + ": " + test.error;
@@ -186,7 +187,7 @@ class HlslFile : public testing::Test {
   size_t index_;
 };
 
-// "core switch" to "core", and "trap 7 copy-in" to "trap 7", which is one feature in several files.
+// "core switch" gives "core"; "trap 7 copy-in" gives "trap 7", one feature in several files.
 std::string tier_of(const std::string& feature) {
   return feature.substr(0, feature.find(' '));
 }
@@ -195,7 +196,7 @@ std::string feature_key(const std::string& feature) {
   return feature.substr(0, feature.find(' ', std::string("trap ").size()));
 }
 
-// How many of the features of hlsl-subset's tables work on a backend. A feature works if all its
+// How many of the features in hlsl-subset's tables work on a backend. A feature works if all its
 // files pass on all executors.
 class FeatureReport : public testing::Test {
  public:

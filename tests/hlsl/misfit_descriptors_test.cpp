@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Descriptors that are not what the shader believes, side by side in neighbouring threads, on the
-// CPU and on Vulkan: what fits is read, everything else reads zero and is not written, nothing
-// crashes. [D3D11.3 7.18]
+// Neighbouring threads use descriptors that do not fit what the shader expects, on the CPU and on
+// Vulkan: fitting ones are read, all others read zero and are not written, and nothing crashes.
+// [D3D11.3 7.18]
 #include <gtest/gtest.h>
 
 #include <cstring>

@@ -41,7 +41,7 @@ struct Function {
   std::string name;
   Shape result;
   std::vector<Shape> parameters;
-  size_t inouts = 0;  // the first of them
+  size_t inouts = 0;  // the first inout parameter
 };
 
 class Writer {
@@ -112,7 +112,7 @@ class Writer {
   }
 
   std::string index() {
-    // Not known when it is compiled: an index out of range would be an error.
+    // Computed, because a constant index out of range would be a compile error.
     return one_in(3) ? number(below(2)) : "((" + expression({'i'}, 1) + " + nought) & 7)";
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Programs that nobody would write, for executors to agree on.
+// Programs that nobody would write, on which executors must agree.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace kaamos::test {
 
-// A compute shader of 8 threads with the bindings of fixtures.h: locals, structs, arrays, matrices,
-// swizzles, functions with inout parameters, loops and switches at random. What it does is defined
-// by Kaamos' rules for all of it, indices out of range and division by zero included, and exact:
-// of floating-point arithmetic only what rounds one way. Equal seeds give equal programs, of one
-// compiler.
+// A compute shader of 8 threads with the bindings of fixtures.h: random locals, structs, arrays,
+// matrices, swizzles, functions with inout parameters, loops and switches. Kaamos' rules define the
+// result of everything in it, including indices out of range and division by zero, and make it
+// exact: floating-point arithmetic is limited to what can only round one way. Equal seeds give
+// equal programs with the same compiler.
 std::string random_program(uint64_t seed);
 
 }  // namespace kaamos::test

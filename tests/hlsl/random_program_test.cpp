@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Executors agree to the bit on random programs. KAAMOS_RANDOM_PROGRAMS="FIRST COUNT" runs others
-// than the few that belong to the test.
+// than the few that the test always runs.
 #include "random_program.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(RandomPrograms, VulkanAgreesWithTheInterpreter) {
 }
 
 void expect_native_as_interpreted(hlsl::WideThreads wide) {
-  // Few: a C++ compiler takes a second for each.
+  // Only a few, because a C++ compiler takes a second for each.
   const std::vector<uint64_t> programs = seeds(2);
   std::vector<hlsl::FrontendOptions> sources;
   for (const uint64_t seed : programs) sources.push_back(options_of(random_program(seed)));
@@ -87,7 +87,7 @@ TEST(RandomPrograms, NativeCodeAgreesWithTheInterpreter) {
   expect_native_as_interpreted(hlsl::WideThreads::kNever);
 }
 
-// Eight threads at once, which part at every second condition.
+// Eight threads at once, which diverge at every second condition.
 TEST(RandomPrograms, WideCodeAgreesWithTheInterpreter) {
   expect_native_as_interpreted(hlsl::WideThreads::kAlways);
 }

@@ -12,7 +12,7 @@ using namespace rtapi;
 
 constexpr uint32_t kRecordsPerKind = 4;
 
-// Exports of a stage in the order of their names.
+// The exports of a stage, ordered by name.
 std::vector<std::string> exports_of(const ShaderLibrary& library, ShaderStage stage) {
   std::vector<std::string> names;
   for (const ShaderExportInfo& e : library.GetExports()) {
@@ -111,7 +111,7 @@ std::string name_at(const std::vector<std::string>& names, size_t index) {
   return index < names.size() ? names[index] : std::string();
 }
 
-// The names of the groups that were added.
+// Returns the names of the groups that it added.
 std::vector<std::string> add_hit_groups(StateObjectDesc& desc, const ShaderLibrary& library,
                                         bool box) {
   const auto closest = hit_exports(library, ShaderStage::kClosestHit, box);

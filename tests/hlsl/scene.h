@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The scene that a RaytracingAccelerationStructure of an HLSL test is, and the hit groups that the
-// exports of its library make. Without hit shaders the scene is empty: every ray misses.
+// The scene behind a RaytracingAccelerationStructure of an HLSL test, and the hit groups made from
+// its library's exports. Without hit shaders the scene is empty and every ray misses.
 //
 // Instance 0 (InstanceID 7, mask 0x0F) has triangles, each with these corners at its own z:
 //   (-4, -4, z), (-4, 4, z), (4, -4, z), front face towards -z
@@ -15,11 +15,11 @@
 // primitive 1 from (-1, -1, -1) to (1, 1, 1), moved by (-3, 2, 20): its t along the same ray is
 // 19 to 21. (Primitive 0 is far away.)
 //
-// Hit groups: closest-hit and any-hit exports whose names do not begin with "Box" make the triangle
-// groups, in the order of their names: group i has the i-th of each. The intersection exports make
-// the box groups with those whose names begin with "Box". Records 0 to 3 are triangle groups (the
-// last one repeated), records 4 to 7, where instance 1 begins, box groups. Miss and callable tables
-// hold their exports in the order of their names.
+// Hit groups: closest-hit and any-hit exports whose names do not begin with "Box" form the triangle
+// groups, ordered by name: group i has the i-th of each. The intersection exports form the box
+// groups, together with the exports whose names begin with "Box". Records 0 to 3 are triangle
+// groups (the last one repeats), records 4 to 7, where instance 1 begins, are box groups. Miss and
+// callable tables hold their exports ordered by name.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -27,7 +27,7 @@
 namespace kaamos::test {
 
 struct Scene {
-  std::vector<rtapi::Buffer> buffers;  // what the top level needs to live
+  std::vector<rtapi::Buffer> buffers;  // keeps alive what the top level refers to
   rtapi::Buffer top_level;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What tests of ray tracing stages share: the scene of scene.h and rays along +z that go through
-// everything that stands in it.
+// What the tests of ray tracing stages share: the scene of scene.h, and rays along +z that pass
+// through everything in it.
 #pragma once
 
 RaytracingAccelerationStructure scene : register(t0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Textures on Vulkan against the CPU's: samples of every dimension through filters, address modes
-// and offsets, gathers, comparisons, texel loads.
+// Textures on Vulkan against the CPU's: samples of every dimension with filters, address modes and
+// offsets; gathers; comparisons; texel loads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,11 +24,11 @@ constexpr uint32_t kWidth = 8, kHeight = 4, kDepth = 6, kMips = 3;
 constexpr uint32_t kSamplers = 8;
 
 struct TextureCase {
-  const char* name;  // of the HLSL type, behind Texture
+  const char* name;  // the part of the HLSL type after "Texture"
   ResourceDimension resource;
   SrvDimension srv;
-  int location;  // components of a sample's location
-  int offset;    // of an offset; 0: cubes have none
+  int location;  // number of components of a sample's location
+  int offset;    // number of components of an offset; 0: cubes have none
   bool gathers;
   bool compares;
 };
@@ -53,7 +53,7 @@ constexpr SampledFormat kSampledFormats[] = {{"rgba32f", Format::kR32G32B32A32Fl
                                              {"r32f", Format::kR32Float, 4},
                                              {"rg16f", Format::kR16G16Float, 4}};
 
-// The operations of the kernel; each gives four floats.
+// The kernel's operations; each gives four floats.
 std::vector<std::string> operations_of(const TextureCase& t) {
   const char* const kTypes[] = {"", "float", "float2", "float3", "float4"};
   const std::string spatial = std::string(t.name).starts_with("1D") ? "float"
@@ -85,7 +85,7 @@ std::vector<std::string> operations_of(const TextureCase& t) {
     out.push_back("t.SampleLevel(s[k], " + at + ", p.w, " + offset + ")");
     out.push_back("t.SampleGrad(s[k], " + at + ", " + gradient_x + ", " + gradient_y + ", " +
                   offset + ")");
-    // One that the compiler does not know.
+    // An offset that the compiler does not know.
     out.push_back("t.SampleLevel(s[k], " + at + ", 1, " + offset + " * (texel.w > -9 ? 1 : 0))");
     if (t.compares) {
       out.push_back("t.SampleCmpLevelZero(c[k], " + at + ", p.w / 4, " + offset + ")");
@@ -143,7 +143,7 @@ SamplerDesc sampler(uint32_t index, bool comparison) {
   return desc;
 }
 
-// Sides of mip 0, elements or faces.
+// Takes the sides of mip 0 and the number of elements or faces.
 TextureDesc texture_desc(const TextureCase& t, Format format) {
   const bool cube = t.offset == 0;
   TextureDesc desc;
@@ -227,7 +227,7 @@ std::vector<float> sample_all(const char* backend, const TextureCase& t,
   return out;
 }
 
-// Locations that are not within 1/32 texel of an edge between texels, where rounding decides.
+// Locations at least 1/32 texel away from edges between texels, where rounding would decide.
 std::vector<uint32_t> points_of(const TextureCase& t) {
   std::mt19937 random(3);
   std::vector<uint32_t> out;
@@ -246,7 +246,7 @@ std::vector<uint32_t> points_of(const TextureCase& t) {
         put(texel / static_cast<float>(c == 0 ? kWidth : c == 1 ? kHeight : kDepth));
       }
     }
-    put(0), put(0), put(0),  // A level of x.5 is as near to one mip as to the other.
+    put(0), put(0), put(0),  // A level of x.5 is equally close to both mips.
         put(static_cast<float>(random() % 64) / 16 - 0.53125f);
     for (int c = 0; c < 3; ++c) out.push_back(random() % 10 - 1);
     out.push_back(random() % 4 - (i % 16 == 0 ? 1 : 0));
@@ -265,8 +265,8 @@ TEST_P(VulkanTextureTwins, SampleAlike) {
   const auto actual = sample_all("vulkan", t, format, points);
   ASSERT_EQ(expected.size(), actual.size());
   const auto operations = operations_of(t);
-  // From sRGB lavapipe converts by a polynomial, within D3D's tolerance of 0.6 steps. That it
-  // filters 8-bit formats in 8 bits is mended by the workaround FILTER.
+  // lavapipe decodes sRGB with a polynomial, within D3D's tolerance of 0.6 steps. It filters 8-bit
+  // formats in 8 bits, which workaround FILTER fixes.
   const float tolerance = format.format == Format::kR8G8B8A8UnormSrgb ? 1.0f / 512 : 1.0f / 4096;
   for (size_t op = 0; op < operations.size(); ++op) {
     for (uint32_t k = 0; k < kSamplers; ++k) {

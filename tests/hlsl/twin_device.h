@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A device on which HLSL given as text runs: the CPU's with the interpreter, which says what is
-// expected, or Vulkan's.
+// A device that runs HLSL given as text: the CPU's with the interpreter, which gives the expected
+// results, or Vulkan's.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -30,7 +30,7 @@ struct TwinDevice {
         .value();
   }
 
-  // What is in a buffer.
+  // The words in a buffer.
   std::vector<uint32_t> words(const rtapi::Buffer& buffer);
 
   rtapi::Device device;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Arithmetic on Vulkan against arithmetic on the CPU: the same operators, conversions and
-// intrinsics of every scalar type on the same values, edges and random bits. The interpreter gives
-// what is expected, with the C++ prelude's arithmetic; the GLSL prelude must give the same bits, or
-// be within a few units in the last place where D3D leaves room. [D3D11.3 3.1]
+// intrinsics of every scalar type on the same values, which are edge cases and random bits. The
+// interpreter gives the expected results with the C++ prelude's arithmetic; the GLSL prelude must
+// give the same bits, or be within a few units in the last place where D3D allows it. [D3D11.3 3.1]
 #include <gtest/gtest.h>
 #include <rtapi/rtapi.h>
 
@@ -24,12 +24,12 @@ constexpr uint32_t kThreads = 64;
 constexpr uint32_t kTuples = 4096;
 
 // An expression in a, b, c of one type. result: 'T' that type, 'f' float, 'h' float16, 'd' double,
-// 'u' anything else, whose bits count.
+// 'u' anything else, compared bit by bit.
 struct Operation {
   const char* text;
   char result = 'T';
   int ulps = 0;
-  bool squares = false;  // operands whose square is a denormal number do not count
+  bool squares = false;  // skips operands whose square is denormal
 };
 
 const std::vector<Operation> kFloatOperations = {{"a + b"},
@@ -91,7 +91,7 @@ const std::vector<Operation> kFloatOperations = {{"a + b"},
                                                  {"dot(T3(a, b, c), T3(c, a, b))"},
                                                  {"cross(T3(a, b, c), T3(b, c, a)).x"},
                                                  {"reflect(T2(a, b), T2(b, c)).x"}};
-// Not of double.
+// Not for double.
 const std::vector<Operation> kElementary = {{"sin(a)", 'T', 4},
                                             {"cos(a)", 'T', 4},
                                             {"tan(a)", 'T', 8},
@@ -165,7 +165,7 @@ const std::vector<Operation> kWordOperations = {{"asfloat(a)", 'u'},
                                                 {"msad4(a, T2(b, c), T4(a, b, c, a)).y", 'u'}};
 
 struct ScalarType {
-  const char* name;  // HLSL's
+  const char* name;  // in HLSL
   char kind;         // f, h, d; i, u
   uint32_t bytes;
 };
@@ -274,13 +274,13 @@ uint64_t random_value(const ScalarType& type, std::mt19937_64& random) {
   if (pick == 3) return one | sign;
   if (pick == 4) return (one - (uint64_t{1} << l.fraction_bits)) | sign;
   if (pick == 5) return (infinity_of(type.kind) - 1) | sign;
-  // Between 1/8 and 32, on average, and rarely any bits at all.
+  // Usually between 1/8 and 32, and rarely any bits at all.
   const uint64_t exponent = (one >> l.fraction_bits) - 3 + random() % 8;
   uint64_t bits =
       exponent << l.fraction_bits | (random() & ((uint64_t{1} << l.fraction_bits) - 1)) | sign;
   if (pick < 10) bits &= ~uint64_t{0} << (l.fraction_bits - 2);  // few digits: ties
   if (pick > 26) bits = random() & mask;
-  // Vulkan leaves it to the driver whether denormal numbers count as zeros. So does D3D.
+  // Vulkan lets the driver decide whether denormal numbers are flushed to zero. So does D3D.
   return is_denormal(type.kind, bits) ? one : bits;
 }
 
@@ -294,14 +294,14 @@ double number(char kind, uint64_t bits) {
   return (bits & 0x8000) != 0 ? -magnitude : magnitude;
 }
 
-// Whether the square of a value is a normal number, or zero.
+// Whether the square of a value is a normal number or zero.
 bool has_square(const ScalarType& type, uint64_t bits) {
   const uint64_t magnitude = bits & ~sign_of(type.kind);
   const FloatLayout l = layout_of(type.kind);
   return magnitude == 0 || magnitude >> l.fraction_bits >= uint64_t{1} << (l.exponent_bits - 2);
 }
 
-// Neighbouring values differ by 1.
+// Maps values to integers so that neighbouring values differ by 1.
 int64_t place(char kind, uint64_t bits) {
   const auto magnitude = static_cast<int64_t>(bits & ~sign_of(kind));
   return (bits & sign_of(kind)) != 0 ? -magnitude : magnitude;
@@ -316,7 +316,7 @@ bool agree(const Operation& operation, char kind, uint64_t expected, uint64_t ac
   if (is_denormal(kind, expected)) expected &= sign_of(kind);
   if (is_denormal(kind, actual)) actual &= sign_of(kind);
   const int64_t distance = place(kind, expected) - place(kind, actual);
-  // The largest denormal number and the smallest normal one may be a rounding apart.
+  // The largest denormal number and the smallest normal one may be one rounding apart.
   const int64_t smallest = int64_t{1} << layout_of(kind).fraction_bits;
   const auto vanishes = [&](uint64_t bits) {
     return std::abs(place(kind, bits)) <= (operation.squares ? 3 * smallest : smallest);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Typed buffers on Vulkan against the CPU's: the elements of every format as they are decoded and
-// encoded, inside the view and behind it.
+// Typed buffers on Vulkan against the CPU's: decoding and encoding the elements of every format,
+// inside and past the end of the view.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 
 using namespace rtapi;
 
-constexpr uint32_t kElements = 1024;  // that shaders read and write
-constexpr uint32_t kViewed = 1000;    // that are in the views
+constexpr uint32_t kElements = 1024;  // read and written by shaders
+constexpr uint32_t kViewed = 1000;    // covered by the views
 
 struct ElementFormat {
   Format format;
@@ -84,7 +84,7 @@ std::string typed_source(char number) {
 }
 
 struct TypedResults {
-  std::vector<uint32_t> loaded;  // four words of each element
+  std::vector<uint32_t> loaded;  // four words for each element
   std::vector<uint32_t> stored;  // the written buffer
 };
 
@@ -128,7 +128,7 @@ class TypedRun {
     uav.ViewDimension = UavDimension::kBuffer;
     uav.Buffer.FirstElement = 1;
     uav.Buffer.NumElements = kViewed;
-    // What cannot be written stays null on both sides.
+    // A buffer that cannot be written stays null on both sides.
     static_cast<void>(
         device.CreateUnorderedAccessView(target, uav, heap.GetCPUDescriptorHandle(1)));
     CommandList list = device.CreateCommandList().value();
@@ -169,7 +169,7 @@ TEST_P(VulkanTypedTwins, EveryFormatIsReadAndWrittenAlike) {
                 : i % 4 == 1        ? std::bit_cast<uint32_t>(kEdges[bits % 16])
                 : GetParam() == 'f' ? std::bit_cast<uint32_t>(near)
                                     : bits >> bits % 32;
-    // Whether denormal numbers count as zeros is the driver's.
+    // The driver decides whether denormal numbers are flushed to zero.
     if ((values[i] & 0x7F800000u) == 0 && GetParam() == 'f') values[i] = 0;
   }
   for (const ElementFormat& format : kElementFormats) {

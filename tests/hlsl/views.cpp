@@ -11,7 +11,7 @@ using namespace rtapi;
 constexpr uint32_t kSide = 8;
 constexpr uint32_t kMips = 2;
 
-// What the name of a texture says about it, see fixtures.h.
+// What the name of a texture says about it; see fixtures.h.
 struct TextureKind {
   ResourceDimension resource = ResourceDimension::kTexture2D;
   SrvDimension srv = SrvDimension::kTexture2D;
@@ -42,7 +42,7 @@ TextureKind kind_of(const std::string& name) {
   return kind;
 }
 
-// Texels of one mip of slices first .. first + count.
+// The texels of one mip of slices first .. first + count.
 template <class T, class F>
 std::vector<T> texels(uint32_t width, uint32_t height, uint32_t first, uint32_t count, F value) {
   std::vector<T> out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Buffers, textures and descriptors that count: what stands behind the registers of an HLSL test.
+// Counting buffers, textures and descriptors: the resources behind the registers of an HLSL test.
 #pragma once
 
 #include <kaamos/shader/abi.h>
@@ -10,18 +10,18 @@
 
 namespace kaamos::test {
 
-// Makes what is asked for and keeps it alive.
+// Makes resources on request and keeps them alive.
 class CountingResources {
  public:
   CountingResources(rtapi::Device device, rtapi::CommandQueue queue)
       : device_(std::move(device)), queue_(std::move(queue)) {}
 
-  // 256 words, word i is i.
+  // 256 words; word i is i.
   rtapi::Buffer buffer(bool writable);
   // Writes descriptors for `count` elements of a binding into slots of `heap`.
   void fill_table(const shader::BindingDesc& binding, const rtapi::DescriptorHeap& heap,
                   uint32_t first, uint32_t count);
-  // The slots of ResourceDescriptorHeap and SamplerDescriptorHeap, see fixtures.h.
+  // The slots of ResourceDescriptorHeap and SamplerDescriptorHeap; see fixtures.h.
   void fill_view_heap(const rtapi::DescriptorHeap& heap, const rtapi::Buffer& results);
   void fill_sampler_heap(const rtapi::DescriptorHeap& heap);
 

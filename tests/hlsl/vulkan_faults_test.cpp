@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// HLSL on Vulkan where a driver's fault or the shader's own must do no harm: workarounds in
-// generated code, each with what comes without it on the driver it is for, and endless recursion
-// and wild addresses, which remove the device. [runtime/vulkan/README.md]
+// HLSL on Vulkan where a fault of the driver or of the shader must do no harm: workarounds in
+// generated code, each compared with the result without it on the driver that it is for; endless
+// recursion and wild addresses, which remove the device. [runtime/vulkan/README.md]
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rtapi/rtapi.h>
@@ -61,8 +61,9 @@ bool is_lavapipe() {
   return device && device->GetInfo().Name.find("llvmpipe") != std::string::npos;
 }
 
-// A workaround's test: the first word with it, and without it while the driver has the fault. Where
-// the second fails, the driver was mended, and the table of workarounds gets a last version.
+// Tests a workaround: the first word with it, and without it as long as the driver has the fault.
+// If the second check fails, the driver has been fixed, and the table of workarounds needs a last
+// version.
 void expect_first_word(const char* workaround, uint32_t right, uint32_t wrong,
                        const std::string& text) {
   EXPECT_EQ(words_after(text)[0], right);
@@ -93,7 +94,7 @@ struct Attributes { uint number; };
 
 TEST(VulkanFaults, B3_HitValuesSurviveANestedTrace) {
   KAAMOS_NEED_VULKAN();
-  // The outer ray hits a triangle, the one behind it a box.
+  // The outer ray hits a triangle, and the ray that starts behind it hits a box.
   expect_first_word("B3", 254, 5, R"(
 struct Attributes { uint number; };
 [shader("intersection")] void BoxReport() {
@@ -180,7 +181,7 @@ struct Data { uint depth; };
               HasSubstr("KA0891"));
 }
 
-// A dispatch of one thread with a root descriptor of its own.
+// One single-thread dispatch with its own root descriptor.
 struct RootDescriptorRun {
   RootDescriptorRun(const std::string& text, uint64_t address) {
     desc.Backend = "vulkan";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Shader tables of random bytes, strides and sizes, records with random arguments, random indices:
-// on Vulkan as on the CPU nothing may crash. What is no memory may remove the device.
+// Shader tables with random bytes, strides and sizes, records with random arguments, random
+// indices: nothing may crash, neither on Vulkan nor on the CPU. Addresses without memory may remove
+// the device.
 #include <gtest/gtest.h>
 #include <rtapi/rtapi.h>
 
@@ -102,12 +103,12 @@ class RandomTables {
   }
   bool compiled() const { return code_.library != nullptr; }
 
-  // On a device of its own; the error that removed it, or "".
+  // Runs on a device of its own and returns the error that removed it, or "".
   std::string run(uint32_t dispatches);
 
  private:
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
-  // No address at all, or one where nothing is.
+  // Null, or an address without memory.
   uint64_t noise() {
     if (below(40) == 0) return uint64_t{0x400000000000} + 16 * below(1u << 20);
     return below(8) == 0 ? random_() : 0;
@@ -147,7 +148,8 @@ StateObject RandomTables::pipeline(const Device& device, const RootSignature& ro
   return device.CreateStateObject(desc).value();
 }
 
-// Records with an identifier of any kind, none, or noise; arguments that are right, zero, or noise.
+// Records with an identifier of any kind of shader, a null one, or noise; arguments that are right,
+// zero or noise.
 void RandomTables::fill(std::byte* bytes, uint32_t size_bytes, const StateObject& object,
                         const Buffer& buffer, const DescriptorHeap& heap) {
   const char* const names[] = {"A", "B", "Box", "Main", "Miss", "MissB", "Call", "CallB"};
@@ -218,7 +220,7 @@ std::string RandomTables::run(uint32_t dispatches) {
     dispatch.Height = 1 + below(12);
     dispatch.Depth = 1;
     list.DispatchRays(dispatch);
-    if (!list.Close()) continue;  // refused when it was recorded
+    if (!list.Close()) continue;  // refused while recording
     const Status status = queue.ExecuteAndWait(list);
     if (!status) return status.error().message;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What wide_test.cpp runs: shaders whose threads part in every way there is. Those whose entry
-// point takes nothing but SV_DispatchThreadID and SV_GroupID of 64 threads run as ray generation
-// too.
+// The cases of wide_test.cpp: shaders whose threads diverge in every possible way. Those whose
+// entry point takes nothing but SV_DispatchThreadID and SV_GroupID in groups of 64 threads also run
+// as ray generation shaders.
 #pragma once
 
 namespace kaamos::test {
@@ -12,7 +12,7 @@ struct WideCase {
   const char* body;
 };
 
-// In front of each. Word i of a buffer is i; texel (x, y) of the pictures is (x, y, 0, 0).
+// Precedes each case. Word i of a buffer is i; texel (x, y) of the pictures is (x, y, 0, 0).
 inline constexpr char kWideHead[] = R"(
 RWByteAddressBuffer results : register(u0);
 ByteAddressBuffer words : register(t0);
@@ -377,7 +377,7 @@ RWStructuredBuffer<uint3> triples : register(u1);
 })"},
 };
 
-// In front of each of those below.
+// Precedes each of the cases below.
 inline constexpr char kWideRayHead[] = R"(
 RaytracingAccelerationStructure scene : register(t2);
 struct Payload { uint x; float4 color; uint3 index; };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute and ray generation shaders whose threads part in every way there is, several at once and
-// one by one: the bytes that they write must be the same.
+// Compute and ray generation shaders whose threads diverge in every possible way, run several at
+// once and one by one: they must write the same bytes.
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
 
@@ -9,13 +9,14 @@
 
 #include "executors.h"
 #include "fixtures.h"
-#include "runtime/hlsl/wide_plan.h"
+#include "runtime/hlsl/analysis/wide_plan.h"
 #include "wide_cases.h"
 
 namespace kaamos::test {
 namespace {
 
-// As compute shaders of 64 threads, and as ray generation shaders of rows that end within 8.
+// As compute shaders of 64 threads, and as ray generation shaders with rows whose length is not a
+// multiple of 8.
 constexpr char kThreads[] = "[numthreads(64, 1, 1)] void main(uint3 id : SV_DispatchThreadID";
 constexpr uint32_t kGroups[3] = {4, 1, 1};
 constexpr uint32_t kRays[3] = {13, 20, 1};
@@ -103,7 +104,7 @@ TEST_P(Wide, GivesWhatSingleThreadsGive) {
   }
 }
 
-// Else the test above would compare scalar code with itself.
+// Otherwise the test above would compare scalar code with itself.
 TEST_P(Wide, IsPlannedAtAll) {
   std::string error;
   const auto module = compile_module(all_options()[GetParam()], error);

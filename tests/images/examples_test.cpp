@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Each example renders the picture that was looked at and committed (tests/images/reference).
-// To accept a new picture: look at it, then copy it there from the folder that the message names.
+// Each example renders the picture that was reviewed and committed (tests/images/reference). To
+// accept a new picture, look at it, then copy it there from the folder that the message names.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, ExamplePicture,
                            return name;
                          });
 
-// Small pictures of the lounge with the noise of these very samples.
+// Small pictures of the lounge, with the noise of exactly these samples.
 TEST(NorthlightPicture, IsTheOneThatWasLookedAt) {
   const std::string folder = std::string(KAAMOS_BINARY_DIR) + "/pictures/northlight";
   ASSERT_EQ(run(std::string(KAAMOS_BINARY_DIR) +

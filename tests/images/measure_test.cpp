@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// northlight --measure, --split and --reference on small pictures: tables that can be read, and
-// errors that behave as theory says.
+// northlight --measure, --split and --reference on small pictures: the tables must be readable, and
+// the errors must behave as theory says.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ using namespace kaamos::effects;
 
 using Row = std::map<std::string, std::string>;
 
-// A folder for each test: they may run at the same time.
+// One folder for each test, because tests may run at the same time.
 std::string folder() {
   return std::string(KAAMOS_BINARY_DIR) + "/pictures/" +
          testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -90,8 +90,8 @@ const Row& setting(const std::vector<Row>& rows, const std::string& name) {
   return none;
 }
 
-// Exponent of the error over the rays: -1/2 for random samples, down to -1 and below for
-// well-spread ones. [effects-spec B0.3]
+// The exponent of the error as a function of rays: -1/2 for random samples, down to -1 and below
+// for well-spread ones. [effects-spec B0.3]
 void expect_convergence(const std::vector<Row>& rows) {
   ASSERT_GE(rows.size(), 2u);
   const double rays = number(rows.back(), "rays") / number(rows.front(), "rays");
@@ -105,7 +105,7 @@ void expect_convergence(const std::vector<Row>& rows) {
       EXPECT_LT(number(rows[i], "rmse"), number(rows[i - 1], "rmse")) << i;
     }
     EXPECT_NEAR(number(rows[i], "energy_ratio"), 1, 0.2) << i;
-    // Without bias the error is all variance.
+    // Without bias, the error is all variance.
     const double variance = number(rows[i], "variance");
     EXPECT_LT(std::abs(number(rows[i], "bias_squared")), 0.5 * variance + 1e-6) << i;
   }
@@ -114,7 +114,7 @@ void expect_convergence(const std::vector<Row>& rows) {
 TEST(Measure, AmbientOcclusionConverges) {
   const auto rows = measure("ao");
   expect_convergence(group(rows, "rays per pixel"));
-  // The reference comes from its file, and the same seeds give the same errors.
+  // The reference is read from its file this time, and the same seeds give the same errors.
   const auto again = measure("ao");
   ASSERT_EQ(rows.size(), again.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -190,7 +190,7 @@ TEST(Split, PutsSettingsSideBySide) {
     ASSERT_TRUE(picture.ok()) << picture.error();
     EXPECT_EQ(picture.value().width, 48u);
     EXPECT_EQ(picture.value().height, 27u);
-    // A line of white from top to bottom, at a third or in the middle.
+    // A white line from top to bottom, at a third or in the middle.
     const std::uint32_t line = name == "ao" ? 16 : 24;
     for (std::uint32_t y = 0; y < 27; ++y) {
       for (std::uint32_t c = 0; c < 3; ++c) {

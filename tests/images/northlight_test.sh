@@ -5,7 +5,7 @@
 set -u
 northlight=$1
 source_folder=$2
-interrupt_after=${3:-2}  # by when it surely renders
+interrupt_after=${3:-2}  # rendering has surely begun by then
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export KAAMOS_CACHE_DIR=$work/cache
@@ -16,7 +16,8 @@ fail() {
   failures=$((failures + 1))
 }
 
-# expect_error EXIT_CODE PATTERN arguments...: ends with that code and says what matches.
+# expect_error EXIT_CODE PATTERN arguments...: exits with that code and prints something that
+# matches.
 expect_error() {
   local code=$1 pattern=$2 output status
   shift 2
@@ -39,7 +40,7 @@ expect_error 2 'not in range' --sun-angle 400
 expect_error 2 'not in range' --denoise-passes 9
 expect_error 2 'not expected' --no-such-option
 expect_error 2 'is not a pixel' --pixel 12
-expect_error 2 'outside of the picture' --size 64x36 --pixel 64,3
+expect_error 2 'outside the picture' --size 64x36 --pixel 64,3
 expect_error 2 '--measure: fog not in .*svgf' --measure fog
 expect_error 2 'not in range' --measure ao --repeats 0
 expect_error 2 'not in range' --measure svgf --seeds 1
@@ -55,7 +56,7 @@ printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"
 expect_error 2 'not in {direction,origin}' --sort-rays length
 expect_error 2 'exclude each other' --sort-rays origin --explain 3,4 --size 16x9
-expect_error 2 'explain 64,3 is outside of the picture' --size 64x36 --explain 64,3
+expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
 expect_error 2 'pixel and --heatmap exclude each other' --pixel 3,4 --heatmap rays --size 16x9
 expect_error 2 'json requires --explain' --json --size 16x9
@@ -70,14 +71,14 @@ pixel=$("$northlight" --size 64x36 --out "$work/none" --pixel 32,18) || fail "--
 grep -Eq '^ao +[0-9.]+$' <<< "$pixel" || fail "--pixel does not show ao: $pixel"
 [ ! -e "$work/none" ] || fail "--pixel wrote files"
 
-# A whole run, then one that fails and one that is interrupted: the results stay.
+# A complete run, then one that fails and one that is interrupted: the results stay.
 small=(--size 64x36 --out "$work/out")
 "$northlight" "${small[@]}" > /dev/null || fail "a plain run"
 for file in frame.png frame.exr ao.png sun.png normal.png stats.json; do
   [ -s "$work/out/$file" ] || fail "$file is missing"
 done
 
-# The whole frame; its volume of indirect light is kept, read again, and refused when damaged.
+# The whole frame. Its volume of indirect light is saved, read again, and refused when damaged.
 whole=(--effects all --size 64x36 --gi-bake-samples 1 --gi-cell 1 --gi-volume "$work/lounge.gi")
 "$northlight" "${whole[@]}" --out "$work/whole" > "$work/log" || fail "the whole frame"
 grep -q '^denoise 5 signals' "$work/log" || fail "the whole frame's table lacks passes: $(cat "$work/log")"
@@ -91,7 +92,8 @@ cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the whole frame 
 echo damage >> "$work/lounge.gi"
 expect_error 1 'lounge.gi is no volume.*bake it again' "${whole[@]}"
 
-# A sequence: the same on any number of threads, a line for each frame, no frames of a longer one left.
+# A sequence: the same on any number of threads, a line for each frame, and no frames of a longer
+# one left.
 moving=(--scene runner --effects all --taa --gi-bake-samples 1 --gi-cell 2 --size 64x36)
 "$northlight" "${moving[@]}" --frames 6 --threads 1 --out "$work/one" > "$work/log" || fail "a sequence: $(cat "$work/log")"
 grep -q '^frame .*[0-9] .*[0-9]$' <<< "$(grep -A9 '^flicker' "$work/log")" || fail "no flicker: $(cat "$work/log")"
@@ -110,7 +112,8 @@ printf '0 0 1 5 0 1 0\n0.02 0 2 5 0 1 0 cut\n' > "$work/path"
 "$northlight" --scene runner --size 32x18 --frames 3 --camera-path "$work/path" --out "$work/cut" > /dev/null || fail "a path's file"
 grep -q '"cut": true' "$work/cut/stats.json" || fail "no cut: $(cat "$work/cut/stats.json")"
 
-# What stands still is the same wherever the camera came from: lights and the volume go along with it.
+# What stands still is the same wherever the camera came from: lights and the volume move along with
+# it.
 printf '0 -5.5 1.7 4.6 0.3 1.3 -0.8\n0.02 3 1.5 3 0 1 0 cut\n' > "$work/two"
 printf '0 3 1.5 3 0 1 0\n' > "$work/one_key"
 steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake-samples 1 --size 64x36 --gi-volume "$work/steady.gi")
@@ -118,7 +121,7 @@ steady=(--effects gi,local --gi-mode direct --denoise none --gi-cell 1 --gi-bake
 "$northlight" "${steady[@]}" --frames 1 --camera-path "$work/one_key" --out "$work/there" > /dev/null || fail "one frame"
 cmp -s "$work/moved/frame.exr" "$work/there/frame.exr" || fail "a frame behind a cut is not the frame there"
 
-# The order of rays and the pieces of meshes leave the picture as it is.
+# The order of rays and meshes in pieces do not change the picture.
 "$northlight" --size 96x54 --out "$work/plain" > "$work/log" || fail "a plain frame"
 grep -q 'left out: skinning' "$work/log" || fail "does not say what was left out: $(cat "$work/log")"
 "$northlight" --size 96x54 --sort-rays direction --out "$work/sorted" > "$work/log" || fail "--sort-rays"
@@ -140,7 +143,7 @@ timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/o
 [ "$before" = "$(cd "$work/out" && find . -type f -exec sha256sum {} + | sort | sha256sum)" ] || fail "earlier results changed"
 [ -z "$(find "$work/out" -name '.*' -type d -mindepth 1)" ] || fail "a working folder was left over"
 
-# --watch: an edit of a shader changes the picture.
+# --watch: editing a shader changes the picture.
 mkdir "$work/effects"
 cp -r "$source_folder"/effects/{shaders,gbuffer,ambient_occlusion,sun_shadow,composite} "$work/effects"
 KAAMOS_EFFECTS=$work/effects "$northlight" --watch --size 320x180 --out "$work/watch" > "$work/log" 2>&1 &

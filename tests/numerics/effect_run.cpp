@@ -34,7 +34,7 @@ EffectResult run_effect(const Scene& scene, const EffectRun& run) {
 
   rtapi::CommandList list = device.CreateCommandList().value();
   gbuffer.dispatch(list, frame, {}, run.height);
-  // In several dispatches, as northlight accumulates.
+  // Split over several dispatches, as northlight does.
   constexpr std::uint32_t kBatch = 1000;
   for (std::uint32_t first = 0; first < run.samples; first += kBatch) {
     PassConstants constants;

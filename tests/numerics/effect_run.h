@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One effect over one scene through the real passes, small enough for thousands of rays per pixel.
+// Runs one effect over one scene through the real passes, on a picture small enough for thousands
+// of rays per pixel.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct EffectRun {
   std::uint32_t width = 24;
   std::uint32_t height = 16;
   std::uint32_t samples = 4096;
-  float radius = 4.0f;  // ambient occlusion
+  float radius = 4.0f;  // of ambient occlusion
   std::uint32_t seed = 0;
   std::uint32_t threads = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sweeps through the real passes: surfaces that must not hide themselves, at every scale and
-// distance, and how fast an effect's error falls with the number of rays.
+// Sweeps through the real passes: surfaces must not occlude themselves at any scale or distance;
+// how fast an effect's error falls with the number of rays.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,11 +20,11 @@ namespace {
 
 using namespace effects;
 
-// A flat square of 2 x 16 x 16 triangles, tilted so that no coordinate is the same all over: from
-// any of its points the sky is open, but every ray starts beside triangles in the same plane, whose
-// rounded corners stand a little above it. The camera stands `camera` sides away.
+// A flat square of 2 x 16 x 16 triangles, tilted so that no coordinate is constant. The sky is open
+// from every point on it, but every ray starts beside triangles in the same plane whose rounded
+// corners stick out a little. The camera is `camera` sides away.
 Scene tilted_square(double side, double camera, const glm::dvec3& place) {
-  Scene scene = make_wall_oracle(1.0);  // for its material, sky and camera
+  Scene scene = make_wall_oracle(1.0);  // supplies the material, sky and camera
   scene.meshes.resize(1);
   scene.instances.resize(1);
   scene.meshes[0] = Mesh{};
@@ -109,7 +109,7 @@ TEST(SelfOcclusionSweep, DistanceFromTheCamera) {
   }
 }
 
-// Root mean square error over the pixels that see the plane, and over `scrambles`.
+// Root mean square error over the pixels that see the plane, and over `scrambles` scrambles.
 double error_at(EffectRun run, const Scene& scene, std::uint32_t scrambles,
                 const std::function<double(double)>& truth) {
   const double origin = scene.cameras.front().position().x;
@@ -128,7 +128,7 @@ double error_at(EffectRun run, const Scene& scene, std::uint32_t scrambles,
   return std::sqrt(sum / count);
 }
 
-// The exponent by which the error falls: the slope of a line through the points, by least squares.
+// The exponent by which the error falls: the slope of a least-squares line through the points.
 double print_slope(EffectRun run, const Scene& scene, const std::function<double(double)>& truth) {
   const std::uint32_t most = by_size(64, 256, 4096);
   const std::uint32_t step = is_full_size() ? 2 : 4;
@@ -148,7 +148,7 @@ double print_slope(EffectRun run, const Scene& scene, const std::function<double
   return slope;
 }
 
-// Random samples give -0.5; Owen-scrambled Sobol points over an edge about -0.75.
+// Random samples give -0.5; Owen-scrambled Sobol points give about -0.75 over an edge.
 // [effects-spec B0.3]
 TEST(SampleSweep, AmbientOcclusionFallsFasterThanWithRandomSamples) {
   EffectRun run;

@@ -16,8 +16,8 @@ using Vec = glm::vec<3, Real>;
 
 constexpr int kSteps = 12;
 
-// A bumpy sphere, star-shaped seen from its middle: eight faces of kSteps^2 triangles, welded. The
-// axes run through vertices.
+// A bumpy sphere, star-shaped seen from its centre: eight faces of kSteps^2 triangles each, welded.
+// The axes pass through vertices.
 ProbeMesh closed_mesh(float scale) {
   ProbeMesh mesh;
   std::map<std::array<int, 3>, std::uint32_t> known;
@@ -73,7 +73,7 @@ Real ulp_of(Real value) {
   return Real{std::nextafterf(nearest, std::numeric_limits<float>::infinity())} - nearest;
 }
 
-// Errors of t and of the worse barycentric; false where the ray grazes.
+// Computes the errors of t and of the worse barycentric; false if the ray grazes.
 bool errors_of(const ProbeMesh& mesh, const ProbeRay& ray, const ProbeHit& hit, double& t,
                double& barycentrics) {
   const auto& triangle = mesh.triangles[hit.primitive];

@@ -31,7 +31,7 @@ TEST(Exactness, NoHitIsWrongAtAnyScaleAndDistance) {
   }
 }
 
-// Else the test above would prove little.
+// Otherwise the test above would prove little.
 TEST(Exactness, TheSameRaysFindWhatIsWrongInRobust) {
   RayProbe robust(with(rtapi::TraversalPrecision::kRobust));
   EXPECT_GT(count_wrong_hits(robust, {1, 0, 0}, Aim::kEdge, 1000).wrong, 100u);
@@ -47,7 +47,7 @@ TEST(Exactness, HitDataIsRoundedOnce) {
   }
 }
 
-// Sets a variable of the environment for as long as it lives.
+// Sets an environment variable for the lifetime of the object.
 class Environment {
  public:
   Environment(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }

@@ -88,7 +88,7 @@ Status write_lounge_reference(const std::string& path) {
     Estimate best = estimate_lounge(lounge, effect, kLoungeRays, kLoungeScrambles, 0);
     Estimate quick = estimate_lounge(lounge, effect, kQuickRays, kLoungeScrambles, 0);
     file.layers.push_back({name, std::move(best.mean)});
-    // Three digits are enough of what only says how large an error is.
+    // Three digits are enough to say how large an error is.
     file.layers.push_back({name + "_error", std::move(best.error), true});
     file.layers.push_back({name + "_deviation", std::move(quick.deviation), true});
     if (effect == Effect::kAmbientOcclusion) {

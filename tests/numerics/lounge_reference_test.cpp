@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The lounge against a committed picture of 32,768 rays per pixel (reference/lounge.exr), within
-// the errors that both were estimated to have from their scrambles. 256 rays in a normal run;
-// 16,384 with KAAMOS_FULL=1, of other seeds than the reference's.
+// Compares the lounge with a committed picture of 32,768 rays per pixel (reference/lounge.exr),
+// within the errors that the scrambles of both show. 256 rays in a normal run; 16,384 with
+// KAAMOS_FULL=1, with other seeds than the reference's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,12 @@ namespace {
 
 using namespace effects;
 
-constexpr std::uint32_t kFullRays = 1024;  // of each of 16 scrambles
+constexpr std::uint32_t kFullRays = 1024;  // for each of 16 scrambles
 
-// `picture` against the reference, where the same thing is seen: a pixel's centre on a silhouette
-// may see either side of it on another processor. `deviation`: what a pixel of `picture` is
-// estimated to be off, apart from the reference's own error; `step`: what one ray counts.
+// Compares `picture` with the reference where both see the same thing: on another processor a
+// pixel's centre on a silhouette may see either side. `deviation`: estimated standard deviation of
+// each pixel of `picture`, not including the reference's own error; `step`: the contribution of one
+// ray.
 void expect_same(const FloatImage& picture, const FloatImage& ids, const FloatImage& deviation,
                  double step, const LoungeReference& reference) {
   const std::size_t pixels = picture.values.size();
@@ -37,7 +38,7 @@ void expect_same(const FloatImage& picture, const FloatImage& ids, const FloatIm
     }
     ++compared;
     const double error = picture.values[i] - reference.mean.values[i];
-    // Where all scrambles agreed, one ray may still differ now and then.
+    // Where all scrambles agree, a single ray may still differ now and then.
     const double variance =
         std::pow(deviation.values[i], 2) + std::pow(reference.error.values[i], 2) + step * step;
     sum += error;
@@ -61,8 +62,8 @@ void expect_same(const FloatImage& picture, const FloatImage& ids, const FloatIm
   EXPECT_GE(compared, pixels * 99 / 100);
   EXPECT_LE(std::abs(sum / n), 5 * std::sqrt(variance_of_sum) / n);
   EXPECT_LE(std::sqrt(normalised / n), 1.3);
-  // A deviation from 16 scrambles is itself uncertain: of Student's t with 15 degrees of freedom,
-  // 1.2e-3 lie beyond 4 and 1e-6 beyond 8.
+  // A deviation estimated from 16 scrambles is itself uncertain: in Student's t distribution with
+  // 15 degrees of freedom, 1.2e-3 of the values lie beyond 4 and 1e-6 beyond 8.
   EXPECT_LE(beyond, compared / 200);
   EXPECT_LE(worst, 10);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-references FILE.exr: renders the lounge's reference anew (tests/numerics/README.md).
+// kaamos-references FILE.exr: renders the lounge's reference (tests/numerics/README.md).
 #include <rtapi/rtapi.h>
 
 #include <cstdio>

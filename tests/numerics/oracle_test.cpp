@@ -2,8 +2,8 @@
 //
 // Effects against closed forms [effects-spec B0.7]: 4,096 rays per pixel and 16 scrambles, or
 // 16,384 and 64 with KAAMOS_FULL=1. The error of a pixel's mean over the scrambles is estimated
-// from their spread; the truth must lie within five such errors, and so must the mean of all
-// pixels, whose error is smaller by far.
+// from their spread. The true value must lie within five such errors of it, and so must the mean
+// over all pixels, whose error is much smaller.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Statistics {
     sum_of_squares += v * v;
   }
   double mean() const { return sum / kScrambles; }
-  // Of the mean.
+  // The standard error of the mean.
   double standard_error() const {
     const double variance = std::max(0.0, sum_of_squares / kScrambles - mean() * mean()) *
                             kScrambles / (kScrambles - 1);
@@ -64,7 +64,7 @@ void expect_matches(const Scene& scene, EffectRun run,
     ASSERT_GT(seen, pixels.size() / 4) << "the camera must see the plane";
     all.add(sum / seen);
   }
-  // What is so small that none of the rays met it shows no spread: the rule of three.
+  // A visible part so small that no ray met it shows no spread; the rule of three bounds it.
   const double unseen = 3.0 / (double(kScrambles) * run.samples);
   double largest = 0;
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {

@@ -16,9 +16,9 @@ using effects::SpawnPoint;
 
 namespace {
 
-constexpr double kSheet = 0.02;  // of the scale: where the sheet over a triangle is
+constexpr double kSheet = 0.02;  // height of the sheet over a triangle, relative to the scale
 
-// A triangle (0) and over its front a much larger one (1), both in object space.
+// A triangle (0) and a much larger one (1) above its front side, both in object space.
 struct Pair {
   ProbeMesh mesh;
   glm::mat3x4 to_object{0.0f};
@@ -33,7 +33,8 @@ glm::mat3x4 rows_of(const glm::dmat4& m) {
   return rows;
 }
 
-// What the rows say, so that the inverse is that of the rounded matrix, as a runtime's is.
+// The matrix as the rounded rows define it, so that the inverse belongs to those rows, as in a
+// runtime.
 glm::dmat4 matrix_of(const glm::mat3x4& rows) {
   glm::dmat4 m(1.0);
   for (int r = 0; r < 3; ++r) {
@@ -50,7 +51,7 @@ Pair make_pair(const OriginPlace& place, std::mt19937& random) {
   const glm::dvec3 a(out.mesh.positions[0]), b(out.mesh.positions[1]), c(out.mesh.positions[2]);
   const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
   const glm::dvec3 middle = (a + b + c) / 3.0;
-  // Of equal sides, however thin the triangle is.
+  // With sides of equal length, however thin the triangle is.
   const glm::dvec3 x = 40.0 * glm::normalize(b - a), y = glm::cross(normal, x);
   for (const glm::dvec3& p : {2.0 * x, 2.0 * y - x, -2.0 * y - x}) {
     out.mesh.positions.push_back(glm::vec3(middle + p + kSheet * normal));
@@ -129,7 +130,7 @@ std::array<OriginRates, kOriginMethodCount> measure_origins(RayProbe& probe,
       OriginRates& rates = out[h % kOriginMethodCount];
       const bool hit = hits[h].t >= 0;
       if (hit && hits[h].primitive == 0) rates.self_hits += each;
-      // Along the surface the sheet is out of reach.
+      // A ray along the surface does not reach the sheet.
       if (!hit && expected[h / kOriginMethodCount] < 5 * place.scale) rates.leaks += each;
     }
   }

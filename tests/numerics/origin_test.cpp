@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a ray starts: the table that the choice of effects/common/ray_origin.h rests on.
+// Where a ray starts: the table behind the choice made in effects/common/ray_origin.h.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,25 +42,25 @@ TEST(RayOrigins, OnlyTheErrorBoundNeitherHitsItsTriangleNorStepsOverTheNext) {
     EXPECT_GT((*rates)[kNoOffset].self_hits, 0.3);
     EXPECT_EQ((*rates)[kErrorBound].self_hits, 0);
     EXPECT_LT((*rates)[kErrorBound].offset, (*rates)[kIntegerOffset].offset / 8);
-    // A float has steps of 6 cm there: no offset can do both. Places relative to the camera keep
-    // every scene in the rows of distance 0. [effects-spec B0.1]
+    // Float steps there are 6 cm, so no offset can avoid both faults. Positions relative to the
+    // camera keep every scene in the rows of distance 0. [effects-spec B0.1]
     EXPECT_EQ((*rates)[kErrorBound].leaks > 0, rates == &lost);
   }
   EXPECT_GT(lost[kErrorBound].leaks, 0.9);
-  // Objects of which an instance makes something 10,000 times as high.
+  // Objects that an instance makes 10,000 times as high.
   for (const double distance : {0.0, 1e2, 1e4}) {
     const Rates uneven = row(probe, {distance, 1, 1e4});
     EXPECT_GT(uneven[kNoOffset].self_hits, 0.3);
     EXPECT_EQ(uneven[kErrorBound].self_hits, 0);
   }
-  // A number of metres is too much for small things and too little far away.
+  // A fixed length in metres is too much for small objects and too little far away.
   for (const OriginMethod fixed : {kFixedTMin, kFixedOffset}) {
     EXPECT_GT(tiny[fixed].leaks, 0.9);
     EXPECT_GT(huge_and_far[fixed].self_hits, 0.3);
   }
   EXPECT_GT(far[kFixedTMin].self_hits, 0.1);
   EXPECT_GT(huge[kFixedTMin].self_hits, 0.005);
-  // Steps of the position do not know how large the triangle's own error is.
+  // Steps of the position do not account for the triangle's own error.
   EXPECT_EQ(far[kIntegerOffset].self_hits, 0);
   EXPECT_GT(far[kIntegerOffset].leaks, 0.9);
 }

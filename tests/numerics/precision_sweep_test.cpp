@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// How exact a hit is, from objects of a nanometre to some of a billion kilometres, and from the
-// origin to 1,000 km away from it. A jittered relief of 2 x 32 x 32 triangles is looked at from
-// above; each ray goes to a known point inside a known triangle, and the truth is the same
-// intersection in long double, of the same float vertices and the same float ray. The bounds are
-// measured ones with a margin of two to four: what float costs here is written down, not forgiven.
+// How exact a hit is, for objects from a nanometre to a billion kilometres in size and up to 1,000
+// km from the origin. A jittered relief of 2 x 32 x 32 triangles is seen from above. Each ray goes
+// to a known point inside a known triangle; the truth is the same intersection computed in long
+// double from the same float vertices and float ray. The bounds are measured values with a margin
+// of two to four: they record what float costs here instead of hiding it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ using Vec = glm::vec<3, Real>;
 
 constexpr int kSteps = 32;
 
-// A relief over [-1, 1]^2 with z within 0.01, times `scale`, then moved; rounded to float once.
+// A relief over [-1, 1]^2 with z within 0.01, times `scale`, then moved and rounded to float once.
 ProbeMesh relief(double scale, const glm::dvec3& offset) {
   ProbeMesh mesh;
   std::mt19937 random(7);
@@ -76,7 +76,7 @@ Truth intersect(const ProbeMesh& mesh, std::uint32_t triangle, const ProbeRay& r
           glm::dot(direction, q) / determinant};
 }
 
-// A ray from above to a point well inside a triangle: barycentrics of at least 0.1.
+// A ray from above to a point well inside a triangle, with barycentrics of at least 0.1.
 struct Aim {
   ProbeRay ray;
   std::uint32_t triangle;
@@ -106,16 +106,16 @@ std::vector<Aim> aims(const ProbeMesh& mesh, double scale, double distance, std:
 // One line of a table.
 struct Row {
   std::uint32_t rays = 0;
-  std::uint32_t lost = 0;   // nothing hit
-  std::uint32_t other = 0;  // another triangle than the one aimed at
-  double t_median = 0;      // of the distance, relative to `unit`
+  std::uint32_t lost = 0;   // rays that hit nothing
+  std::uint32_t other = 0;  // rays that hit another triangle than the one aimed at
+  double t_median = 0;      // median error of the distance, relative to `unit`
   double t_largest = 0;
   double uv_largest = 0;
-  std::uint32_t uv_zero = 0;  // both exactly 0, which no aimed ray should give
+  std::uint32_t uv_zero = 0;  // both barycentrics exactly 0, which no aimed ray should give
 };
 
-// Errors of t in units of `unit` (a length). Rays whose float form misses the inside of its
-// triangle are not counted.
+// Measures errors of t in units of `unit` (a length). Does not count rays whose float form misses
+// the inside of their triangle.
 Row measure(const ProbeMesh& mesh, const std::vector<Aim>& aimed, double unit) {
   std::vector<ProbeRay> rays;
   for (const Aim& aim : aimed) rays.push_back(aim.ray);
@@ -164,7 +164,7 @@ std::uint32_t ray_count() {
   return by_size(2000, 20000, 1000000);
 }
 
-// What one line may at most be: shares of the rays for `lost` and `other`.
+// Upper bounds for one row; `lost` and `other` are shares of the rays.
 struct Bound {
   double value;
   double t;
@@ -190,7 +190,7 @@ TEST(PrecisionSweep, Scale) {
     const ProbeMesh mesh = relief(scale, glm::dvec3(0));
     const Row row = measure(mesh, aims(mesh, scale, 5, ray_count()), 5 * scale);
     expect_within(row, {scale, 2e-6, 1e-3});
-    // Embree gives up barycentrics where edge times distance falls below 1e-18.
+    // Embree gives up on barycentrics where edge times distance falls below 1e-18.
     EXPECT_EQ(row.uv_zero, exponent == -9 ? row.rays : 0u) << scale;
   }
 }
@@ -198,7 +198,7 @@ TEST(PrecisionSweep, Scale) {
 TEST(PrecisionSweep, DistanceOfTheCamera) {
   std::printf("an object of 2 metres seen from far; errors of t relative to t\n");
   print_head("distance");
-  // From 1e5 on the direction's rounding leads to neighbours, or past the border.
+  // From 1e5 on, rounding the direction leads to neighbours, or past the border.
   const Bound bounds[] = {{1e0, 2e-6, 1e-4},        {1e1, 2e-6, 1e-3}, {1e2, 2e-6, 1e-2},
                           {1e3, 2e-6, 1e-1},        {1e4, 2e-6, 0.5},  {1e5, 5e-6, 1, 5e-4, 0.02},
                           {1e6, 2e-6, 1, 0.03, 0.7}};
@@ -224,14 +224,15 @@ TEST(PrecisionSweep, DistanceFromTheOriginInTheInstance) {
       "an object of 2 metres whose instance stands far out, seen from 5 metres; errors of t\n"
       "in steps of a float at the distance\n");
   print_head("distance");
-  // The ray goes to object space, where its origin is rounded at the distance: 8 mm at 1e5, 60 mm
-  // at 1e6, which is the size of a triangle here. Effects put the camera into the origin instead.
+  // The ray is transformed to object space, where its origin is rounded at that distance: 8 mm at
+  // 1e5, 60 mm at 1e6, which is the size of a triangle here. Effects avoid this by putting the
+  // camera at the origin.
   const Bound bounds[] = {
       {0, 20, 1e-3},   {1e0, 20, 1e-3}, {1e1, 20, 1e-3},          {1e2, 20, 1e-2},
       {1e3, 20, 1e-1}, {1e4, 20, 0.5},  {1e5, 20, 1, 3e-3, 0.15}, {1e6, 20, 1, 0.05, 0.9}};
   for (const Bound& bound : bounds) {
     ProbeMesh mesh = relief(1, glm::dvec3(0));
-    // Turned by an angle that no float holds exactly.
+    // Rotated by an angle that no float represents exactly.
     const float c = std::cos(0.7f), s = std::sin(0.7f);
     const glm::vec3 offset = glm::vec3(0.6f, -0.48f, 0.64f) * static_cast<float>(bound.value);
     mesh.transform = glm::mat3x4({c, -s, 0, offset.x}, {s, c, 0, offset.y}, {0, 0, 1, offset.z});

@@ -21,7 +21,7 @@ struct ProbeRay {
 };
 
 struct ProbeHit {
-  float t = 0.0f;  // -1: nothing
+  float t = 0.0f;  // -1: no hit
   glm::vec2 barycentrics{0.0f};
   std::uint32_t primitive = 0;
 };
@@ -29,18 +29,18 @@ struct ProbeHit {
 struct ProbeMesh {
   std::vector<glm::vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  // Rows of the instance's transform: rotation and scale left, translation in w.
+  // Rows of the instance's transform: rotation and scale in xyz, translation in w.
   glm::mat3x4 transform{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };
 
-// A device with one mesh, at which rays are shot. All throw rtapi::ResultError.
+// A device with one mesh to trace rays at. All functions throw rtapi::ResultError.
 class RayProbe {
  public:
   explicit RayProbe(const rtapi::DeviceDesc& desc = {});
   void set_mesh(const ProbeMesh& mesh);
-  // One for each ray.
+  // One hit for each ray.
   std::vector<ProbeHit> hits(const std::vector<ProbeRay>& rays);
-  // How many triangles an any-hit shader that ignores all of them is asked about.
+  // For each ray, how many triangles an any-hit shader that ignores all of them is called for.
   std::vector<std::uint32_t> triangle_counts(const std::vector<ProbeRay>& rays);
 
  private:
@@ -56,7 +56,7 @@ class RayProbe {
   rtapi::Buffer top_level_;
 };
 
-// Of a RayProbe for this mesh alone.
+// Uses a RayProbe for this mesh alone.
 std::vector<ProbeHit> probe(const ProbeMesh& mesh, const std::vector<ProbeRay>& rays);
 
 }  // namespace kaamos::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays from a buffer, and what they hit, number by number. ray_probe.h has the same layouts.
+// Rays from a buffer, and each value of what they hit. ray_probe.h has the same layouts.
 
 struct ProbeRay {
   float3 origin;
@@ -9,7 +9,7 @@ struct ProbeRay {
 };
 
 struct ProbeHit {
-  float t;  // -1: nothing
+  float t;  // -1: no hit
   float2 barycentrics;
   uint primitive;
 };
@@ -39,7 +39,7 @@ void ProbeRays() {
   hits[index] = payload.hit;
 }
 
-// Every triangle that the ray meets is counted and ignored.
+// Counts and ignores every triangle that the ray meets.
 [shader("raygeneration")]
 void CountTriangles() {
   const uint index = DispatchRaysIndex().x;

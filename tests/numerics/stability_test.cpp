@@ -46,7 +46,7 @@ TEST(Determinism, TheSeedChangesTheNoiseOnly) {
   EXPECT_EQ(first.position.values, second.position.values);
 }
 
-// A float has 8 mm steps at 100 km. World positions are relative to the camera in double, so the
+// Float steps at 100 km are 8 mm. World positions are made relative to the camera in double, so the
 // picture is the same there. [effects-spec B0.1]
 TEST(Stability, ASceneFarFromTheOriginLooksTheSame) {
   Scene scene = make_sphere_oracle(0.5, 0.8);

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# gdb_test.sh CMAKE BUILD WORK GDB PROGRAM PRINTERS_TEST: the installed package has gdb's printers where the README
-# says, gdb loads them from there by that one command, and they print HLSL's words.
+# gdb_test.sh CMAKE BUILD WORK GDB PROGRAM PRINTERS_TEST: the installed package has gdb's printers
+# where the README says, gdb loads them with that one command, and they print values the way HLSL
+# writes them.
 set -eu
 cmake=$1
 build=$2
@@ -10,7 +11,7 @@ gdb=$4
 program=$5
 printers_test=$6
 
-# A path with a blank, as users have them; nothing else of the source tree is beside it.
+# A path with a blank, as users have them, and nothing else of the source tree beside it.
 prefix="$work/installed elsewhere"
 rm -rf "$work"
 trap 'rm -rf "$work"' EXIT
@@ -35,5 +36,5 @@ if ! grep -Eq '^  kaamos' <<< "$loaded"; then
   echo "$loaded"
   exit 1
 fi
-# Whatever it skips for was asked above.
+# Everything that would make it skip itself has been checked above.
 bash "$printers_test" "$gdb" "$program" "$printers"

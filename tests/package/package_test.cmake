@@ -19,7 +19,7 @@ file(GLOB_RECURSE texts "${prefix}/*.cmake" "${prefix}/*.h" "${prefix}/*.hlsl*")
 foreach(text IN LISTS texts)
   file(READ "${text}" content)
   foreach(folder IN ITEMS "${SOURCE}/" "${BUILD}/" "${WORK}/first")
-    # What stands before it tells "/src/" the folder from the middle of "rtapi/src/".
+    # The character before it tells the folder "/src/" from the middle of "rtapi/src/".
     foreach(before IN ITEMS "\"" " " ";" ":" "=" "I")
       string(FIND "${content}" "${before}${folder}" at)
       if(NOT at EQUAL -1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The comparison itself: what it must forgive and what it must not.
+// Tests the comparison itself: what it must tolerate and what it must not.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using kaamos::effects::FloatImage;
 
 constexpr uint32_t kWidth = 200;
 
-// Two triangles that share the picture: 1 on the left, 2 on the right.
+// Two triangles share the picture: 1 on the left, 2 on the right.
 std::vector<HitRecord> halves() {
   std::vector<HitRecord> hits(kWidth * 100);
   for (size_t i = 0; i < hits.size(); ++i) {
@@ -125,7 +125,7 @@ TEST(CompareHits, AShortDistanceIsAsGoodAsItsCoordinates) {
   auto a = halves();
   auto b = a;
   a[9].t = 1e-3f;
-  b[9].t = 1e-3f + 4e-6f;  // coordinates of 9: four units in their last place
+  b[9].t = 1e-3f + 4e-6f;  // with coordinates up to 9, four units in the last place
   EXPECT_EQ(judge(compare_hits(a, b, kWidth)), "");
   b[9].t = 1e-3f + 2e-5f;
   EXPECT_NE(judge(compare_hits(a, b, kWidth)), "");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Every effect of one small frame on a backend.
+// Renders every effect of one small frame on a backend.
 #pragma once
 
 #include <map>
@@ -26,12 +26,12 @@ std::map<effects::FrameTexture, effects::FloatImage> render_frame(const effects:
                                                                   const FrameRun& run);
 
 struct GlassRun {
-  effects::FloatImage ids;       // of what lies behind the glass
-  effects::FloatImage whole;     // radiance, the glass before what lies behind it
-  effects::FloatImage coverage;  // transmittance and the number of layers traced one by one
+  effects::FloatImage ids;       // of what is behind the glass
+  effects::FloatImage whole;     // radiance, glass over what is behind it
+  effects::FloatImage coverage;  // transmittance, and the number of layers traced one by one
 };
 
-// The transparent pass before sunlight and sky.
+// The transparent pass, lit by sunlight and sky.
 GlassRun render_glass(const effects::Scene& scene, const FrameRun& run,
                       const effects::TransparentConstants& constants);
 

@@ -15,7 +15,7 @@ bool same_triangle(const HitRecord& a, const HitRecord& b) {
          a.primitive == b.primitive;
 }
 
-// Infinite where one of them is no number.
+// Infinite if either of them is NaN.
 double apart(double a, double b) {
   const double difference = std::fabs(a - b);
   return a == b ? 0 : std::isnan(difference) ? INFINITY : difference;
@@ -99,7 +99,7 @@ class Comparison {
       ++out_.counts[0];
       return;
     }
-    // What is off across the triangle is off by so much more along the ray and in the plane.
+    // An error across the triangle is that much larger along the ray and in the plane.
     const double cosine = std::max(double{a.cosine}, 1e-3);
     const double rounding = limits_.per_coordinate * double{a.coordinate} / cosine;
     const double along = apart(a.t, b.t);
@@ -111,13 +111,14 @@ class Comparison {
       note(i, HitChange::kNumber, error, a, b);
       return;
     }
-    // Barycentrics by the place that they name: in a thin triangle they are far off for little.
+    // Compares barycentrics by the points that they name: in a thin triangle a tiny distance
+    // changes them a lot.
     double place = 0;
     for (int k = 0; k < 3; ++k) {
       place = std::max(place, apart(a.surface_point[k], b.surface_point[k]) / in_plane);
     }
-    // Objects of mixed sizes: an instance that is much larger than its mesh divides what t is off
-    // by.
+    // Objects of mixed sizes: an instance much larger than its mesh divides the error of t by its
+    // scale.
     for (int k = 0; k < 3; ++k) {
       const double size = std::max(1.0, std::fabs(double{a.object_point[k]}));
       place = std::max(place, apart(a.object_point[k], b.object_point[k]) /
@@ -138,7 +139,7 @@ class Comparison {
 
   void note(uint64_t i, HitChange change, double size, const HitRecord& a, const HitRecord& b) {
     ++out_.counts[static_cast<int>(change)];
-    // From the harmless to the bad, in the order of HitChange.
+    // Ranks from harmless to bad, in the order of HitChange.
     static constexpr int kRanks[] = {0, 1, 3, 5, 2, 4};
     const auto rank = [](HitChange c) { return kRanks[static_cast<int>(c)]; };
     if (rank(change) < rank(out_.worst_change)) return;
@@ -161,7 +162,7 @@ class Comparison {
 
 HitDifference compare_hits(const std::vector<HitRecord>& a, const std::vector<HitRecord>& b,
                            uint32_t width, const HitLimits& limits) {
-  if (a.size() != b.size()) std::abort();  // a test's own mistake
+  if (a.size() != b.size()) std::abort();  // a mistake in the test
   return Comparison(a, b, width, limits).run();
 }
 
@@ -170,7 +171,7 @@ std::string judge(const HitDifference& difference, const HitLimits& limits) {
   const auto rays = static_cast<double>(difference.rays);
   const auto complain = [&](HitChange change, double allowed, const char* what) {
     const auto count = static_cast<double>(difference.count(change));
-    // A single ray of a small set is no share.
+    // A single ray of a small set is not a meaningful share.
     if (count <= std::max(allowed * rays, allowed > 0 ? 1.0 : 0.0)) return;
     text += line("%s in %.0f of %.0f rays, allowed %g; ", what, count, rays, allowed * rays);
   };

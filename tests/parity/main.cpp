@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-parity: traces the rays of a set on two backends and says what differs; with --ray, all
-// that is known of that one.
+// kaamos-parity: traces a set of rays on two backends and reports the differences; with --ray,
+// prints everything known about that ray.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -21,23 +21,24 @@ int main(int argc, char** argv) {
   CLI::App app("kaamos-parity: the same rays on two backends");
   app.add_option("--scene", set.scene, "lounge, mixed, or a glTF file")->capture_default_str();
   app.add_option("--rays", set.kind, "primary, flags, sun, ao, diffuse")->capture_default_str();
-  app.add_option("--size", size, "of the picture that the rays begin with")->capture_default_str();
-  app.add_option("--seed", set.seed, "of random rays")->capture_default_str();
+  app.add_option("--size", size, "size of the picture that the rays begin with")
+      ->capture_default_str();
+  app.add_option("--seed", set.seed, "seed of random rays")->capture_default_str();
   app.add_option("--first", backends[0], "the backend to compare with")->capture_default_str();
-  app.add_option("--second", backends[1], "the backend that is compared")->capture_default_str();
-  app.add_option("--ray", ray, "the number of one ray: show what both found");
+  app.add_option("--second", backends[1], "the backend to be compared")->capture_default_str();
+  app.add_option("--ray", ray, "the number of one ray: show what both backends found");
   std::vector<float> from;
   std::vector<float> along;
   ProbeRay given;
   app.add_option("--from", from, "trace one ray of your own: x y z, from the camera")->expected(3);
   app.add_option("--along", along, "its direction: x y z")->expected(3);
-  app.add_option("--t-min", given.t_min, "of that ray")->capture_default_str();
-  app.add_option("--t-max", given.t_max, "of that ray")->capture_default_str();
-  app.add_option("--flags", given.flags, "of that ray")->capture_default_str();
-  app.add_option("--mask", given.mask, "of that ray")->capture_default_str();
+  app.add_option("--t-min", given.t_min, "its TMin")->capture_default_str();
+  app.add_option("--t-max", given.t_max, "its TMax")->capture_default_str();
+  app.add_option("--flags", given.flags, "its ray flags")->capture_default_str();
+  app.add_option("--mask", given.mask, "its instance mask")->capture_default_str();
   uint32_t sampled = 0;
   app.add_option("--sampled", sampled,
-                 "instead of rays: the largest error of that many reads between two texels");
+                 "instead of rays: the largest error of this many reads between two texels");
   CLI11_PARSE(app, argc, argv);
   if (std::sscanf(size.c_str(), "%ux%u", &set.width, &set.height) != 2 || set.width == 0) {
     std::fprintf(stderr, "kaamos-parity: --size %s is not a size, like 480x270\n", size.c_str());

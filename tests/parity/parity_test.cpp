@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rays, effects and examples on Vulkan against the same on Embree.
+// Compares rays, effects and examples on Vulkan with the same on Embree.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@
 #include "tests/vulkan/support.h"
 
 namespace kaamos::parity {
-// gtest prints parameters.
+// Lets gtest print parameters.
 static void PrintTo(const RaySet& set, std::ostream* out) {
   *out << set.scene << " " << set.kind;
 }
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(Sets, VulkanRays,
                            return tested.param.scene + "_" + tested.param.kind;
                          });
 
-// What shaders counted is what the rays say of themselves. How often a traversal asks any-hit and
-// intersection shaders is its own affair.
+// Shaders' own counts must match the statistics. How often a traversal calls any-hit and
+// intersection shaders is up to the traversal.
 TEST(VulkanStatistics, CountWhatRan) {
   KAAMOS_NEED_VULKAN();
   for (const std::string& backend : kBackends) {
@@ -97,7 +97,7 @@ TEST(VulkanStatistics, CountWhatRan) {
     EXPECT_GT(statistics.IntersectionInvocations, 0u) << backend;
     EXPECT_EQ(statistics.CallableInvocations, 0u) << backend;
     rays.resize(64);
-    for (ProbeRay& ray : rays) ray.flags = 0xC;  // the first hit ends it, no closest-hit shader
+    for (ProbeRay& ray : rays) ray.flags = 0xC;  // accept the first hit, no closest-hit shader
     rtapi::Device(probe.device()).ResetStatistics();
     probe.trace(rays, 64);
     EXPECT_EQ(probe.device().GetStatistics().VisibilityRays, 64u) << backend;
@@ -110,7 +110,7 @@ struct NamedScene {
   Scene (*make)();
 };
 
-// gtest prints parameters.
+// Lets gtest print parameters.
 void PrintTo(const NamedScene& scene, std::ostream* out) {
   *out << scene.name;
 }
@@ -125,7 +125,7 @@ class VulkanEffects : public testing::TestWithParam<NamedScene> {
   }
 };
 
-// The triangle that each pixel sees. Distances are compared by VulkanRays.
+// The triangle that each pixel sees. VulkanRays compares distances.
 std::vector<HitRecord> hits_of(const std::map<FrameTexture, FloatImage>& frame) {
   const FloatImage& ids = frame.at(kIds);
   const FloatImage& depth = frame.at(kViewZ);
@@ -143,7 +143,7 @@ std::vector<HitRecord> hits_of(const std::map<FrameTexture, FloatImage>& frame) 
   return hits;
 }
 
-// From octahedral form, in which vectors that are close together may lie far apart.
+// Decoded from octahedral form, in which vectors that are close together may be far apart.
 FloatImage decoded_normals(const FloatImage& encoded) {
   FloatImage out(encoded.width, encoded.height, 3);
   for (uint32_t y = 0; y < encoded.height; ++y) {
@@ -184,8 +184,8 @@ TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
     const char* name;
     double allowed;
   };
-  // One step of 8 bits where that is what the picture holds: decoding sRGB may be off by half a
-  // step [D3D11.3: 3.2.3.6], which decides how the other half is rounded.
+  // One 8-bit step where the picture has 8 bits: decoding sRGB may be off by half a step [D3D11.3:
+  // 3.2.3.6], which decides how the other half is rounded.
   constexpr double kStep = 1.01 / 255;
   const Layer layers[] = {
       {kDepth, "depth", 1e-4},           {kViewZ, "view z", 1e-4},
@@ -200,7 +200,7 @@ TEST_P(VulkanEffects, DrawWhatEmbreeDraws) {
     };
     const LayerDifference difference =
         compare_layers(values(0), values(1), ids_a, ids_b, layer.allowed);
-    // What grazes differs by more; it is rare.
+    // Grazing hits differ by more, but they are rare.
     EXPECT_LE(static_cast<double>(difference.above), 1e-3 * pixels)
         << layer.name << ": by up to " << difference.worst << ", "
         << where(difference.worst_x, difference.worst_y);
@@ -231,7 +231,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(VulkanGlass, DrawsWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   const Scene scene = make_glass_stack({.thick = true});
-  // One layer on its own, with its mirrored ray, and the rest blended: every shader runs.
+  // One layer on its own with its mirrored ray, and the rest blended, so that every shader runs.
   GlassRun seen[2];
   FrameRun run;
   run.width = 96;
@@ -281,8 +281,8 @@ INSTANTIATE_TEST_SUITE_P(Programs, VulkanExamples,
                                          "07-update-and-compaction", "08-compute", "09-ray-query"),
                          [](const auto& tested) { return name_of(tested.param); });
 
-// The largest error of reads between two texels, in a process of its own: the driver looks at its
-// settings once in a process, and what this process set would be inherited.
+// The largest error of reads between two texels, measured in a process of its own: the driver reads
+// its settings once per process, and a child would inherit what this process set.
 double sampling_error(const std::string& environment) {
   const std::string command = "env -u GALLIVM_PERF " + environment +
                               " " KAAMOS_BINARY_DIR "/bin/kaamos-parity --sampled 1000";
@@ -298,7 +298,7 @@ TEST(VulkanFilters, AreAsExactAsEmbrees) {
   EXPECT_LT(sampling_error(""), 1e-4);
 }
 
-// FILTER. A driver that mends it may go below.
+// Workaround FILTER. A driver that fixes this may go below.
 TEST(VulkanFilters, HaveEightBitsWithoutTheWorkaround) {
   KAAMOS_NEED_VULKAN();
   const double error = sampling_error("KAAMOS_VULKAN_DISABLE_WORKAROUNDS=FILTER");
@@ -306,7 +306,7 @@ TEST(VulkanFilters, HaveEightBitsWithoutTheWorkaround) {
   EXPECT_LT(error, 1e-2);
 }
 
-// The whole program, files and all.
+// The whole program, including its files.
 TEST(VulkanNorthlight, DrawsWhatEmbreeDraws) {
   KAAMOS_NEED_VULKAN();
   ByteImage pictures[2];

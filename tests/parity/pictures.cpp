@@ -27,7 +27,7 @@ bool same_size(const FloatImage& a, const FloatImage& b) {
   return a.width == b.width && a.height == b.height && a.channels == b.channels;
 }
 
-// Infinite where one is a number and the other is not.
+// Infinite if only one of them is a number.
 double apart(float a, float b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   const double difference = std::fabs(double{a} - b);
@@ -43,7 +43,7 @@ double apart(const FloatImage& a, uint32_t ax, uint32_t ay, const FloatImage& b,
   return most;
 }
 
-// Whether a neighbour of (x, y) in `picture` shows what `other` shows there.
+// Whether a neighbour of (x, y) in `picture` shows what `other` shows at (x, y).
 bool is_next_to(const FloatImage& picture, const FloatImage& other, uint32_t x, uint32_t y,
                 double close) {
   for (uint32_t ny = y - (y > 0); ny <= std::min(y + 1, picture.height - 1); ++ny) {

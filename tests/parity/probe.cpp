@@ -50,7 +50,7 @@ void make_sphere(uint32_t rings, std::vector<effects::Vertex>& vertices,
   }
 }
 
-// A random rotation, stretched; every fifth is mirrored.
+// A random rotation and stretch; every fifth one mirrors.
 void random_transform(std::mt19937& random, uint32_t number, float (&transform)[3][4]) {
   std::uniform_real_distribution<float> unit(0, 1);
   const float a = 6.28f * unit(random);
@@ -133,7 +133,7 @@ void Probe::build_mixed() {
   const float box[6] = {-1, -1, -1, 1, 1, 1};
   const Buffer box_buffer = upload(box, sizeof box);
 
-  // Two halves of the sphere as two geometries, the second of them not opaque; and the ball.
+  // Two halves of the sphere as two geometries, the second one not opaque; and the ball.
   const auto half = static_cast<uint32_t>(indices.size() / 6 * 3);
   std::vector<RaytracingGeometryDesc> halves(2);
   for (uint32_t i = 0; i < 2; ++i) {

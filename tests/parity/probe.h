@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A scene on one backend, and rays into it whose hits come back in full (probe.hlsl).
+// A scene on one backend, and rays into it whose hits are returned in full (probe.hlsl).
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -25,17 +25,18 @@ struct ProbeRay {
 };
 static_assert(sizeof(ProbeRay) == 40);
 
-// Errors leave as rtapi::ResultError.
+// Errors are thrown as rtapi::ResultError.
 class Probe {
  public:
-  // A scene of the effects, its origin at the first camera.
+  // A scene of the effects with its origin at the first camera.
   Probe(const std::string& backend, const effects::Scene& scene);
-  // Instances of all that DXR has: several geometries, opaque and not, balls in boxes, mirrored,
-  // stretched and flat transforms, every mask and instance flag. From -8 to 8 in all directions.
+  // Instances of everything that DXR has: several geometries, opaque and not, balls in boxes,
+  // mirrored, stretched and flat transforms, every mask and instance flag. From -8 to 8 on each
+  // axis.
   explicit Probe(const std::string& backend);
 
   const rtapi::Device& device() const { return device_; }
-  // A whole number of rows of `width`.
+  // `rays` must be a whole number of rows of `width`.
   std::vector<HitRecord> trace(const std::vector<ProbeRay>& rays, uint32_t width);
 
  private:

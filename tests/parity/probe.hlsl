@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One ray, and all that DXR says of its hit. Layouts are those of rays.h and hits.h.
+// One ray, and all that DXR says about its hit. Layouts are those of rays.h and hits.h.
 
 struct Ray {
   float3 origin;
@@ -35,7 +35,7 @@ RaytracingAccelerationStructure g_scene : register(t0);
 StructuredBuffer<Ray> g_rays : register(t1);
 RWStructuredBuffer<Hit> g_hits : register(u0);
 
-// Of the hit record.
+// Root constants in the hit record.
 struct RecordConstants {
   uint record;
   uint index_bytes;
@@ -67,7 +67,7 @@ void ProbeMiss(inout Hit payload) {
   payload.flags = RayFlags();
 }
 
-// Refuses half of the triangles by their numbers: what is refused is the same on every backend.
+// Rejects half of the triangles by their numbers, so that every backend rejects the same ones.
 [shader("anyhit")]
 void ProbeAnyHit(inout Hit payload, BuiltInTriangleIntersectionAttributes attributes) {
   uint h = (PrimitiveIndex() * 0x9E3779B9u) ^ (InstanceIndex() * 0x85EBCA6Bu);
@@ -119,7 +119,7 @@ void ProbeHit(inout Hit payload, BuiltInTriangleIntersectionAttributes attribute
   payload.coordinate = LargestCoordinate();
 }
 
-// Boxes hold a ball that fills them.
+// Each box is filled by a ball.
 [shader("intersection")]
 void ProbeBall() {
   const float3 direction = ObjectRayDirection();

@@ -32,7 +32,7 @@ glm::vec2 random_pair(uint32_t seed, uint32_t index) {
   return {unit_float(a), unit_float(effects::pcg_hash(a + 0x9E3779B9u))};
 }
 
-// Of a camera at the origin that looks along -Z with the scene's axes.
+// The rays of a camera at the origin that looks along -Z of the given axes.
 std::vector<ProbeRay> picture_rays(const RaySet& set, const glm::mat3& axes, float tan_half_fov,
                                    const glm::vec3& eye) {
   std::vector<ProbeRay> rays;
@@ -54,7 +54,7 @@ void add_flags(const RaySet& set, std::vector<ProbeRay>& rays) {
   static constexpr uint32_t kOpacity[] = {0, 0, 1, 2, 0x40, 0x80};
   static constexpr uint32_t kCulling[] = {0, 0, 0x10, 0x20};
   static constexpr uint32_t kSkipping[] = {0, 0, 0x100, 0x200};
-  // Neighbours share their flags, so that what lies next to an edge can be told from the picture.
+  // Neighbours share their flags, so that the picture shows what is next to an edge.
   constexpr uint32_t kTile = 30;
   for (size_t i = 0; i < rays.size(); ++i) {
     const auto x = static_cast<uint32_t>(i % set.width) / kTile;
@@ -68,7 +68,7 @@ void add_flags(const RaySet& set, std::vector<ProbeRay>& rays) {
   }
 }
 
-// From the hits of `primary` on the first backend.
+// Rays from the hits of `primary` on the first backend.
 std::vector<ProbeRay> secondary_rays(const RaySet& set, const std::vector<ProbeRay>& primary,
                                      const std::vector<HitRecord>& hits,
                                      const effects::Scene& scene) {
@@ -78,7 +78,8 @@ std::vector<ProbeRay> secondary_rays(const RaySet& set, const std::vector<ProbeR
     const ProbeRay& p = primary[i];
     const glm::vec3 direction(p.direction[0], p.direction[1], p.direction[2]);
     const glm::vec3 eye(p.origin[0], p.origin[1], p.origin[2]);
-    // A little before the surface, towards the eye: no normal is needed, and none is in the record.
+    // A little in front of the surface, towards the eye: this needs no normal, and the record has
+    // none.
     const glm::vec3 origin = eye + direction * (hits[i].t * 0.9995f);
     const glm::vec2 u = random_pair(set.seed, static_cast<uint32_t>(i));
     if (set.kind == "sun") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The rays that both backends get: bit for bit the same.
+// The rays that both backends get, identical to the bit.
 #pragma once
 
 #include <optional>
@@ -14,26 +14,26 @@ namespace kaamos::parity {
 
 struct RaySet {
   std::string scene;  // "lounge", "mixed", or a glTF file
-  // primary: through the pixels; flags: the same with random ray flags and masks; sun, ao: from
-  // what those hit, whether something is in the way; diffuse: from there, what is hit next.
+  // primary: through the pixels; flags: the same with random ray flags and masks; sun, ao:
+  // visibility from the points that those hit; diffuse: from the same points, the next hit.
   std::string kind;
   uint32_t width = 480;
   uint32_t height = 270;
   uint32_t seed = 1;
-  std::vector<ProbeRay> given;  // kind "given"; a whole number of rows of `width`
+  std::vector<ProbeRay> given;  // for kind "given"; a whole number of rows of `width`
 };
 
-// Empty where the set names no scene or kind.
+// Empty if the set names no known scene or kind.
 std::optional<effects::Scene> load_scene(const std::string& name);
 
 struct RayRun {
   std::vector<ProbeRay> rays;
-  uint32_t picture_width = 0;  // 0: the rays are no picture's
+  uint32_t picture_width = 0;  // 0: the rays do not form a picture
   std::vector<HitRecord> hits[2];
 };
 
-// Traces the set on both backends. Secondary rays start at the hits of the first. Throws
-// rtapi::ResultError, std::invalid_argument for a set that is none.
+// Traces the set on both backends. Secondary rays start at the first backend's hits. Throws
+// rtapi::ResultError, or std::invalid_argument for an unknown set.
 RayRun trace_on_both(const RaySet& set, const std::string (&backends)[2]);
 
 // The command that traces one ray of the set again.

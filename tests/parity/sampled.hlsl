@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A texture of two texels, read between them.
+// A texture with two texels, sampled between them.
 
 Texture2D<float4> g_texture : register(t0);
 SamplerState g_sampler : register(s0);

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# scripts_test.sh WORK: runs scripts/test and scripts/demo in a copy of the checkout in which apt-get,
-# sudo, cmake and ctest are played by small scripts, and checks what they answer. Nothing is installed
-# or built. One function per rule; its name is the rule.
+# scripts_test.sh WORK: runs scripts/test and scripts/demo in a copy of the checkout in which small
+# scripts play apt-get, sudo, cmake and ctest, and checks what they answer. Nothing is installed or
+# built. One function per rule; its name is the rule.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 source_root=$(cd "$here/../.." && pwd -P)
 work=$1
 checkout="$work/checkout"
-bin="$work/bin"  # all of PATH
+bin="$work/bin"  # the whole PATH
 state="$work/state"
 failures=0
 
 fake() { cat >"$bin/$1" && chmod +x "$bin/$1"; }
 
-# A fresh checkout, a machine with everything installed, a user who is root.
+# A fresh checkout, a machine with everything installed, and root as the user.
 fresh_machine() {
   rm -rf "$work"
   mkdir -p "$checkout" "$bin" "$state"
@@ -27,7 +27,7 @@ fresh_machine() {
   fake c++ <<<'#!/bin/sh'
   fake ninja <<<'#!/bin/sh'
   user root 0
-  # "mesa>=24.3" is there as "mesa 24.3".
+  # A package "mesa>=24.3" is recorded as "mesa 24.3".
   installed_packages "$(awk '!/^#/ && NF { sub(/>=/, " ", $1); print $1 }' "$source_root/scripts/packages.txt")"
   system Debian bookworm
   fake dpkg-query <<<"#!/bin/sh
@@ -40,7 +40,7 @@ case \" \$* \" in
   *' mesa-vulkan-drivers '*) cat $state/candidate 2>/dev/null;;
   *) echo ' 500 http://mirror.example/debian bookworm/main amd64 Packages'; cat $state/suites 2>/dev/null;;
 esac"
-  # Only what would be written as root is written through it.
+  # Only what is to be written as root goes through tee.
   fake tee <<<"#!/bin/sh
 echo \"tee \$*\" >>$state/calls
 exec cat >$state/tee"
@@ -48,7 +48,7 @@ exec cat >$state/tee"
 echo \"cmake \$*\" >>$state/calls
 case \$1 in --version) echo 'cmake version 3.25.1';; esac
 exit 0"
-  # Writes the results that the test laid out, like ctest --output-junit FILE.
+  # Writes the results that the test prepared, as ctest --output-junit FILE would.
   fake ctest <<<"#!/bin/sh
 echo \"ctest \$*\" >>$state/calls
 while [ \$# -gt 0 ]; do if [ \"\$1\" = --output-junit ]; then junit=\$2; fi; shift; done
@@ -73,7 +73,7 @@ if [ \"\$*\" = /etc/os-release ]; then exec $(command -v cat) $state/os-release;
 exec $(command -v cat) \"\$@\""
 }
 
-# mesa INSTALLED CANDIDATE: versions; an empty one for none.
+# mesa INSTALLED CANDIDATE: sets these versions; an empty one means none.
 mesa() {
   sed -i '/^mesa-vulkan-drivers/d' "$state/packages"
   if [[ -n $1 ]]; then echo "mesa-vulkan-drivers $1" >>"$state/packages"; fi
@@ -82,7 +82,7 @@ mesa() {
 
 installed_packages() { printf '%s\n' "$1" >"$state/packages"; }
 
-# results OUTCOME...: ran, failed, skipped; each makes one test.
+# results OUTCOME...: ran, failed or skipped; each makes one test result.
 results() {
   local outcome n=0
   {
@@ -103,7 +103,7 @@ results() {
   } >"$state/results.xml"
 }
 
-# command_ NAME [arguments]: sets output and status. No variable of the caller (CI, CXX) leaks in.
+# command_ NAME [arguments]: sets output and status. No variable of the caller's (CI, CXX) leaks in.
 command_() {
   output=$(cd "$checkout" && env -i PATH="$bin" HOME="$work" "$@" 2>&1 </dev/null)
   status=$?
@@ -147,7 +147,7 @@ help_builds_nothing() {
 }
 
 unwritable_checkout_is_explained() {
-  touch "$checkout/build"  # a file in the folder's place stops root as well
+  touch "$checkout/build"  # a file in the folder's place stops even root
   run_test
   expect_status 1
   expect "error: cannot write into \"$checkout/build\": File exists."
@@ -251,7 +251,7 @@ without_apt_the_needed_packages_are_listed() {
   expect_status 0
   expect 'installs packages only with apt (Debian and its relatives)'
   expect 'libembree-dev          Intel Embree'
-  expect 'Going on with what is installed.'
+  expect 'Continuing with what is installed.'
 }
 
 old_mesa_is_replaced_from_backports() {
@@ -355,7 +355,7 @@ missing_compiler_is_named() {
 wrong_compiler_variable_is_named() {
   command_ env CXX='g++-99 -m64' "$checkout/scripts/test"
   expect_status 1
-  expect 'CXX names a compiler that is not there: "g++-99 -m64".'
+  expect 'CXX names a compiler that does not exist: "g++-99 -m64".'
 }
 
 missing_cmake_is_named() {
@@ -384,7 +384,7 @@ exit 1'
   expect 'Could not find a package configuration file provided by "embree"'
   expect $'CMake Warning at CMakeLists.txt:3:\n  old file'
   expect_not 'no interest'
-  expect 'configuring failed; CMake says above what it misses.'
+  expect 'configuring failed; CMake says above what is missing.'
 }
 
 failed_build_shows_the_compilers_words() {
@@ -457,7 +457,7 @@ ctest_failure_without_failed_test_is_a_failure() {
   echo 8 >"$state/ctest_status"
   run_test
   expect_status 1
-  expect 'ctest failed (status 8) although no test did'
+  expect 'ctest failed (status 8) although no test failed'
 }
 
 every_outcome_of_ctest_is_counted() {
@@ -488,7 +488,7 @@ repeated_vulkan_tests_are_named() {
   vulkan_runs 200 2
   run_test
   expect_status 0
-  expect 'because the Vulkan driver crashed or hung, 2 of 200 tests:'
+  expect 'The Vulkan driver crashed or hung in 2 of 200 tests, which were run a second time:'
   expect '  V2 was ended by signal 11'
 }
 
@@ -586,7 +586,7 @@ ci_makes_warnings_errors() {
   expect_last_line '2 passed, 0 failed, 0 skipped'
 }
 
-# A program in northlight's place, which says what it was given.
+# Installs a program in northlight's place that prints its arguments.
 northlight() {
   mkdir -p "$checkout/build/release/bin"
   printf '%s\n' "$1" >"$checkout/build/release/bin/northlight"

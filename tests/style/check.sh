@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# check.sh RULE ROOT: checks one rule of the house on the sources below ROOT. Prints what breaks it, one
-# "file:line: why" each, and fails if anything does. Rules: spdx, paths, marks, readme, length, listed, used, told, twice, recipes.
+# check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
+# "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
+# listed, used, told, twice, recipes, layers.
 set -euo pipefail
 rule=$1
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 cd "$2"
 
-# Inputs of tests (testdata) break rules on purpose, and a line more would move the lines they expect.
+# Test inputs (testdata) break rules on purpose, and an extra line would move the lines they expect.
 list_files() {
   find . \( -name build -o -name out -o -name .git -o -name .cache -o -name testdata \) -prune -o \
     -type f \( "$@" \) -printf '%P\n' | LC_ALL=C sort
@@ -15,7 +17,7 @@ code=(\( -name '*.cpp' -o -name '*.h' -o -name '*.hlsl' -o -name '*.hlsli' -o -n
   -o -name '*.cmake' -o -name '*.cmake.in' -o -name CMakeLists.txt -o -path './scripts/*' -o -path './.ci/*' \)
   ! -name '*.md')
 
-# Every source begins with its licence, after "#!" where there is one.
+# Every source begins with its licence line, after "#!" where there is one.
 check_spdx() {
   list_files "${code[@]}" | xargs -r -d '\n' awk '
     FNR == 1 && /^#!/ { next }
@@ -27,14 +29,16 @@ check_spdx() {
   list_files "${code[@]}" -empty | sed 's/$/:1: is empty/'
 }
 
-# Nothing knows the folders of one machine. Brackets keep the patterns from matching themselves.
+# No source contains a path of one particular machine. The brackets keep the patterns from matching
+# themselves.
 check_paths() {
   list_files "${code[@]}" -o -name '*.md' -o -name '*.json' -o -name '*.txt' | xargs -r -d '\n' grep -nIHE \
     '(^|[^A-Za-z0-9_.$}])([/]work/|[/]root/|[/]home/[a-z]|[/]tmp/[a-z]|[/]Users/[A-Za-z])' | sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a path of one machine/' || true
 }
 
-# A type has one definition: of two with one name in one namespace the linker takes either's inline functions. Looks
-# at the first column, so that members and local types do not count; forward declarations and stubs ({}) neither.
+# A type has one definition: if two types in one namespace share a name, the linker picks the inline
+# functions of either. Looks at the first column only, so members and local types do not count;
+# neither do forward declarations and stubs ({}).
 check_twice() {
   list_files -name '*.cpp' -o -name '*.h' | xargs -r -d '\n' awk '
     FNR == 1 { depth = 0; unnamed = 0 }
@@ -58,15 +62,15 @@ check_twice() {
     }'
 }
 
-# What is left to do stands in an issue, not in a source.
+# What is still to do belongs in an issue, not in a source.
 check_marks() {
   list_files "${code[@]}" -o -name '*.md' |
     xargs -r -d '\n' grep -nIHE '\b(TO[D]O|FIX[M]E|XX[X]|HA[C]K)\b' |
     sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a left-over mark/' || true
 }
 
-# A folder that holds sources has a README.md of at most one page; folders that only continue the one
-# above them (src, include and what they hold, one folder per shader or scene) need none.
+# A folder of sources has a README.md of at most one page. Folders that only continue the one above
+# them (src, include and their contents, one folder per shader or scene) need none.
 check_readme() {
   local folder lines
   list_files "${code[@]}" | sed -n 's|^\([^.][^/]*/.*\)/[^/]*$|\1|p; s|^\([^./][^/]*\)/[^/]*$|\1|p' |
@@ -83,7 +87,27 @@ check_readme() {
     done
 }
 
-# Past 500 lines, ask what second noun lives in the file. A warning, so it never fails.
+# The README of these folders has a row (a line of a table or list) for each sub-folder, beginning
+# with its name as `name/`, and no row for a folder that does not exist. Two folders may share a
+# row.
+check_indexed() {
+  local folder readme rows name line
+  for folder in tests effects runtime examples; do
+    [[ -d $folder ]] || continue
+    readme=$folder/README.md
+    rows=$(grep -nE '^[|*-] ' "$readme" 2>/dev/null |
+      sed -nE 's/^([0-9]+):[|*-] +(\[?`[A-Za-z0-9_.-]+\/`[^|:]*).*/\1 \2/p' |
+      while read -r line text; do grep -oE '`[A-Za-z0-9_.-]+/`' <<<"$text" | tr -d '`/' | sed "s/^/$line /"; done) || true
+    list_files -path "./$folder/*/*" | cut -d/ -f2 | LC_ALL=C sort -u | while read -r name; do
+      grep -qE "^[0-9]+ ${name//./[.]}\$" <<<"$rows" || echo "$readme:1: has no row for $name/"
+    done
+    while read -r line name; do
+      [[ -z $name || -d $folder/$name ]] || echo "$readme:$line: lists $name/, which does not exist"
+    done <<<"$rows"
+  done
+}
+
+# Past 500 lines, ask what second noun lives in the file. This only warns and never fails.
 check_length() {
   list_files "${code[@]}" | xargs -r -d '\n' wc -l |
     awk '$2 != "total" && $1 > 500 { print "warning: " $2 ":" $1 ": has more than 500 lines" }' >&2
@@ -93,7 +117,8 @@ check_length() {
 list_uses() { grep -vE '^(#|$)' tests/style/package_uses.txt; }
 list_cmake() { list_files \( -name CMakeLists.txt -o -name '*.cmake' \) ! -path './tests/package/consumer/*'; }
 
-# What CMake looks for comes from a package of scripts/packages.txt, or a fresh Debian could not build.
+# Whatever CMake looks for comes from a package in scripts/packages.txt; otherwise a fresh Debian
+# could not build.
 check_listed() {
   local file line text pattern
   list_cmake | xargs -r -d '\n' grep -nHE '^ *(find_package|find_program|find_path|find_library|pkg_[a-z_]+) ?\(' |
@@ -110,7 +135,8 @@ check_listed() {
     done
 }
 
-# The lines of the test or function NAME of FILE, from its head to the brace in the first column.
+# Prints the lines of the test or function NAME in FILE, from its first line to the closing brace in
+# column one.
 body_of() {
   awk -v name="$2" '
     !inside && ($0 ~ "^TEST.*, *" name "\\)" || $0 ~ "^(void|bool|static .*) " name "\\(") { inside = 1 }
@@ -118,7 +144,8 @@ body_of() {
     inside && /^}/ { exit }' "$1"
 }
 
-# Each class of errors stands in tests/checks/ERRORS.md with messages whose tests name them.
+# Each class of errors has a row in tests/checks/ERRORS.md, and the test that a row names contains
+# its message id.
 check_errors() {
   local file=tests/checks/ERRORS.md line class id test path name wanted
   [[ -f $file ]] || return 0
@@ -138,8 +165,8 @@ check_errors() {
   done
 }
 
-# Each message of checked mode has a test that holds its id; one of the tests of the list's section 12 or of
-# tests/checks and tests/checked_code provokes it.
+# Some test contains the id of each checked-mode message; tests/conformance/err*.cpp, tests/checks
+# and tests/checked_code provoke them.
 check_told() {
   check_errors
   local file=runtime/checks/messages.inc line text id
@@ -152,7 +179,7 @@ check_told() {
   done
 }
 
-# Nobody installs what nothing uses.
+# No package is installed that nothing uses.
 check_used() {
   local package pattern
   awk '!/^#/ && NF { sub(/>=.*/, "", $1); print $1 }' scripts/packages.txt | while read -r package; do
@@ -177,8 +204,17 @@ check_recipes() {
     done
 }
 
+# No arrow upward: includes and CMake's links go only where layers.txt says. Tests include what they like.
+check_layers() {
+  {
+    list_files -name '*.cpp' -o -name '*.h' -o -name '*.inc' |
+      grep -E '^(rtapi|runtime|effects|examples)/' | grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$'
+    list_files -name CMakeLists.txt | grep -E '^(rtapi|runtime|effects|examples)/'
+  } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
+}
+
 case $rule in
-  spdx | paths | marks | readme | length | listed | used | told | twice | recipes) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | layers) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

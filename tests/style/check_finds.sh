@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# check_finds.sh RULE: check.sh fails on testdata/RULE and names exactly the places in RULE.expected.
+# check_finds.sh RULE: check.sh must fail on testdata/RULE and name exactly the places in
+# RULE.expected.
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 if output=$(bash "$here/check.sh" "$1" "$here/testdata/$1"); then

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // One test for each call (and each kind of it) on each backend; table.sh makes the README's support
-// table of their results. The suite is the table's row, the test's name what works.
+// table from their results. The suite's name is the table row, the test's name what works.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ namespace kaamos::support {
 
 constexpr uint32_t kCount = 8;  // numbers that a shader writes
 
-// A call that the backend refuses as unsupported ends the test as skipped: "no" in the table.
+// If the backend refuses a call as unsupported, the test ends as skipped, which is "no" in the
+// table.
 #define KAAMOS_SUPPORTED(status)                                                             \
   do {                                                                                       \
     const auto& kaamos_status = (status);                                                    \
@@ -30,20 +31,21 @@ constexpr uint32_t kCount = 8;  // numbers that a shader writes
 class Call : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override;
-  // Makes the device and what every test uses.
+  // Makes the device and everything that each test uses.
   void open(const rtapi::DeviceDesc& desc);
 
   rtapi::Buffer upload(const std::vector<uint32_t>& words);
   rtapi::Buffer buffer(uint64_t bytes,
                        rtapi::ResourceStates state = rtapi::ResourceStates::kUnorderedAccess);
   std::vector<uint32_t> read(const rtapi::Buffer& words);
-  rtapi::Texture texture(uint32_t width = kCount);  // of R8G8B8A8, writable
-  rtapi::Texture texture_of(uint32_t first);        // texels of first, first + 1, ...
+  rtapi::Texture texture(uint32_t width = kCount);  // R8G8B8A8, writable
+  rtapi::Texture texture_of(uint32_t first);        // its texels are first, first + 1, ...
   rtapi::ShaderLibrary library();
 
-  // Binds root signature, out_ and the table, runs `entry` over kCount threads, returns out_.
+  // Binds the root signature, out_ and the table, runs `entry` with kCount threads, and returns
+  // out_.
   std::vector<uint32_t> compute(const char* entry);
-  // Views of the table by their place in it.
+  // The views of the table by their slot.
   enum Slot : uint32_t {
     kStructured,
     kTyped,
@@ -58,7 +60,8 @@ class Call : public testing::TestWithParam<std::string> {
   rtapi::CpuDescriptorHandle slot(Slot slot) { return views_.GetCPUDescriptorHandle(slot); }
   void bind(rtapi::CommandList& list);
 
-  // A bottom level of triangles at x = 0, 1, ... or of boxes, an instance of it with InstanceID 4.
+  // A bottom level of triangles at x = 0, 1, ... or of boxes, and an instance of it with InstanceID
+  // 4.
   rtapi::Result<rtapi::Buffer> bottom_level(
       uint32_t primitives, bool boxes = false,
       rtapi::RaytracingAccelerationStructureBuildFlags flags =
@@ -69,7 +72,7 @@ class Call : public testing::TestWithParam<std::string> {
       const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
       const rtapi::Buffer* update_of = nullptr);
 
-  // A pipeline and tables, and what its rays wrote.
+  // A pipeline and its tables, and what its rays wrote.
   struct Rays {
     std::string ray_generation = "TraceRootView";
     std::string closest_hit = "Hit";
@@ -91,7 +94,7 @@ class Call : public testing::TestWithParam<std::string> {
   rtapi::DescriptorHeap views_;
   rtapi::DescriptorHeap samplers_;
   rtapi::Buffer out_;
-  rtapi::Buffer words_;  // of the local arguments: 50, 51, ...
+  rtapi::Buffer words_;  // the local arguments: 50, 51, ...
   std::vector<rtapi::Buffer> keep_;
   uint32_t constants_[2] = {3, 2};
 };

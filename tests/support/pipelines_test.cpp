@@ -96,7 +96,7 @@ TEST_P(Commands, ExecuteIndirect) {
       device_.CreateComputePipelineState({root_, library(), "Atomically", ""}).value());
   list.ExecuteIndirect(*signature, 2, upload({3, 1, 1, 1, 2, 1}), 0);
   KAAMOS_SUPPORTED(queue_.ExecuteAndWait(list));
-  EXPECT_EQ(read(out_)[0], 276u + 2 * 28u);  // threads 0..23, and twice 0..7
+  EXPECT_EQ(read(out_)[0], 276u + 2 * 28u);  // threads 0..23, and 0..7 twice
 }
 
 TEST_P(Commands, RootConstants) {

@@ -32,7 +32,7 @@ TEST_P(AccelerationStructures, Build_update) {
             (std::vector<uint32_t>{7, 104, 114, 7, 7, 7, 7, 7}));
 }
 
-// A copy of `source`, or what the backend says.
+// A copy of `source`, or the backend's error.
 #define KAAMOS_COPY(source, mode, bytes)                                               \
   const Buffer copy = buffer(bytes, ResourceStates::kRaytracingAccelerationStructure); \
   {                                                                                    \
@@ -54,7 +54,7 @@ TEST_P(AccelerationStructures, Copy_compact) {
   EXPECT_EQ(trace({}, top_level(copy).value())[1], 114u);
 }
 
-// `source` as bytes, sized by postbuild info, and read by the host.
+// `source` as bytes, sized by postbuild info and read by the host.
 #define KAAMOS_BYTES(source, mode, info, bytes)                                         \
   std::vector<uint32_t> bytes;                                                          \
   {                                                                                     \
@@ -98,7 +98,7 @@ TEST_P(AccelerationStructures, Copy_serialize) {
       DriverMatchingIdentifierStatus::kCompatibleWithDevice);
 }
 
-// To another device of each backend, the top level before the bottom level that it refers to.
+// To another device of each backend; the top level comes before the bottom level that it refers to.
 TEST_P(AccelerationStructures, Copy_deserialize) {
   const Buffer bottom = bottom_level(3, false, BuildFlags::kAllowUpdate).value();
   const Buffer top = top_level(bottom).value();

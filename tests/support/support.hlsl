@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Small shaders, one for each thing that a call must bring about. All write numbers to g_out.
+// Small shaders, one for each thing that a call must do. All write numbers to g_out.
 
 RWStructuredBuffer<uint> g_out : register(u0);
 struct Constants {
@@ -10,7 +10,7 @@ ConstantBuffer<Constants> g_constants : register(b0);
 StructuredBuffer<uint> g_structured : register(t0);
 RaytracingAccelerationStructure g_scene : register(t1);
 
-// In the table.
+// In the descriptor table.
 StructuredBuffer<uint> g_view : register(t0, space1);
 Buffer<uint> g_typed : register(t1, space1);
 ByteAddressBuffer g_bytes : register(t2, space1);
@@ -80,7 +80,7 @@ void ThroughGroupMemory(uint3 id : SV_DispatchThreadID) {
 [shader("compute")] [numthreads(8, 1, 1)]
 void Atomically(uint3 id : SV_DispatchThreadID) { InterlockedAdd(g_out[0], id.x); }
 
-// Rays. Ray i goes at x = i along +z; what is hit adds to 100.
+// Rays. Ray i goes along +z at x = i; a hit adds to 100.
 
 struct Payload {
   uint value;

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# table.sh SUPPORT_TEST README [--write]: runs the tests of the calls on every backend, makes a table of
-# what they gave, and compares it with the one in README, or (--write) puts it there. Ends with 77 where
-# there is no Vulkan device.
+# table.sh SUPPORT_TEST README [--write]: runs the support tests on every backend, makes a table of
+# their results, and compares it with the one in README, or writes it there (--write). Exits with 77
+# where there is no Vulkan device.
 set -euo pipefail
 support_test=$1
 readme=$2
@@ -16,7 +16,7 @@ if [[ $results == *'no device: '* ]]; then
 fi
 if [[ $results != *' tests from '*' ran.'* ]]; then
   tail -n 3 <<<"$results"
-  echo "$support_test did not come to its end: no table can be made."
+  echo "$support_test did not finish, so no table can be made."
   exit 1
 fi
 table=$(awk '
@@ -52,7 +52,7 @@ if [[ ${3:-} == --write ]]; then
   printf '%s\n' "$written" >"$readme"
 elif [[ $committed != "$table" ]]; then
   printf '%s\n' "$table"
-  echo "The table in $readme differs from what the tests give, which stands above. If that is right:"
+  echo "The table in $readme differs from the results of the tests, shown above. If those are right:"
   echo "  bash tests/support/table.sh $support_test $readme --write"
   exit 1
 fi

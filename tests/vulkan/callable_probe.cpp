@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// How deep callable shaders nest on the driver itself, without anything of runtime/vulkan: one that
-// calls itself as often as the command line says, with 16 words of data a level, in a pipeline
-// whose stack size is set for all of them. Prints "levels: N" if all came back with the right
-// words, and what is wrong otherwise. Mesa 25.0 gives scratch memory for 31 levels of the callable
-// shader that takes most of it, whatever the stack size (lvp_ray_tracing_pipeline.c: "We can not
-// support dynamic stack sizes"): deeper ones write over other memory. `--frame WORDS` adds a
-// callable shader that nobody calls and that takes so many words, of which there are then 31 times
-// as many. Usage: callable_probe LEVELS [--frame WORDS]
+// Tests how deep callable shaders nest on the driver itself, without anything of runtime/vulkan. A
+// callable calls itself as often as the command line says, with 16 words of data per level, in a
+// pipeline whose stack size is set large enough for all levels. Prints "levels: N" if all levels
+// returned the right words, and otherwise what is wrong. Mesa 25.0 allocates scratch memory for 31
+// levels of the callable shader that needs most of it, whatever the stack size
+// (lvp_ray_tracing_pipeline.c: "We can not support dynamic stack sizes"); deeper levels overwrite
+// other memory. `--frame WORDS` adds a callable shader that nobody calls and that needs so many
+// words, so that 31 times as many are allocated. Usage: callable_probe LEVELS [--frame WORDS]
 #include <volk.h>
 
 #include <cstdio>

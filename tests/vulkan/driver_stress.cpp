@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// driver_stress [--seconds N] [--shape NAME] [--seed N]: uses the Vulkan driver in the shapes that
-// the backend uses it in, over and over, each time in a process of its own, and prints how often
-// each shape crashed, hung or computed something wrong. Without --seconds: 5, or 600 under
-// KAAMOS_FULL=1. Without a device: says so and ends with 77, or with 1 under
+// driver_stress [--seconds N] [--shape NAME] [--seed N]: uses the Vulkan driver over and over in
+// the ways ("shapes") in which the backend uses it, each time in a process of its own, and prints
+// how often each shape crashed, hung or gave a wrong result. Without --seconds it runs for 5 s, or
+// 600 s under KAAMOS_FULL=1. Without a device it says so and exits with 77, or with 1 under
 // KAAMOS_REQUIRE_VULKAN=1.
 #include <signal.h>
 #include <sys/wait.h>
@@ -31,7 +31,7 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Runs `work` in a child. Returns waitpid's status, or -1 when it had to be killed.
+// Runs `work` in a child process. Returns waitpid's status, or -1 if the child had to be killed.
 template <class Work>
 int in_child(Work work, double limit_seconds) {
   std::fflush(nullptr);
@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
   std::map<std::string, Tally> tallies;
   const double end = now() + seconds;
   const double slice = std::min(seconds / 50, 4.0);
-  // Every shape once, whatever the time; then on until it is over.
+  // Every shape runs once regardless of the time, then they repeat until it is over.
   for (bool first = true; first || now() < end; first = false) {
     for (const stress::Shape& shape : stress::shapes()) {
       if (only && std::strcmp(only, shape.name) != 0) continue;

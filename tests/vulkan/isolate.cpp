@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-isolate [--limit SECONDS] PROGRAM [ARGUMENTS]: ctest starts tests that may use Vulkan
-// through this, one test in each process.
+// through this program, one test in each process.
 //
-// A test on Vulkan (its name or its program's holds "vulkan") that a signal ends, or that is not
-// done within the limit, is run once more: the driver has faults that come and go. A test that
-// fails is not. KAAMOS_VULKAN_RUNS, a file in the build folder, gets a line "ran<TAB>name" for each
-// such test, and "repeated<TAB>name<TAB>why" for each repetition; scripts/test fails for more than
-// 1 in 100. Validation layers are on and the driver's shader cache is in the build folder, unless
-// the environment says otherwise.
+// A test on Vulkan (with "vulkan" in its own name or its program's) that a signal ends, or that is
+// not done within the limit, is run once more, because some of the driver's faults come and go. A
+// test that fails is not repeated. KAAMOS_VULKAN_RUNS, a file in the build folder, gets a line
+// "ran<TAB>name" for each such test and "repeated<TAB>name<TAB>why" for each repetition;
+// scripts/test fails for more than 1 in 100. Validation layers are on and the driver's shader cache
+// is in the build folder, unless the environment says otherwise.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -39,7 +39,7 @@ std::string file_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
-// One write, so that lines of tests that run at the same time stay whole.
+// A single write keeps the lines of tests that run at the same time whole.
 void log_run(const std::string& line) {
   const char* file = std::getenv("KAAMOS_VULKAN_RUNS");
   const int log = open(file ? file : KAAMOS_BINARY_DIR "/vulkan-runs.txt",
@@ -49,7 +49,7 @@ void log_run(const std::string& line) {
   close(log);
 }
 
-// waitpid's status, or -1 where the program had to be stopped.
+// Returns waitpid's status, or -1 if the program had to be stopped.
 int run(char** command, double limit_seconds) {
   const pid_t child = fork();
   if (child == 0) {

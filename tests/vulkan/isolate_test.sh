@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# isolate_test.sh KAAMOS_ISOLATE WORK: what kaamos-isolate does with programs that crash once, always,
-# hang, fail or list their tests.
+# isolate_test.sh KAAMOS_ISOLATE WORK: how kaamos-isolate handles programs that crash once or
+# always, hang, fail, or list their tests.
 set -uo pipefail
 isolate=$1
 work=$2
@@ -10,7 +10,7 @@ rm -rf "$work"
 mkdir -p "$work"
 export KAAMOS_VULKAN_RUNS="$work/runs.txt"
 
-# program NAME BODY: a script that notes each of its runs.
+# program NAME BODY: creates a script that records each of its runs.
 program() {
   printf '#!/bin/sh\necho run >>"%s/count"\n%s\n' "$work" "$2" >"$work/$1"
   chmod +x "$work/$1"

@@ -152,8 +152,8 @@ void Gpu::open_device() {
   info.enabledExtensionCount = 3;
   info.ppEnabledExtensionNames = extensions;
   check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
-  // One device in a process at a time would allow volkLoadDevice, which is a little faster; the
-  // instance's functions serve several.
+  // volkLoadDevice is a little faster but serves only one device per process; the instance's
+  // functions serve several.
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }
 

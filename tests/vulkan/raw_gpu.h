@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The least Vulkan that a ray tracing program needs, and nothing of runtime/vulkan in it: what the
-// driver's stress test and the hand-written baselines of tests/bench stand on. A call that fails
-// throws std::runtime_error with the call's name; that is fine in a program of its own.
+// The least Vulkan that a ray tracing program needs, without anything of runtime/vulkan. The
+// driver's stress test and the hand-written baselines of tests/bench use it. A call that fails
+// throws std::runtime_error with the call's name, which is fine for standalone programs.
 #pragma once
 
 #define VK_NO_PROTOTYPES
@@ -18,7 +18,7 @@
 
 namespace raw {
 
-// Everything has every usage, is host-visible and stays mapped.
+// Every buffer has every usage, is host-visible and stays mapped.
 struct Buffer {
   VkBuffer buffer = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -45,7 +45,8 @@ struct Accel {
   uint64_t address = 0;
 };
 
-// What a build reads besides the geometries; `counts` holds a number of primitives for each.
+// What a build reads besides the geometries; `counts` holds the number of primitives of each
+// geometry.
 struct AccelInput {
   VkAccelerationStructureTypeKHR type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
   VkBuildAccelerationStructureFlagsKHR flags = 0;
@@ -59,7 +60,7 @@ struct Stage {
   std::vector<std::pair<uint32_t, uint32_t>> constants;  // id, value
 };
 
-// Indices of stages; -1 for none.
+// Indices of stages; -1 means none.
 struct Group {
   int general = -1;
   int closest_hit = -1;
@@ -74,7 +75,7 @@ struct Pipeline {
 
 class Gpu {
  public:
-  // The first device with ray tracing pipelines. Throws where there is none.
+  // Takes the first device with ray tracing pipelines. Throws if there is none.
   explicit Gpu(bool validation = false);
   ~Gpu();
   Gpu(const Gpu&) = delete;
@@ -85,16 +86,16 @@ class Gpu {
   Image image(VkFormat format, uint32_t width, uint32_t height);  // layout: GENERAL
   void free(Image& image);
 
-  // Records, submits, waits. Throws after a minute. Any thread.
+  // Records, submits and waits. Throws after a minute. Any thread may call it.
   void run(const std::function<void(VkCommandBuffer)>& record);
 
-  // A structure large enough for `input`, not built yet.
+  // A structure large enough for `input`, not yet built.
   Accel accel(const AccelInput& input);
   void build(VkCommandBuffer list, const Accel& accel, const AccelInput& input,
              bool update = false);
   void free(Accel& accel);
 
-  // own_stack: vkCmdSetRayTracingPipelineStackSizeKHR says how large its stack is.
+  // own_stack: vkCmdSetRayTracingPipelineStackSizeKHR sets the stack size.
   Pipeline pipeline(const std::vector<Stage>& stages, const std::vector<Group>& groups,
                     uint32_t recursion, bool own_stack = false);
   VkPipeline compute(const Stage& stage);
@@ -106,7 +107,7 @@ class Gpu {
   VkDescriptorSet descriptors() const { return set_; }
   uint32_t handle_size() const { return handle_size_; }
   const std::string& name() const { return name_; }
-  // Of the validation layers, where they are on.
+  // Messages of the validation layers, if they are on.
   const std::vector<std::string>& messages() const { return messages_; }
 
   // Sampled images at binding 0, storage images at 1, samplers at 2; unbounded, updated after bind.
@@ -136,7 +137,7 @@ class Gpu {
   std::mutex queue_mutex_;
 };
 
-// GLSL to SPIR-V for Vulkan 1.3. Throws what the compiler says.
+// Compiles GLSL to SPIR-V for Vulkan 1.3. Throws with the compiler's message.
 std::vector<uint32_t> compile(VkShaderStageFlagBits stage, const std::string& glsl);
 
 VkAccelerationStructureGeometryKHR triangles(uint64_t vertices, uint32_t vertex_count,

@@ -121,7 +121,7 @@ Program create_program(raw::Gpu& gpu, const Variant& variant, uint32_t stride) {
   groups.push_back(push(1, -1, -1, -1));
   const uint32_t triangle_groups = kLayers * variant.hit_groups;
   for (uint32_t i = 0; i < triangle_groups; ++i) groups.push_back(push(-1, 2, 3, -1));
-  // B2: an intersection stage of its own for each group.
+  // B2: each group gets an intersection stage of its own.
   for (uint32_t i = 0; i < variant.hit_groups; ++i) {
     groups.push_back(push(-1, 2, -1, static_cast<int>(stages.size())));
     stages.push_back({VK_SHADER_STAGE_INTERSECTION_BIT_KHR, &spirv.at(kIntersection), constants});
@@ -136,7 +136,7 @@ Program create_program(raw::Gpu& gpu, const Variant& variant, uint32_t stride) {
   program.pipeline = gpu.pipeline(stages, groups, variant.recursion);
   const uint32_t hit_count = (kLayers + 1) * variant.hit_groups;
   const uint32_t records = 2 + hit_count + variant.callables;
-  // Records, and behind them the words that they point to.
+  // Records, followed by the words that they point to.
   const uint64_t words = static_cast<uint64_t>(records) * stride + 4 * stride;
   program.table = gpu.buffer(words + records * 4);
   uint64_t place = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A scene and shaders in which every pixel's result can be told in integers: what the driver must
-// give, however often and from how many threads it is asked.
+// A scene and shaders for which every pixel's result can be computed in integers: the driver must
+// give that result, however often and from however many threads it is asked.
 //
-// A grid of kCells x kCells cells, in each of them one triangle, one instance of the grid in each
-// layer, and behind them one box per cell. The ray of a cell goes through the middle of its
-// triangles. Any-hit and intersection shaders refuse some of them by a hash, the closest-hit shader
-// calls a callable and traces the same ray again, deeper.
+// The scene is a grid of kCells x kCells cells with one triangle in each; each layer holds one
+// instance of the grid, and behind the layers there is one box per cell. A cell's ray goes through
+// the middle of its triangles. Any-hit and intersection shaders reject some of them by a hash; the
+// closest-hit shader calls a callable and traces the same ray again, one level deeper.
 #pragma once
 
 #include <map>
@@ -19,18 +19,18 @@ namespace stress {
 constexpr uint32_t kCells = 24;
 constexpr uint32_t kLayers = 3;
 
-// What the shaders read by address; `block` of the GLSL.
+// What the shaders read by address: `block` in the GLSL.
 struct Block {
   uint64_t top_level = 0;
   uint64_t output = 0;  // uvec4 for each ray
   uint64_t salts = 0;   // uint for each layer, and one for the boxes
   uint64_t counters = 0;
   uint32_t dimensions[3] = {};
-  uint32_t depth = 0;      // traces nested in each other, after the first
-  uint32_t callables = 0;  // calls nested in each other
+  uint32_t depth = 0;      // nested traces after the first one
+  uint32_t callables = 0;  // nested calls
   uint32_t seed = 0;
   uint32_t ray_flags = 0;
-  uint32_t hit_groups = 1;  // per layer; a cell chooses one by its number
+  uint32_t hit_groups = 1;  // per layer; the number of a cell chooses one
   uint32_t cells = kCells;
   uint32_t images = 0;
 };
@@ -46,12 +46,12 @@ enum Kind {
   kCompute
 };
 
-// The modules, compiled once in a process for each size of payload.
+// The modules, compiled once per process for each payload size.
 constexpr uint32_t kPayloadRest = 12;
 const std::map<Kind, std::vector<uint32_t>>& modules(uint32_t payload_rest = kPayloadRest);
 
-// Constant of ray generation, closest-hit, miss and callable shaders: where the word comes from
-// that they mix in: 0: their specialization constant 1, 1: the shader record.
+// A constant of the ray generation, closest-hit, miss and callable shaders: where the word that
+// they mix in comes from. 0: their specialization constant 1; 1: the shader record.
 struct Variant {
   uint32_t hit_groups = 1;
   uint32_t callables = 2;
@@ -59,10 +59,10 @@ struct Variant {
   uint32_t constant = 11;
   uint32_t recursion = 31;
   uint32_t payload_rest = kPayloadRest;  // words
-  // Every such record of each table, the second first, has an identifier of zeros: what is hit is
-  // accepted and nothing runs. 0: none.
+  // Every null_every-th record of each table, beginning with the second, has an identifier of
+  // zeros: hits on it are accepted and nothing runs. 0: none.
   uint32_t null_every = 0;
-  bool garbage_rays = false;  // rays of random bits; no result to expect
+  bool garbage_rays = false;  // rays of random bits; there is no expected result
 };
 
 struct Program {
@@ -79,7 +79,7 @@ struct Scene {
   raw::Buffer vertices, indices, box_data, instance_data, block, salts, counters;
   raw::AccelInput triangle_input, box_input, top_input;
 };
-// `hit_groups` must be the program's.
+// `hit_groups` must match the program's.
 Scene create_scene(raw::Gpu& gpu, uint32_t seed, uint32_t hit_groups = 1);
 void free(raw::Gpu& gpu, Scene& scene);
 void build(VkCommandBuffer list, raw::Gpu& gpu, Scene& scene, bool update = false);
@@ -87,15 +87,15 @@ void build(VkCommandBuffer list, raw::Gpu& gpu, Scene& scene, bool update = fals
 void dispatch(VkCommandBuffer list, raw::Gpu& gpu, const Program& program, const raw::Buffer& block,
               uint32_t width, uint32_t height, uint32_t depth);
 
-// The result of ray `index`, computed here.
+// The result of ray `index`, computed on the CPU.
 uint32_t expected(const Block& block, const Variant& variant, const uint32_t* salts,
                   uint32_t index);
 
 // The image that thread `index` of the compute shader reads.
 uint32_t image_slot(uint32_t index, uint32_t seed, uint32_t images);
 
-// Fills a block, runs one dispatch and compares every ray. Returns an empty text, or the first
-// difference.
+// Fills a block, runs one dispatch and compares every ray. Returns the first difference; empty if
+// there is none.
 struct Launch {
   uint32_t width = 64, height = 8, slices = 1;
   uint32_t depth = 0, callables = 0, seed = 12345;

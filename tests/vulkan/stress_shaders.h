@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The GLSL of the driver's stress test; stress_scene.h says what it computes. REST is a number of
-// words that a payload carries for nothing but its size.
+// words that a payload carries only to be large.
 #pragma once
 
 namespace stress {
@@ -39,7 +39,7 @@ uint mixed(uint a, uint b) {
 uint salt(uint layer) { return Words(block.salts).v[layer]; }
 )";
 
-// The record holds an address, as the records of the backend do.
+// The record holds an address, as the backend's records do.
 inline constexpr const char* kRecord = R"(
 layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; };
 uint word() { return kFromRecord != 0 ? Words(local_arguments).v[0] : kConstant; }
@@ -159,7 +159,7 @@ void main() {
 }
 )";
 
-// Textures, storage images and samplers by index, different in neighbouring threads.
+// Textures, storage images and samplers by index; neighbouring threads use different ones.
 inline constexpr const char* kComputeText = R"(
 layout(local_size_x = 32) in;
 shared uint words[32];

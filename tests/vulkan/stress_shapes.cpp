@@ -37,7 +37,7 @@ class Clock {
   bool first_ = true;
 };
 
-// One scene and one program on a device of their own, launches chosen by `next`.
+// One scene and one program on a device of their own, with launches chosen by `next`.
 std::string launches(uint32_t seed, double seconds, const Variant& variant, uint32_t stride,
                      Launch (*next)(Random&)) {
   raw::Gpu gpu;
@@ -105,7 +105,8 @@ std::string many_hit_groups(uint32_t seed, double seconds) {
   variant.hit_groups = 1 + seed % 15;
   variant.callables = 2 + seed % 30;
   const uint32_t strides[] = {48, 64, 96, 4096};
-  // 48 is no multiple of the base alignment, which regions that start anew do not need.
+  // 48 is not a multiple of the base alignment, which is fine for regions that do not start inside
+  // a table.
   return launches(seed, seconds, variant, strides[1 + seed % 3], [](Random& random) {
     Launch launch;
     launch.depth = below(random, 3);
@@ -128,7 +129,7 @@ std::string null_records(uint32_t seed, double seconds) {
   });
 }
 
-// 4 KiB in each of 31 nested traces.
+// 4 KiB payloads in each of 31 nested traces.
 std::string large_payloads(uint32_t seed, double seconds) {
   Variant variant;
   variant.payload_rest = 1000;
@@ -170,7 +171,7 @@ std::string garbage_rays(uint32_t seed, double seconds) {
   return problem;
 }
 
-// A module with other constants each time: nothing of it is in a cache.
+// A module with different constants each time, so that no cache has any of it.
 std::string specialization(uint32_t seed, double seconds) {
   raw::Gpu gpu;
   Random random(seed);
@@ -198,7 +199,7 @@ std::string specialization(uint32_t seed, double seconds) {
   return problem;
 }
 
-// Built, updated, rebuilt and traced in one command buffer.
+// Builds, updates, rebuilds and traces in one command buffer.
 std::string rebuilds(uint32_t seed, double seconds) {
   raw::Gpu gpu;
   Random random(seed);
@@ -253,7 +254,7 @@ std::string devices_in_turn(uint32_t seed, double seconds) {
   return problem;
 }
 
-// Runs `work` on four threads; the first problem wins.
+// Runs `work` on four threads and returns the first problem.
 std::string on_threads(uint32_t seed, const std::function<std::string(Random&)>& work) {
   std::mutex mutex;
   std::string problem;
@@ -296,8 +297,7 @@ std::string threads_with_devices(uint32_t seed, double seconds) {
   });
 }
 
-// Four threads meet pipelines that no cache knows: the driver compiles them at their first
-// dispatch.
+// Four threads use pipelines that no cache knows: the driver compiles them at their first dispatch.
 std::string first_dispatch_on_threads(uint32_t seed, double seconds) {
   modules();
   raw::Gpu gpu;
@@ -318,7 +318,7 @@ std::string first_dispatch_on_threads(uint32_t seed, double seconds) {
   });
 }
 
-// Images of three kinds in the unbounded arrays; one thread writes descriptors that no running
+// Images of three kinds in the unbounded arrays. One thread writes descriptors that no running
 // dispatch uses while others dispatch.
 struct ImageSet {
   uint32_t count = 24;

@@ -7,8 +7,8 @@
 
 namespace stress {
 
-// A use of the driver that is repeated until `seconds` are over. Returns an empty text, or what was
-// wrong. Runs in a process of its own.
+// Uses the driver in one way until `seconds` are over. Returns what was wrong; empty if nothing
+// was. Runs in a process of its own.
 struct Shape {
   const char* name;
   std::string (*run)(uint32_t seed, double seconds);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The Vulkan device of a test: where there is none, the test is skipped with the backend's sentence
-// that says what to install, or fails under KAAMOS_REQUIRE_VULKAN=1. Under
-// KAAMOS_VULKAN_VALIDATION=1 (which kaamos-isolate sets) the test fails for what the validation
-// layers said while it ran.
+// The Vulkan device of a test. Without one, the test is skipped with the backend's message that
+// says what to install, or fails under KAAMOS_REQUIRE_VULKAN=1. Under KAAMOS_VULKAN_VALIDATION=1
+// (which kaamos-isolate sets), the test fails for any message of the validation layers while it
+// ran.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,11 +13,11 @@
 
 namespace kaamos::test {
 
-// Empty where a Vulkan device can be made, else why not.
+// Why no Vulkan device can be made; empty if one can.
 std::string why_no_vulkan();
 bool vulkan_is_required();
 
-// Collects the layers' messages until it is gone, and fails the test for each.
+// Collects the layers' messages during its lifetime and fails the test for each.
 class ValidationGuard {
  public:
   ValidationGuard();
@@ -32,7 +32,7 @@ class ValidationGuard {
 
 }  // namespace kaamos::test
 
-// First line of a test on Vulkan.
+// The first line of a test on Vulkan.
 #define KAAMOS_NEED_VULKAN()                                                   \
   if (const std::string why = ::kaamos::test::why_no_vulkan(); !why.empty()) { \
     if (::kaamos::test::vulkan_is_required()) FAIL() << why;                   \

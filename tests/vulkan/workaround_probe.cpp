@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// workaround_probe balance | payload: what workarounds B11 and PAYLOAD do, in a process of its own,
-// since one is measured by the processor time of the driver's threads and the other keeps the
-// process alive. Status 0, and one line: the share of the thread that worked most; or whether the
-// traces came back.
+// workaround_probe balance | payload: shows what workarounds B11 and PAYLOAD do. It is a process of
+// its own because B11 is measured by the processor time of the driver's threads and PAYLOAD keeps
+// the process alive. Exits with 0 and prints one line: the busiest thread's share of the work, or
+// whether the traces returned.
 #include <rtapi/rtapi.h>
 #include <rtapi/shader_table.h>
 #include <rtapi/upload.h>
@@ -24,8 +24,8 @@ using namespace rtapi;
 
 class Probe {
  public:
-  // `miss`: null for none. Only what is named is compiled: the driver takes minutes for the payload
-  // of NestDeeper on some CPUs.
+  // `miss` may be null. Compiles only the shaders named: the driver takes minutes for NestDeeper's
+  // payload on some CPUs.
   Probe(const char* ray_generation, const char* miss)
       : ray_generation_(ray_generation), miss_(miss) {
     DeviceDesc desc;
@@ -95,7 +95,7 @@ class Probe {
   StateObject pipeline_;
 };
 
-// Nanoseconds on a processor, by thread.
+// Processor time by thread, in nanoseconds.
 std::map<std::string, double> thread_times() {
   std::map<std::string, double> times;
   for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {

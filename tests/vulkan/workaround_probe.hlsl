@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// What shows two workarounds that change no pixel: work in the lower half of the picture only
-// (B11), and traces that nest with a payload of 4 KiB (PAYLOAD).
+// Shaders for two workarounds that change no pixel: work only in the lower half of the picture
+// (B11), and nested traces with a payload of 4 KiB (PAYLOAD).
 
 RaytracingAccelerationStructure g_nothing : register(t0);
 RWStructuredBuffer<uint> g_results : register(u0);
 cbuffer Constants : register(b0) {
-  uint g_count;  // steps of work for a pixel, or traces
+  uint g_count;  // steps of work per pixel, or traces
 }
 
 [shader("raygeneration")]

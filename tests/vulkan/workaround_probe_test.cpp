@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Workarounds that change no pixel, with and without: B11 (which thread works), PAYLOAD and
-// CALLABLES (whether the process lives). The others' tests compare pixels: runtime/vulkan/README.md
-// says where.
+// Workarounds that change no pixel, with and without them: B11 (which thread works), PAYLOAD and
+// CALLABLES (whether the process survives). Tests of the others compare pixels;
+// runtime/vulkan/README.md says where they are.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -17,12 +17,12 @@ namespace kaamos::test {
 namespace {
 
 struct Outcome {
-  int status = 0;  // as a shell has it: 128 + signal
+  int status = 0;  // as in a shell: 128 + signal
   std::string line;
 };
 
-// `before`: shell commands; `what`: the program and its arguments. The probe does not dump its
-// core, and its validation layers are off: they have stacks and threads of their own.
+// `before`: shell commands; `what`: the program and its arguments. The probe dumps no core, and its
+// validation layers are off because they have stacks and threads of their own.
 Outcome probe(const std::string& what, const std::string& before) {
   const std::string command = "bash -c 'unset KAAMOS_VULKAN_VALIDATION; ulimit -c 0; " + before +
                               KAAMOS_BINARY_DIR "/bin/" + what + " 2>&1; exit $?' 2>/dev/null";
@@ -41,7 +41,7 @@ double busiest_share(const std::string& before) {
   return std::atof(outcome.line.c_str());
 }
 
-// Work in one half of the picture is worth little to a thread that has the other half.
+// Work in one half of the picture keeps a thread idle that owns the other half.
 TEST(VulkanWorkarounds, RowsAreSharedEvenly) {
   KAAMOS_NEED_VULKAN();
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs two processors";
@@ -50,14 +50,16 @@ TEST(VulkanWorkarounds, RowsAreSharedEvenly) {
   EXPECT_GT(without, 1.5 * with);
 }
 
-// On a CPU without AVX-512 LLVM takes minutes for a payload of 4 KiB (1.5 for 1 KiB, an EPYC Zen 3).
+// On a CPU without AVX-512, LLVM takes minutes for a payload of 4 KiB (1.5 for 1 KiB on an EPYC Zen
+// 3).
 #define KAAMOS_NEED_QUICK_COMPILER()                                               \
   if (!__builtin_cpu_supports("avx512f") && std::getenv("KAAMOS_FULL") == nullptr) \
   GTEST_SKIP()                                                                     \
       << "the driver compiles this for minutes on a CPU without AVX-512; KAAMOS_FULL=1 runs it"
 
-// The driver's threads get the stack that a process's limit says: with 1 MiB, 31 traces with 4 KiB
-// are as much too deep as with 64 KiB on the usual 8 MiB, which the driver compiles for minutes.
+// The driver's threads get the stack size of the process's limit: with 1 MiB, 31 traces with 4 KiB
+// exceed it just as 31 traces with 64 KiB exceed the usual 8 MiB, and the driver compiles the
+// latter for minutes.
 constexpr char kSmallStacks[] = "ulimit -s 1024; ";
 
 TEST(VulkanWorkarounds, LargePayloadsThatNestTooDeepRemoveTheDevice) {
@@ -85,7 +87,7 @@ TEST(VulkanWorkarounds, UsualStacksAreLargeEnough) {
   EXPECT_EQ(outcome.line, "finished: 38\n");
 }
 
-// Without a limit threads get 2 MiB.
+// Without a limit, threads get 2 MiB.
 TEST(VulkanWorkarounds, StacksWithoutALimitAreSmaller) {
   KAAMOS_NEED_VULKAN();
   KAAMOS_NEED_QUICK_COMPILER();
@@ -94,7 +96,7 @@ TEST(VulkanWorkarounds, StacksWithoutALimitAreSmaller) {
   EXPECT_NE(outcome.line.find("a depth of 23 "), std::string::npos) << outcome.line;
 }
 
-// The driver's fault behind CALLABLES, without anything of the backend in the process.
+// The driver's fault behind CALLABLES, in a process without the backend.
 TEST(VulkanWorkarounds, DeepCallablesNeedAFrameThatNobodyCalls) {
   KAAMOS_NEED_VULKAN();
   const Outcome few = probe("callable_probe 31", "");

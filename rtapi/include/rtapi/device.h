@@ -42,7 +42,7 @@ enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
 
 struct Message {
   MessageSeverity Severity = MessageSeverity::kError;
-  std::string Id;    // "KA0715"
+  ErrorId Id;        // KA0715 is number 715
   std::string Text;  // begins with the id
 };
 

@@ -23,10 +23,23 @@ enum class ErrorCode : uint32_t {
   kFailed,           // E_FAIL
 };
 
+// The number of an error or a message, KA0712 for 712. Numbers are stable; rtapi/ERRORS.md lists
+// them with their meaning and their cure. Compare numbers, never texts.
+struct ErrorId {
+  uint16_t number = 0;
+
+  // "KA0712"
+  std::string text() const {
+    std::string digits = std::to_string(number);
+    return "KA" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+  }
+  bool operator==(const ErrorId&) const = default;
+};
+
 // What went wrong. `message` begins with the id and says what, where, the actual and the allowed
 // value, and what to do, e.g. "KA0712 vertex buffer misaligned: ...".
 struct Error {
-  std::string id;  // "KA0712"; stable, listed in rtapi/errors.md
+  ErrorId id;
   ErrorCode code = ErrorCode::kFailed;
   std::string message;
 };

@@ -51,7 +51,7 @@ enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
 
 struct ShaderDiagnostic {
   ShaderDiagnosticSeverity Severity = ShaderDiagnosticSeverity::kError;
-  std::string Id;  // "KA2104"
+  ErrorId Id;  // KA2104 is number 2104
   std::string File = {};
   uint32_t Line = 0;    // from 1; 0 without a place
   uint32_t Column = 0;  // from 1

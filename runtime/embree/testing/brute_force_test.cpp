@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// TRV-11, TRV-15, TRV-66: hits against a reference in double precision that tests every triangle of
-// every instance.
+// TRV-11, TRV-15, TRV-66: compares hits with a reference in double precision that tests every
+// triangle of every instance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +43,8 @@ struct Reference {
   double closest = 1e300;
   uint32_t primitive = 0;
   uint32_t instance = 0;
-  bool front = false;      // in world space, of a matrix without a mirror
-  bool uncertain = false;  // some triangle is met within rounding of an edge or an end of the ray
+  bool front = false;      // in world space, for a matrix that does not mirror
+  bool uncertain = false;  // passes an edge or an end of the ray within rounding
 };
 
 struct Scene {
@@ -108,7 +108,7 @@ Reference trace_reference(const Scene& scene, const shader::RayDesc& ray) {
   return reference;
 }
 
-// 360 triangles in as many instances as that.
+// 360 triangles, divided among the instances.
 Scene random_scene(Random& random, uint32_t instances) {
   Scene scene;
   for (uint32_t i = 0; i < 360 / instances; ++i) {

@@ -12,8 +12,8 @@ namespace kaamos::embree::testing {
 using Point = std::array<float, 3>;
 using Triangle = std::array<Point, 3>;
 
-// A bumpy sphere around the origin, star-shaped seen from there: eight faces of n * n triangles.
-// Its axes run through vertices, and the planes between them along edges.
+// A bumpy sphere around the origin, star-shaped as seen from there: eight faces of n * n triangles.
+// Its axes pass through vertices, and the planes between them run along edges.
 inline std::vector<Triangle> closed_mesh(int n, float scale) {
   const auto on_sphere = [&](float x, float y, float z) {
     const float length = std::sqrt(x * x + y * y + z * z) * (1 + 0.1f * std::sin(9 * x + 5 * y));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// rtapi on this backend, from CreateDevice to the bytes that come back; shaders written on the ABI.
+// rtapi on this backend, from CreateDevice to the bytes that come back; the shaders are written
+// against the ABI.
 #include <gtest/gtest.h>
 #include <rtapi/device.h>
 #include <rtapi/shader_table.h>

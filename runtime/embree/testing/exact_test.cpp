@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What TraversalPrecision::kExact promises, over scales and distances, beside what the other two
-// precisions do. [DXR: Watertightness; Top-left rule; Ray extents; Degenerate primitives]
+// What TraversalPrecision::kExact promises, over scales and distances, compared with what the other
+// two precisions do. [DXR: Watertightness; Top-left rule; Ray extents; Degenerate primitives]
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,10 +57,10 @@ Point aimed_at(const Triangle& triangle, Aim aim, std::mt19937& random) {
 struct Placement {
   float scale;   // of the mesh
   float scene;   // how far its instance is from the origin, in x and y
-  float camera;  // how far outside the mesh rays start, in its sizes; 0: inside
+  float camera;  // how far outside the mesh rays start, in mesh sizes; 0: inside
 };
 
-// Rays whose count of hits is wrong: not one from inside, odd from outside.
+// Counts rays with a wrong number of hits: not one from inside, odd from outside.
 int wrong_rays(Harness& harness, const Placement& place, Aim aim, int count) {
   const std::vector<Triangle> mesh = closed_mesh(12, place.scale);
   auto instance = instance_of(harness.bottom_level({geometry_of(mesh, kNonOpaque)}));
@@ -88,7 +88,7 @@ int wrong_rays(Harness& harness, const Placement& place, Aim aim, int count) {
   return wrong;
 }
 
-// 300,000 rays in exact precision, a part of them in the others.
+// 300,000 rays in exact precision, some of them in the others as well.
 TEST(Exact, EveryRayCrossesAClosedMeshOnce) {
   const Placement places[] = {{1e-9f, 0, 0},    {1e-6f, 0, 0},     {1e-3f, 0, 0},   {1, 0, 0},
                               {1e3f, 0, 0},     {1e6f, 0, 0},      {1e9f, 0, 0},    {1e12f, 0, 0},
@@ -121,7 +121,7 @@ TEST(Exact, EveryRayCrossesAClosedMeshOnce) {
     }
   }
   std::printf("\n");
-  EXPECT_GT(wrong_in_robust, 0);  // the rays do find what is wrong
+  EXPECT_GT(wrong_in_robust, 0);  // these rays do find errors
 }
 
 struct Errors {
@@ -129,7 +129,7 @@ struct Errors {
   double barycentrics;
 };
 
-// The largest errors of hits that are not grazing: t in ulp of a float, barycentrics in 2^-24.
+// The largest errors of hits that are not grazing: t in float ulps, barycentrics in units of 2^-24.
 Errors largest_errors(TraversalPrecision precision, const Placement& place) {
   Harness harness(1, precision);
   harness.use_standard_pipeline();
@@ -204,7 +204,7 @@ TEST(Exact, HitDataIsThatOfLongDouble) {
   std::printf("\n");
 }
 
-// Copies of one triangle: the first by instance, geometry, primitive is the hit.
+// Copies of one triangle: the first by instance, geometry and primitive is the hit.
 TEST(Exact, OfCoincidentTrianglesTheFirstIsHit) {
   Harness harness(1, TraversalPrecision::kExact);
   harness.use_standard_pipeline();

@@ -71,7 +71,7 @@ rtapi::TraversalPrecision precision_of_environment() {
 ::testing::AssertionResult is_distance(float t, float expected) {
   const bool rounds = precision_of_environment() != rtapi::TraversalPrecision::kExact &&
                       !__builtin_cpu_supports("avx512vl");
-  // An ulp is between epsilon / 2 and epsilon of the number.
+  // An ulp is between epsilon / 2 and epsilon times the number.
   const float error = rounds ? std::numeric_limits<float>::epsilon() * std::abs(expected) : 0.0f;
   if (std::abs(t - expected) <= error) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << "t is " << t << ", not " << expected;
@@ -136,7 +136,7 @@ void trace_jobs(shader::Invocation& invocation, uint32_t count) {
   const uint32_t first_x = invocation.index[0];
   const uint64_t row = uint64_t{invocation.dispatch->dimensions[0]} * invocation.index[1];
   for (uint32_t begin = first_x; begin < first_x + count; begin += shader::kLanes) {
-    uint32_t left = 0;  // a bit each
+    uint32_t left = 0;  // one bit each
     for (uint32_t lane = 0; lane < shader::kLanes; ++lane) {
       const uint64_t x = uint64_t{begin} + lane;
       if (x < first_x + count && row + x < job.count) left |= 1u << lane;
@@ -145,7 +145,7 @@ void trace_jobs(shader::Invocation& invocation, uint32_t count) {
     while (left != 0) {
       const Ray& first = rays[std::countr_zero(left)];
       shader::LaneRays lane_rays;
-      // What other lanes hold is of no concern.
+      // The contents of other lanes must not matter.
       std::memset(&lane_rays, 0xFF, sizeof(lane_rays));
       Payload payloads[shader::kLanes];
       uint32_t alike = 0;
@@ -255,7 +255,7 @@ rtapi::ShaderIdentifier PipelineBuilder::hit_group(shader::ClosestHitFn closest,
 
 GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags) {
   GeometryInput input;
-  // Seen along +z with y up, x points to the left in a left-handed space: this order is clockwise.
+  // Seen along +z with y up, x points left in a left-handed space, so this order is clockwise.
   input.vertices = {{0, 2, z}, {2, -2, z}, {-2, -2, z}};
   input.flags = flags;
   return input;

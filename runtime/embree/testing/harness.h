@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A backend device with shaders written in C++ on the shader ABI: what the tests of this folder and
-// the conformance tests run on, without a compiler and without rtapi's front.
+// A backend device with shaders written in C++ against the shader ABI. The tests of this folder and
+// the conformance tests run on it, without a compiler and without the API layer of rtapi.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
+#include "runtime/backend/backend.h"
 
 namespace kaamos::embree::testing {
 
 // -------------------------------------------------------------------------------------------------
-// Shaders: what a ray came to is written into its payload.
+// Shaders: they write what happened to a ray into its payload.
 
 inline constexpr uint32_t kSentinel = 0xDEADBEEF;
 
@@ -25,8 +25,8 @@ enum class End : uint32_t { kNothing = 0, kClosestHit = 1, kMiss = 2 };
 
 struct Payload {
   End end = End::kNothing;
-  uint32_t calls = 0;           // of closest-hit and miss shaders
-  uint32_t record = kSentinel;  // the record's root constant, of the last of them
+  uint32_t calls = 0;           // number of closest-hit and miss shaders
+  uint32_t record = kSentinel;  // root constant from the record of the last one
   shader::RaySystemValues values = {};
   float object_to_world[12] = {};
   float world_to_object[12] = {};
@@ -37,19 +37,19 @@ struct Payload {
   uint32_t any_hit_kind = 0;
   float any_hit_t = 0;
   float smallest_any_hit_t = 1e30f;
-  uint32_t any_hit_primitives = 0;  // bit i: primitive i was asked about
+  uint32_t any_hit_primitives = 0;  // bit i: an any-hit shader ran for primitive i
   uint32_t user = 0;
 };
 
-// Store the system values, and the record's constant.
+// These store the system values and the record's constant.
 void closest_hit(shader::Invocation& invocation, void* payload, const void* attributes);
 void miss(shader::Invocation& invocation, void* payload);
-// Count, and answer as named.
+// These count, and answer as their name says.
 shader::AnyHitResult any_hit_accept(shader::Invocation&, void* payload, const void*);
 shader::AnyHitResult any_hit_ignore(shader::Invocation&, void* payload, const void*);
 shader::AnyHitResult any_hit_end(shader::Invocation&, void* payload, const void*);
 
-// Reports Scene::reports in order and keeps the answers. One thread only.
+// Reports Scene::reports in order and stores the answers. One thread only.
 struct Report {
   float t;
   uint32_t hit_kind = 0;
@@ -75,7 +75,7 @@ class PipelineBuilder {
   rtapi::ShaderIdentifier ray_generation(shader::RayGenerationFn entry);
   rtapi::ShaderIdentifier miss(shader::MissFn entry);
   rtapi::ShaderIdentifier callable(shader::CallableFn entry, uint64_t stack_bytes = 0);
-  // Null functions are absent; with an intersection shader it is a procedural group.
+  // Null functions are absent; with an intersection shader it becomes a procedural group.
   rtapi::ShaderIdentifier hit_group(shader::ClosestHitFn closest_hit, shader::AnyHitFn any_hit,
                                     shader::IntersectionFn intersection = nullptr);
   void set_flags(rtapi::RaytracingPipelineFlags flags) { pipeline_->flags = flags; }
@@ -104,7 +104,7 @@ struct Vertex {
   float x, y, z;
 };
 
-// The arguments of TraceRay with its ray.
+// TraceRay's arguments together with its ray.
 struct Ray : shader::TraceRayArguments {
   shader::RayDesc ray;
 };
@@ -112,7 +112,7 @@ struct Ray : shader::TraceRayArguments {
 struct GeometryInput {
   std::vector<Vertex> vertices;              // triangles
   std::vector<uint32_t> indices;             // empty: not indexed
-  std::vector<rtapi::RaytracingAabb> boxes;  // procedural, if not empty
+  std::vector<rtapi::RaytracingAabb> boxes;  // procedural, unless empty
   rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kNone;
   std::vector<float> transform;  // 12 floats, or empty
 };
@@ -120,24 +120,24 @@ struct GeometryInput {
 inline constexpr auto kOpaque = rtapi::RaytracingGeometryFlags::kOpaque;
 inline constexpr auto kNonOpaque = rtapi::RaytracingGeometryFlags::kNone;
 
-// Whether a triangle's t, which must be a float, is that: to the bit, but where Embree multiplies
-// with a reciprocal that has an error (robust and fast precision, CPUs without AVX-512) within 2
-// ulps.
+// Whether a triangle's t, which must be representable as a float, is `expected`: to the bit, except
+// within 2 ulps where Embree multiplies by a reciprocal that has an error (robust and fast
+// precision, CPUs without AVX-512).
 ::testing::AssertionResult is_distance(float t, float expected);
 
-// A triangle that is hit at (0, 0, z) by a ray along +z; clockwise from -z, so a front face.
+// A triangle that a ray along +z hits at (0, 0, z); clockwise as seen from -z, so a front face.
 GeometryInput triangle_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
 GeometryInput box_at(float z, rtapi::RaytracingGeometryFlags flags = kOpaque);
 rtapi::RaytracingInstanceDesc instance_of(uint64_t bottom_level);
 // Along +z from (x, y, 0) with t in (0, 100).
 Ray ray_along_z(uint64_t top_level, float x = 0, float y = 0);
 
-// TraceRay as a shader calls it.
+// Calls TraceRay as a shader would.
 void trace_ray(shader::Invocation& invocation, const Ray& ray, void* payload);
 
 class Harness {
  public:
-  // In the precision that KAAMOS_TEST_PRECISION names (fast, robust, exact), robust without it.
+  // In the precision that KAAMOS_TEST_PRECISION names (fast, robust, exact), by default robust.
   explicit Harness(uint32_t threads = 1);
   Harness(uint32_t threads, rtapi::TraversalPrecision precision);
   ~Harness();
@@ -162,15 +162,15 @@ class Harness {
           rtapi::RaytracingAccelerationStructureBuildFlags::kNone);
   runtime::BuildCommand top_level_command(
       const std::vector<rtapi::RaytracingInstanceDesc>& instances);
-  // Return the address; 0 and a failed expectation if the build fails.
+  // These return the address; 0 and a failed expectation if the build fails.
   uint64_t bottom_level(const std::vector<GeometryInput>& geometries,
                         rtapi::RaytracingAccelerationStructureBuildFlags flags =
                             rtapi::RaytracingAccelerationStructureBuildFlags::kNone);
   uint64_t top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);
-  // One instance of one bottom level of these geometries.
+  // A top level with one instance of one bottom level with these geometries.
   uint64_t scene(const std::vector<GeometryInput>& geometries, uint32_t instance_flags = 0);
 
-  // Tables of this pipeline for the next dispatches.
+  // The next dispatches use tables of this pipeline.
   void set_pipeline(const PipelineBuilder& builder, rtapi::ShaderIdentifier ray_generation);
   void set_hit_table(const std::vector<Record>& records, uint64_t stride_bytes = 64);
   void set_miss_table(const std::vector<Record>& records, uint64_t stride_bytes = 64);
@@ -178,12 +178,12 @@ class Harness {
   rtapi::DispatchRaysDesc& desc() { return desc_; }
   void set_pipeline_stack_bytes(uint64_t bytes) { pipeline_stack_bytes_ = bytes; }
 
-  // Runs ray generation with `root` as the bytes of the root arguments.
+  // Runs ray generation with the bytes at `root` as the root arguments.
   rtapi::Status dispatch(uint32_t width, uint32_t height, uint32_t depth, const void* root,
                          size_t root_bytes);
 
-  // The usual pipeline: `closest_hit`, `miss` and this any-hit shader; table of 64 equal hit groups
-  // whose constants are their indices, 8 miss records with 1000 + index.
+  // The usual pipeline: `closest_hit`, `miss` and this any-hit shader; a table of 64 identical hit
+  // groups whose constants are their indices, and 8 miss records with constants of 1000 + index.
   void use_standard_pipeline(shader::AnyHitFn any_hit = nullptr,
                              shader::IntersectionFn intersection = nullptr,
                              uint32_t max_recursion_depth = 1);
@@ -207,10 +207,10 @@ class Harness {
   uint64_t pipeline_stack_bytes_ = 0;
 };
 
-// Ray generation of Harness::trace. With KAAMOS_TEST_ROWS set the pipelines of PipelineBuilder run
-// it by trace_jobs.
+// The ray generation shader of Harness::trace. If KAAMOS_TEST_ROWS is set, the pipelines of
+// PipelineBuilder run it through trace_jobs.
 void trace_job(shader::Invocation& invocation);
-// The same by rows: rays that are traced alike together, by Services::trace_rays.
+// The same for a row: rays with equal arguments go together, to Services::trace_rays.
 void trace_jobs(shader::Invocation& invocation, uint32_t count);
 
 }  // namespace kaamos::embree::testing

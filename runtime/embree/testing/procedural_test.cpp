@@ -166,7 +166,8 @@ TEST(Trv40And43, KindAndAttributesAreThoseOfTheCommittedReport) {
 TEST(Sv05, RayTCurrentByStage) {
   Harness h;
   h.use_standard_pipeline(any_hit_accept, report_all);
-  // Intersection: the closest hit so far, a triangle's; any-hit: the candidate's.
+  // The intersection shader sees the closest hit so far, the triangle's; any-hit sees the
+  // candidate's.
   const uint64_t scene = h.top_level({instance_of(h.bottom_level({triangle_at(2)})),
                                       instance_of(h.bottom_level({box_at(1, kNonOpaque)}))});
   set_reports({{50, 1, {}}});
@@ -176,7 +177,7 @@ TEST(Sv05, RayTCurrentByStage) {
   Payload payload = h.trace(ray);
   EXPECT_EQ(payload.values.t_current, 1.5f);
   EXPECT_EQ(payload.any_hit_t, 1.5f);
-  // Miss: RayDesc.TMax, whatever was rejected on the way.
+  // The miss shader sees RayDesc.TMax, whatever was rejected before.
   h.use_standard_pipeline(any_hit_ignore, report_all);
   ray = ray_along_z(h.scene({triangle_at(2, kNonOpaque)}));
   ray.ray.t_max = std::numeric_limits<float>::infinity();
@@ -188,8 +189,8 @@ TEST(Sv05, RayTCurrentByStage) {
 TEST(Trv07, ABoxBehindATriangleAtTheSameTWins) {
   Harness h;
   h.use_standard_pipeline(nullptr, report_all);
-  // The order in which instances are visited is free: either the triangle comes first and the box
-  // replaces it, or the box is first and the triangle, at the end of the open interval, is no hit.
+  // Instances may be visited in any order: either the triangle comes first and the box replaces it,
+  // or the box comes first and the triangle, at the end of the open interval, is no hit.
   const uint64_t triangle = h.bottom_level({triangle_at(3)});
   const float t = h.trace(ray_along_z(h.top_level({instance_of(triangle)}))).values.t_current;
   ASSERT_TRUE(is_distance(t, 3));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Inline ray tracing: rules RQ-01 to 13 and 15 to 17. RQ-14 is the compiler's: tests/hlsl.
+// Inline ray tracing: rules RQ-01 to 13 and 15 to 17. The compiler checks RQ-14: tests/hlsl.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ shader::AnyHitResult run_body_in_any_hit(Invocation& invocation, void*, const vo
   return shader::AnyHitResult::kIgnore;
 }
 
-// Runs `shader` as ray generation, once.
+// Runs `shader` once, as ray generation.
 void run(Harness& h, std::function<void(Invocation&)> shader) {
   body() = std::move(shader);
   PipelineBuilder builder;
@@ -49,7 +49,7 @@ void trace(Invocation& invocation, RayQuery& query, const Ray& ray, uint32_t fla
   shader::begin_query(invocation, query, scene, flags, mask, ray.ray);
 }
 
-// The t of all candidates, none of them committed.
+// The t of all candidates, committing none of them.
 std::vector<float> candidates(Invocation& invocation, RayQuery& query) {
   std::vector<float> all;
   while (query_proceed(invocation, query)) all.push_back(query.candidate.t);
@@ -128,7 +128,7 @@ TEST(Rq05, FalseIsFinal) {
     trace(i, q, ray_along_z(scene));
     EXPECT_TRUE(query_proceed(i, q));
     for (int k = 0; k < 5; ++k) EXPECT_FALSE(query_proceed(i, q));
-    query_commit_triangle(q);  // there is no candidate any more
+    query_commit_triangle(q);  // there is no longer a candidate
     EXPECT_EQ(q.committed.type, 0u);
   });
 }
@@ -157,7 +157,7 @@ TEST(Rq07, ASecondCommitChangesNothing) {
     EXPECT_TRUE(query_proceed(i, q));
     query_commit_triangle(q);
     query_commit_triangle(q);
-    query_commit_procedural(q, 1.0f);  // of another kind
+    query_commit_procedural(q, 1.0f);  // wrong kind
     EXPECT_EQ(q.committed.type, shader::kCommittedTriangle);
     EXPECT_TRUE(is_distance(q.committed.t, 2.0f));
     EXPECT_FALSE(query_proceed(i, q));  // the other one is behind it
@@ -225,7 +225,7 @@ TEST(Rq13, ValuesOfCandidateAndHit) {
     ASSERT_TRUE(query_proceed(i, q));
     EXPECT_EQ(q.candidate.instance_index, 1u);
     EXPECT_EQ(q.candidate.instance_id, 77u);
-    EXPECT_EQ(q.candidate.instance_contribution, 0xABCDEFu);  // RQ-17: and nothing more
+    EXPECT_EQ(q.candidate.instance_contribution, 0xABCDEFu);  // RQ-17, and nothing more
     EXPECT_EQ(q.candidate.geometry_index, 0u);
     EXPECT_TRUE(is_distance(q.candidate.t, 5.0f));
     EXPECT_EQ(query_object_origin(q, q.candidate).e[2], -4.0f);
@@ -238,7 +238,7 @@ TEST(Rq13, ValuesOfCandidateAndHit) {
   });
 }
 
-// RQ-15, and more candidates than are kept at once, with commits at any moment.
+// RQ-15, with more candidates than are kept at once and commits at any time.
 TEST(Rq15, EachCandidateOnceWhateverIsCommittedAndHoweverQueriesInterleave) {
   Harness h;
   std::mt19937 random(7);

@@ -15,7 +15,7 @@ GeometryInput shifted_triangle(float x, rtapi::RaytracingGeometryFlags flags = k
   return input;
 }
 
-// Four geometries side by side at x = 0, 10, 20, 30, in an instance of this contribution.
+// Four geometries side by side at x = 0, 10, 20, 30, in an instance with this contribution.
 uint64_t row_of_geometries(Harness& h, uint32_t contribution, uint32_t flags = 0) {
   auto instance = instance_of(h.bottom_level(
       {shifted_triangle(0), shifted_triangle(10), shifted_triangle(20), shifted_triangle(30)}));
@@ -237,7 +237,7 @@ TEST(Sbt23, AnIndexPastTheTableRunsNothing) {
   ray.miss_shader_index = 8;
   EXPECT_EQ(h.trace(ray).end, End::kNothing);
   ASSERT_EQ(h.messages.size(), 2u);
-  EXPECT_EQ(h.messages[0].Id, "KA0895");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0895");
   EXPECT_NE(h.messages[0].Text.find("record 16777215"), std::string::npos) << h.messages[0].Text;
   EXPECT_NE(h.messages[1].Text.find("miss table: record 8 was reached, the table has 8"),
             std::string::npos)
@@ -258,10 +258,10 @@ TEST(Sbt24, GarbageInUnreachedRecordsIsHarmless) {
   h.set_hit_table({{garbage, 0}, {hit, 1}, {garbage, 2}});
   EXPECT_EQ(h.trace(ray_along_z(row_of_geometries(h, 1))).record, 1u);
   EXPECT_TRUE(h.messages.empty());
-  // Reached, an unknown identifier runs nothing.
+  // An unknown identifier that is reached runs nothing.
   EXPECT_EQ(h.trace(ray_along_z(row_of_geometries(h, 0))).end, End::kNothing);
   ASSERT_EQ(h.messages.size(), 1u);
-  EXPECT_EQ(h.messages[0].Id, "KA0896");
+  EXPECT_EQ(h.messages[0].Id.text(), "KA0896");
 }
 
 TEST(Sbt26, AllShadersOfAGroupSeeTheSameRecord) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Intervals, any-hit shaders, the end of a trace, inactive and degenerate input: rules TRV-nn.
+// Intervals, any-hit shaders, the end of a search, inactive and degenerate input: rules TRV-nn.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(Trv02, OneTForBothSpaces) {
   EXPECT_TRUE(is_distance(h.trace(ray_along_z(h.top_level({instance}))).values.t_current, 6.0f));
 }
 
-// The interval's ends are compared with the t that the traversal finds, whatever its rounding.
+// The interval's ends are compared with the t that the traversal finds, however that is rounded.
 TEST(Trv03, TrianglesAreHitInTheOpenInterval) {
   Harness h;
   h.use_standard_pipeline();
@@ -194,7 +194,7 @@ TEST(Trv28, ARejectedCandidateLeavesTheCommittedHitWhole) {
   EXPECT_TRUE(is_distance(payload.values.t_current, 5.0f));
   float barycentrics[2];
   std::memcpy(barycentrics, payload.attributes, 8);
-  // The hit point of primitive 3, in its own vertices.
+  // The hit point of primitive 3, computed from its vertices.
   const auto& v = stack.vertices;
   const float x = v[9].x * (1 - barycentrics[0] - barycentrics[1]) + v[10].x * barycentrics[0] +
                   v[11].x * barycentrics[1];
@@ -203,7 +203,7 @@ TEST(Trv28, ARejectedCandidateLeavesTheCommittedHitWhole) {
 
 TEST(Trv24To26, AnyHitCallsComeOneAtATimeBeforeTheClosestHit) {
   Harness h(2);
-  // `user` counts all calls; the closest-hit shader must find every any-hit call in it.
+  // `user` counts all calls; the closest-hit shader must see every any-hit call in it.
   PipelineBuilder builder;
   const auto rg = builder.ray_generation(trace_job);
   const auto hit = builder.hit_group(
@@ -321,7 +321,8 @@ TEST(Trv67, ATopLevelOfEmptyBottomLevelsMisses) {
   EXPECT_EQ(h.trace(ray_along_z(h.top_level({}))).end, End::kMiss);
 }
 
-// A closed box of 12 triangles around the origin, hit from inside at random: no ray escapes.
+// A closed box of 12 triangles around the origin, hit from inside in random directions: no ray
+// escapes.
 TEST(Trv72, NoRayEscapesFromAClosedBox) {
   Harness h(2);
   h.use_standard_pipeline();

@@ -80,7 +80,7 @@ void trace_again(shader::Invocation& invocation, void* data, const void* attribu
   const uint32_t primitive = invocation.ray->primitive_index;
   if (++payload.user < 1000) {
     uint64_t scene;
-    std::memcpy(&scene, payload.world_to_object, sizeof(scene));  // put there by ray generation
+    std::memcpy(&scene, payload.world_to_object, sizeof(scene));  // stored there by ray generation
     const auto ray = ray_along_z(scene);
     trace_ray(invocation, ray, data);
   }
@@ -114,12 +114,12 @@ TEST(So47, TraceRayAtTheDeclaredDepthRemovesTheDevice) {
     Payload payload;
     const rtapi::Status status = recurse(h, declared, payload);
     ASSERT_FALSE(status.ok());
-    EXPECT_EQ(status.error().id, "KA0890");
+    EXPECT_EQ(status.error().id.text(), "KA0890");
     EXPECT_EQ(status.error().code, rtapi::ErrorCode::kDeviceRemoved);
     EXPECT_NE(status.error().message.find("MaxTraceRecursionDepth " + std::to_string(declared)),
               std::string::npos)
         << status.error().message;
-    // The shaders of all allowed depths ran.
+    // Shaders ran at all allowed depths.
     EXPECT_EQ(payload.user, declared);
   }
 }
@@ -184,9 +184,9 @@ TEST(So46, AFullPipelineStackRemovesTheDevice) {
   job = {11, 0, {}};
   const auto status = call(h, job, 100);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().id, "KA0891");
+  EXPECT_EQ(status.error().id.text(), "KA0891");
   EXPECT_NE(status.error().message.find("the shader stack is used up"), std::string::npos);
-  // The device of a test goes on: only rtapi refuses what comes after a removal.
+  // The device of this harness still works: only rtapi refuses calls after a removal.
   job = {10, 0, {}};
   EXPECT_TRUE(call(h, job, 100).ok());
 }

@@ -8,16 +8,16 @@
 #include <memory>
 #include <system_error>
 
-#include "runtime/hlsl/build_library.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/driver/arguments.h"
-#include "runtime/hlsl/emit_cpp.h"
-#include "runtime/hlsl/emit_glsl.h"
-#include "runtime/hlsl/file_loader.h"
-#include "runtime/hlsl/frontend.h"
-#include "runtime/hlsl/host_compiler.h"
-#include "runtime/hlsl/ir_dump.h"
-#include "runtime/hlsl/reflect.h"
-#include "runtime/hlsl/spirv.h"
+#include "runtime/hlsl/driver/build_library.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/driver/reflect.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/glsl/emit_glsl.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/ir/dump.h"
 
 namespace {
 
@@ -94,7 +94,7 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
                     {.optimisation = arguments.debug ? Optimisation::kDebug : Optimisation::kFull,
                      .spirv = !arguments.no_spirv,
                      .wide = !arguments.no_wide});
-  if (!object.error.empty()) return fail(object.error);
+  if (object.error) return fail(object.error.message());
   std::error_code failed;
   fs::copy_file(object.path, arguments.output, fs::copy_options::overwrite_existing, failed);
   return failed ? fail("cannot write " + arguments.output + ": " + failed.message()) : 0;
@@ -112,7 +112,7 @@ int write_output(const Arguments& arguments, const std::string& text) {
 int write_cpp(const Arguments& arguments, const ir::Module& module) {
   SpirvLibrary library;
   if (!arguments.no_spirv) library = compile_spirv(module);
-  if (!library.error.empty()) return fail(library.error);
+  if (library.error) return fail(library.error.message());
   return write_output(arguments,
                       emit_cpp(module, {.entry_point = arguments.entry_function,
                                         .spirv = library.modules,
@@ -140,7 +140,7 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
                     std::to_string(module.entry_points.size()) + ": name one with -exports");
       }
       const SpirvLibrary library = compile_spirv(module);
-      if (!library.error.empty()) return fail(library.error);
+      if (library.error) return fail(library.error.message());
       const auto& words = library.modules[0];
       text.assign(reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t));
       break;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""gdb prints HLSL's values and what a debugger meets around them in HLSL's words.
+"""Pretty-printers that let gdb show HLSL values, and what goes with them, in HLSL terms.
 
 In gdb: source .../share/kaamos/gdb/kaamos_gdb.py
 Covered: vectors, matrices, arrays, payloads and other structs of shaders, RayDesc, descriptors,
@@ -97,7 +97,7 @@ class Array:
 
 
 class ShaderStruct:
-    """A struct of a shader, payloads among them: its HLSL name and its fields."""
+    """A shader struct, such as a payload: its HLSL name and its fields."""
 
     def __init__(self, value):
         self.value = value
@@ -170,7 +170,7 @@ class RayQuery:
 
 
 def shaders_text(target, name_of):
-    """`name_of`: of a member, or None where no shader is there."""
+    """`name_of` gives the name of a member, or None if there is no shader."""
     parts = []
     for what in ("shader", "intersection", "any_hit", "closest_hit"):
         name = name_of(target[what])
@@ -181,7 +181,7 @@ def shaders_text(target, name_of):
 
 
 class ShaderRecord:
-    """What a dispatch on the CPU found behind an index of a shader table."""
+    """What a dispatch on the CPU found at an index of a shader table."""
 
     def __init__(self, value):
         self.value = value
@@ -202,7 +202,7 @@ def linked_name(shader):
 
 
 class LinkedRecord:
-    """What an identifier of a state object names."""
+    """What an identifier of a state object stands for."""
 
     def __init__(self, value):
         self.value = value

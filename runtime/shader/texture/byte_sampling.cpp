@@ -24,7 +24,7 @@ using Channels = Floats4;
 using Ints4 = int32_t __attribute__((vector_size(16)));
 using Bytes4 = uint8_t __attribute__((vector_size(4)));
 
-// Instead of a division for each texel's alpha: 4 % of a sample's time.
+// Replaces a division for each texel's alpha, which saves 4 % of a sample's time.
 constexpr std::array<float, 256> kUnormToFloat = [] {
   std::array<float, 256> table{};
   for (uint32_t i = 0; i < 256; ++i) table[i] = static_cast<float>(i) / 255.0f;
@@ -43,7 +43,7 @@ template <bool Srgb>
   }
 }
 
-// fast_floor() of each.
+// fast_floor() of each component.
 [[gnu::always_inline]] inline Floats4 floor_of(Floats4 x) {
   const Ints4 has_fraction = ((Ints4)x & 0x7FFFFFFF) < 0x4B000000;  // below 2^23
   const Floats4 in_range = (Floats4)((Ints4)x & has_fraction);
@@ -52,7 +52,8 @@ template <bool Srgb>
   return has_fraction ? (truncated > x ? truncated - 1.0f : truncated) : x;
 }
 
-// linear_taps() along both axes on both mips at once: u and v on the first, u and v on the second.
+// linear_taps() along both axes for both mips at once: u and v on the first mip, then u and v on
+// the second.
 struct Taps {
   Ints4 first;
   Ints4 second;
@@ -77,7 +78,7 @@ struct Taps {
   const Floats4 x = reduced * __builtin_convertvector(size, Floats4) - 0.5f;
   const Floats4 whole = floor_of(x);
   const Floats4 fraction = x - whole;
-  // Beyond every texture, and far from overflow.
+  // Past the edge of every texture, but far from overflow.
   const Floats4 near = whole > 0x1p28f ? Floats4{} + 0x1p28f : whole;
   const Ints4 i = __builtin_convertvector(near < -0x1p28f ? Floats4{} - 0x1p28f : near, Ints4);
   const auto texel = [&](Ints4 index) {
@@ -90,7 +91,7 @@ struct Taps {
   return {texel(i), texel(i + 1), fraction == fraction ? fraction : Floats4{}};
 }
 
-// Mip: which of the two.
+// Mip says which of the two mips.
 template <bool Srgb, int Mip>
 [[gnu::always_inline]] inline Channels bytes_on_mip(const TextureMip& mip, const Taps& taps) {
   constexpr int kX = 2 * Mip, kY = 2 * Mip + 1;

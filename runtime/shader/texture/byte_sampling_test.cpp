@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Samples that are taken the short way have the bits of the long one.
+//
+// Samples taken on the short path have the bits of the long one.
 #include "runtime/shader/texture/byte_sampling.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ struct ByteTexture : TestTexture {
   }
 };
 
-// By the short way; without direct_format the same view goes the long one.
+// Takes the short path; without direct_format the same view takes the long one.
 void expect_same(ByteTexture& texture, const TestSampler& sampler, SampleArguments arguments) {
   arguments.texture = &texture.descriptor;
   arguments.sampler = &sampler.descriptor;
@@ -59,7 +60,7 @@ TEST(ByteSampling, HasTheBitsOfTheLongWay) {
           SampleArguments arguments = {};
           arguments.coordinates[0] = coordinate(random);
           arguments.coordinates[1] = coordinate(random);
-          // Every third a whole level, so that one mip is read.
+          // Every third is a whole level, so that only one mip is read.
           arguments.lod = i % 3 == 0 ? std::floor(lod(random)) - 0.25f : lod(random);
           expect_same(texture, sampler, arguments);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Cube maps: which face a direction meets, and where. [D3D11.3 7.18.11]
+// Cube maps: which face a direction hits, and where. [D3D11.3 7.18.11]
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace kaamos::shader {
 
-// Faces in the order +x, -x, +y, -y, +z, -z; u to the right and v downwards in [0, 1].
+// Faces are in the order +x, -x, +y, -y, +z, -z; u points right and v down, both in [0, 1].
 struct CubePlace {
   uint32_t face;
   double u;
@@ -17,7 +17,7 @@ struct CubePlace {
 
 namespace cube {
 
-// Per face: the axes that u and v follow and their signs, seen from inside.
+// For each face the axes that u and v follow, and their signs, as seen from inside.
 struct Face {
   int major, u_axis, v_axis;
   double major_sign, u_sign, v_sign;
@@ -37,7 +37,7 @@ uint32_t face_of(const T d[3]) {
 
 }  // namespace cube
 
-// The zero direction and NaN meet the middle of a face.
+// The zero direction and NaN hit the middle of a face.
 inline CubePlace cube_place(const double direction[3]) {
   const uint32_t face = cube::face_of(direction);
   const cube::Face& f = cube::kFaces[face];
@@ -47,7 +47,7 @@ inline CubePlace cube_place(const double direction[3]) {
   return {face, u >= -1 && u <= 1 ? (u + 1) * 0.5 : 0.5, v >= -1 && v <= 1 ? (v + 1) * 0.5 : 0.5};
 }
 
-// The inverse; u and v may lie outside of the face.
+// The inverse; u and v may be outside of the face.
 inline void cube_direction(const CubePlace& place, double direction[3]) {
   const cube::Face& f = cube::kFaces[place.face];
   direction[f.major] = f.major_sign;

@@ -12,7 +12,7 @@ namespace {
 using D = TextureDimension;
 constexpr uint32_t kPoint = 0, kBilinear = 0x14;
 
-// u to the right and v downwards on each face, as D3D's cube map table has them.
+// u points right and v down on each face, as in D3D's cube map table.
 TEST(CubeSampling, FacesLieAsInD3D) {
   struct Case {
     double direction[3];
@@ -52,7 +52,7 @@ TEST(CubeSampling, DirectionsInvertPlaces) {
   }
 }
 
-// One texel past an edge is the outermost texel of the neighbour, at the same place along the edge.
+// One texel past an edge is the neighbour's outermost texel, at the same place along the edge.
 TEST(CubeSampling, NeighboursMeetTexelByTexel) {
   for (const int size : {1, 2, 7, 256, 16384}) {
     for (uint32_t face = 0; face < 6; ++face) {
@@ -68,7 +68,7 @@ TEST(CubeSampling, NeighboursMeetTexelByTexel) {
           const int y = std::min(static_cast<int>(place.v * size), size - 1);
           EXPECT_TRUE(x == 0 || y == 0 || x == size - 1 || y == size - 1)
               << size << " " << x << " " << y;
-          // Back again: the neighbour's texel, pushed over the edge, ends on this face's edge.
+          // And back: the neighbour's texel, moved over the edge, ends on this face's edge.
           const auto is_along = [&](int i) { return i == along || i == size - 1 - along; };
           EXPECT_TRUE(is_along(x) || is_along(y)) << size << " " << x << " " << y;
         }
@@ -109,7 +109,7 @@ TEST(CubeSampling, EdgesAndCornersBlendAllFacesThatMeet) {
   EXPECT_EQ(sample(1, 0.5f, 0), 0.0f);
 }
 
-// A smooth function of direction, stored in the texels, must come out smooth everywhere.
+// A smooth function of direction, stored in the texels, must be sampled smoothly everywhere.
 TEST(CubeSampling, NoSeams) {
   constexpr uint32_t kSize = 16;
   TestTexture cube(D::kCube, kFormatRgba32Float, kSize, kSize, 6, 1,
@@ -134,7 +134,7 @@ TEST(CubeSampling, GradientsScaleWithTheFace) {
                      return float_texel(static_cast<float>(mip));
                    });
   TestSampler sampler(0x15);
-  // u spans 2 units of z at x = 1: 64 texels. A step of 4 texels is 8 / 64 of z there.
+  // u spans 2 units of z at x = 1, which is 64 texels. A step of 4 texels is 8 / 64 of z there.
   for (const float scale : {1.0f, 3.0f}) {
     SampleArguments a = sample_arguments(cube, sampler, scale, 0.1f * scale, 0.2f * scale);
     a.ddx[2] = scale * 8 / 64.0f;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Texels that emitted code reads and writes in place are those that the services would have given.
+//
+// Texels that emitted code reads and writes in place match what the services would give.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +55,7 @@ float value_of(std::mt19937& random) {
   return random() % 3 == 0 ? special[random() % std::size(special)] : uniform(random);
 }
 
-// Bits, so that what is not a number can be compared.
+// Compares bits, so that NaNs can be compared.
 template <class V>
 bool same(const V& a, const V& b) {
   return std::memcmp(&a, &b, sizeof(V)) == 0;
@@ -99,7 +100,7 @@ void expect_same(uint32_t format) {
       EXPECT_EQ(direct.memory, called.memory) << format << " at " << x << "," << y;
     }
   }
-  // Neither writes through a view that is only read.
+  // Neither writes through a read-only view.
   const std::vector<uint8_t> before = direct.memory;
   direct.view.unordered_access = bound.writable = false;
   store_texel(access.invocation, direct.descriptor, int4{{1, 1, 0, 0}}, V{});
@@ -153,7 +154,7 @@ TEST(DirectAccess, ConvertsAsTheServicesDo) {
   expect_same<vec<float, 2>>(37);
   expect_same<vec<float, 4>>(28);
   expect_same<vec<float, 4>>(10);
-  // Of formats that are not read in place, and of another number of channels.
+  // Formats that are not read in place, and a different number of channels.
   expect_same<vec<float, 4>>(11);
   expect_same<vec<float, 4>>(37);
   expect_same<float>(28);

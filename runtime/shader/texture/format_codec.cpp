@@ -39,7 +39,7 @@ void write(uint8_t* at, T value) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Channels: stored integer of `Bits` bits to a Texel's value and back.
+// Channels: from a stored integer of `Bits` bits to a Texel's value and back.
 
 struct Unorm {
   static constexpr NumberClass number = NumberClass::kFloat;
@@ -61,7 +61,7 @@ struct Unorm {
 struct Snorm {
   static constexpr NumberClass number = NumberClass::kFloat;
   static constexpr bool normalized = true;
-  // The lowest integer means -1 too.
+  // The lowest integer means -1, too.
   template <int Bits>
   static uint32_t decode(uint32_t stored) {
     constexpr float kMax = static_cast<float>((1u << (Bits - 1)) - 1);
@@ -147,7 +147,7 @@ struct Plain {
   }
 };
 
-// One integer T with bit fields; Shift and Bits per channel, 0 bits: not stored.
+// One integer T with bit fields: Shift and Bits for each channel; 0 bits: not stored.
 template <class Channel, class T, int RShift, int RBits, int GShift, int GBits, int BShift,
           int BBits, int AShift, int ABits>
 struct Packed {
@@ -198,9 +198,9 @@ Texel decode_srgb(const uint8_t* at) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Small floats: 5 exponent bits as float16 has, no sign.
+// Small floats: 5 exponent bits like float16, no sign.
 
-// Negative numbers give 0; what is finite stays finite. [D3D11.3 3.1.3.3]
+// Negative numbers give 0; finite numbers stay finite. [D3D11.3 3.1.3.3]
 template <int Mantissa>
 uint32_t encode_unsigned_float(uint32_t value) {
   constexpr uint32_t kInfinity = 31u << Mantissa;

@@ -49,7 +49,7 @@ TEST(TextureFormats, StoredBytesSurviveDecodeAndEncode) {
       const Texel texel = codec.decode(bytes);
       if (has_nan(codec, texel)) continue;
       codec.encode(back, texel);
-      // -128 and -127 are both -1: compare what the bytes mean.
+      // -128 and -127 both mean -1, so compare the decoded values.
       const Texel again = codec.decode(back);
       EXPECT_EQ(std::memcmp(&texel, &again, sizeof(texel)), 0) << "format " << format;
       const bool snorm = format == 13 || format == 31 || format == 37 || format == 51 ||

@@ -9,10 +9,10 @@
 
 namespace kaamos::shader {
 
-// With the sampler's bias and all lower and upper bounds but the view's last mip.
+// Adds the sampler's bias and applies all lower and upper bounds except the view's last mip.
 inline float clamped_lod(const TextureView& view, const SamplerState& sampler, float min_lod,
                          float lod) {
-  // Comparisons with NaN are false: it ends at the lower bound.
+  // Comparisons with NaN are false, so NaN becomes the lower bound.
   const float low = std::max(std::max(sampler.min_lod, view.min_lod), min_lod);
   lod += sampler.mip_lod_bias;
   lod = lod > low ? lod : low;

@@ -11,7 +11,7 @@ bool has_slices(TextureDimension dimension) {
   return dimension != TextureDimension::k1D && dimension != TextureDimension::k2D;
 }
 
-// A negative coordinate is out of range as a large unsigned one is.
+// A negative coordinate becomes a large unsigned one and is out of range, too.
 uint8_t* addressed(const TextureView& view, uint32_t bytes, const int32_t at[4]) {
   return texel_pointer(view, bytes, static_cast<uint32_t>(at[0]),
                        is_1d(view.dimension) ? 0 : static_cast<uint32_t>(at[1]),

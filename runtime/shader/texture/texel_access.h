@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Loads and stores of single texels and typed buffer elements, with the signatures of Services.
-// Out of bounds, null descriptors and unknown formats read zeros; such writes are dropped.
-// [D3D11.3 7.18]
+// Reads out of bounds, through null descriptors and of unknown formats give zeros; such writes are
+// dropped. [D3D11.3 7.18]
 #pragma once
 
 #include <cstdint>
@@ -23,14 +23,14 @@ Texel load_typed(const Descriptor& buffer, uint32_t element);
 void store_typed(const Descriptor& buffer, uint32_t element, const Texel& value);
 void* typed_address(const Descriptor& buffer, uint32_t element);
 
-// Textures: of that mip, zero sizes past the last one; array elements count whole cubes. Typed
+// Textures: the size of that mip, zero past the last one; array elements count whole cubes. Typed
 // buffers: width is the number of elements.
 TextureDimensions texture_dimensions(const Descriptor& descriptor, uint32_t mip);
 
 // ---------------------------------------------------------------------------------------------
-// Shared with the sampler.
+// Used by the sampler, too.
 
-// Out of range gives null.
+// Null if out of range.
 inline uint8_t* texel_pointer(const TextureView& view, uint32_t bytes, uint32_t x, uint32_t y,
                               uint32_t slice, uint32_t mip) {
   if (mip >= view.mip_count) return nullptr;
@@ -41,7 +41,7 @@ inline uint8_t* texel_pointer(const TextureView& view, uint32_t bytes, uint32_t 
          static_cast<uint64_t>(x) * bytes;
 }
 
-// The view's component mapping.
+// Applies the view's component mapping.
 inline Texel swizzled(const TextureView& view, NumberClass number, const Texel& texel) {
   const uint8_t* s = view.swizzle;
   if (s[0] == 0 && s[1] == 1 && s[2] == 2 && s[3] == 3) return texel;

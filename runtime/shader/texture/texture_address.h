@@ -8,7 +8,7 @@
 
 namespace kaamos::shader {
 
-// The numbers of D3D12_TEXTURE_ADDRESS_MODE; another number counts as wrap.
+// The values of D3D12_TEXTURE_ADDRESS_MODE; any other value counts as wrap.
 enum class AddressMode : uint32_t {
   kWrap = 1,
   kMirror = 2,
@@ -17,10 +17,10 @@ enum class AddressMode : uint32_t {
   kMirrorOnce = 5
 };
 
-// In place of a texel index: the border colour.
+// Used as a texel index, it means the border colour.
 inline constexpr int32_t kBorderTexel = -1;
 
-// size is at least 1 and at most 2^30, i between -2^30 and 2^30.
+// size must be at least 1 and at most 2^30, i between -2^30 and 2^30.
 inline int32_t addressed_texel(AddressMode mode, int32_t i, int32_t size) {
   switch (mode) {
     case AddressMode::kMirror: {
@@ -42,15 +42,16 @@ inline int32_t addressed_texel(AddressMode mode, int32_t i, int32_t size) {
   }
 }
 
-// std::floor is a call on x86-64 without SSE 4.1, and took a sixth of a bilinear sample's time.
+// On x86-64 without SSE 4.1 std::floor is a call, which takes a sixth of a bilinear sample's time.
 inline float fast_floor(float x) {
-  if (!(std::fabs(x) < 0x1p23f)) return x;  // whole already, or NaN
+  if (!(std::fabs(x) < 0x1p23f)) return x;  // already whole, or NaN
   const float truncated = static_cast<float>(static_cast<int32_t>(x));
   return truncated > x ? truncated - 1.0f : truncated;
 }
 
-// A coordinate in units of the texture's size, brought near to [0, 1] where the mode repeats, so
-// that large ones keep their fraction. NaN and what cannot be reduced become 0. [D3D11.3: NaN is 0]
+// A coordinate in units of the texture's size, brought close to [0, 1] if the mode repeats, so that
+// large coordinates keep their fraction. NaN and whatever cannot be reduced become 0. [D3D11.3: NaN
+// is 0]
 inline float reduced_coordinate(AddressMode mode, float u) {
   if (mode == AddressMode::kMirror) {
     u -= 2.0f * fast_floor(u * 0.5f);
@@ -61,7 +62,8 @@ inline float reduced_coordinate(AddressMode mode, float u) {
   return u == u ? u : 0.0f;
 }
 
-// Far out of every texture, and far from overflow: nothing an application passes may trap.
+// Clamps to far outside of every texture but far from overflow: nothing that an application passes
+// may trap.
 inline int32_t offset_index(float x, int32_t offset) {
   constexpr int32_t kFar = 1 << 28;
   const int32_t i = x >= 0x1p28f ? kFar : x <= -0x1p28f ? -kFar : static_cast<int32_t>(x);

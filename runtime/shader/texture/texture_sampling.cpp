@@ -20,11 +20,11 @@ constexpr uint32_t kR32G32B32A32Float = 2;
 constexpr uint32_t kR8G8B8A8Unorm = 28;
 constexpr uint32_t kR8G8B8A8UnormSrgb = 29;
 
-// Filter numbers. [D3D12_ENCODE_BASIC_FILTER]
+// Values of the filter. [D3D12_ENCODE_BASIC_FILTER]
 constexpr uint32_t kMipLinear = 1, kMagLinear = 4, kMinLinear = 16;
 enum class Reduction : uint32_t { kStandard = 0, kComparison = 1, kMinimum = 2, kMaximum = 3 };
 
-// A texel on its way through the filter, four floats (or the bits of integers) in one register.
+// A texel on its way through the filter: four floats (or the bits of integers) in one register.
 using Channels = float __attribute__((vector_size(16)));
 using Bytes4 = uint8_t __attribute__((vector_size(4)));
 struct Color {
@@ -35,7 +35,7 @@ bool is_cube(TextureDimension dimension) {
   return dimension == TextureDimension::kCube || dimension == TextureDimension::kCubeArray;
 }
 
-// How many coordinates address texels, and which one the array element.
+// How many coordinates address texels, and which one is the array element.
 struct Axes {
   int spatial;
   int element;  // -1: none
@@ -78,7 +78,7 @@ bool passes(uint32_t comparison, float reference, float texel) {
   }
 }
 
-// One sample: where it reads, and what becomes of the texels before and while they are blended.
+// One sample: where it reads, and how the texels are converted and blended.
 class Sampling {
  public:
   Sampling(const SampleArguments& arguments, const TextureView& view, const SamplerState& sampler,
@@ -93,7 +93,7 @@ class Sampling {
     reduction_ = compare || reduction == Reduction::kComparison ? Reduction::kStandard : reduction;
     blends_ = compare || codec_.number == NumberClass::kFloat;
     reference_ = arguments.comparison;
-    // As a depth buffer of that format would have stored it.
+    // As a depth buffer of that format would store it.
     if (codec_.normalized) reference_ = std::clamp(reference_, 0.0f, 1.0f);
     for (int i = 0; i < 3; ++i) u_[i] = arguments.coordinates[i];
     set_slice();
@@ -101,10 +101,10 @@ class Sampling {
 
   bool readable() const { return codec_.bytes != 0; }
 
-  // Level of detail before the sampler's bias and clamps.
+  // `lod` is the level of detail before the sampler's bias and clamps.
   Color at_lod(float lod) const;
   float lod_of_gradients() const;
-  // The texels of a footprint on mip 0 in gather's order.
+  // The texels of a footprint on mip 0, in gather's order.
   void gather_texels(Color texels[4]) const;
 
   Texel result(const Color& color) const {
@@ -114,7 +114,7 @@ class Sampling {
   }
 
  private:
-  struct Place {  // of a footprint on one mip
+  struct Place {  // the place of a footprint on one mip
     const TextureMip& mip;
     uint32_t slice;
   };
@@ -132,12 +132,12 @@ class Sampling {
     const uint32_t count = is_cube(view_.dimension) ? view_.slice_count / 6 : view_.slice_count;
     const float element = std::nearbyint(arguments_.coordinates[axes_.element]);
     const float last = count > 0 ? static_cast<float>(count - 1) : 0.0f;
-    slice_ = element > 0 ? static_cast<uint32_t>(std::min(element, last)) : 0;  // NaN is 0
+    slice_ = element > 0 ? static_cast<uint32_t>(std::min(element, last)) : 0;  // NaN gives 0
   }
 
   uint32_t first_slice() const { return is_cube(view_.dimension) ? slice_ * 6 + face_ : slice_; }
 
-  // No texels of a mip are read unless this holds.
+  // Texels of a mip are only read if this is true.
   bool has_texels(const TextureMip& mip) const {
     if (mip.texels == nullptr || mip.width == 0 || mip.height == 0) return false;
     if (is_cube(view_.dimension)) {
@@ -146,7 +146,7 @@ class Sampling {
     return slice_ < (view_.dimension == TextureDimension::k3D ? mip.depth : view_.slice_count);
   }
 
-  // Cube faces are never left through an address mode: seamless_texel() continues them.
+  // No address mode applies at the edges of cube faces: seamless_texel() continues across them.
   AddressMode mode(int axis) const {
     return is_cube(view_.dimension) ? AddressMode::kClamp
                                     : static_cast<AddressMode>(sampler_.address[axis]);
@@ -191,7 +191,7 @@ Color Sampling::border() const {
   return compare_ ? compared(color) : color;
 }
 
-// Indices are in range or kBorderTexel.
+// Indices must be in range or kBorderTexel.
 [[gnu::always_inline]] inline Color Sampling::texel(const TextureMip& mip, int32_t x, int32_t y,
                                                     int32_t slice) const {
   if ((x | y | slice) < 0) return border();
@@ -199,7 +199,7 @@ Color Sampling::border() const {
                       static_cast<uint64_t>(y) * mip.row_pitch +
                       static_cast<uint64_t>(x) * codec_.bytes;
   Color color;
-  // The most frequent formats without an indirect call.
+  // The most common formats, without an indirect call.
   if (view_.format == kR8G8B8A8Unorm) {
     Bytes4 bytes;
     __builtin_memcpy(&bytes, at, sizeof(bytes));
@@ -216,7 +216,7 @@ Color Sampling::border() const {
   return compare_ ? compared(color) : color;
 }
 
-// A weight of 0 leaves a NaN or an infinity of the other texel out.
+// With a weight of 0, a NaN or infinity in the other texel has no effect.
 [[gnu::always_inline]] inline Color Sampling::blend(const Color& a, const Color& b,
                                                     float weight) const {
   if (weight == 0.0f) return a;
@@ -265,10 +265,10 @@ Color Sampling::on_mip(uint32_t level, bool linear) const {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Cubes: filtering goes on over the edges of a face.
+// Cubes: filtering continues across the edges of a face.
 
-// x or y, not both, may be one texel outside of the face. In double: the neighbour's outermost
-// texel is hit by less than a float resolves on large faces.
+// x or y, but not both, may be one texel outside of the face. In double, because on large faces the
+// distance to the neighbour's outermost texel is below the resolution of float.
 Color Sampling::seamless_texel(const TextureMip& mip, int32_t x, int32_t y) const {
   const int32_t size = static_cast<int32_t>(mip.width);
   if (x >= 0 && x < size && y >= 0 && y < size) {
@@ -283,7 +283,7 @@ Color Sampling::seamless_texel(const TextureMip& mip, int32_t x, int32_t y) cons
   return texel(mip, index(place.u), index(place.v), static_cast<int32_t>(slice_ * 6 + place.face));
 }
 
-// The footprint's texels: upper left, upper right, lower left, lower right.
+// The texels of the footprint: upper left, upper right, lower left, lower right.
 void Sampling::cube_taps(const TextureMip& mip, Color taps[4], float weights[2]) const {
   const int32_t size = static_cast<int32_t>(mip.width);
   int32_t at[2];
@@ -304,7 +304,7 @@ void Sampling::cube_taps(const TextureMip& mip, Color taps[4], float weights[2])
     }
   }
   if (corner < 0) return;
-  // Three faces meet in a corner: the fourth texel is the mean of the others.
+  // Only three faces meet in a corner: the fourth texel is the mean of the others.
   Color mean = {};
   for (int i = 0; i < 4; ++i) {
     if (i != corner) mean.c += taps[i].c / 3.0f;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Filtered reads against a reference in double that follows the definitions: one texel at a time,
-// address modes by stepping, blending as a weighted sum. Coordinates are multiples of 1/64 and
-// sizes small, so that float loses nothing and both choose the same texels.
+// Compares filtered reads with a reference in double that follows the definitions: one texel at a
+// time, address modes by stepping, blending as a weighted sum. Coordinates are multiples of 1/64
+// and sizes small, so that float loses nothing and both choose the same texels.
 #include "runtime/shader/texture/texture_sampling.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ Texel noise(uint32_t x, uint32_t y, uint32_t slice, uint32_t mip) {
 // ---------------------------------------------------------------------------------------------
 // The reference
 
-// -1: border. Walks to the texture from outside.
+// Walks to the texture from outside. -1: border.
 int walk(uint32_t mode, int i, int size) {
   switch (mode) {
     case 2:
@@ -250,7 +250,7 @@ TEST(TextureSampling, MinimumAndMaximumOfTheTexelsThatCount) {
   TestSampler low(0x115, 3), high(0x195, 3);
   EXPECT_EQ(channel(sample_level(sample_arguments(texture, low, 0.5f, 0.5f)), 0), 0.0f);
   EXPECT_EQ(channel(sample_level(sample_arguments(texture, high, 0.5f, 0.5f)), 0), 3.0f);
-  // At a texel's centre the others have no weight.
+  // At the centre of a texel the others have no weight.
   EXPECT_EQ(channel(sample_level(sample_arguments(texture, low, 0.75f, 0.75f)), 0), 3.0f);
   EXPECT_EQ(channel(sample_level(sample_arguments(texture, high, 0.25f, 0.25f)), 0), 0.0f);
 }
@@ -295,7 +295,7 @@ TEST(TextureSampling, ComponentMappingFollowsFiltering) {
 // ---------------------------------------------------------------------------------------------
 // Levels of detail
 
-// Each mip has its own number.
+// Each mip contains its own number.
 struct Mips : testing::Test {
   TestTexture texture{
       D::k2D, kFormatR32Float, 64, 32, 1, 6, [](uint32_t, uint32_t, uint32_t, uint32_t mip) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A texture in a vector with a view of it, and short forms of the services' calls. For tests.
+// For tests: a texture in a vector with a view of it, and short forms of the services' calls.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ inline float channel(const Texel& texel, int i) {
   return std::bit_cast<float>(texel.bits[i]);
 }
 
-// Rows and slices are padded, so that a wrong pitch shows.
+// Rows and slices are padded, so that a wrong pitch is noticed.
 struct TestTexture {
   std::vector<uint8_t> memory;
   TextureView view;

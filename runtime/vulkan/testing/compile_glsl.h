@@ -9,7 +9,8 @@
 
 namespace kaamos::vulkan::testing {
 
-// SPIR-V of a shader of a test, entry point "main". Empty, and a failed expectation, for a mistake.
+// Compiles a test's shader, entry point "main", to SPIR-V. On a mistake: empty, and a failed
+// expectation.
 std::vector<uint32_t> compile_glsl(VkShaderStageFlagBits stage, const std::string& source);
 
 }  // namespace kaamos::vulkan::testing

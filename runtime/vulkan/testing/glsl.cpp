@@ -51,7 +51,8 @@ constexpr char kRecord[] = R"(
 layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; } record;
 )";
 
-// glslang takes constant ids up to 2046: those of the interface that are larger stand for 2000 on.
+// glslang accepts constant ids only up to 2046, so 2000 and up stand for the larger ones of the
+// interface.
 void restore_constant_ids(std::vector<uint32_t>& words) {
   constexpr uint32_t kOpDecorate = 71;
   constexpr uint32_t kSpecId = 1;

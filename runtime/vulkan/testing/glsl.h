@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Shaders of tests by hand, on the interface that compiled HLSL uses.
+// Hand-written test shaders, on the interface that compiled HLSL uses.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace kaamos::vulkan::testing {
 
-// As compile_glsl, with what spirv_interface.h defines before `body`: DispatchBlock `block`,
-// `record` except in compute, find_top_level, remove_device, MAX_TRACE_DEPTH, MAX_CALLABLE_DEPTH,
-// WORKAROUNDS, binding_source_0 and binding_offset_0.
+// Like compile_glsl, with the definitions of spirv_interface.h in front of `body`: DispatchBlock
+// `block`, `record` except in compute, find_top_level, remove_device, MAX_TRACE_DEPTH,
+// MAX_CALLABLE_DEPTH, WORKAROUNDS, binding_source_0 and binding_offset_0.
 std::vector<uint32_t> compile_shader(shader::Stage stage, const std::string& body);
 
 }  // namespace kaamos::vulkan::testing

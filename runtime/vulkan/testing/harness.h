@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A Vulkan device with pipelines linked by hand from GLSL: what the tests of this folder run on,
-// without the HLSL compiler and without rtapi's front.
+// A Vulkan device with pipelines linked by hand from GLSL. The tests of this folder run on it,
+// without the HLSL compiler and without the API layer of rtapi.
 #pragma once
 
 #include <deque>
@@ -15,12 +15,12 @@
 
 namespace kaamos::vulkan::testing {
 
-// Builds what rtapi's linker would.
+// Builds what rtapi's linker would build.
 class PipelineBuilder {
  public:
   explicit PipelineBuilder(uint32_t max_recursion_depth = 1);
 
-  // GLSL after the preamble of glsl.h. `slots`: of the library's bindings.
+  // A shader from GLSL, behind the preamble of glsl.h. `slots` are for the library's bindings.
   const runtime::LinkedShader* shader(shader::Stage stage, const std::string& glsl,
                                       std::vector<shader::BindingSlot> slots = {});
   // A shader without SPIR-V.
@@ -37,7 +37,7 @@ class PipelineBuilder {
   std::shared_ptr<const runtime::LinkedCompute> compute(const std::string& glsl);
 
  private:
-  // The code, which the linked objects point to, lives with them.
+  // Code that the linked objects point to; it lives as long as they do.
   struct Code {
     std::vector<uint32_t> words;
     shader::ExportDesc desc = {};
@@ -58,7 +58,8 @@ class Bench {
   std::shared_ptr<runtime::BackendBuffer> buffer(uint64_t size_bytes) {
     return scene.buffer(size_bytes);
   }
-  // A table of 64-byte records: identifiers, each with its index as the first local argument.
+  // A table of 64-byte records with these identifiers; each record's first local argument is its
+  // index.
   std::shared_ptr<runtime::BackendBuffer> table(const std::vector<rtapi::ShaderIdentifier>& ids);
   static rtapi::GpuVirtualAddressRangeAndStride range(
       const std::shared_ptr<runtime::BackendBuffer>& table, uint64_t stride_bytes = 64);
@@ -67,7 +68,7 @@ class Bench {
       std::shared_ptr<const runtime::LinkedPipeline> linked) {
     return RaytracingPipeline::create(layout, std::move(linked));
   }
-  // Root arguments are the addresses given.
+  // The addresses given are the root arguments.
   DispatchResult rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
                       const rtapi::DispatchRaysDesc& desc, std::vector<uint64_t> arguments);
   DispatchResult groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
@@ -77,7 +78,7 @@ class Bench {
   std::shared_ptr<DescriptorSet> descriptors;
   std::shared_ptr<PipelineLayout> layout;
   DispatchMemory scratch;
-  GridLimits limits;  // of the next dispatches
+  GridLimits limits;  // for the next dispatches
 };
 
 inline uint32_t* words_of(const std::shared_ptr<runtime::BackendBuffer>& buffer) {

@@ -153,7 +153,8 @@ void RayCaster::create_pipeline() {
             VK_SUCCESS);
 }
 
-// The driver reads whatever hit record the scene names: null records stand up to the last of them.
+// The driver reads whatever hit record the scene asks for, so there must be null records up to the
+// last one.
 void RayCaster::provide_table(uint64_t hit_records) {
   const uint64_t records = 2 + std::max<uint64_t>(hit_records, 2);
   if (table_ != nullptr && table_->size_bytes() >= records * record_bytes_) return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Casts rays into a top level by a ray tracing pipeline of four small shaders, and tells what each
-// met, with the numbers that the application knows.
+// Casts rays into a top level with a ray tracing pipeline of four small shaders, and returns what
+// each ray hit, in the application's numbers.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct CastRay {
   float t_max = 100;
 };
 
-// Boxes are hit at t = 1 + PrimitiveIndex, so that the first of those visited wins.
+// Boxes are hit at t = 1 + PrimitiveIndex, so that the lowest index visited wins.
 struct CastHit {
   float t = -1;  // a miss
   uint32_t instance = 0;
@@ -35,15 +35,15 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // `top_level` is looked up in the tables as shaders do. Instances of boxes have the contribution
-  // 1 to the hit group index, those of triangles 0.
+  // `top_level` is looked up in the tables, as shaders do. Instances of boxes have a contribution
+  // of 1 to the hit group index, those of triangles 0.
   std::vector<CastHit> cast(uint64_t top_level, const std::vector<CastRay>& rays);
   CastHit cast(uint64_t top_level, const CastRay& ray) {
     return cast(top_level, std::vector{ray}).front();
   }
   // Along +z from (x, y, 0).
   CastHit cast_along_z(uint64_t top_level, float x = 0, float y = 0);
-  // The time of the last cast on the queue, in milliseconds.
+  // The time that the last cast took on the queue, in milliseconds.
   double last_ms() const { return last_ms_; }
 
  private:
@@ -54,7 +54,7 @@ class RayCaster {
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
   std::vector<VkShaderModule> modules_;
-  std::vector<uint8_t> handles_;  // of four groups
+  std::vector<uint8_t> handles_;  // for four groups
   std::unique_ptr<GpuBuffer> table_;
   uint64_t record_bytes_ = 0;
   double last_ms_ = 0;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "runtime/backend.h"
-#include "runtime/structure_map.h"
+#include "runtime/backend/backend.h"
+#include "runtime/structures/structure_map.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/testing/vulkan_device.h"
 
@@ -20,12 +20,12 @@ namespace kaamos::vulkan::testing {
 struct GeometryInput {
   std::vector<float> xyz;                    // triangles
   std::vector<uint32_t> indices;             // empty: not indexed
-  std::vector<rtapi::RaytracingAabb> boxes;  // procedural, if not empty
+  std::vector<rtapi::RaytracingAabb> boxes;  // procedural, unless empty
   rtapi::RaytracingGeometryFlags flags = rtapi::RaytracingGeometryFlags::kOpaque;
   std::vector<float> transform;  // 12 floats, or empty
 };
 
-// A triangle that is hit at (x, 0, z) by a ray along +z.
+// A triangle that a ray along +z hits at (x, 0, z).
 GeometryInput triangle_at(float z, float x = 0);
 GeometryInput box_at(float z, float x = 0);
 void append(GeometryInput& to, const GeometryInput& from);
@@ -60,7 +60,7 @@ class SceneHarness {
       runtime::BuildFlags flags = runtime::BuildFlags::kNone);
   runtime::BuildCommand top_level_command(
       const std::vector<rtapi::RaytracingInstanceDesc>& instances);
-  // Return the address; 0 and a failed expectation if the build fails.
+  // These return the address; 0 and a failed expectation if the build fails.
   uint64_t bottom_level(const std::vector<GeometryInput>& geometries,
                         runtime::BuildFlags flags = runtime::BuildFlags::kNone);
   uint64_t top_level(const std::vector<rtapi::RaytracingInstanceDesc>& instances);

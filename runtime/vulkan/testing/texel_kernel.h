@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads and writes texels of the bindless set by compute shaders, as the shaders of rtapi do.
+// Reads and writes texels of the bindless set with compute shaders, as rtapi's shaders do.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,10 @@ class TexelKernel {
   TexelKernel(const TexelKernel&) = delete;
   TexelKernel& operator=(const TexelKernel&) = delete;
 
-  // Mip 0 of a sampled 2-D view, row by row.
+  // Reads mip 0 of a sampled 2-D view, row by row.
   std::vector<shader::Texel> read(uint64_t index, shader::NumberClass number, uint32_t width,
                                   uint32_t height);
-  // The same value to each texel of a storage view.
+  // Writes the same value to each texel of a storage view.
   void write(uint64_t index, shader::NumberClass number, uint32_t width, uint32_t height,
              const shader::Texel& value);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The device of a test: without one the test is skipped with the sentence that says what to
-// install, or fails where KAAMOS_REQUIRE_VULKAN is 1.
+// The device for a test. If there is none, the test is skipped with a sentence that says what to
+// install, or fails if KAAMOS_REQUIRE_VULKAN is 1.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -18,8 +18,8 @@ inline bool vulkan_is_required() {
   return value != nullptr && std::strcmp(value, "1") == 0;
 }
 
-// Under KAAMOS_VULKAN_VALIDATION=1 a test fails for what the layers said until its devices are
-// gone.
+// With KAAMOS_VULKAN_VALIDATION=1, a test fails for anything that the layers reported until its
+// devices were gone.
 class ValidationGuard {
  public:
   ValidationGuard() {

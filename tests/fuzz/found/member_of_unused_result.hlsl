@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // SPDX-License-Identifier: MIT
-// A member of what a call gives, as a statement of its own.
+// A member of a call's result, as a statement of its own.
 struct Payload {
   uint4 numbers;
 };

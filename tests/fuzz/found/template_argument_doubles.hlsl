@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each level has an argument twice as long as the one before.
+// Each level has an argument twice as long as that of the level before.
 template <typename A, typename B>
 struct Pair {
   A a;

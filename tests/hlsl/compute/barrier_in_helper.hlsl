@@ -18,9 +18,9 @@
 // EXPECT u32 60 49
 RWByteAddressBuffer results : register(u0);
 groupshared uint shared_values[2][8];
-static uint rounds = 0;  // each thread has its own, across barriers
+static uint rounds = 0;  // one per thread, kept across barriers
 
-// Every thread sums what all wrote, in rounds through helpers that wait.
+// Every thread sums what all threads wrote, in rounds through helpers that wait.
 uint exchange(uint index, uint value, uint bank) {
   shared_values[bank][index] = value;
   GroupMemoryBarrierWithGroupSync();

@@ -8,7 +8,7 @@
 // EXPECT u32 16 10
 // EXPECT u32 20 14
 // EXPECT u32 24 12
-// Each group has its own memory, and its own count.
+// Each group has its own memory and its own count.
 RWByteAddressBuffer results : register(u0);
 struct Cell {
   uint2 value;

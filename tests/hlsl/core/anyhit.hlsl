@@ -10,7 +10,7 @@
 // EXPECT u32 28 0
 #include "scene.hlsli"
 
-// Three candidates; the two nearer ones are ignored, and what they wrote stays.
+// Three candidates; the two nearer ones are ignored, but their writes to the payload stay.
 [shader("anyhit")]
 void Any(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
   if (GeometryIndex() == 0 || PrimitiveIndex() == 1) {

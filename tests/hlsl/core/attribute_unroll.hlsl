@@ -27,11 +27,11 @@ void main() {
     if (k == 7 + z) break;
     odd += k;
   }
-  // More often than it says, and how often is known at run time only.
+  // More iterations than the attribute says, and their number is only known at run time.
   uint many = 0;
   [unroll(4)]
   for (uint n = 0; n < 41 + z; ++n) many += n;
-  // A condition with an effect, and one at the end.
+  // A condition with a side effect, and a condition at the end of the loop.
   uint calls = 0, x = z;
   [unroll]
   while (next(x) < 5) ++calls;

@@ -6,7 +6,7 @@
 // EXPECT u32 12 1
 RWByteAddressBuffer results : register(u0);
 
-// Conditions with an effect of their own, and `continue` on the way to them.
+// Conditions with side effects, reached by `continue` as well.
 [shader("compute")]
 [numthreads(1, 1, 1)]
 void main() {

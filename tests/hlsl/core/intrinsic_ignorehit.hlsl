@@ -24,6 +24,6 @@ void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes
 [shader("raygeneration")]
 void Main() {
   results.Store4(0, trace(RAY_FLAG_NONE, 0xff, test_ray(-10)).numbers);
-  // An opaque triangle has no any-hit.
+  // Opaque triangles run no any-hit shader.
   store(32, trace(RAY_FLAG_FORCE_OPAQUE, 0xff, test_ray(-10)));
 }

@@ -34,13 +34,13 @@ void Box() {
   results.Store(36, ReportHit(19.5, 3, a));
   const float first = RayTCurrent();
   a.id = 4;
-  results.Store(40, ReportHit(20, 4, a));  // behind the hit that stands
+  results.Store(40, ReportHit(20, 4, a));  // behind the committed hit
   a.id = 6;
   results.Store(44, ReportHit(19.125, 6, a));  // ignored by any-hit
   const float second = RayTCurrent();
   a.id = 5;
   results.Store(48, ReportHit(19.25, 5, a));
-  a.id = 7;  // attributes are those of the call
+  a.id = 7;  // each call has its own attributes
   results.Store4(52, asuint(float4(before, first, second, RayTCurrent())));
 }
 [shader("anyhit")]

@@ -10,7 +10,7 @@
 // EXPECT u32 28 99
 #include "scene.hlsli"
 
-// The group of record 1: see scene.h.
+// The hit group of record 1: see scene.h.
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
   payload.numbers.x = 1;
@@ -34,6 +34,6 @@ void Main() {
   results.Store(12, shoot(0xff, 0, 1, -10));     // geometry 0 takes record 0
   results.Store(16, 0);
   results.Store(20, shoot(0xf0, 0, 0, 0));       // no instance has this mask
-  results.Store(24, shoot(0x10f, 16, 16, 0));    // 8, 4 and 4 bits count
+  results.Store(24, shoot(0x10f, 16, 16, 0));    // only 8, 4 and 4 bits count
   results.Store(28, shoot(0x100, 0, 0, 0));
 }

@@ -13,6 +13,6 @@ void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes
 
 [shader("raygeneration")]
 void Main() {
-  RayDesc ray = {float3(-8, 2, 0), 0, float3(2, 0, 2), 100};  // its direction is no unit vector
+  RayDesc ray = {float3(-8, 2, 0), 0, float3(2, 0, 2), 100};  // direction of another length than 1
   store(0, trace(RAY_FLAG_NONE, 0xff, ray));
 }

@@ -14,7 +14,7 @@ void main() {
   const uint z = results.Load(65532);  // 0, known at run time only
   for (uint k = 0; k < 3; ++k) pictures[k + z][uint2(k, 0)] = 10.0 * (k + 1);
   for (uint j = 0; j < 3; ++j) results.Store(4 * j, asuint(pictures[j][uint2(j + z, 0)].x));
-  // The element is chosen before the coordinates change its index.
+  // The array element is chosen before the coordinates' side effect changes its index.
   uint i = z;
   results.Store(12, asuint(pictures[i][uint2(Next(i), 0)].x));
   pictures[i][uint2(Next(i), 0)] = 40.0;

@@ -2,7 +2,7 @@
 // FEATURE: core struct
 // EXPECT u32 0 7
 // EXPECT u32 4 2
-// Parts of results that nobody uses: what was called still runs, once each.
+// Parts of results that are never used: the called functions still run, once each.
 struct Pair {
   uint2 a;
   uint b[2];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A large constant may stay where it was read from: only where nothing can write that, and where it
-// lies there as a local does.
+// A large constant may stay where it was read from, but only if nothing can write to that place and
+// its layout there is that of a local.
 // FEATURE: core StructuredBuffer
 // EXPECT u32 0 32
 // EXPECT u32 4 35
@@ -39,10 +39,10 @@ struct Packed {
   uint4 d[2];
 };
 struct Spread {
-  uint a[3];  // a row each
+  uint a[3];  // each in a row of its own
   uint4 e[2];
 };
-StructuredBuffer<Large> items[2] : register(t0);  // in a table: with bounds
+StructuredBuffer<Large> items[2] : register(t0);  // in a table, so accesses are bounds-checked
 StructuredBuffer<Mixed> mixed : register(t2);
 ConstantBuffer<Packed> packed : register(b0);
 ConstantBuffer<Spread> spread : register(b1);

@@ -22,7 +22,7 @@ struct Outer {
   Inner inner;
 };
 
-// Every operand but the condition is a place, in part of a structure, and one is assigned to.
+// Every operand except the condition is an lvalue inside a structure, and one of them is assigned to.
 float3 of_places(bool first, Outer a, Inner b) {
   b.v = first ? a.inner.v : b.v;
   return b.v;

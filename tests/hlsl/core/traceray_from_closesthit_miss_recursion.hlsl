@@ -10,7 +10,7 @@
 // EXPECT u32 28 0
 #include "scene.hlsli"
 
-// From the first triangle on to the second, and from there into nothing.
+// From the first triangle to the second, and from there to a miss.
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
   Payload next = payload;

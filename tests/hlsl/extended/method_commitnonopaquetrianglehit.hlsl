@@ -11,7 +11,7 @@
 
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {}
-// A query in a hit shader, while another ray is on its way.
+// A query in a hit shader while another ray is being traced.
 [shader("anyhit")]
 void Any(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
   RayQuery<RAY_FLAG_FORCE_OPAQUE> q;
@@ -33,7 +33,7 @@ void Main() {
   results.Store(4, asuint(q.CommittedRayT()));
   results.Store(8, q.CommittedGeometryIndex());
   results.Store(12, q.CommittedPrimitiveIndex());
-  // The first one ends the search.
+  // The first commit ends the search.
   q.TraceRayInline(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH, 0xff, test_ray(-10));
   uint shown = 0;
   while (q.Proceed()) {

@@ -24,7 +24,7 @@ void Main() {
   q.TraceRayInline(scene, RAY_FLAG_NONE, 0xff, test_ray(-10));
   results.Store(0, q.CommittedStatus());
   while (q.Proceed()) {
-    // Outside the ray it is no hit; of several the nearest stays.
+    // A hit outside the ray's interval does not count; of several hits the nearest is kept.
     q.CommitProceduralPrimitiveHit(-1 + z);
     q.CommitProceduralPrimitiveHit(101 + z);
     q.CommitProceduralPrimitiveHit(30 + z);

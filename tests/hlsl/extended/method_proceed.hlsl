@@ -23,16 +23,16 @@ void Main() {
   uint again = 0;
   for (uint i = 0; i < 5; ++i) again += q.Proceed() ? 1 : 0;
   results.Store(4, again);
-  q.CommitNonOpaqueTriangleHit();  // no candidate is left
+  q.CommitNonOpaqueTriangleHit();  // there is no candidate any more
   results.Store(8, q.CommittedStatus());
-  // Abort keeps what is committed.
+  // Abort keeps the committed hit.
   q.TraceRayInline(scene, RAY_FLAG_NONE, 0xff, test_ray(-10));
   q.Proceed();
   q.CommitNonOpaqueTriangleHit();
   q.Abort();
   results.Store(12, q.Proceed() ? 2 : 1);
   results.Store(16, q.CommittedStatus());
-  // Never traced.
+  // A query that is never traced.
   RayQuery<RAY_FLAG_NONE> idle;
   results.Store(20, idle.Proceed() ? 1 : 0);
   results.Store(24, idle.CommittedStatus() + idle.CommittedInstanceID() + idle.CandidateType());

@@ -39,7 +39,7 @@ void Main() {
   closest.Proceed();
   results.Store(8, closest.CommittedStatus());
   results.Store(12, asuint(closest.CommittedRayT()));
-  // Another trace discards all; nothing is found before Proceed.
+  // A second TraceRayInline discards everything; nothing is found before Proceed.
   RayDesc shorter = ray;
   shorter.TMax = 50;
   closest.TraceRayInline(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH, 0xff, shorter);
@@ -47,7 +47,7 @@ void Main() {
   results.Store(20, closest.CommittedInstanceID());
   results.Store(24, asuint(closest.CommittedRayT()));
   results.Store(28, closest.RayFlags());
-  // Masks, culling, and rays that are none.
+  // Masks, culling, and invalid rays.
   results.Store(32, count(RAY_FLAG_NONE, 0xf0, ray));
   results.Store(36, count(RAY_FLAG_CULL_FRONT_FACING_TRIANGLES, 0xff, ray));
   RayDesc bad = ray;

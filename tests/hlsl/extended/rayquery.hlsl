@@ -29,7 +29,7 @@
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {}
 
-// A parameter of any direction is the caller's object.
+// A query parameter always is the caller's object, whatever its direction.
 bool step(RayQuery<RAY_FLAG_NONE> query) {
   return query.Proceed();
 }
@@ -43,7 +43,7 @@ void Main() {
   ray.TMin = 0.5;
   RayQuery<RAY_FLAG_NONE> q;
   q.TraceRayInline(scene, RAY_FLAG_NONE, 0xff, ray);
-  RayQuery<RAY_FLAG_NONE> same = q;  // a second name
+  RayQuery<RAY_FLAG_NONE> same = q;  // a second name for the same query
   while (step(q)) commit(same);
   results.Store(0, q.CommittedStatus());
   results.Store(4, asuint(q.CommittedRayT()));
@@ -61,7 +61,7 @@ void Main() {
   results.Store(56, asuint(q.CommittedWorldToObject4x3()[3][2]));
   results.Store(60, q.CommittedTriangleFrontFace() ? 1 : 0);
 
-  // Two at once, each with its own flags.
+  // Two queries at once, each with its own flags.
   RayQuery<RAY_FLAG_CULL_NON_OPAQUE> none;
   none.TraceRayInline(scene, RAY_FLAG_NONE, 0xff, ray);
   results.Store(64, none.RayFlags());
@@ -82,7 +82,7 @@ void Main() {
     geometries += q.CandidateGeometryIndex();
     if (q.CandidatePrimitiveIndex() == 1) q.CommitNonOpaqueTriangleHit();
   }
-  // The farther one is shown before or after the nearer one was committed.
+  // The farther geometry may be a candidate before the nearer one is committed, or not at all.
   results.Store(80, min(steps, 1) + geometries - steps + 1);
   results.Store(84, min(more, 2));
   results.Store(88, asuint(q.CommittedRayT()));

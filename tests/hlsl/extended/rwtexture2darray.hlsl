@@ -23,7 +23,7 @@ RWByteAddressBuffer results : register(u0);
 void main() {
   results.Store4(0, asuint(layers_array[uint3(3, 4, 1)]));
   layers_array[uint3(3, 4, 0)].z = 7;
-  layers_array[uint3(3, 4, 2)] = 9;  // no such element: nothing is written
+  layers_array[uint3(3, 4, 2)] = 9;  // there is no such element, so nothing is written
   results.Store4(16, asuint(layers_array[uint3(3, 4, 0)]));
   results.Store4(32, asuint(layers_array[uint3(3, 4, 2)]));
   uint width, height, elements;

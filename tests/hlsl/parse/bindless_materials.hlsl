@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bindless materials after Northlight: a constant table, textures in one unbounded array, templates
-// and methods for the shading, a local root signature per hit group.
+// Bindless materials like Northlight's: a constant table, textures in one unbounded array,
+// templates and methods for shading, a local root signature per hit group.
 
 namespace northlight
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Constructs that stand close to others: casts and parentheses, '<' as less than and as template
+// Constructs that are easily confused: casts and parentheses, '<' as less-than and in template
 // arguments, old and new spellings.
 struct A { float x; };
 typedef A B;

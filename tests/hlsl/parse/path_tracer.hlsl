@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A path tracer in the manner of the DXR samples: one library, recursion through a payload,
-// bindless geometry in unbounded arrays, next-event estimation with shadow rays.
+// A path tracer in the style of the DXR samples: one library, recursion through a payload, bindless
+// geometry in unbounded arrays, next-event estimation with shadow rays.
 
 #define MAX_BOUNCES 8
 #define PI 3.14159265358979323846f

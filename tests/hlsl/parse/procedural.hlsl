@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Procedural primitives: intersection shaders, own attributes, callable shaders, signed distance
+// Procedural primitives: intersection shaders, custom attributes, callable shaders, signed distance
 // fields.
 
 struct Attributes { float3 normal; };

@@ -17,7 +17,7 @@
 // EXPECT u32 56 3
 // EXPECT u32 60 9
 // EXPECT u32 64 10
-// Offsets that DXC's own tests of layouts give, as word numbers.
+// Offsets given by DXC's own layout tests, as word numbers.
 cbuffer Tail : register(b0) {
   uint t_a;
   uint t_b[1];
@@ -41,7 +41,7 @@ struct Inner {
 };
 cbuffer Nested : register(b3) {
   Inner s_inner;
-  uint2 s_tail;  // in the row in which the struct ends
+  uint2 s_tail;  // in the row where the struct ends
 };
 cbuffer Rows : register(b4) {
   row_major uint3x2 r_matrix;

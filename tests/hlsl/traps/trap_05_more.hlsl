@@ -45,7 +45,7 @@ void main() {
   float3 splat = 3 + z;
   results.Store3(56, asuint(splat));
   results.Store(68, half_of(7.9 + z));
-  results.Store(72, half_of(-7.9 + z));  // to uint: the nearest it can hold
+  results.Store(72, half_of(-7.9 + z));  // converting to uint saturates
   results.Store(76, half_of(1e30 + z));
   uint2 cut = uint3(1, 2, 3) + z;
   float1 one = cut;

@@ -22,7 +22,7 @@ RWByteAddressBuffer results : register(u0);
 [numthreads(1, 1, 1)]
 void main() {
   const uint z = results.Load(65532);  // 0, known at run time only
-  // Before HLSL 2021 both sides are evaluated, and vectors are allowed.
+  // Before HLSL 2021, both sides are evaluated and vectors are allowed.
   bool a = z == 1 && touch(true);
   bool b = z == 0 || touch(false);
   bool c = z == 0 ? true : touch(false);

@@ -59,7 +59,7 @@ void main() {
   both(a[i], i);
   results.Store4(40, uint4(a[0], a[1], a[2], i));
   Pair pair = make_pair(3 + z);
-  const Pair copy = pair;  // not another name of it
+  const Pair copy = pair;  // a copy, not another name for it
   pair.first += 100;
   results.Store2(56, uint2(pair.first, copy.first));
 }

@@ -62,10 +62,10 @@ void main() {
   v.wzyx = v;
   results.Store4(16, v);
   S s = {1 + z, 2};
-  field_last(s, s.x);  // what the last parameter gave back stays in x
+  field_last(s, s.x);  // the last parameter is copied back last, so its value stays in x
   results.Store2(32, uint2(s.y, 11));
   S t = {1 + z, 5};
-  field_first(t.x, t);  // the struct was copied in before x changed, and back after it
+  field_first(t.x, t);  // the struct is copied in before x changes and copied back after it
   results.Store4(40, uint4(t.x, t.y, 0, s.x == 5));
   uint a[3];
   fill(a, 7 + z);
@@ -74,7 +74,7 @@ void main() {
   results.Store3(56, uint3(a[0], a[1], copy[2]));
   uint b[3] = {1, 2, 3};
   uint result;
-  change(b, result);  // arrays are values
+  change(b, result);  // arrays have value semantics
   results.Store3(68, uint3(b[0], b[2], result));
   float2x2 m = {1, 4, 3, 4};
   scale(m[0][z + 1]);

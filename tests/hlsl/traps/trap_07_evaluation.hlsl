@@ -20,7 +20,7 @@
 // EXPECT u32 68 3
 // EXPECT u32 72 2
 // EXPECT u32 76 12
-// What is evaluated when: operands from left to right, the value of an assignment before its place.
+// Order of evaluation: operands from left to right, the assigned value before the place it goes to.
 struct S {
   float3 a;
   uint b[2];

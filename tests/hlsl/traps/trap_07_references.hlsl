@@ -24,7 +24,7 @@ static S global;
 static uint numbers[2];
 groupshared S shared_value;
 
-// The function changes the global that it was given.
+// Changes the global that was passed as its argument.
 uint before_write(S given) {
   global.x = 9;
   return given.x;
@@ -37,17 +37,17 @@ uint before_write_of_shared(S given) {
   shared_value.y = 6;
   return given.y;
 }
-// Two parameters, one variable.
+// Two parameters, the same variable.
 uint before_write_of_other(S given, inout S other) {
   other.x = 40;
   return given.x;
 }
-// Not told apart by its caller: writes its own copy.
+// Writes to its own copy, which its caller does not notice.
 uint writes_its_own(S given) {
   given.x += 100;
   return given.x - 97;
 }
-// Handed on by a function that only reads it, to one that changes the global.
+// Passes its argument, which it only reads, on to a function that changes the global.
 uint hands_on(S given) { return before_write(given) + given.x; }
 S swapped(S given) {
   S result;
@@ -88,7 +88,7 @@ void main() {
   uint2x2 m = {0, 8 + z, 0, 0};
   const uint of_matrix_before = of_matrix(m, m);
   results.Store2(48, uint2(of_matrix_before, m[0][1]));
-  // A part that is read before what stands behind it changes it.
+  // A part that is read before a later operand changes it.
   S u = {13 + z, 0};
   const S kept = u;
   results.Store2(56, uint2(sum(kept, next(u.x)) - 13, sum(kept, 13)));

@@ -35,7 +35,7 @@
 // EXPECT u32 140 1
 // EXPECT u32 144 2147483648
 // EXPECT u32 148 4294967295
-// What the compiler computes must be what the shader computes.
+// The compiler and the shader must compute the same value.
 static const uint kShift = 1u << 32;
 static const uint kMinusShift = 1u << -1;
 static const uint kDivision = 7u / 0u;
@@ -64,7 +64,7 @@ void main() {
   results.Store4(108, uint4((uint)-huge, (uint)(-0.9 + z), (uint)huge, (uint)(4294967296.0 + z)));
   results.Store4(124, asuint(int4((int)huge, (int)-huge, (int)(-3e9 + z), (int)(huge - huge))));
   results.Store3(140, uint3(kShift, kMinusShift, kDivision));
-  // Undefined, but they end nothing.
+  // Undefined, but must not end the program.
   const int lowest = asint(0x80000000 + z);
   results.Store4(160, asuint(int4(lowest / m, lowest % m, 5 / (int)z, 5 % (int)z)));
 }

@@ -14,7 +14,7 @@ struct Inner {
   float3 a;
   uint b;
 };
-// Each level has a payload of its own type, alive while the next trace runs.
+// Each level has a payload type of its own, which is live while the next trace runs.
 [shader("closesthit")]
 void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes attributes) {
   payload.color.x = RayTCurrent();

@@ -10,8 +10,8 @@
 // EXPECT u32 28 0
 #include "scene.hlsli"
 
-// inner() lets the far triangle pass and ends the shader for the two before it. What was written to
-// the payload on the way down stays.
+// inner() accepts the far triangle and ends the shader for the two in front of it. What was written
+// to the payload before that stays.
 bool inner(inout Payload payload, bool far) {
   if (!far) {
     payload.numbers.x += 1;

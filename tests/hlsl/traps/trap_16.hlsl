@@ -22,7 +22,7 @@ bool report(float t, uint id) {
 [shader("intersection")]
 void Box() {
   results.InterlockedAdd(12, 1u);
-  report(19 + PrimitiveIndex(), 1);  // does not come back: the ray takes the first hit
+  report(19 + PrimitiveIndex(), 1);  // does not return: the ray takes the first hit
   results.InterlockedAdd(16, 10u);
   report(19, 2);
 }

@@ -8,8 +8,8 @@
 // EXPECT u32 32 5
 // EXPECT f32 48 20
 // EXPECT u32 64 7
-// ReportHit does not return where the hit ends the search: by AcceptHitAndEndSearch in any-hit, or
-// by RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH; nothing nearer is found after it.
+// ReportHit does not return when the hit ends the search, through AcceptHitAndEndSearch in any-hit
+// or RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH; nothing nearer is found afterwards.
 #include "scene.hlsli"
 
 struct Attributes {

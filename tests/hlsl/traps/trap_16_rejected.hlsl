@@ -7,7 +7,7 @@
 // EXPECT u32 32 1
 // EXPECT u32 36 0
 // EXPECT u32 40 0
-// A report that is refused leaves the hit that stands as it is, with its attributes.
+// A rejected report leaves the committed hit and its attributes unchanged.
 #include "scene.hlsli"
 
 struct Attributes {
@@ -25,7 +25,7 @@ bool report(float t, uint kind, uint id) {
 [shader("intersection")]
 void Box() {
   results.Store(32, report(19.5, 3, 5));
-  results.Store(36, report(20, 4, 6));     // behind it
+  results.Store(36, report(20, 4, 6));     // behind the committed hit
   results.Store(40, report(19.25, 9, 7));  // any-hit ignores it
 }
 [shader("anyhit")]

@@ -28,7 +28,7 @@ struct Big {
   uint id;
   float2 uv[2];
 };
-// The same 32 bytes in other words.
+// The same 32 bytes, declared in another way.
 struct BigToo {
   float4 normal_and_id;
   row_major float2x2 uv;

@@ -16,8 +16,8 @@
 // EXPECT u32 64 1
 // EXPECT u32 68 0
 // EXPECT f32 72 13 2
-// System values mean the shader's own ray also after it traced another, and a payload of bools
-// crosses every border. Distances and barycentrics are within Embree's reciprocal (2 ulps).
+// After a shader has traced another ray, its system values are still those of its own ray; a payload
+// with bools survives every trace. Distances and barycentrics allow for Embree's reciprocal (2 ulps).
 RaytracingAccelerationStructure scene : register(t0);
 RWByteAddressBuffer results : register(u0);
 
@@ -42,7 +42,7 @@ void Hit(inout Payload payload, BuiltInTriangleIntersectionAttributes a) {
     results.Store4(32, uint4(HitKind(), PrimitiveIndex(), GeometryIndex(), asuint(payload.t)));
     return;
   }
-  // From behind the first triangle, into the one after it.
+  // From behind the first triangle to the next one.
   Payload other = (Payload)0;
   other.nested = true;
   RayDesc ray = {WorldRayOrigin() + WorldRayDirection() * RayTCurrent(), 0.001, float3(0, 0, 1),

@@ -12,7 +12,7 @@
 // EXPECT u32 32 3
 #include "scene.hlsli"
 
-// Static globals begin anew with each shader that starts.
+// Static globals are initialised again for each shader invocation.
 static uint counter = 1;
 static const uint kStep = 100;
 uint count() { return counter++; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Dispatches squares.hlsl with an installed Kaamos and looks at every number that it wrote.
+// Dispatches squares.hlsl with an installed Kaamos and checks every number that it wrote.
 #include <rtapi/rtapi.h>
 #include <shaders/squares.h>
 

@@ -3,9 +3,9 @@
 // The binary interface between compiled shader code and a backend that runs native code.
 //
 // A shader library becomes one object with one table (LibraryDesc). A backend calls its entry
-// points with an Invocation; the shader calls back through the function pointers of Services.
-// Nothing here depends on a compiler's library, so that a library compiled at run time needs no
-// symbol of its host.
+// points with an Invocation; the shader calls back through the function pointers in Services.
+// Nothing here depends on a compiler's library, so a library compiled at run time needs no symbol
+// from its host.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace kaamos::shader {
 
-// Changes with every change of a struct below. A library of another version is refused when loaded.
+// Must change whenever a struct below changes. Loading refuses a library of another version.
 inline constexpr uint32_t kAbiVersion = 11;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
@@ -22,10 +22,10 @@ inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 // Descriptors
 
 enum class DescriptorKind : uint16_t {
-  kNull = 0,  // reads give 0, writes are dropped, an acceleration structure is missed by every ray
+  kNull = 0,  // reads give 0, writes are dropped, rays against it as an acceleration structure miss
   kConstantBuffer = 1,
   kRawBuffer = 2,         // (RW)ByteAddressBuffer
-  kStructuredBuffer = 3,  // stride_bytes is the view's
+  kStructuredBuffer = 3,  // stride_bytes comes from the view
   kTypedBuffer = 4,       // (RW)Buffer<T>: format is a DXGI_FORMAT
   kTexture = 5,           // address: the backend's view object
   kSampler = 6,           // address: the backend's sampler object
@@ -34,17 +34,17 @@ enum class DescriptorKind : uint16_t {
 
 enum class DescriptorAccess : uint16_t { kShaderResource = 0, kUnorderedAccess = 1, kOther = 2 };
 
-// One slot of a descriptor heap: plain bytes, copied freely. Also what an HLSL resource variable
-// holds. A GPU descriptor handle is the address of such a slot.
+// One slot of a descriptor heap: plain bytes that may be copied freely. An HLSL resource variable
+// holds one, too. A GPU descriptor handle is the address of such a slot.
 struct alignas(8) Descriptor {
   DescriptorKind kind = DescriptorKind::kNull;
   DescriptorAccess access = DescriptorAccess::kShaderResource;
-  uint32_t stride_bytes = 0;  // structured buffers; textures: D3D12_SRV_DIMENSION of the view
+  uint32_t stride_bytes = 0;  // structured buffers; for textures: D3D12_SRV_DIMENSION of the view
   uint64_t address = 0;       // GPU virtual address, or the backend's object
   uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
   uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
-  // 0 in a heap. In a shader of a checked library: 1 + the library's binding that it came from, and
-  // kFromRoot: a root descriptor, whose bytes are those to the end of its allocation.
+  // 0 in a heap. In a shader of a checked library: 1 + the library's binding that it came from,
+  // plus kFromRoot for a root descriptor, whose size_bytes extends to the end of its allocation.
   uint32_t origin = 0;
 };
 static_assert(sizeof(Descriptor) == 32);
@@ -54,7 +54,7 @@ inline constexpr uint32_t kFromRoot = 0x80000000u;
 // Bindings: which root argument feeds which HLSL register. Fixed when a state object is created.
 
 enum class SlotSource : uint8_t {
-  kUnbound = 0,      // the binding is not used by this export: never read
+  kUnbound = 0,      // this export does not use the binding, so it is never read
   kRootConstants,    // the arguments themselves: size_bytes bytes at argument_offset
   kRootDescriptor,   // an 8-byte GPU virtual address at argument_offset; no bounds [D3D12]
   kDescriptorTable,  // an 8-byte GPU descriptor handle at argument_offset
@@ -63,15 +63,15 @@ enum class SlotSource : uint8_t {
 
 struct BindingSlot {
   SlotSource source = SlotSource::kUnbound;
-  bool local = false;  // arguments of the shader record, else of the dispatch
-  DescriptorKind kind = DescriptorKind::kNull;  // root descriptors: what the HLSL declares
+  bool local = false;  // arguments are in the shader record; otherwise in the dispatch
+  DescriptorKind kind = DescriptorKind::kNull;  // root descriptors: as the HLSL declares it
   DescriptorAccess access = DescriptorAccess::kShaderResource;
   uint32_t argument_offset = 0;  // bytes; local ones count from byte 32 of the record
   uint32_t descriptor_index =
       0;  // first descriptor of the binding, counted from the table's handle
-  uint32_t descriptor_count = 0;  // descriptors of the binding in its range; kUnbounded possible
+  uint32_t descriptor_count = 0;  // how many descriptors it has in its range; or kUnbounded
   uint32_t size_bytes = 0;        // kRootConstants
-  uint32_t stride_bytes = 0;      // of structured buffers: the HLSL element's size
+  uint32_t stride_bytes = 0;      // structured buffers: the HLSL element's size
   const Descriptor* static_sampler = nullptr;
 };
 
@@ -80,7 +80,8 @@ struct BindingSlot {
 
 struct Services;
 
-// Memory that an allocation holds; of a view of a live texture one byte at its view_key().
+// In AddressRange an allocation is its memory, and a view of a live texture is one byte at its
+// view_key().
 constexpr uint64_t view_key(uint64_t address, bool unordered_access) {
   return address | (unordered_access ? uint64_t{1} << 62 : 0);
 }
@@ -89,24 +90,24 @@ struct AddressRange {
   uint64_t size_bytes = 0;
 };
 
-// One per DispatchRays or Dispatch; shared by all its threads and constant while it runs.
+// One per DispatchRays or Dispatch, shared by all its threads and constant while it runs.
 struct Dispatch {
   const Services* services = nullptr;
   const uint8_t* root_arguments = nullptr;  // laid out by the global root signature
   uint32_t dimensions[3] = {0, 0, 0};       // DispatchRaysDimensions; thread groups for compute
-  // [begin, end) of the shader-visible heaps that are set: a descriptor outside reads as null.
+  // [begin, end) of the current shader-visible heaps: a descriptor outside them reads as null.
   const Descriptor* view_heap_begin = nullptr;
   const Descriptor* view_heap_end = nullptr;
   const Descriptor* sampler_heap_begin = nullptr;
   const Descriptor* sampler_heap_end = nullptr;
   void* backend = nullptr;  // the backend's own dispatch state
-  // For checked libraries: every allocation and view of a texture, by rising address. Both null:
-  // root descriptors have no bounds.
+  // For checked libraries: every allocation and every view of a texture, sorted by address. Both
+  // null: root descriptors have no bounds.
   const AddressRange* ranges_begin = nullptr;
   const AddressRange* ranges_end = nullptr;
   uint32_t max_recursion_depth = 0xFFFFFFFFu;  // for checked libraries
-  // Whether shaders may read and write texels where a descriptor's TextureView has them; else only
-  // the services know what a texture's address stands for.
+  // Whether shaders may read and write texels directly through a descriptor's TextureView;
+  // otherwise only the services know what a texture's address stands for.
   bool direct_texels = false;
 };
 
@@ -119,8 +120,8 @@ struct RayDesc {
 };
 static_assert(sizeof(RayDesc) == 32);
 
-// What the system-value intrinsics of one ray shader invocation return. Of a miss shader only the
-// first three count. Without initialisers: TraceRay makes one for each ray.
+// What the system-value intrinsics return in one ray shader invocation. A miss shader may use only
+// the first three. Without initialisers, because TraceRay makes one for each ray.
 struct RaySystemValues {
   RayDesc ray;      // WorldRayOrigin, WorldRayDirection, RayTMin; t_max is RayDesc.TMax
   float t_current;  // RayTCurrent, by stage [DXR: RayTCurrent]
@@ -136,16 +137,16 @@ struct RaySystemValues {
 
 struct BoundResource;
 
-// One shader invocation. Lives on the backend's stack for the time of the call.
+// One shader invocation. Lives on the backend's stack during the call.
 struct Invocation {
   const Dispatch* dispatch = nullptr;
-  const BindingSlot* slots = nullptr;  // of this export, indexed by the library's binding index
+  const BindingSlot* slots = nullptr;  // this export's, indexed by the library's binding index
   const uint8_t* local_arguments = nullptr;  // byte 32 of the shader record
   const RaySystemValues* ray = nullptr;      // null in ray generation, callable and compute
   uint32_t index[3] = {0, 0, 0};             // DispatchRaysIndex
   uint32_t depth = 0;                        // ray generation is 0 [DXR: Ray recursion limit]
   void* backend = nullptr;                   // the backend's state of this call chain
-  // Indexed as `slots`, filled by bind() (bound.h); what kExportReadsBound needs.
+  // Indexed like `slots`, filled by bind() (bound.h); required by kExportReadsBound.
   const BoundResource* bound = nullptr;
 };
 
@@ -160,34 +161,34 @@ enum class AnyHitResult : uint32_t { kAccept = 0, kIgnore = 1, kAcceptAndEndSear
 enum class ReportHitResult : uint32_t { kRejected = 0, kAccepted = 1, kEndSearch = 2 };
 
 using RayGenerationFn = void (*)(Invocation&);
-// Runs `count` invocations, from Invocation::index on along x. Leaves any index behind.
+// Runs `count` invocations, along x from Invocation::index on. May leave any index behind.
 using RayGenerationRowFn = void (*)(Invocation&, uint32_t count);
 using MissFn = void (*)(Invocation&, void* payload);
 using ClosestHitFn = void (*)(Invocation&, void* payload, const void* attributes);
 using AnyHitFn = AnyHitResult (*)(Invocation&, void* payload, const void* attributes);
 using IntersectionFn = void (*)(Invocation&);
 using CallableFn = void (*)(Invocation&, void* data);
-// Runs a whole group: kernels without barriers, and those that were split at their barriers.
+// Runs a whole group: for kernels without barriers, and for those split at their barriers.
 using ComputeGroupFn = void (*)(Invocation&, ComputeGroup&);
-// Runs one thread of a group on a fiber of its own; barriers go through Services::group_barrier.
+// Runs one thread of a group on its own fiber; barriers go through Services::group_barrier.
 using ComputeThreadFn = void (*)(Invocation&, ComputeGroup&, const uint32_t thread_id[3]);
 using AnyFn = void (*)();
 
 // ---------------------------------------------------------------------------------------------
-// What a shader asks of its backend
+// What a shader calls its backend for
 
 struct TraceRayArguments {
-  uint64_t acceleration_structure;  // GPU virtual address; 0 is missed by every ray
+  uint64_t acceleration_structure;  // GPU virtual address; every ray misses 0
   uint32_t ray_flags;
-  uint32_t instance_inclusion_mask;               // low 8 bits count
-  uint32_t ray_contribution_to_hit_group_index;   // low 4 bits count
-  uint32_t multiplier_for_geometry_contribution;  // low 4 bits count
-  uint32_t miss_shader_index;                     // low 16 bits count
+  uint32_t instance_inclusion_mask;               // only the low 8 bits count
+  uint32_t ray_contribution_to_hit_group_index;   // only the low 4 bits count
+  uint32_t multiplier_for_geometry_contribution;  // only the low 4 bits count
+  uint32_t miss_shader_index;                     // only the low 16 bits count
   uint32_t payload_bytes;                         // storage size, sizeof in the emitted code
 };
 
-// Half a RayDesc: origin and t_min, or direction and t_max. TraceRay takes them in registers: what
-// one side had written to memory the other would wait for, ray after ray.
+// Half a RayDesc: origin and t_min, or direction and t_max. TraceRay takes them in registers:
+// through memory, one side would wait for the other's stores with every ray.
 using RayLanes [[gnu::vector_size(16)]] = float;
 inline RayLanes origin_t_min(const RayDesc& ray) {
   return RayLanes{ray.origin[0], ray.origin[1], ray.origin[2], ray.t_min};
@@ -196,10 +197,10 @@ inline RayLanes direction_t_max(const RayDesc& ray) {
   return RayLanes{ray.direction[0], ray.direction[1], ray.direction[2], ray.t_max};
 }
 
-// Invocations of a row that run at once [wide.h]: lane i is the one i further along x than lane 0.
+// Invocations of a row that run at once [wide.h]: lane i is i further along x than lane 0.
 inline constexpr int kLanes = 8;
 
-// Their rays beside each other.
+// Their rays, side by side.
 struct LaneRays {
   float origin[3][kLanes];
   float t_min[kLanes];
@@ -215,7 +216,7 @@ inline RayLanes direction_t_max(const LaneRays& rays, int lane) {
                   rays.t_max[lane]};
 }
 
-// Texel data is four 32-bit values: float, int32_t or uint32_t after the view's format class.
+// Texel data is four 32-bit values: float, int32_t or uint32_t, by the view's format class.
 struct Texel {
   uint32_t bits[4];
 };
@@ -223,12 +224,12 @@ struct Texel {
 struct SampleArguments {
   const Descriptor* texture;
   const Descriptor* sampler;
-  float coordinates[4];  // as HLSL's location argument; unused ones are 0
+  float coordinates[4];  // as in HLSL's location argument; unused ones are 0
   int32_t offset[3];     // texel offset
-  float lod;             // SampleLevel; mip bias is the sampler's
+  float lod;             // SampleLevel; does not include the sampler's mip bias
   float ddx[3];          // SampleGrad
   float ddy[3];
-  float min_lod;       // clamp argument, 0 unless given
+  float min_lod;       // clamp argument; 0 if there is none
   float comparison;    // SampleCmp*, GatherCmp*
   uint32_t component;  // Gather: 0 red .. 3 alpha
 };
@@ -249,13 +250,13 @@ enum class RemovalReason : uint32_t {
 };
 
 // ---------------------------------------------------------------------------------------------
-// Inline ray tracing [DXR: RayQuery]. Plain bytes: a shader may be left by a jump, and the object
-// may be moved between two calls.
+// Inline ray tracing [DXR: RayQuery]. Plain bytes, because a shader may be left by a jump and the
+// object may be moved between two calls.
 
-// What is known of a candidate or of the committed hit.
+// What is known about a candidate or the committed hit.
 struct RayQueryHit {
   uint32_t type = 0;  // CANDIDATE_TYPE, COMMITTED_STATUS
-  float t = 0;        // committed: RayDesc.TMax while there is nothing
+  float t = 0;        // committed: RayDesc.TMax as long as nothing is committed
   uint32_t instance_index = 0;
   uint32_t instance_id = 0;
   uint32_t instance_contribution = 0;
@@ -268,9 +269,9 @@ struct RayQueryHit {
   const float* world_to_object = nullptr;
 };
 
-// Found by the backend and not yet shown to the shader.
+// A candidate that the backend has found but the shader has not seen yet.
 struct RayQueryFound {
-  float t;  // boxes: none of their hits is nearer
+  float t;  // boxes: none of their hits can be nearer
   uint32_t instance;
   uint32_t geometry;
   uint32_t primitive;
@@ -283,18 +284,18 @@ struct RayQueryFound {
 struct RayQuery {
   static constexpr uint32_t kChunk = 8;
 
-  RayQuery() {}  // `found` is not cleared: only found[next..count) is ever read
+  RayQuery() {}  // does not clear `found`: only found[next..count) is ever read
 
   RayDesc ray = {};
-  uint32_t ray_flags = 0;  // with the template's
+  uint32_t ray_flags = 0;  // including the template's
   uint32_t inclusion_mask = 0;
-  bool has_candidate = false;  // Proceed returned true
-  bool ended = true;           // Proceed returns false
+  bool has_candidate = false;  // the last Proceed returned true
+  bool ended = true;           // the next Proceed returns false
   RayQueryHit candidate;
   RayQueryHit committed;
-  // The backend's.
+  // For the backend.
   const void* scene = nullptr;
-  bool searched = false;  // the first search was made
+  bool searched = false;  // the first search has run
   uint32_t next = 0;
   uint32_t count = 0;
   float next_left_out = 0;  // t of the nearest candidate that found no room; infinity: none
@@ -302,37 +303,37 @@ struct RayQuery {
 };
 
 struct RayQueryArguments {
-  uint64_t acceleration_structure;  // GPU virtual address; 0 is missed by every ray
+  uint64_t acceleration_structure;  // GPU virtual address; every ray misses 0
   uint32_t ray_flags;
-  uint32_t instance_inclusion_mask;  // low 8 bits count
+  uint32_t instance_inclusion_mask;  // only the low 8 bits count
 };
 
 // ---------------------------------------------------------------------------------------------
-// Checked libraries: what DXR leaves undefined is looked for at the instruction, and told.
+// Checked libraries look for what DXR leaves undefined, at each instruction, and report it.
 
 enum class Finding : uint32_t {
   kNone = 0,
-  // Of buffers; values: address of the view, offset, bytes, bytes that there are.
-  kOutOfBounds,   // of a root descriptor
-  kNotAllocated,  // a root descriptor's address lies in no buffer
-  kMisaligned,    // value 3: the alignment asked for
-  // Of descriptors; values: index, limit.
-  kOutsideBinding,   // an index past the elements of the binding
+  // Buffers. Values: address of the view, offset, bytes accessed, bytes available.
+  kOutOfBounds,   // for a root descriptor
+  kNotAllocated,  // a root descriptor's address is in no buffer
+  kMisaligned,    // value 3: the required alignment
+  // Descriptors. Values: index, limit.
+  kOutsideBinding,   // an index past the end of the binding
   kOutsideHeap,      // a handle, or an index into the heap; values: address or index, descriptors
   kWrongDescriptor,  // values: kind and access found, kind and access declared
-  // Of rays; values: bits of origin, TMin, direction, TMax, two to a value.
+  // Rays. Values: bits of origin, TMin, direction, TMax, two to a value.
   kRayNotANumber,
   kRayInterval,      // TMin < 0, or TMin > TMax
   kRayFlags,         // values: the flags
-  kQueryFlags,       // the same of a RayQuery, which must not skip closest-hit shaders either
+  kQueryFlags,       // the same for a RayQuery, which must not skip closest-hit shaders either
   kRecursion,        // values: depth of the caller, depth declared
-  kHitKind,          // values: of ReportHit
-  kPayloadMismatch,  // values: bytes that the caller gave, bytes of the shader, 1: callable data
-  // Of RayQuery. Values: QueryValue or QueryOp of the IR, CANDIDATE_TYPE or COMMITTED_STATUS
-  kNoCandidate,       // what Proceed has not found, or of another type, was read or committed
-  kNoCommittedHit,    // hit data read without a hit
+  kHitKind,          // values: as given to ReportHit
+  kPayloadMismatch,  // values: bytes the caller passed, bytes the shader expects, 1: callable data
+  // RayQuery. Values: QueryValue or QueryOp of the IR, CANDIDATE_TYPE or COMMITTED_STATUS
+  kNoCandidate,       // a missing candidate, or one of another type, was read or committed
+  kNoCommittedHit,    // hit data were read without a hit
   kCommitOutOfRange,  // values: bits of t, of TMin and of the committed t
-  kStaleView,         // a descriptor of an array whose resource is gone; values: address, kind
+  kStaleView,         // a descriptor in an array whose resource is gone; values: address, kind
   kCount
 };
 
@@ -341,7 +342,7 @@ struct CheckReport {
   uint32_t site = 0;             // index into LibraryDesc::files << 20 | line; line 0: unknown
   uint32_t binding = 0;          // 1 + index into LibraryDesc::bindings; 0: none
   uint32_t write = 0;            // 1: a write, 2: an atomic
-  uint64_t local_arguments = 0;  // of the shader's record; 0: none
+  uint64_t local_arguments = 0;  // those of the shader's record; 0: none
   uint64_t values[5] = {};
 };
 static_assert(sizeof(CheckReport) == 64);
@@ -349,12 +350,13 @@ constexpr uint32_t make_site(uint32_t file, uint32_t line) {
   return (file < 0xFFFu ? file : 0xFFFu) << 20 | (line < 0xFFFFFu ? line : 0);
 }
 
-// A call whose arguments are not all constants of the shader: what it reaches is only known now.
+// A call whose arguments are not all constants in the shader, so that only now it is known what it
+// reaches.
 enum class ReachedBy : uint32_t { kTraceRay, kTraceRayInline, kCallShader };
 struct ReachedCall {
   uint64_t acceleration_structure = 0;
   ReachedBy by = ReachedBy::kTraceRay;
-  uint32_t site = 0;  // as CheckReport's
+  uint32_t site = 0;  // as in CheckReport
   uint32_t ray_flags = 0;
   // TraceRay: mask | contribution << 8 | multiplier << 12 | miss index << 16; CallShader: the
   // index.
@@ -367,15 +369,15 @@ static_assert(sizeof(ReachedCall) == 24);
 struct Services {
   void (*trace_ray)(Invocation&, const TraceRayArguments&, void* payload, RayLanes origin_t_min,
                     RayLanes direction_t_max);
-  // The same for the lanes whose bits are set, in their order. Invocation::index is that of lane 0
-  // and is left behind as any. `payloads`: kLanes of TraceRayArguments::payload_bytes.
+  // The same for the lanes whose bits are set, in order. Invocation::index must be that of lane 0
+  // and is undefined afterwards. `payloads`: kLanes times TraceRayArguments::payload_bytes.
   void (*trace_rays)(Invocation&, const TraceRayArguments&, void* payloads, const LaneRays&,
                      uint32_t lanes);
   ReportHitResult (*report_hit)(Invocation&, float t, uint32_t hit_kind, const void* attributes,
                                 uint32_t attribute_bytes);
   void (*call_shader)(Invocation&, uint32_t shader_index, void* data, uint32_t data_bytes);
 
-  // TraceRayInline and Proceed; the rest is done without the backend (ray_query.h).
+  // TraceRayInline and Proceed; everything else works without the backend (ray_query.h).
   void (*begin_query)(Invocation&, RayQuery&, const RayQueryArguments&, const RayDesc&);
   bool (*proceed)(Invocation&, RayQuery&);
 
@@ -384,30 +386,30 @@ struct Services {
   float (*sample_compare_level)(const SampleArguments&);
   Texel (*gather)(const SampleArguments&);
   Texel (*gather_compare)(const SampleArguments&);
-  // coordinates: x, y, z or array element, mip level. Out of bounds reads 0, writes nothing.
-  // [D3D11.3 7.18]
+  // coordinates: x, y, z or array element, mip level. Out of bounds, loads give 0 and stores do
+  // nothing. [D3D11.3 7.18]
   Texel (*load_texel)(const Descriptor& texture, const int32_t coordinates[4]);
   void (*store_texel)(const Descriptor& texture, const int32_t coordinates[4], const Texel& value);
   Texel (*load_typed)(const Descriptor& buffer, uint32_t element);
   void (*store_typed)(const Descriptor& buffer, uint32_t element, const Texel& value);
-  // For atomics on R32 formats; null where out of bounds.
+  // For atomics on R32 formats; null if out of bounds.
   void* (*texel_address)(const Descriptor& texture, const int32_t coordinates[4]);
   void* (*typed_address)(const Descriptor& buffer, uint32_t element);
   TextureDimensions (*texture_dimensions)(const Descriptor& texture, uint32_t mip);
 
-  void (*group_barrier)(ComputeGroup&);  // fibers only
+  void (*group_barrier)(ComputeGroup&);  // only used with fibers
   void (*remove_device)(Invocation&, RemovalReason);
   void (*report)(Invocation&, const CheckReport&);   // null: nobody listens
-  void (*reached)(Invocation&, const ReachedCall&);  // the same
+  void (*reached)(Invocation&, const ReachedCall&);  // null: nobody listens
 };
 
 // ---------------------------------------------------------------------------------------------
 // A library
 
-// The numbers of D3D12_SHADER_VERSION_TYPE.
+// The values of D3D12_SHADER_VERSION_TYPE.
 enum class Stage : uint32_t {
   kCompute = 5,
-  kLibrary = 6,  // an exported function that is no entry point
+  kLibrary = 6,  // an exported function that is not an entry point
   kRayGeneration = 7,
   kIntersection = 8,
   kAnyHit = 9,
@@ -442,7 +444,7 @@ struct BindingDesc {
   uint32_t space;
   uint32_t count;       // 1, the array's size, or kUnbounded
   uint32_t size_bytes;  // constant buffers: bytes; structured buffers: element stride
-  bool automatic;       // the register was assigned by the compiler, not written in the source
+  bool automatic;       // the compiler assigned the register; the source does not
 };
 
 enum ExportFlags : uint32_t {
@@ -451,21 +453,22 @@ enum ExportFlags : uint32_t {
   kExportUsesViewHeap = 4,       // ResourceDescriptorHeap[]
   kExportUsesSamplerHeap = 8,    // SamplerDescriptorHeap[]
   kExportUsesRayQuery = 32,      // TraceRayInline
-  kExportQualifiedPayload = 64,  // shader model 6.7+: MaxPayloadSizeInBytes does not bound it
-  kExportReadsHitKind = 16,  // HitKind; without it a closest-hit shader may find any value there
-  kExportReadsBound = 128,   // Invocation::bound must hold the bindings of the export
+  kExportQualifiedPayload = 64,  // shader model 6.7+: not limited by MaxPayloadSizeInBytes
+  kExportReadsHitKind = 16,      // HitKind; without it a closest-hit shader may see any value
+  kExportReadsBound = 128,       // Invocation::bound must have the bindings of the export
 };
 
 struct ComputeDesc {
   uint32_t thread_group[3];
   uint32_t shared_bytes;
-  ComputeGroupFn group;    // null where barriers could not be split: then thread is run on fibers
-  ComputeThreadFn thread;  // null where group is set
+  ComputeGroupFn group;    // null if barriers could not be split; then thread is run on fibers
+  ComputeThreadFn thread;  // null if group is set
 };
 
 inline constexpr uint32_t kUnknownIndex = 0xFFFFFFFFu;
 
-// One TraceRay that an export can reach, with what is constant of it; the rest is 0.
+// One TraceRay that an export can reach, with those of its arguments that are constants; the others
+// are 0.
 enum TraceCallBits : uint32_t {
   kKnowsRayFlags = 1,
   kKnowsMask = 2,
@@ -475,51 +478,51 @@ enum TraceCallBits : uint32_t {
 };
 struct TraceCall {
   uint32_t known;    // TraceCallBits
-  uint32_t binding;  // of the acceleration structure, or kUnknownIndex
+  uint32_t binding;  // for the acceleration structure, or kUnknownIndex
   uint32_t ray_flags;
   uint32_t mask;
   uint32_t ray_contribution;
   uint32_t multiplier;
   uint32_t miss_index;
-  uint32_t line;  // where it stands in the HLSL source
+  uint32_t line;  // its line in the HLSL source
   const char* file;
 };
 
 struct ExportDesc {
   const char* name;          // as written
-  const char* mangled_name;  // as DXC mangles it
+  const char* mangled_name;  // as DXC would mangle it
   Stage stage;
-  AnyFn entry;                 // of the stage's function type; null for kLibrary and kCompute
+  AnyFn entry;                 // has the stage's function type; null for kLibrary and kCompute
   const ComputeDesc* compute;  // null unless kCompute
   uint32_t
       payload_bytes;  // each scalar as 4 bytes [DXR: D3D12_RAYTRACING_SHADER_CONFIG]; callables: 0
   uint32_t payload_storage_bytes;
   uint32_t attribute_bytes;
-  uint32_t callable_data_bytes;  // callables: of their parameter
+  uint32_t callable_data_bytes;  // callables: size of their parameter
   uint32_t stack_bytes;          // what GetShaderStackSize reports
   uint32_t flags;                // ExportFlags
-  const uint32_t* bindings;      // indices into LibraryDesc::bindings that it can reach
+  const uint32_t* bindings;      // indices into LibraryDesc::bindings that the export can reach
   uint32_t binding_count;
-  // The same shader for Vulkan (spirv_interface.h); null in a library built without it.
+  // The same shader for Vulkan (spirv_interface.h); null if the library was built without it.
   const uint32_t* spirv = nullptr;
   uint32_t spirv_words = 0;
   // For checked mode.
   const TraceCall* trace_calls = nullptr;
   uint32_t trace_call_count = 0;
-  const uint32_t* callable_indices = nullptr;  // of CallShader, or kUnknownIndex; kLibrary: callers
+  const uint32_t* callable_indices = nullptr;  // or kUnknownIndex; kLibrary: callers
   uint32_t callable_index_count = 0;
-  // How the payload (or callable data) and the attributes lie in memory: "float3 color 0;uint depth
-  // 12;", type, name and byte offset of each scalar, vector and matrix, bool in 1 byte, rows of a
-  // matrix one after another. Null: not known. For people; nothing depends on it.
+  // The memory layout of the payload (or callable data) and of the attributes: "float3 color 0;uint
+  // depth 12;", type, name and byte offset of each scalar, vector and matrix, bool in 1 byte,
+  // matrices row by row. Null: unknown. For people to read; nothing depends on it.
   const char* payload_layout = nullptr;
   const char* attribute_layout = nullptr;
-  // Hash of the attributes' scalars in order: what ReportHit gives or the parameter has. 0: none,
-  // or not known; 1: several types are reported.
+  // Hash of the attributes' scalars in order: those that ReportHit passes or that the parameter
+  // has. 0: none, or unknown; 1: several types are reported.
   uint32_t attribute_type = 0;
   RayGenerationRowFn row = nullptr;  // ray generation; null: only `entry` runs it
 };
 
-// Subobjects written in HLSL. Which members count depends on type (numbers of
+// Subobjects defined in HLSL. Which members are used depends on type (values of
 // D3D12_STATE_SUBOBJECT_TYPE).
 struct SubobjectDesc {
   const char* name;
@@ -533,15 +536,15 @@ struct SubobjectDesc {
 };
 
 enum LibraryFlags : uint32_t {
-  kLibraryChecked = 1,  // made with -check-access
+  kLibraryChecked = 1,  // built with -check-access
   kLibraryInterpreted = 2,
-  kLibraryDebug = 4,  // -Od -Zi
+  kLibraryDebug = 4,  // built with -Od -Zi
 };
 
 struct LibraryDesc {
   uint32_t abi_version;
-  uint32_t struct_bytes;  // sizeof(LibraryDesc): a second guard against a mismatch
-  const char* name;       // the main source file, as given
+  uint32_t struct_bytes;  // sizeof(LibraryDesc): a second check against a mismatch
+  const char* name;       // the main source file, as it was given
   const char* target;     // "lib_6_6"
   const ExportDesc* exports;
   uint32_t export_count;
@@ -552,13 +555,13 @@ struct LibraryDesc {
   uint32_t flags = 0;                  // LibraryFlags
   const char* const* files = nullptr;  // source files, for CheckReport::site
   uint32_t file_count = 0;
-  // Every source file and the options, to make the library's other variant of; null: unknown.
-  // [runtime/hlsl/embedded_source.h]
+  // Every source file and the options, for building the library's other variant; null: unknown.
+  // [runtime/hlsl/driver/embedded_source.h]
   const char* source = nullptr;
   uint64_t source_bytes = 0;
 };
 
-// The one symbol of a library that is compiled at run time.
+// The only symbol of a library that is compiled at run time.
 inline constexpr char kLibraryEntryPoint[] = "kaamos_shader_library";
 using LibraryEntryPointFn = const LibraryDesc* (*)();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The Interlocked operations. Each returns the value before it; on a null place (out of bounds) it
-// does nothing and returns zero. Relaxed order: HLSL orders memory by barriers only.
+// The Interlocked operations. Each returns the previous value; for a null place (out of bounds) it
+// does nothing and returns zero. The order is relaxed, because in HLSL only barriers order memory.
 #pragma once
 
 #include "kaamos/shader/vector.h"
@@ -9,7 +9,7 @@
 namespace kaamos::shader {
 namespace op {
 
-// Replaces *place by change(old). change must be pure.
+// Replaces *place by change(old). `change` must be pure.
 template <class T, class Change>
 KAAMOS_INLINE T exchange_by(T* place, const Change& change) {
   T old = __atomic_load_n(place, __ATOMIC_RELAXED);
@@ -54,7 +54,7 @@ KAAMOS_INLINE T interlocked_exchange(T* place, std::type_identity_t<T> value) {
   __atomic_exchange(place, &value, &old, __ATOMIC_RELAXED);
   return old;
 }
-// Writes value where *place equals compare, bit by bit for floats too.
+// Writes value if *place equals compare; floats, too, are compared bit by bit.
 template <class T>
 KAAMOS_INLINE T interlocked_compare_exchange(T* place, std::type_identity_t<T> compare,
                                              std::type_identity_t<T> value) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// From an HLSL resource variable to its descriptor: root arguments, descriptor tables, heaps. What
-// is unbound, out of bounds or of the wrong kind becomes the null descriptor, which reads as zeros.
+// From an HLSL resource variable to its descriptor: root arguments, descriptor tables, heaps.
+// Whatever is unbound, out of bounds or of the wrong kind becomes the null descriptor, which reads
+// as zeros.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -10,7 +11,7 @@
 namespace kaamos::shader {
 namespace bindings {
 
-// Arguments need no alignment here: a shader record may start anywhere an application puts it.
+// Unaligned arguments are fine here, because an application may put a shader record anywhere.
 KAAMOS_INLINE uint64_t read_address(const uint8_t* argument) {
   uint64_t address;
   __builtin_memcpy(&address, argument, sizeof(address));
@@ -18,7 +19,7 @@ KAAMOS_INLINE uint64_t read_address(const uint8_t* argument) {
 }
 
 constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, DescriptorAccess access) {
-  if (kind == DescriptorKind::kNull) return true;  // the slot does not say
+  if (kind == DescriptorKind::kNull) return true;  // the slot does not know
   if (descriptor.kind != kind) return false;
   const bool has_access = kind != DescriptorKind::kConstantBuffer &&
                           kind != DescriptorKind::kSampler &&
@@ -26,8 +27,8 @@ constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, Descri
   return !has_access || access == DescriptorAccess::kOther || descriptor.access == access;
 }
 
-// The heap slot at `address`, or null where no slot of [begin, end) starts there. Addresses are
-// compared as integers: a handle in a record can hold anything.
+// The heap slot at `address`, or null if no slot of [begin, end) starts there. Addresses are
+// compared as integers, because a handle in a record can be anything.
 KAAMOS_INLINE const Descriptor* heap_slot(uint64_t address, const Descriptor* begin,
                                           const Descriptor* end) {
   const uint64_t first = reinterpret_cast<uintptr_t>(begin);
@@ -66,7 +67,7 @@ KAAMOS_INLINE Descriptor from_root(const BindingSlot& slot, const uint8_t* argum
   result.access = slot.access;
   result.stride_bytes = slot.stride_bytes;
   result.address = address;
-  result.size_bytes = ~uint64_t{0};  // a root descriptor has no bounds [D3D12]
+  result.size_bytes = ~uint64_t{0};  // a root descriptor is unbounded [D3D12]
   return result;
 }
 
@@ -79,8 +80,8 @@ KAAMOS_INLINE Descriptor root_constants(const BindingSlot& slot, const uint8_t* 
   return result;
 }
 
-// Out of line: its code would keep the compiler from inlining the functions of a shader. Pure: what
-// a loop reads of other memory stays known around it.
+// Out of line, because its code would keep the compiler from inlining a shader's functions. Pure,
+// so that a loop need not reload other memory after each call.
 [[gnu::noinline, gnu::pure]] inline Descriptor resolve(const Invocation& invocation,
                                                        const BindingSlot& slot, uint32_t index) {
   if (slot.source == SlotSource::kUnbound) return {};
@@ -92,13 +93,13 @@ KAAMOS_INLINE Descriptor root_constants(const BindingSlot& slot, const uint8_t* 
   if (slot.source == SlotSource::kDescriptorTable) {
     return from_table(*invocation.dispatch, slot, arguments + slot.argument_offset, index);
   }
-  if (index != 0) return {};  // root parameters are no arrays
+  if (index != 0) return {};  // root parameters are never arrays
   if (slot.source == SlotSource::kRootDescriptor) return from_root(slot, arguments);
   return root_constants(slot, arguments);
 }
 
-// The usual case of from_table(): one descriptor of a global table, as the slot wants it. Else
-// null.
+// The common case of from_table(): one descriptor in a global table, of the kind that the slot
+// wants. Otherwise null.
 KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
                                                   const BindingSlot& slot) {
   const Dispatch& dispatch = *invocation.dispatch;
@@ -113,7 +114,7 @@ KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
   const uint64_t at = address - first;
   if (at >= last - first || at % sizeof(Descriptor) != 0) return nullptr;
   const auto* found = dispatch.view_heap_begin + at / sizeof(Descriptor);
-  // Both at once: access is exact for what shaders read most.
+  // Requires both; the access is always exact for what shaders read most.
   return found->kind == slot.kind && found->access == slot.access ? found : nullptr;
 }
 
@@ -122,7 +123,7 @@ KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
 // The resource of binding `slot` of the running export; index is 0 unless the binding is an array.
 KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, uint32_t index = 0) {
   const BindingSlot& binding = invocation.slots[slot];
-  // In place, because shaders read these most; the other kinds stay out of the way.
+  // Inline, because shaders read these most; the other kinds are handled out of line.
   if (index == 0) {
     if (const Descriptor* found = bindings::from_global_table(invocation, binding)) return *found;
     const uint8_t* arguments = invocation.dispatch->root_arguments;
@@ -136,7 +137,7 @@ KAAMOS_INLINE Descriptor resource(const Invocation& invocation, uint32_t slot, u
   return bindings::resolve(invocation, binding, index);
 }
 
-// The same, index 0, where the binding is of the shader record.
+// The same, with index 0, for a binding in the shader record.
 KAAMOS_INLINE Descriptor local_resource(const Invocation& invocation, uint32_t slot) {
   const BindingSlot& binding = invocation.slots[slot];
   const uint8_t* arguments = invocation.local_arguments;

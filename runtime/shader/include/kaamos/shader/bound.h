@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Bindings looked up once for many invocations, since neither root arguments nor descriptors change
-// while a dispatch runs: for all threads of a compute group, for all invocations of a ray shader.
+// Looks bindings up once for many invocations (all threads of a compute group, all invocations of a
+// ray shader), since neither root arguments nor descriptors change while a dispatch runs.
 #pragma once
 
 #include <new>
@@ -14,21 +14,21 @@ namespace kaamos::shader {
 
 struct BoundResource {
   Descriptor descriptor;
-  // Textures whose texels may be used as they lie in memory, of mip 0; else without texels.
+  // Mip 0 of textures whose texels may be used directly in memory; otherwise there are no texels.
   uint32_t direct_format = 0;
   uint32_t width = 0;
   uint32_t height = 0;
   uint32_t row_pitch = 0;
   union {
     uint8_t* texels = nullptr;
-    const Descriptor* array;  // of an array in a table of the global root signature: the first
+    const Descriptor* array;  // for an array in a table of the global root signature: the first
   };
   bool writable = false;
-  bool ready = false;   // false: of the shader record, another one for each invocation
+  bool ready = false;   // false: in the shader record, so it may differ between invocations
   bool buffer = false;  // has bytes: see memory::buffer_bytes
-  // Of structured buffers whose stride is what the HLSL declares: the first elements, which are
-  // whole. Below it nothing else needs a test. Of arrays: the descriptors that stand in the heap
-  // from `array` on.
+  // Structured buffers whose stride is as the HLSL declares: how many elements are complete. An
+  // index below it needs no other test. Arrays: how many descriptors are in the heap from `array`
+  // on.
   uint32_t elements = 0;
 };
 static_assert(sizeof(BoundResource) == 64);
@@ -64,7 +64,7 @@ inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index
   out.writable = view->unordered_access;
 }
 
-// Of an array in a descriptor table.
+// For an array in a descriptor table.
 inline void bind_table(const Invocation& invocation, const BindingSlot& slot, BoundResource& out) {
   const Dispatch& dispatch = *invocation.dispatch;
   if (dispatch.root_arguments == nullptr || slot.kind == DescriptorKind::kNull) return;
@@ -80,7 +80,7 @@ inline void bind_table(const Invocation& invocation, const BindingSlot& slot, Bo
   out.elements = left < slot.descriptor_count ? static_cast<uint32_t>(left) : slot.descriptor_count;
 }
 
-// `used`: `count` bindings. Others are left as they are.
+// `used` lists `count` bindings; all others are left unchanged.
 [[gnu::noinline]] inline void bind(const Invocation& invocation, const uint32_t* used,
                                    uint32_t count, BoundResource* bound) {
   for (uint32_t i = 0; i < count; ++i) {
@@ -92,12 +92,12 @@ inline void bind_table(const Invocation& invocation, const BindingSlot& slot, Bo
     }
   }
 }
-// The `count` elements of a binding that is an array.
+// Binds the first `count` elements of a binding that is an array.
 [[gnu::noinline]] inline void bind_array(const Invocation& invocation, uint32_t slot,
                                          uint32_t count, BoundResource* elements) {
   for (uint32_t i = 0; i < count; ++i) bind_one(invocation, slot, i, elements[i]);
 }
-// One of them; past the end, what reads as zeros.
+// One of them; past the end, one that reads as zeros.
 template <uint32_t Count, class I>
 KAAMOS_INLINE const BoundResource& bound_element(const BoundResource* elements, I index) {
   static constexpr BoundResource nothing{};
@@ -105,14 +105,15 @@ KAAMOS_INLINE const BoundResource& bound_element(const BoundResource* elements, 
   return i < Count ? elements[i] : nothing;
 }
 
-// A binding that is no array, of a ray shader. [kExportReadsBound]
+// A ray shader's binding, if it is not an array. [kExportReadsBound]
 KAAMOS_INLINE Descriptor bound_resource(const Invocation& invocation, uint32_t slot) {
   const BoundResource& bound = invocation.bound[slot];
   if (bound.ready) [[likely]]
     return bound.descriptor;
   return local_resource(invocation, slot);
 }
-// Where what is not bound stands while one expression uses it. Costs nothing where all is.
+// Storage for something that is not bound, while one expression uses it. Costs nothing if
+// everything is bound.
 template <class T>
 struct Unbound {
   Unbound() {}
@@ -126,7 +127,7 @@ KAAMOS_INLINE const BoundResource& bound_texture(
     return bound;
   return *new (unbound.bytes) BoundResource{.descriptor = local_resource(invocation, slot)};
 }
-// An element of a binding that is an array, of a ray shader.
+// An element of a ray shader's binding that is an array.
 KAAMOS_INLINE const Descriptor& bound_array_element(
     const Invocation& invocation, uint32_t slot, uint32_t index,
     Unbound<Descriptor>&& unbound = Unbound<Descriptor>()) {
@@ -143,19 +144,19 @@ KAAMOS_INLINE const Descriptor& bound_array_element(
 KAAMOS_INLINE MemoryView memory_view(const BoundResource& bound) {
   return {bound.descriptor.address, bound.buffer ? bound.descriptor.size_bytes : 0};
 }
-// Out of line: elements that are past the end or not what the HLSL declares are rare.
+// Out of line, because elements are rarely past the end or different from the HLSL declaration.
 [[gnu::noinline, gnu::cold, gnu::pure]] inline MemoryView other_element(const Descriptor& buffer,
                                                                         uint32_t index) {
   return element_view(buffer, index);
 }
-// Bytes: of an element, as the HLSL declares it.
+// `Bytes` is the size of an element in the HLSL declaration.
 template <uint32_t Bytes>
 KAAMOS_INLINE MemoryView element_view(const BoundResource& bound, uint32_t index) {
   if (index < bound.elements) [[likely]]
     return {bound.descriptor.address + uint64_t{index} * Bytes, Bytes};
   return other_element(bound.descriptor, index);
 }
-// As bound_resource().
+// Like bound_resource().
 KAAMOS_INLINE MemoryView bound_memory_view(const Invocation& invocation, uint32_t slot) {
   const BoundResource& bound = invocation.bound[slot];
   if (bound.ready) [[likely]]
@@ -175,7 +176,7 @@ KAAMOS_INLINE MemoryView bound_element_view(const Invocation& invocation, uint32
   return other_bound_element(invocation, slot, index);
 }
 
-// As texture_access has them of a Descriptor.
+// Like the one in texture_access for a Descriptor.
 KAAMOS_INLINE uint8_t* texel_in_place(const BoundResource& texture, const int4& at, uint32_t format,
                                       uint32_t bytes) {
   const auto x = static_cast<uint32_t>(at.e[0]);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What shaders of a checked library (kaamos-hlsl -check-access) do where others trust the
-// application: the same results wherever DXR defines them, and a CheckReport to the backend where
-// it does not. Root descriptors end with their allocation here: nothing outside is read or written.
+// application: they give the same results wherever DXR defines them, and send a CheckReport to the
+// backend where it does not. Root descriptors end with their allocation here, so nothing outside is
+// read or written.
 #pragma once
 
 #include "kaamos/shader/bindings.h"
@@ -13,7 +14,7 @@
 
 namespace kaamos::shader::checked {
 
-// Out of line: an error is rare, what leads to it should not grow the code around it.
+// Out of line, because errors are rare and should not bloat the code around them.
 [[gnu::noinline, gnu::cold]] inline void report(Invocation& invocation, Finding finding,
                                                 uint32_t site, uint32_t origin, uint32_t write,
                                                 uint64_t value0, uint64_t value1 = 0,
@@ -29,12 +30,12 @@ namespace kaamos::shader::checked {
   tell(invocation, text);
 }
 
-// Bytes from `address` to the end of its allocation; 0: it is in none.
+// Bytes from `address` to the end of its allocation; 0 if it is in none.
 inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
   const AddressRange* first = dispatch.ranges_begin;
   uint64_t count = static_cast<uint64_t>(dispatch.ranges_end - first);
   if (count == 0) return ~uint64_t{0};
-  while (count > 1) {  // the last range that starts at or before the address
+  while (count > 1) {  // finds the last range that starts at or before the address
     const uint64_t half = count / 2;
     first = first[half].address <= address ? first + half : first;
     count -= half;
@@ -76,9 +77,9 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
          static_cast<uint64_t>(binding.kind), static_cast<uint64_t>(binding.access));
 }
 
-// A view whose resource is gone reads as a null descriptor; one whose texture is in a state that
-// forbids its use is told of, and used: its key has bit 61 then. Null descriptors and samplers are
-// neither.
+// A view whose resource no longer exists reads as a null descriptor. One whose texture is in a
+// state that forbids its use is reported, but used; such a view has bit 61 set in its key. Null
+// descriptors and samplers are exempt.
 [[gnu::noinline]] inline Descriptor usable(Invocation& invocation, uint32_t site, uint32_t binding,
                                            const Descriptor& found, uint32_t index) {
   if (found.kind == DescriptorKind::kNull || found.kind == DescriptorKind::kSampler ||
@@ -117,7 +118,7 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
   return found;
 }
 
-// ResourceDescriptorHeap[index], SamplerDescriptorHeap[index] as a resource of that kind.
+// ResourceDescriptorHeap[index] or SamplerDescriptorHeap[index], as a resource of that kind.
 [[gnu::noinline]] inline Descriptor heap_resource(Invocation& invocation, uint32_t site,
                                                   uint32_t index, DescriptorKind kind,
                                                   DescriptorAccess access) {
@@ -140,7 +141,7 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Memory. They hand on the descriptor that they were given.
+// Memory. These functions return the descriptor that they are given.
 
 [[gnu::noinline, gnu::cold]] inline void explain_bounds(Invocation& invocation, uint32_t site,
                                                         const Descriptor& buffer, uint64_t offset,
@@ -154,7 +155,8 @@ KAAMOS_INLINE bool leaves(const Descriptor& buffer, uint64_t offset, uint32_t by
   return (buffer.origin & kFromRoot) != 0 && offset + bytes > buffer.size_bytes;
 }
 
-// Raw and constant buffers: `bytes` at byte `offset`, of scalars of `alignment` bytes (up to 4).
+// Raw and constant buffers: access `bytes` at byte `offset`, in scalars aligned to `alignment` (up
+// to 4).
 KAAMOS_INLINE const Descriptor& access(Invocation& invocation, uint32_t site,
                                        const Descriptor& buffer, uint32_t offset, uint32_t bytes,
                                        uint32_t alignment, uint32_t write) {
@@ -168,7 +170,7 @@ KAAMOS_INLINE const Descriptor& access(Invocation& invocation, uint32_t site,
   return buffer;
 }
 
-// Structured buffers: `bytes` at byte `offset` of element `index`.
+// Structured buffers: access `bytes` at byte `offset` of element `index`.
 KAAMOS_INLINE const Descriptor& access_element(Invocation& invocation, uint32_t site,
                                                const Descriptor& buffer, uint32_t index,
                                                uint32_t offset, uint32_t bytes, uint32_t alignment,
@@ -184,7 +186,7 @@ KAAMOS_INLINE const Descriptor& access_element(Invocation& invocation, uint32_t 
   return buffer;
 }
 
-// Where the value of an access lies: the view that emitted code reads or writes at offset 0.
+// Where the accessed value is: the view that emitted code reads or writes at offset 0.
 KAAMOS_INLINE MemoryView access_view(Invocation& invocation, uint32_t site,
                                      const Descriptor& buffer, uint32_t offset, uint32_t bytes,
                                      uint32_t alignment, uint32_t write) {
@@ -204,8 +206,8 @@ KAAMOS_INLINE MemoryView access_element_view(Invocation& invocation, uint32_t si
 // ---------------------------------------------------------------------------------------------
 // Rays
 
-// At most one of the opacity flags, at most one facing to cull, and nothing that concerns triangles
-// only where they are skipped. [DXR: Ray flags]
+// At most one opacity flag, at most one facing to cull, and no flags for triangles when triangles
+// are skipped. [DXR: Ray flags]
 constexpr bool legal_ray_flags(uint32_t flags) {
   const uint32_t opacity = flags & 0xC3u;
   if ((opacity & (opacity - 1)) != 0) return false;
@@ -240,8 +242,8 @@ inline void check_trace(Invocation& invocation, uint32_t site, uint32_t flags, c
   }
 }
 
-// Payloads and callable data carry in front what the shader that gets them expects. Behind them is
-// room for one that believes them to be larger.
+// Payloads and callable data begin with a header that says what the caller passes, for the shader
+// that gets them to check. After them there is room for a shader that expects more.
 struct PayloadHeader {
   uint32_t magic;
   uint32_t type;  // hash of the type's scalars in order
@@ -261,12 +263,12 @@ inline void check_payload(Invocation& invocation, uint32_t site, const void* pay
                           uint32_t bytes, bool callable) {
   PayloadHeader header;
   __builtin_memcpy(&header, static_cast<const uint8_t*>(payload) - sizeof(header), sizeof(header));
-  // The caller's library may be none that is checked.
+  // The caller's library may not be a checked one.
   if (header.magic != kPayloadMagic || header.type == type) return;
   report(invocation, Finding::kPayloadMismatch, site, 0, 0, header.bytes, bytes, callable ? 1 : 0);
 }
 
-// Tells of a call that is `unknown` before it runs: not all of its arguments are constants.
+// Reports a call that is `unknown` (not all of its arguments are constants), before it runs.
 [[gnu::noinline]] inline void reached(Invocation& invocation, ReachedBy by, uint32_t site,
                                       uint64_t acceleration_structure, uint32_t ray_flags,
                                       uint32_t indices) {
@@ -347,7 +349,8 @@ inline void trace_ray_inline(Invocation& invocation, uint32_t site, bool unknown
 
 inline constexpr uint32_t kAnyType = ~0u;
 
-// Before something of the candidate is read or committed that only one of `type` has.
+// To be called before something of the candidate is read or committed that only a candidate of
+// `type` has.
 inline const RayQuery& candidate(Invocation& invocation, uint32_t site, const RayQuery& query,
                                  uint32_t type, uint32_t what) {
   if (!query.has_candidate || (type != kAnyType && query.candidate.type != type)) {

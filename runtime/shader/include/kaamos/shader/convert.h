@@ -8,7 +8,7 @@
 namespace kaamos::shader {
 namespace op {
 
-// 2^bits as a floating-point number: the first value past an integer type's range.
+// 2^bits as a floating-point number: the first value past the range of an integer type.
 template <class F>
 KAAMOS_CONSTEXPR F power_of_two(int bits) {
   return static_cast<F>(uint64_t{1} << (bits - 1)) * F{2};
@@ -16,7 +16,7 @@ KAAMOS_CONSTEXPR F power_of_two(int bits) {
 
 template <class To>
 struct Convert {
-  // Truncates; NaN gives 0, what is out of range the nearest end of it. [D3D11.3 ftoi, ftou]
+  // Truncates; NaN gives 0, and values out of range are clamped. [D3D11.3 ftoi, ftou]
   template <class F>
   KAAMOS_CONSTEXPR static To from_float(F x) {
     constexpr int kBits = static_cast<int>(sizeof(To) * 8) - (std::is_signed_v<To> ? 1 : 0);
@@ -43,7 +43,7 @@ struct Convert {
       if constexpr (std::is_same_v<From, double>) {
         return to_half(x);
       } else {
-        return to_half(static_cast<float>(x));  // integers that fit a half fit a float exactly
+        return to_half(static_cast<float>(x));  // integers in the range of half are exact in float
       }
     } else if constexpr (is_integer<To> && is_float<From>) {
       return from_float(x);
@@ -55,7 +55,7 @@ struct Convert {
 
 }  // namespace op
 
-// To is a scalar type; the shape stays. Integers wrap, floats round to nearest even.
+// Converts to scalar type To and keeps the shape. Integers wrap, floats round to nearest even.
 template <class To, class V>
 KAAMOS_CONSTEXPR with_scalar<V, To> convert(const V& v) {
   return map<op::Convert<To>>(v);
@@ -73,7 +73,8 @@ KAAMOS_CONSTEXPR V splat(scalar_of<V> s) {
   }
 }
 
-// The leading components, or the upper left of a matrix. A matrix becomes a vector row by row.
+// The leading components of a vector, or the upper left of a matrix. A matrix becomes a vector row
+// by row.
 template <class V, class From>
 KAAMOS_CONSTEXPR V truncate(const From& from) {
   static_assert(shape<V>::count <= shape<From>::count);
@@ -111,8 +112,8 @@ KAAMOS_CONSTEXPR void fill(V& result, const Part& part, const Rest&... rest) {
   if constexpr (sizeof...(Rest) > 0) fill<At + kCount>(result, rest...);
 }
 
-// Vectors and matrices: fills in row-major order from scalars, vectors and matrices that have as
-// many components together. Arrays: one part for each element.
+// Vectors and matrices: fills in row-major order from scalars, vectors and matrices that together
+// have the same number of components. Arrays: one part per element.
 template <class V, class... Parts>
 KAAMOS_CONSTEXPR V make(const Parts&... parts) {
   if constexpr (is_array<V>::value) {
@@ -130,7 +131,7 @@ KAAMOS_CONSTEXPR V make(const Parts&... parts) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Swizzles. One index gives a scalar; a scalar counts as a vector of one component.
+// Swizzles. One index gives a scalar; a scalar counts as a vector with one component.
 
 template <int... I, class V>
 KAAMOS_CONSTEXPR auto swizzle(const V& v) {
@@ -172,8 +173,8 @@ KAAMOS_CONSTEXPR void assign_matrix_swizzle(mat<T, R, C>& place, const From& val
 }
 
 // ---------------------------------------------------------------------------------------------
-// Subscripts: vector components, matrix rows, array elements. The index is an int32 or uint32 of
-// any value: a read out of range gives zeros, a write is dropped.
+// Subscripts: vector components, matrix rows, array elements. The index is any int32 or uint32
+// value: reads out of range give zeros, writes are dropped.
 
 template <class V>
 struct subscript;
@@ -201,8 +202,8 @@ KAAMOS_CONSTEXPR subscript_of<V> element(const V& v, I index) {
   return i < subscript<V>::count ? v.e[i] : subscript_of<V>{};
 }
 
-// The scratch object, which an index out of range refers to, lives to the end of the full
-// expression: use the reference there and then.
+// An index out of range refers to the scratch object, which lives only to the end of the full
+// expression, so use the reference immediately.
 template <class V, class I>
 KAAMOS_CONSTEXPR subscript_of<V>& element_ref(V& place, I index,
                                               subscript_of<V>&& scratch = subscript_of<V>{}) {

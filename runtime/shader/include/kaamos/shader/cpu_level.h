@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which of the versions of a shader library this machine runs. The results are the same bits.
+// Which version of a shader library this machine runs. All versions give the same bits.
 #pragma once
 
 #include <cstdio>
@@ -10,12 +10,12 @@
 namespace kaamos::shader {
 
 enum class CpuLevel {
-  kBaseline,  // any x86-64, or a processor of another kind
+  kBaseline,  // any x86-64, or a processor of a different kind
   kAvx2,
 };
 
-/// What the processor can run; $KAAMOS_CPU_LEVEL (sse2 or avx2) can ask for less. Another value, or
-/// more than there is, is told on stderr, once, and counts as not set.
+/// The best level that the processor supports; $KAAMOS_CPU_LEVEL (sse2 or avx2) can lower it. Any
+/// other value, or a higher level, is reported once on stderr and ignored.
 inline CpuLevel cpu_level() {
   static const CpuLevel level = [] {
     CpuLevel best = CpuLevel::kBaseline;

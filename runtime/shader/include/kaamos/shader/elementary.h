@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Elementary functions in the same steps for one number and for those of several threads, so that
+// Elementary functions, in the same steps for one number and for those of several threads, so that
 // both give the same bits. F is float, or a vector of floats; `Bits` gives its bits as unsigned
-// integers, `Floats` the floats of such bits; `Choose` takes the second operand where a condition
-// holds; `Every` says whether one holds for all.
+// integers, `Floats` makes floats from such bits; `Choose` returns its second operand where a
+// condition holds and the third elsewhere; `Every` says whether a condition holds everywhere.
 #pragma once
 
 #include "kaamos/shader/half.h"
 
 namespace kaamos::shader::op {
 
-// e^x within 1 ulp: 2^k e^r with k an integer and r within ln(2) / 2, e^r by a polynomial.
+// e^x within 1 ulp: 2^k e^r with an integer k and r within ln(2) / 2; e^r is a polynomial.
 template <class F, class Bits, class Floats, class Choose, class Every>
 KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const Choose& choose,
                             const Every& every) {
-  const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
+  const F shifted = x * 1.44269504f + 12582912.0f;  // 1.5 * 2^23: puts k into the lowest bits
   const F k = shifted - 12582912.0f;
   const F r = (x - k * 0.693359375f) - k * -2.12194440e-4f;
   F p = r * 1.9875691500e-4f + 1.3981999507e-3f;
@@ -25,16 +25,16 @@ KAAMOS_INLINE F exponential(F x, const Bits& bits, const Floats& floats, const C
   const F y = p * r * r + r + 1.0f;
   F result = floats(bits(y) + (bits(shifted) << 23));
   if (__builtin_expect(every(floats(bits(x) & 0x7FFFFFFFu) <= 87.3365402f), 1)) return result;
-  // What has no such exponent is replaced: more than the largest float, less than the least normal
-  // one (a denormal, which D3D flushes), and what is not a number.
+  // Replaces results whose exponent is out of range: above the largest float, below the smallest
+  // normal one (D3D flushes denormals), and NaN.
   result = choose(x > 88.7228317f, F{} + __builtin_inff(), result);
   result = choose(x < -87.3365402f, F{}, result);
   return choose(x == x, result, x);
 }
 
 // Sine and cosine within 2 ulp up to kLargestAngle, as x = k pi/2 + r with r within pi/4: a
-// polynomial of r (sine or cosine, as k is even or odd), with a sign. `Large` gives what is right
-// for the rest.
+// polynomial of r (sine or cosine, depending on whether k is even or odd) with a sign. `Large`
+// computes larger angles.
 inline constexpr float kLargestAngle = 512.0f;
 enum class Wave : uint32_t { kSine = 0, kCosine = 1 };
 
@@ -42,9 +42,9 @@ template <Wave W, class F, class Bits, class Floats, class Every, class Large>
 KAAMOS_INLINE F wave(F x, const Bits& bits, const Floats& floats, const Every& every,
                      const Large& large) {
   const F a = floats(bits(x) & 0x7FFFFFFFu);
-  const F shifted = a * 0.636619772f + 12582912.0f;  // 1.5 * 2^23: k in the lowest bits
+  const F shifted = a * 0.636619772f + 12582912.0f;  // 1.5 * 2^23: puts k into the lowest bits
   const F k = shifted - 12582912.0f;
-  // pi/2 in parts that are short enough for their products with k to be exact.
+  // pi/2 in parts short enough that their products with k are exact.
   const F r = (((a - k * 1.5703125f) - k * 0x1.FB4p-12f) - k * 0x1.444p-24f) - k * 0x1.68C234p-39f;
   const F z = r * r;
   const F sine = ((z * -1.9515295891e-4f + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * r + r;

@@ -2,19 +2,19 @@
 //
 // float16 as 16 stored bits. Arithmetic goes through float, whose 24-bit significand is wide enough
 // (>= 2 * 11 + 2) that rounding twice gives the correctly rounded half result of + - * / and sqrt.
-// Not _Float16: clang 14 lacks it on x86-64, and gcc 12's needs libgcc symbols.
+// Not _Float16, because clang 14 lacks it on x86-64 and gcc 12's needs libgcc symbols.
 #pragma once
 
 #include <cstdint>
 
-// always_inline keeps debug builds usable, artificial lets a debugger step over the library.
+// always_inline keeps debug builds fast enough; artificial lets a debugger step over the library.
 #define KAAMOS_INLINE [[gnu::always_inline, gnu::artificial]] inline
 #define KAAMOS_CONSTEXPR [[gnu::always_inline, gnu::artificial]] inline constexpr
 
-// After a lambda's parameter list.
+// To be put after a lambda's parameter list.
 #define KAAMOS_INLINE_LAMBDA __attribute__((always_inline))
 
-// Before a `for` that has a condition.
+// To be put before a `for` that has a condition.
 #define KAAMOS_PRAGMA(text) _Pragma(#text)
 #ifdef __clang__
 #define KAAMOS_UNROLL(times) KAAMOS_PRAGMA(clang loop unroll_count(times))
@@ -43,7 +43,7 @@ KAAMOS_CONSTEXPR float to_float(half h) {
   return __builtin_bit_cast(float, sign | ((magnitude << 13) + 0x38000000u));
 }
 
-// Round to nearest even; overflow gives infinity. [D3D11.3 3.2.2]
+// Rounds to nearest even; overflow gives infinity. [D3D11.3 3.2.2]
 KAAMOS_CONSTEXPR half to_half(float value) {
   const uint32_t bits = __builtin_bit_cast(uint32_t, value);
   const uint32_t sign = bits >> 16 & 0x8000u;
@@ -53,7 +53,7 @@ KAAMOS_CONSTEXPR half to_half(float value) {
   }
   if (magnitude >= 0x477FF000u) return {static_cast<uint16_t>(sign | 0x7C00u)};
   if (magnitude < 0x38800000u) {
-    // Adding 0.5 makes one unit in the last place of the sum 2^-24, the step of half's denormals:
+    // In a sum with 0.5, one unit in the last place is 2^-24, the step between half's denormals, so
     // the addition rounds to nearest even.
     const float sum = __builtin_bit_cast(float, magnitude) + 0.5f;
     return {static_cast<uint16_t>(sign | (__builtin_bit_cast(uint32_t, sum) - 0x3F000000u))};
@@ -62,7 +62,7 @@ KAAMOS_CONSTEXPR half to_half(float value) {
   return {static_cast<uint16_t>(sign | rounded >> 13)};
 }
 
-// Rounding to float first would round twice: the float is rounded to odd instead.
+// Rounding to nearest float first would round twice, so the float is rounded to odd.
 KAAMOS_CONSTEXPR half to_half(double value) {
   const float nearest = static_cast<float>(value);
   if (nearest != nearest || static_cast<double>(nearest) == value) return to_half(nearest);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Intrinsics that look at bits: reinterpretation, bit counts, float16 packing, float classes.
+// Intrinsics that work on bits: reinterpretation, bit counts, float16 packing, float classes.
 #pragma once
 
 #include "kaamos/shader/operators.h"
@@ -22,7 +22,7 @@ KAAMOS_CONSTEXPR auto float_bits(T x) {
                                   std::conditional_t<sizeof(T) == 4, uint32_t, uint16_t>>;
   return __builtin_bit_cast(Bits, x);
 }
-// An infinity without its sign; what is above is a NaN.
+// The bits of infinity without its sign; anything larger is a NaN.
 template <class T>
 inline constexpr uint64_t kInfinityBits = sizeof(T) == 8   ? 0x7FF0000000000000u
                                           : sizeof(T) == 4 ? 0x7F800000u
@@ -56,14 +56,14 @@ struct CountBits {
     return static_cast<uint32_t>(__builtin_popcountll(static_cast<std::make_unsigned_t<T>>(x)));
   }
 };
-// The bit's index counted from the lowest; 0xFFFFFFFF if there is none.
+// The index of the bit, counted from the lowest; 0xFFFFFFFF if there is none.
 struct FirstBitLow {
   template <class T>
   KAAMOS_CONSTEXPR static uint32_t apply(T x) {
     return x != 0 ? static_cast<uint32_t>(__builtin_ctzll(static_cast<uint64_t>(x))) : ~0u;
   }
 };
-// Of a negative number: the highest 0 bit.
+// For negative numbers it finds the highest 0 bit.
 struct FirstBitHigh {
   template <class T>
   KAAMOS_CONSTEXPR static uint32_t apply(T x) {
@@ -183,7 +183,7 @@ KAAMOS_CONSTEXPR V reversebits(const V& x) {
   return map<op::ReverseBits>(x);
 }
 
-// The low 16 bits count.
+// Only the low 16 bits count.
 template <class V>
 KAAMOS_CONSTEXPR with_scalar<V, float> f16tof32(const V& x) {
   return map<op::F16ToF32>(x);
@@ -209,8 +209,8 @@ KAAMOS_CONSTEXPR bool all(const V& x) {
   return result;
 }
 
-// Sums of absolute differences of the reference's bytes with 4 windows of the source's 8 bytes; a
-// reference byte of 0 is masked out.
+// Adds the sums of absolute differences between the reference's bytes and 4 windows of the source's
+// 8 bytes; reference bytes of 0 are masked out.
 inline uint4 msad4(uint32_t reference, const uint2& source, const uint4& accumulator) {
   const uint64_t bytes = static_cast<uint64_t>(source.e[1]) << 32 | source.e[0];
   uint4 result = accumulator;

@@ -10,7 +10,7 @@
 namespace kaamos::shader {
 namespace op {
 
-// The type that sums of products of T are kept in.
+// The type in which sums of products of T are kept.
 template <class T>
 using Sum = std::conditional_t<is_half<T>, float, T>;
 
@@ -23,8 +23,8 @@ KAAMOS_CONSTEXPR Sum<T> widen(T x) {
 template <class T, int N>
 KAAMOS_CONSTEXPR Sum<T> dot_sum(const vec<T, N>& a, const vec<T, N>& b) {
   if constexpr (std::is_same_v<T, float> && N == 4) {
-    // The same products, said as one operation: from here gcc finds that what leads to float4s can
-    // be done on all four at once.
+    // The same products, written as one operation, which lets gcc find that everything leading to
+    // these float4s can be done on all four components at once.
     if (!std::is_constant_evaluated()) {
       using Four = float __attribute__((vector_size(16)));
       const Four left = {a.e[0], a.e[1], a.e[2], a.e[3]};
@@ -101,7 +101,7 @@ KAAMOS_INLINE V faceforward(const V& normal, const V& incident, const V& geometr
   return op::dot_sum(incident, geometric_normal) < 0 ? normal : negate(normal);
 }
 
-// {1, max(n.l, 0), n.l and n.h not negative: pow(n.h, m), 1}
+// {1, max(n.l, 0), pow(n.h, m), 1}; the third is 0 if n.l or n.h is negative
 template <class T>
 KAAMOS_INLINE vec<T, 4> lit(T n_dot_l, T n_dot_h, T m) {
   const T zero = op::Convert<T>::apply(0.0f);
@@ -189,7 +189,7 @@ template <class T>
 KAAMOS_CONSTEXPR T determinant_of(const mat<T, 3, 3>& m) {
   return dot(m.e[0], cross(m.e[1], m.e[2]));
 }
-// By the 2x2 minors of the upper and of the lower two rows.
+// From the 2x2 minors of the upper and the lower two rows.
 template <class T>
 KAAMOS_CONSTEXPR T determinant_of(const mat<T, 4, 4>& m) {
   const auto minor = [&m](int row, int i, int j) KAAMOS_INLINE_LAMBDA {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Component-wise intrinsics with the results D3D asks for at the edges of their domains. Named as
-// in HLSL; float16 is computed in float. Operands of one call have one type.
+// Component-wise intrinsics, with the results that D3D requires at the edges of their domains.
+// Named as in HLSL; float16 is computed in float. All operands of one call have the same type.
 #pragma once
 
 #include "kaamos/shader/convert.h"
@@ -40,7 +40,7 @@ KAAMOS_FLOAT_FUNCTION(log10, __builtin_log10f(x), __builtin_log10(x))
 KAAMOS_FLOAT_FUNCTION(log2, __builtin_log2f(x), __builtin_log2(x))
 KAAMOS_FLOAT_FUNCTION(radians, x * 0.0174532925199432958f, x * 0.0174532925199432958)
 KAAMOS_FLOAT_FUNCTION(rcp, 1.0f / x, 1.0 / x)
-// Halves go to even: round(0.5) is 0, round(1.5) is 2.
+// Rounds halves to even: round(0.5) is 0, round(1.5) is 2.
 KAAMOS_FLOAT_FUNCTION(round, __builtin_rintf(x), __builtin_rint(x))
 KAAMOS_FLOAT_FUNCTION(rsqrt, 1.0f / __builtin_sqrtf(x), 1.0 / __builtin_sqrt(x))
 // NaN gives 0.
@@ -66,7 +66,7 @@ namespace op {
     return to_half(apply(to_float(x), to_float(y))); \
   }
 
-// In [0, 1): x - floor(x) of a small negative x would round to 1. Infinities give NaN.
+// In [0, 1): for a small negative x, x - floor(x) would round to 1. Infinities give NaN.
 struct Frac {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
@@ -105,7 +105,7 @@ struct Sign {
   }
 };
 
-// A NaN operand gives the other one. [D3D11.3 min, max]
+// If one operand is NaN, the result is the other. [D3D11.3 min, max]
 struct Min {
   template <class T>
   KAAMOS_CONSTEXPR static T apply(T x, T y) {
@@ -141,7 +141,7 @@ struct Atan2 {
   KAAMOS_INLINE static double apply(double y, double x) { return __builtin_atan2(y, x); }
 };
 
-// exp2(y * log2(x)) in HLSL: NaN for a negative x, whatever y is.
+// exp2(y * log2(x)) in HLSL: NaN for negative x, whatever y is.
 struct Pow {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float x, float y) {
@@ -152,7 +152,7 @@ struct Pow {
   }
 };
 
-// x * 2^e. The exponent is a float in HLSL, and may have a fraction.
+// x * 2^e. In HLSL the exponent is a float, and may have a fraction.
 struct Ldexp {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float x, float e) {
@@ -169,7 +169,7 @@ struct Ldexp {
   }
 };
 
-// Zero, infinities and NaN are their own mantissa with exponent 0.
+// For zero, infinities and NaN the mantissa is the number itself, and the exponent 0.
 struct FrexpMantissa {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
@@ -215,8 +215,8 @@ struct ModfFraction {
 
 struct Fma {
   KAAMOS_INLINE static half apply(half x, half y, half z) {
-    // The product is exact in double, and the sum too wherever the half below and the half above
-    // are about equally near: the result is rounded once.
+    // The product is exact in double, and so is the sum wherever it is close to the middle between
+    // two halves, so the result is rounded only once.
     return to_half(static_cast<double>(to_float(x)) * static_cast<double>(to_float(y)) +
                    static_cast<double>(to_float(z)));
   }
@@ -316,7 +316,7 @@ template <class V>
 KAAMOS_INLINE V fma(const V& x, const V& y, const V& z) {
   return map<op::Fma>(x, y, z);
 }
-// x * y + z with two roundings, integers too.
+// x * y + z, rounded twice; for integers, too.
 template <class V>
 KAAMOS_CONSTEXPR V mad(const V& x, const V& y, const V& z) {
   return map<op::Mad>(x, y, z);

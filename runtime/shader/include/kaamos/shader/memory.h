@@ -3,9 +3,9 @@
 // Loads and stores of scalars, vectors, matrices and arrays of these through buffer descriptors.
 // Structures are read and written member by member by the emitted code.
 //
-// Bounds hold for each scalar: what lies at or past Descriptor::size_bytes reads zero and is not
-// written. A descriptor that is no raw, structured or constant buffer has no bytes at all. Of the
-// offset of a raw load or store the low bits are ignored: two for words and wider, one for 16-bit
+// Bounds apply to each scalar: at or past Descriptor::size_bytes, reads give zero and writes are
+// dropped. A descriptor that is not a raw, structured or constant buffer has no bytes at all. Raw
+// loads and stores ignore the low bits of the offset: two for words and wider, one for 16-bit
 // scalars. bool takes 4 bytes. [hlsl-subset 3.3, 3.4; D3D11.3 7.13]
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace kaamos::shader {
 
 enum class Layout : uint8_t {
-  kConstantBuffer,  // 16-byte rows: an element of an array, a column of a matrix starts a new one
-  kStructured,      // tight
+  kConstantBuffer,  // 16-byte rows: each array element and matrix column starts a new one
+  kStructured,      // tightly packed
 };
 
 namespace memory {
@@ -28,7 +28,7 @@ constexpr uint32_t row_aligned(uint32_t bytes) {
   return (bytes + 15u) & ~15u;
 }
 
-// How a type lies in memory: its bytes without padding after the last component, and the distance
+// The memory layout of a type: its bytes without padding after the last component, and the stride
 // of its elements (array) or lines (matrix: columns, or rows if row-major).
 template <class V, Layout L, bool RowMajor>
 struct Extent {
@@ -58,7 +58,7 @@ struct Extent<array<T, N>, L, RowMajor> {
   static constexpr uint32_t bytes = stride * (N - 1) + element_bytes;
 };
 
-// Where a value lies: `base` may be read in [0, bytes).
+// Where a value is: [0, bytes) may be read from `base`.
 struct Window {
   uint8_t* base;
   uint64_t bytes;
@@ -71,7 +71,7 @@ constexpr uint64_t buffer_bytes(const Descriptor& buffer) {
   return is_buffer ? buffer.size_bytes : 0;
 }
 
-// The addresses are integers until a byte is known to be inside.
+// Addresses stay integers until a byte is known to be inside.
 KAAMOS_INLINE uint8_t* pointer(uint64_t address) {
   return reinterpret_cast<uint8_t*>(static_cast<uintptr_t>(address));
 }
@@ -81,7 +81,7 @@ KAAMOS_INLINE Window window(const Descriptor& buffer, uint32_t offset) {
   return {pointer(buffer.address + offset), size > offset ? size - offset : 0};
 }
 
-// The offset that a raw access of a V counts from.
+// The offset that a raw access of a V actually uses.
 template <class V>
 constexpr uint32_t aligned_offset(uint32_t offset) {
   constexpr uint32_t kBytes = Extent<V, Layout::kStructured, false>::scalar_bytes;
@@ -96,7 +96,7 @@ KAAMOS_INLINE Window element_window(const Descriptor& buffer, uint32_t index, ui
   const uint64_t at = static_cast<uint64_t>(index) * buffer.stride_bytes + offset;
   if (at >= buffer.size_bytes) [[unlikely]]
     return {nullptr, 0};
-  // An element ends at the view's stride, even where the shader believes it to be longer.
+  // An element ends at the view's stride, even if the shader takes it to be longer.
   const uint64_t in_buffer = buffer.size_bytes - at;
   const uint64_t in_element = buffer.stride_bytes - offset;
   return {pointer(buffer.address + at), in_buffer < in_element ? in_buffer : in_element};
@@ -123,7 +123,7 @@ KAAMOS_INLINE void write_scalar(const Window& w, uint32_t at, T value) {
   }
 }
 
-// Calls visit(component or row-major array element, byte offset) for each scalar of value.
+// Calls visit(component or row-major array element, byte offset) for each scalar of `value`.
 template <Layout L, bool RowMajor, class T, class Visit>
 KAAMOS_INLINE void each(T& value, uint32_t at, const Visit& visit) {
   visit(value, at);
@@ -167,7 +167,7 @@ KAAMOS_INLINE void write_all(const Window& w, const V& value) {
   });
 }
 
-// Out of line: a value that straddles the end is rare, its code is not on the fast path.
+// Out of line, because values rarely straddle the end; this keeps the code off the fast path.
 template <class V, Layout L, bool RowMajor>
 [[gnu::noinline, gnu::cold]] inline V read_partly(Window w) {
   return read_all<V, L, RowMajor, true>(w);
@@ -201,7 +201,7 @@ KAAMOS_INLINE T* atomic_pointer(const Window& w) {
 
 }  // namespace memory
 
-// Raw and constant buffers; offset in bytes. RowMajor matters to matrices and arrays of them.
+// Raw and constant buffers; offset in bytes. RowMajor only matters for matrices and arrays of them.
 template <class V, Layout L = Layout::kStructured, bool RowMajor = false>
 KAAMOS_INLINE V load(const Descriptor& buffer, uint32_t offset) {
   return memory::read<V, L, RowMajor>(memory::window(buffer, memory::aligned_offset<V>(offset)));
@@ -212,7 +212,7 @@ KAAMOS_INLINE void store(const Descriptor& buffer, uint32_t offset,
   memory::write<V, L, RowMajor>(memory::window(buffer, memory::aligned_offset<V>(offset)), value);
 }
 
-// Structured buffers: byte `offset` of element `index`; the view's stride counts.
+// Structured buffers: byte `offset` of element `index`, using the view's stride.
 template <class V, Layout L = Layout::kStructured, bool RowMajor = false>
 KAAMOS_INLINE V load_element(const Descriptor& buffer, uint32_t index, uint32_t offset) {
   return memory::read<V, L, RowMajor>(memory::element_window(buffer, index, offset));
@@ -223,7 +223,7 @@ KAAMOS_INLINE void store_element(const Descriptor& buffer, uint32_t index, uint3
   memory::write<V, L, RowMajor>(memory::element_window(buffer, index, offset), value);
 }
 
-// For atomics: null where out of bounds or misaligned.
+// For atomics: null if out of bounds or misaligned.
 template <class T>
 KAAMOS_INLINE T* memory_address(const Descriptor& buffer, uint32_t offset) {
   return memory::atomic_pointer<T>(memory::window(buffer, offset));

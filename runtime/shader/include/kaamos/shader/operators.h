@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// HLSL's operators as functions, for scalars, vectors and matrices alike, component by component on
-// operands of equal type. Nothing here is undefined behaviour or traps. [hlsl-subset 3.8]
+// HLSL's operators as functions for scalars, vectors and matrices, component by component on
+// operands of equal type. Nothing here is undefined behaviour, and nothing traps. [hlsl-subset 3.8]
 #pragma once
 
 #include "kaamos/shader/vector.h"
@@ -49,7 +49,7 @@ struct Multiply {
     }
   }
 };
-// Integers: x / 0 has all bits set; the lowest value / -1 is itself.
+// Integers: x / 0 has all bits set; the lowest value divided by -1 gives itself.
 struct Divide {
   template <class T>
   KAAMOS_CONSTEXPR static T apply(T a, T b) {
@@ -66,7 +66,7 @@ struct Divide {
     }
   }
 };
-// The sign is that of the dividend. Integers: x % 0 has all bits set.
+// Has the sign of the dividend. Integers: x % 0 has all bits set.
 struct Modulo {
   template <class T>
   KAAMOS_INLINE static T apply(T a, T b) {
@@ -205,7 +205,7 @@ template <class V>
 KAAMOS_CONSTEXPR V sub(const V& a, const V& b) {
   return map<op::Subtract>(a, b);
 }
-// Component-wise: HLSL's `a * b`. Linear algebra is mul().
+// HLSL's component-wise `a * b`. Linear algebra is in mul().
 template <class V>
 KAAMOS_CONSTEXPR V mul_c(const V& a, const V& b) {
   return map<op::Multiply>(a, b);
@@ -230,12 +230,12 @@ template <class V>
 KAAMOS_CONSTEXPR V bit_xor(const V& a, const V& b) {
   return map<op::BitXor>(a, b);
 }
-// The low 5 bits of the count matter (4 and 6 for 16- and 64-bit integers).
+// Only the low 5 bits of the count matter (4 for 16-bit and 6 for 64-bit integers).
 template <class V>
 KAAMOS_CONSTEXPR V shl(const V& a, const V& b) {
   return map<op::ShiftLeft>(a, b);
 }
-// Arithmetic on signed integers.
+// An arithmetic shift for signed integers.
 template <class V>
 KAAMOS_CONSTEXPR V shr(const V& a, const V& b) {
   return map<op::ShiftRight>(a, b);
@@ -277,12 +277,13 @@ KAAMOS_CONSTEXPR V bit_not(const V& a) {
   return map<op::BitNot>(a);
 }
 
-// A scalar condition chooses a whole value of any type, structures and arrays too.
+// A scalar condition chooses a whole value of any type, including structures and arrays.
 template <class V>
 KAAMOS_CONSTEXPR V select(bool condition, const V& a, const V& b) {
   return condition ? a : b;
 }
-// Component by component: choosing between two places and copying from there waits for both.
+// Component by component, because choosing between two places and copying from there would wait for
+// both.
 template <class T, int N>
 KAAMOS_CONSTEXPR vec<T, N> select(bool condition, const vec<T, N>& a, const vec<T, N>& b) {
   vec<T, N> result{};

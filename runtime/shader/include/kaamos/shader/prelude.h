@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// All that emitted C++ includes. It needs no library but libm. Emitted code is compiled with
+// The one header that emitted C++ includes. It needs no library but libm. Emitted code is compiled
+// with
 //   -std=c++20 -ffp-contract=off -fno-math-errno -fno-trapping-math -fwrapv -fno-strict-aliasing
 // and never with -ffast-math: NaN and infinities follow HLSL's rules.
 #pragma once

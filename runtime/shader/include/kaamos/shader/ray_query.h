@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery: what shaders do with one. Searching is the backend's; what is committed, and when a
-// query ends, is decided here, the same for emitted and interpreted shaders.
+// RayQuery: what shaders do with one. The backend searches; what is committed and when a query ends
+// is decided here, in the same way for emitted and interpreted shaders.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -21,7 +21,7 @@ inline void begin_query(Invocation& invocation, RayQuery& query, const Descripto
   invocation.dispatch->services->begin_query(invocation, query, arguments, ray);
 }
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
+// Ray is HLSL's RayDesc as the emitter declares it, with the same members in the same order.
 template <class Ray>
 inline void trace_ray_inline(Invocation& invocation, RayQuery& query, const Descriptor& scene,
                              uint32_t ray_flags, uint32_t mask, const Ray& ray) {
@@ -53,12 +53,12 @@ inline void query_commit(RayQuery& query, uint32_t status, float t) {
 }
 inline void query_commit_triangle(RayQuery& query) {
   if (!query.has_candidate || query.candidate.type != kQueryTriangle) return;
-  // The range was checked when it became a candidate; a second call changes nothing.
+  // The range was checked when it became a candidate. A second call changes nothing.
   if (query.candidate.t < query.committed.t) {
     query_commit(query, kCommittedTriangle, query.candidate.t);
   }
 }
-// A t outside the ray is undefined in DXR; here it is no hit, as with drivers.
+// A t outside the ray is undefined in DXR; here it is not a hit, as in drivers.
 inline void query_commit_procedural(RayQuery& query, float t) {
   if (!query.has_candidate || query.candidate.type != kQueryProcedural) return;
   if (t >= query.ray.t_min && t <= query.committed.t) {

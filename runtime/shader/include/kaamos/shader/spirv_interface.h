@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The binary interface between the SPIR-V of a shader library and a Vulkan backend: what abi.h is
-// for native code. One module per export, entry point "main", Vulkan 1.3. The module serves every
-// root signature: which root argument feeds which register comes in by specialization constants.
+// for native code. One module per export, entry point "main", Vulkan 1.3. A module works with every
+// root signature: specialization constants say which root argument feeds which register.
 //
-// Buffers, descriptor heaps, root arguments, shader records and acceleration structures are reached
-// by address (buffer_reference); only textures and samplers need Vulkan descriptors. Every struct
-// here has the same layout in GLSL's `scalar` layout. Addresses are 0 or multiples of what they
-// point to.
+// Buffers, descriptor heaps, root arguments, shader records and acceleration structures are
+// accessed by address (buffer_reference); only textures and samplers need Vulkan descriptors. Every
+// struct here has the same layout in GLSL's `scalar` layout. Addresses are 0 or aligned to what
+// they point to.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ namespace kaamos::shader::spirv {
 
 // ---------------------------------------------------------------------------------------------
 // Descriptor set 0: unbounded arrays, partially bound, updated after bind. Shader variables of all
-// image types alias the binding; Descriptor::address is the index in it.
+// image types alias the binding; Descriptor::address is the index into it.
 
 inline constexpr uint32_t kSampledImageBinding = 0;  // Descriptors of kShaderResource access
-inline constexpr uint32_t kStorageImageBinding = 1;  // of kUnorderedAccess; no format qualifier but
+inline constexpr uint32_t kStorageImageBinding = 1;  // kUnorderedAccess; no format qualifier but
                                                      // r32ui, r32i and r32f for atomics
 inline constexpr uint32_t kSamplerBinding = 2;       // kSampler
 
@@ -43,21 +43,21 @@ enum BindingConstant : uint32_t {
 };
 // Bits of Workaround.
 inline constexpr uint32_t kWorkaroundsConstant = 0xFFFF0000u;
-inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // traces nested in each other
-inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls nested
-// Not 0: shaders count in DispatchStatus::counts.
+inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // how deep traces may nest
+inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls, likewise
+// If not 0, shaders count in DispatchStatus::counts.
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 // Checked libraries: CheckEntry::shader.
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
 
-// Faults of drivers that generated code works around; each is off unless its bit is set. The
-// numbers are those of the list in runtime/vulkan/README.md.
+// Driver faults that generated code works around; each is off unless its bit is set. The ids are
+// those of the list in runtime/vulkan/README.md.
 enum Workaround : uint32_t {
   // B1: a rejected ReportHit overwrites the committed hit's attributes: write them back.
   kRestoreAttributes = 1,
-  // B3: hit builtins are overwritten by a nested trace: copy them when the shader starts.
+  // B3: a nested trace overwrites the hit builtins: copy them when the shader starts.
   kCopyHitBuiltins = 2,
-  // B7: gl_RayTmaxEXT in an intersection shader is not updated by an accepted report: keep it.
+  // B7: an accepted report does not update gl_RayTmaxEXT in an intersection shader: track it.
   kTrackReportedT = 4,
   // B11: a dispatch is cut into contiguous halves: let neighbouring launch rows alternate between
   // the halves of the image.
@@ -67,9 +67,10 @@ enum Workaround : uint32_t {
 // ---------------------------------------------------------------------------------------------
 // Memory
 
-// The push constant block of every stage: uint64_t, the address of this. Constant while it runs.
+// The push constant block of every stage is a uint64_t, the address of this. Constant during the
+// dispatch.
 struct DispatchBlock {
-  // [begin, end) of the shader-visible heaps that are set, arrays of Descriptor.
+  // [begin, end) of the current shader-visible heaps, arrays of Descriptor.
   uint64_t view_heap_begin = 0;
   uint64_t view_heap_end = 0;
   uint64_t sampler_heap_begin = 0;
@@ -79,36 +80,37 @@ struct DispatchBlock {
   uint64_t empty_top_level = 0;  // Vulkan's address of a top level that every ray misses
   uint64_t status = 0;           // DispatchStatus
   uint32_t top_level_mask = 0;
-  // Records of the bound tables. A larger index goes to index `count`, a null record that the
-  // backend puts behind the last.
+  // How many records the bound tables have. Larger indices become index `count`, a null record that
+  // the backend puts after the last one.
   uint32_t miss_count = 0;
   uint32_t callable_count = 0;
   uint32_t hit_group_count = 0;
-  // DispatchRaysDimensions, or the number of thread groups, of the whole dispatch; large ones come
-  // in parts: DispatchRaysIndex = base + the launch id.
+  // DispatchRaysDimensions, or the number of thread groups, of the whole dispatch. Large dispatches
+  // run in parts: DispatchRaysIndex = base + the launch id.
   uint32_t dimensions[3] = {0, 0, 0};
   uint32_t base[3] = {0, 0, 0};
   uint32_t rows = 0;      // height of this part, for kInterleaveRows
-  uint32_t reserved = 0;  // root_arguments at a multiple of 16
+  uint32_t reserved = 0;  // makes root_arguments a multiple of 16
   uint8_t root_arguments[512] = {};
 };
 static_assert(offsetof(DispatchBlock, root_arguments) == 112);
 static_assert(sizeof(DispatchBlock) == 624);
 
-// Which acceleration structure an HLSL value means. The table is a hash table with open addressing:
-// look at slot hash(address) & top_level_mask and on, one slot further each time, until `address`
-// is found, or 0: then the ray meets the empty top level, and no byte at a wild address is read.
+// Maps the HLSL value of an acceleration structure to Vulkan's. A hash table with open addressing:
+// look at slot hash(address) & top_level_mask and at the following slots until you find `address`,
+// or 0. With 0 the ray is traced against the empty top level, so that no byte at a wild address is
+// read.
 //   hash(address) = uint32_t(address >> 8) * 0x9E3779B1u >> 7
 struct TopLevelEntry {
-  uint64_t address = 0;  // rtapi's
-  uint64_t vulkan = 0;   // what accelerationStructureEXT() takes
+  uint64_t address = 0;  // as rtapi knows it
+  uint64_t vulkan = 0;   // for accelerationStructureEXT()
 };
 constexpr uint32_t top_level_hash(uint64_t address) {
   return (static_cast<uint32_t>(address >> 8) * 0x9E3779B1u) >> 7;
 }
 
-// InstanceIndex and InstanceID come from here. The driver may see instances, and the primitives of
-// a bottom level, in another order than the application gave them:
+// InstanceIndex and InstanceID come from here. The driver may get the instances, and the primitives
+// of a bottom level, in another order than the application gave them:
 //   words = uint32_t[] at primitive_remap;
 //   PrimitiveIndex = primitive_remap != 0 ? words[words[GeometryIndex] + gl_PrimitiveID]
 //                                         : gl_PrimitiveID
@@ -119,8 +121,8 @@ struct InstanceEntry {
 };
 static_assert(sizeof(InstanceEntry) == 16);
 
-// What the driver sees as a shader record: behind the driver's handle this and nothing else, so
-// that a record of the application stays where it is, and driver's sizes and alignments are free.
+// What the driver sees as a shader record: this and nothing else, after the driver's handle. So the
+// application's record can stay where it is, and the driver is free in its sizes and alignments.
 //   layout(shaderRecordEXT, scalar) buffer Record { uint64_t local_arguments; };
 // local_arguments: the address of byte 32 of the application's record; 0 in a null record.
 struct RecordData {
@@ -139,24 +141,24 @@ enum Count : uint32_t {
   kCountCount
 };
 
-// Written by shaders, read when the dispatch is over.
+// Written by shaders, read after the dispatch.
 struct DispatchStatus {
   uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
   uint32_t reserved = 0;
-  uint32_t counts[kCountCount][2] = {};  // low and high half; added to with wrap-around
-  uint64_t unknown_structure = 0;        // an address that rays were traced against for nothing
+  uint32_t counts[kCountCount][2] = {};  // low and high half; additions carry
+  uint64_t unknown_structure = 0;        // one that rays were traced against in vain
   uint64_t checks = 0;                   // CheckState of a checked device; 0: nobody listens
 };
 static_assert(offsetof(DispatchStatus, checks) == 72);
 
-// What shaders of checked libraries read, and where they tell what they found.
+// What shaders of checked libraries read, and where they write what they found.
 struct CheckState {
-  uint64_t ranges = 0;   // AddressRange[range_count], by rising address
-  uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table that starts with zeros
+  uint64_t ranges = 0;   // AddressRange[range_count], sorted by address
+  uint64_t entries = 0;  // CheckEntry[kCheckEntries], a hash table, all zeros at first
   uint32_t range_count = 0;
   uint32_t max_recursion_depth = 0;
-  uint64_t reached = 0;      // ReachedEntry[kReachedEntries], the same
-  uint32_t ran_nothing = 0;  // bits below; of rays without RAY_FLAG_SKIP_CLOSEST_HIT_SHADER
+  uint64_t reached = 0;      // ReachedEntry[kReachedEntries], likewise
+  uint32_t ran_nothing = 0;  // bits below; only rays without RAY_FLAG_SKIP_CLOSEST_HIT_SHADER
 };
 inline constexpr uint32_t kRayRanNothing = 1;
 inline constexpr uint32_t kCallRanNothing = 2;
@@ -165,7 +167,7 @@ inline constexpr uint32_t kCheckEntries = 256;
 struct CheckEntry {
   uint32_t key = 0;  // 0: free
   uint32_t count = 0;
-  CheckReport report;  // of one of `count` invocations
+  CheckReport report;  // from one of `count` invocations
   uint32_t index[3] = {0, 0, 0};
   uint32_t shader = 0;  // kShaderConstant
   uint64_t reserved = 0;
@@ -183,12 +185,12 @@ static_assert(sizeof(ReachedEntry) == 32);
 // ---------------------------------------------------------------------------------------------
 // Payloads, callable data and attributes
 //
-// Payloads and callable data cross between stages as
+// Payloads and callable data are passed between stages as
 //   struct { uint trace_depth_and_callable_depth; T data; }
 // with the trace depth in the low and the callable depth in the high 16 bits: those of the shader
-// that gets it, where ray generation has 0 and 0. A trace or call that would go deeper than the
-// constants above say writes DispatchStatus and does nothing.
+// that gets it, where ray generation has 0 and 0. A trace or call that would nest deeper than the
+// constants above allow writes DispatchStatus and does nothing.
 //
-// Attributes: vec2 where the HLSL type holds two 32-bit floats, else uint[words].
+// Attributes: vec2 if the HLSL type holds two 32-bit floats, otherwise uint[words].
 
 }  // namespace kaamos::shader::spirv

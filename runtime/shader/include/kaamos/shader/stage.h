@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What ends up in the backend: TraceRay, ReportHit, CallShader, barriers; and reading hit
-// attributes.
+// What calls the backend: TraceRay, ReportHit, CallShader, barriers; and reading hit attributes.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -26,7 +25,7 @@ inline TraceRayArguments trace_ray_arguments(const Descriptor& acceleration_stru
   return arguments;
 }
 
-// Ray is HLSL's RayDesc as the emitter declares it: the same members in the same order.
+// Ray is HLSL's RayDesc as the emitter declares it, with the same members in the same order.
 template <class Ray, class Payload>
 inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_structure,
                       uint32_t ray_flags, uint32_t instance_inclusion_mask,
@@ -45,7 +44,7 @@ inline void trace_ray(Invocation& invocation, const Descriptor& acceleration_str
                                            direction_t_max);
 }
 
-// Sets `ended` where the hit ends the shader: the caller returns at once. [DXR: ReportHit]
+// Sets `ended` if the hit ends the shader; the caller must then return at once. [DXR: ReportHit]
 template <class Attributes>
 inline bool report_hit(Invocation& invocation, bool& ended, float t, uint32_t hit_kind,
                        const Attributes& attributes) {
@@ -60,7 +59,7 @@ inline void call_shader(Invocation& invocation, uint32_t shader_index, Data& dat
   invocation.dispatch->services->call_shader(invocation, shader_index, &data, sizeof(Data));
 }
 
-// Attributes arrive as bytes of the structure that ReportHit was given, or two floats of a
+// Attributes are the bytes of the structure that was passed to ReportHit, or two floats for a
 // triangle.
 template <class Attributes>
 KAAMOS_INLINE Attributes load_attributes(const void* bytes) {
@@ -69,7 +68,7 @@ KAAMOS_INLINE Attributes load_attributes(const void* bytes) {
   return attributes;
 }
 
-// The numbers of the IR's BarrierFlags.
+// The values of the IR's BarrierFlags.
 enum BarrierScope : uint32_t { kGroupMemory = 1, kDeviceMemory = 2, kGroupSync = 4 };
 
 inline void barrier(Invocation& invocation, ComputeGroup* group, uint32_t scope) {

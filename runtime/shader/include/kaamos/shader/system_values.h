@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// System values of ray and compute shaders, from what the backend put into the Invocation.
+// System values of ray and compute shaders, from what the backend stored in the Invocation.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -16,8 +16,7 @@ KAAMOS_INLINE uint3 dispatch_rays_dimensions(const Invocation& invocation) {
   return {{size[0], size[1], size[2]}};
 }
 
-// The rest: the checker keeps stages without a ray from asking, and miss shaders from asking for
-// transforms.
+// The checker allows these only in stages with a ray, and transforms not in miss shaders.
 KAAMOS_INLINE float3 world_ray_origin(const Invocation& invocation) {
   const float* v = invocation.ray->ray.origin;
   return {{v[0], v[1], v[2]}};
@@ -32,7 +31,7 @@ KAAMOS_INLINE float3x4 read_transform(const float* rows) {
   __builtin_memcpy(&m, rows, sizeof(m));
   return m;
 }
-// Of a ray query's hit: zeros where there is none.
+// For a ray query's hit: zeros if there is none.
 KAAMOS_INLINE float3x4 load_transform(const float* rows) {
   return rows != nullptr ? read_transform(rows) : float3x4{};
 }

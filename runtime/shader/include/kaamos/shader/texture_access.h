@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Textures and typed buffers: HLSL's argument lists put into the ABI's structures, and texels into
-// HLSL's types. V is the result's type: a scalar or vector of up to four float, int, uint, float16,
-// int16 or uint16.
+// Textures and typed buffers: translates HLSL's argument lists to the ABI's structures, and texels
+// to HLSL's types. V is the result's type: a scalar or vector of up to four float, int, uint,
+// float16, int16 or uint16.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -13,7 +13,7 @@
 namespace kaamos::shader {
 namespace texture_access {
 
-// The 32-bit type that a texel holds for a component type.
+// The 32-bit type that holds a component of type T in a texel.
 template <class T>
 using Wide = std::conditional_t<is_float<T>, float,
                                 std::conditional_t<std::is_signed_v<T>, int32_t, uint32_t>>;
@@ -112,7 +112,7 @@ KAAMOS_INLINE V gather_compare(const Invocation& invocation, const Descriptor& t
 }
 
 // ---------------------------------------------------------------------------------------------
-// Texels. Coordinates are what the ABI wants: {x, y, z or array element, mip}.
+// Texels. Coordinates are as the ABI wants them: {x, y, z or array element, mip}.
 
 template <class V, class Offset = int32_t>
 KAAMOS_INLINE int4 texel_coordinates(const V& at, int32_t mip, const Offset& offset = {}) {
@@ -132,7 +132,7 @@ KAAMOS_INLINE int4 texel_coordinates_1d_array(const V& at, int32_t mip, const Of
 
 namespace texture_access {
 
-// The DXGI_FORMAT whose texels are a V as it lies in memory; 0: there is none.
+// The DXGI_FORMAT whose texels have the memory layout of a V; 0 if there is none.
 template <class V>
 constexpr uint32_t direct_format() {
   using T = scalar_of<V>;
@@ -145,11 +145,11 @@ constexpr uint32_t direct_format() {
   return kFormats[kFloat][shape<V>::count];
 }
 
-// Pictures are often stored shorter than shaders read them.
+// Pictures are often stored in fewer bits than shaders read.
 inline constexpr uint32_t kR16G16B16A16Float = 10, kR8G8B8A8Unorm = 28, kR16G16Snorm = 37;
 
-// A texel of `bytes` in a texture that is stored in that format, where it can be used in place;
-// else null. bound.h has the same of a BoundResource.
+// The texel of `bytes` bytes if the texture is stored in that format and can be accessed in place;
+// otherwise null. bound.h has the same for a BoundResource.
 KAAMOS_INLINE uint8_t* texel_in_place(const Descriptor& texture, const int4& at, uint32_t format,
                                       uint32_t bytes) {
   const auto* view = reinterpret_cast<const TextureView*>(texture.address);
@@ -164,15 +164,15 @@ KAAMOS_INLINE uint8_t* texel_in_place(const Descriptor& texture, const int4& at,
   return mip.texels + static_cast<uint64_t>(y) * mip.row_pitch + uint64_t{x} * bytes;
 }
 
-// The texel, where it can be used as it lies in memory; else null.
+// The texel if it can be accessed in memory as it is; otherwise null.
 template <class V>
 KAAMOS_INLINE uint8_t* direct_texel(const Descriptor& texture, const int4& at) {
   static_assert(sizeof(V) == 4 * shape<V>::count);
   return texel_in_place(texture, at, direct_format<V>(), sizeof(V));
 }
 
-// Stored integers and floats, as runtime/shader/texture/format_codec.cpp has them; its test
-// compares.
+// Stored integers and floats as in runtime/shader/texture/format_codec.cpp, whose test compares
+// them.
 KAAMOS_INLINE float from_snorm16(int16_t stored) {
   const float x = static_cast<float>(stored) / 32767.0f;
   return x < -1.0f ? -1.0f : x;
@@ -194,7 +194,7 @@ KAAMOS_INLINE const Descriptor& descriptor_of(const Descriptor& texture) {
   return texture;
 }
 
-// Whether one of the short formats was read. Texture: a Descriptor or a BoundResource.
+// Whether it read one of the short formats. Texture is a Descriptor or a BoundResource.
 template <class Texture, class V>
 KAAMOS_INLINE bool load_short(const Texture& texture, const int4& at, V& value) {
   if constexpr (std::is_same_v<scalar_of<V>, float> && shape<V>::count == 2) {
@@ -245,8 +245,8 @@ KAAMOS_INLINE bool store_short(const Texture& texture, const int4& at, const V& 
   return false;
 }
 
-// Out of line: conversions, arrays, and what is out of bounds. Pure: what a loop reads of other
-// memory stays known around it.
+// Out of line: conversions, arrays, and anything out of bounds. Pure, so that a loop need not
+// reload other memory after each call.
 template <class V, class Texture>
 [[gnu::noinline, gnu::pure]] inline V load_converted(const Invocation& invocation,
                                                      const Texture& texture, int4 coordinates) {
@@ -344,7 +344,7 @@ namespace texture_access {
 }  // namespace texture_access
 
 // Textures: {width, height, depth or elements, mips} of the mip. Buffers: {elements or bytes,
-// stride, 0, 0}. A root descriptor has no size: the largest number stands for it.
+// stride, 0, 0}. A root descriptor has no size, so it gives the largest number.
 KAAMOS_INLINE uint4 dimensions(const Invocation& invocation, const Descriptor& descriptor,
                                uint32_t mip) {
   if (invocation.dispatch->direct_texels) {

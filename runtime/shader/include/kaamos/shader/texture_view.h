@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the address of a texture's or sampler's descriptor points to for native shader code: part of
-// the interface, so that plain loads and stores need no call. Plain data: the backend owns it and
-// the texels.
+// What the address in a texture's or sampler's descriptor points to for native shader code. It is
+// part of the interface so that plain loads and stores need no call. Plain data: the backend owns
+// it and the texels.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace kaamos::shader {
 
-// The numbers of D3D12_SRV_DIMENSION; unordered access views share those they have.
+// The values of D3D12_SRV_DIMENSION; unordered access views use the same where they exist.
 enum class TextureDimension : uint32_t {
   k1D = 2,
   k1DArray = 3,
@@ -22,7 +22,7 @@ enum class TextureDimension : uint32_t {
   kCubeArray = 10,
 };
 
-// 16384 texels, the largest side of a D3D12 texture, have 15 mips.
+// 16384 texels, the largest side of a D3D12 texture, give 15 mips.
 inline constexpr uint32_t kMaxTextureMips = 15;
 
 struct TextureMip {
@@ -35,7 +35,7 @@ struct TextureMip {
 };
 
 struct TextureView {
-  uint32_t format = 0;  // DXGI_FORMAT; one that format_codec() does not know reads as zeros
+  uint32_t format = 0;  // DXGI_FORMAT; formats that format_codec() does not know read as zeros
   TextureDimension dimension = TextureDimension::k2D;
   bool unordered_access = false;  // only these can be written
   // D3D12_SHADER_COMPONENT_MAPPING per channel: 0..3 channel, 4 zero, 5 one. For reads and samples.
@@ -43,13 +43,13 @@ struct TextureView {
   uint32_t mip_count = 0;    // of the view; at most kMaxTextureMips
   uint32_t slice_count = 1;  // array elements of the view; cube faces, a multiple of 6
   float min_lod = 0;         // ResourceMinLODClamp, counted from the view's first mip
-  // `format` where texels of mip 0 may be read (and written, if unordered_access) as they lie in
-  // memory: 2-D, channels in their order, texels not null. Else 0.
+  // `format` if texels of mip 0 may be read (and written, if unordered_access) in memory as they
+  // are: 2-D, channels in order, texels not null. Otherwise 0.
   uint32_t direct_format = 0;
   TextureMip mips[kMaxTextureMips];
 };
 
-// Members, order and numbers of D3D12_SAMPLER_DESC.
+// The members, order and values of D3D12_SAMPLER_DESC.
 struct SamplerState {
   uint32_t filter = 0x15;  // anisotropic filters count as linear ones
   uint32_t address[3] = {1, 1, 1};
@@ -61,7 +61,7 @@ struct SamplerState {
   float max_lod = 3.402823466e+38f;
 };
 
-// Null where the descriptor is none of a texture, or the view has no texels.
+// Null if it is not a texture's descriptor, or the view has no texels.
 inline const TextureView* texture_view(const Descriptor& descriptor) {
   if (descriptor.kind != DescriptorKind::kTexture) return nullptr;
   const auto* view = reinterpret_cast<const TextureView*>(descriptor.address);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The value types of HLSL: vectors, matrices of rows, arrays. Plain aggregates without invariants;
-// what they can do is written as free functions, with one form for scalars, vectors and matrices.
+// HLSL's value types: vectors, matrices of rows, arrays. They are plain aggregates without
+// invariants; operations on them are free functions, with one form for scalars, vectors and
+// matrices.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ struct vec {
   constexpr const T& operator[](int i) const { return e[i]; }
 };
 
-// R rows of C columns; m.e[i] is row i, as m[i] in HLSL.
+// R rows of C columns; m.e[i] is row i, like m[i] in HLSL.
 template <class T, int R, int C>
 struct mat {
   static_assert(R >= 1 && R <= 4);
@@ -71,7 +72,7 @@ KAAMOS_SHADER_NAMES(double, double)
 #undef KAAMOS_SHADER_NAMES
 using uint = uint32_t;
 
-// What a value is made of, and its shape. Scalars are 1x1, vectors one row.
+// The scalar type of a value, and its shape. Scalars are 1x1, vectors are one row.
 template <class V>
 struct shape {
   using scalar = V;
@@ -147,7 +148,7 @@ KAAMOS_CONSTEXPR void unroll(const F& f) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Component-wise application of Op::apply, or of wide_op<Op>::apply to components that hold the
+// Applies Op::apply component by component, or wide_op<Op>::apply to components that hold the
 // values of several threads. [wide.h, wide_operators.h]
 
 template <class T>

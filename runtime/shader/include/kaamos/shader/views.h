@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// What emitted code reads structs from and writes them to, member by member: one interface over raw
-// and constant buffers and over an element of a structured buffer.
+// What emitted code reads and writes structs through, member by member: one interface for raw and
+// constant buffers and for an element of a structured buffer.
 #pragma once
 
 #include "kaamos/shader/memory.h"
 
 namespace kaamos::shader {
 
-// The bytes are worked out once for all members of a struct.
+// Address and size are computed once for all members of a struct.
 struct MemoryView {
   uint64_t address;
   uint64_t bytes;
@@ -21,7 +21,7 @@ KAAMOS_INLINE MemoryView element_view(const Descriptor& buffer, uint32_t index) 
   return {reinterpret_cast<uintptr_t>(element.base), element.bytes};
 }
 
-// A view of which every byte that is read or written is known to be inside.
+// A view where every byte that is read or written is known to be inside.
 struct WholeView {
   uint64_t address;
 };
@@ -35,7 +35,8 @@ KAAMOS_INLINE Window window(const MemoryView& view, uint32_t offset) {
 }
 }  // namespace memory
 
-// Whether `bytes` at byte `at` lie inside. One comparison: a window's length takes two more steps.
+// Whether `bytes` at byte `at` are inside. A single comparison; the length of a window would take
+// two more steps.
 KAAMOS_INLINE bool is_inside(const MemoryView& view, uint32_t at, uint64_t bytes) {
   return __builtin_expect(view.bytes >= at + bytes, 1);
 }
@@ -61,7 +62,7 @@ KAAMOS_INLINE void write(const View& view, uint32_t offset, const V& value) {
 }
 
 namespace memory {
-// Out of line: a struct that straddles the end is rare, its code is not on the fast path.
+// Out of line, because structs rarely straddle the end; this keeps the code off the fast path.
 template <class S, class ReadMembers>
 [[gnu::noinline, gnu::cold]] inline S read_struct_partly(const MemoryView& view, uint32_t at,
                                                          const ReadMembers& read_members) {
@@ -75,8 +76,8 @@ template <class S, class WriteMembers>
 }
 }  // namespace memory
 
-// A struct of `bytes` at byte `at`. One test of the bounds for all of it where it lies inside, as
-// nearly every one does; else each scalar has its own.
+// Reads a struct of `bytes` at byte `at`. One bounds test covers all of it if it is inside, as
+// nearly every struct is; otherwise each scalar is tested.
 template <class S, class View, class ReadMembers>
 KAAMOS_INLINE S read_struct(const View& view, uint32_t at, uint64_t bytes,
                             const ReadMembers& read_members) {
@@ -93,7 +94,8 @@ template <auto Read, class S>
 }
 }  // namespace memory
 
-// The same of one that lies in memory as S does: where it lies or, partly outside, in `copy`.
+// The same for a struct with S's memory layout: returned where it is or, if partly outside, in
+// `copy`.
 template <auto Read, class S>
 KAAMOS_INLINE const S& struct_in_place(const MemoryView& view, uint32_t at, S& copy) {
   if (is_inside(view, at, sizeof(S))) return *reinterpret_cast<const S*>(view.address + at);

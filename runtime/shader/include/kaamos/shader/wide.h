@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The values of several threads of a shader side by side: wide<T> holds a T for each of
-// kLanes threads, vec<wide<T>, N> a vector for each, and so on for matrices, arrays and structs.
-// What the prelude does to components (map()) it does to these lane by lane, with the very results
-// of the scalar code; wide_operators.h has the operations that registers do at once.
+// The values of several threads of a shader side by side: wide<T> holds a T for each of kLanes
+// threads, vec<wide<T>, N> a vector for each, and so on for matrices, arrays and structs. What the
+// prelude does to components (map()) it does to these lane by lane, with exactly the results of the
+// scalar code; wide_operators.h has the operations that work on whole registers.
 //
-// Vectors of a compiler are as long as a register of the instruction set that the unit is compiled
-// for: longer ones come apart badly.
+// Compiler vectors are as long as a register of the instruction set that the unit is compiled for;
+// compilers split longer ones badly.
 #pragma once
 
 #include "kaamos/shader/abi.h"
@@ -43,7 +43,7 @@ template <>
 struct register_of<uint32_t> {
   using type = Uints;
 };
-// All bits of a lane are equal.
+// All bits of a lane have the same value.
 template <>
 struct register_of<bool> {
   using type = Ints;
@@ -70,7 +70,7 @@ requires(simd::is_in_registers<T>) struct wide<T> {
 #endif
 };
 
-// One bit for each thread: which of them take part.
+// One bit per thread: which threads are active.
 using lanes = wide<bool>;
 
 template <class T>
@@ -82,7 +82,7 @@ struct shape<wide<T>> {
   using rebind = std::conditional_t<is_wide<To>, To, wide<To>>;
 };
 
-// f of the registers, one after the other.
+// Applies f to the registers, one after another.
 template <class To, class F, class... T>
 KAAMOS_INLINE wide<To> by_register(const F& f, const wide<T>&... x) {
 #ifdef __AVX2__
@@ -93,7 +93,7 @@ KAAMOS_INLINE wide<To> by_register(const F& f, const wide<T>&... x) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// One lane. Structs of emitted code have members get and set.
+// One lane. Structs in emitted code have members get and set.
 
 template <class T>
 KAAMOS_INLINE T get(const wide<T>& x, int lane) {
@@ -135,7 +135,7 @@ KAAMOS_INLINE void set(W& x, int lane, const V& value) {
   x.set(lane, value);
 }
 
-// What one lane of a W holds.
+// What one lane of a W contains.
 template <class W>
 struct lane_of {
   using type = typename W::lane;
@@ -190,7 +190,7 @@ KAAMOS_INLINE void set(array<T, N>& x, int lane, const Lane<array<T, N>>& value)
   for (uint32_t i = 0; i < N; ++i) set(x.e[i], lane, value.e[i]);
 }
 
-// change(what one lane holds)
+// Applies change to what one lane contains.
 template <class W, class F>
 KAAMOS_INLINE void change_lane(W&& x, int lane, const F& change) {
   auto whole = get(x, lane);
@@ -204,7 +204,7 @@ KAAMOS_INLINE void change_lane(W&& x, int lane, const F& change) {
 template <class T>
 KAAMOS_INLINE void fill_lanes(wide<T>& out, T value) {
   if constexpr (simd::is_in_registers<T>) {
-    // As an integer: 0 + -0 is 0.
+    // As an integer, because 0 + -0 is 0.
     int32_t bits;
     if constexpr (std::is_same_v<T, bool>) {
       bits = value ? -1 : 0;
@@ -237,7 +237,7 @@ template <class T, uint32_t N>
 KAAMOS_INLINE void fill_lanes(array<T, N>& out, const Lane<array<T, N>>& value) {
   for (uint32_t i = 0; i < N; ++i) fill_lanes(out.e[i], value.e[i]);
 }
-// Whether it is nothing but words of 32 bits in the order in which they lie in what a lane has.
+// Whether W consists of nothing but 32-bit words, in the order of a lane's memory.
 template <class W>
 constexpr bool is_words = false;
 template <class T>
@@ -262,11 +262,11 @@ KAAMOS_INLINE W spread(const Lane<W>& value) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Lanes that take part.
+// Active lanes.
 
 namespace simd {
 
-// One bit for each lane of a register: whether it is negative.
+// One bit for each lane of a register, set if the lane is negative.
 KAAMOS_INLINE uint32_t sign_bits(Ints x) {
 #if defined(__AVX2__)
   return static_cast<uint32_t>(__builtin_ia32_movmskps256((Floats)x));
@@ -282,7 +282,7 @@ inline constexpr uint32_t kEverySignBit = (1u << kRegisterBytes / 4) - 1;
 
 }  // namespace simd
 
-// Bit i: lane i.
+// Bit i stands for lane i.
 KAAMOS_INLINE uint32_t bits_of(const lanes& x) {
 #ifdef __AVX2__
   return simd::sign_bits(x.a);
@@ -325,18 +325,18 @@ KAAMOS_INLINE wide<uint32_t> lane_numbers() {
   return {simd::Uints{0, 1, 2, 3}, simd::Uints{4, 5, 6, 7}};
 #endif
 }
-// The first `count` lanes, or all.
+// The first `count` lanes, or all of them if there are fewer.
 KAAMOS_INLINE lanes first_lanes(uint32_t count) {
   return by_register<bool>([count](auto x) KAAMOS_INLINE_LAMBDA { return x < count; },
                            lane_numbers());
 }
 
-// f(lane) for each that takes part, in their order.
+// Calls f(lane) for each active lane, in order.
 template <class F>
 KAAMOS_INLINE void each_lane(const lanes& active, const F& f) {
   for (uint32_t bits = bits_of(active); bits != 0; bits &= bits - 1) f(__builtin_ctz(bits));
 }
-// f(lane) of each that takes part; zeros in the others.
+// f(lane) in each active lane; zeros in the others.
 template <class W, class F>
 KAAMOS_INLINE W gather_lanes(const lanes& active, const F& f) {
   W out{};
@@ -344,7 +344,7 @@ KAAMOS_INLINE W gather_lanes(const lanes& active, const F& f) {
   return out;
 }
 
-// to = from in the lanes that take part.
+// to = from in the active lanes.
 template <class T>
 KAAMOS_INLINE void blend(wide<T>& to, const wide<T>& from, const lanes& active) {
   if constexpr (simd::is_in_registers<T>) {
@@ -373,7 +373,7 @@ template <class T, uint32_t N>
 KAAMOS_INLINE void blend(array<T, N>& to, const array<T, N>& from, const lanes& active) {
   for (uint32_t i = 0; i < N; ++i) blend(to.e[i], from.e[i], active);
 }
-// place.ij = value in the lanes that take part.
+// place.ij = value in the active lanes.
 template <int... I, class V, class From>
 KAAMOS_INLINE void blend_swizzle(V& place, const From& value, const lanes& active) {
   const From copy = value;  // v.xy = v.yx
@@ -411,7 +411,7 @@ KAAMOS_INLINE mat<wide<T>, R, C> select(const mat<lanes, R, C>& condition,
   return out;
 }
 
-// condition ? a(lanes) : b(lanes), each for the lanes that want it.
+// condition ? a(lanes) : b(lanes), each called with the lanes that need it.
 template <class W, class A, class B>
 KAAMOS_INLINE W choose(const lanes& active, const lanes& condition, const A& a, const B& b) {
   const lanes first = active & condition;
@@ -433,7 +433,7 @@ KAAMOS_INLINE lanes either(const lanes& active, const lanes& a, const B& b) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Subscripts of another value in each lane. [convert.h: Subscripts]
+// Subscripts with a different value in each lane. [convert.h: Subscripts]
 
 template <class W, class V, class I>
 KAAMOS_INLINE W element_at(const V& v, const wide<I>& index) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Texels and system values of several threads. Lanes that lie side by side in a row of a texture,
-// as those of neighbouring threads mostly do, are read and written at once; others one by one.
+// Texels and system values of several threads. Lanes that are side by side in a row of a texture,
+// as those of neighbouring threads mostly are, are read and written at once; others one by one.
 #pragma once
 
 #include "kaamos/shader/bound.h"
@@ -14,9 +14,9 @@ namespace kaamos::shader {
 template <class V>
 using Wide = with_scalar<V, wide<scalar_of<V>>>;
 
-// Coordinates of lanes that read a row of texels in their order, from x, y on, or in no order.
-// Those that are the same way away from such coordinates have none to look for: what reads the
-// neighbours of its pixel needs to look at the pixel's only.
+// Whether lanes read a row of texels in order, starting at x, y. Coordinates that differ from known
+// ones by the same offset in every lane need no new check: a shader that reads the neighbours of
+// its pixel only has to check the pixel itself.
 struct TexelRow {
   bool in_order;
   uint32_t x, y;
@@ -75,7 +75,7 @@ KAAMOS_INLINE Floats high_halves(Floats x, Floats y) {
 }
 #endif
 
-// Rows of a 4 x 4 matrix to its columns, in each 16 bytes of the registers.
+// Turns the rows of a 4 x 4 matrix into columns, in each 16 bytes of the registers.
 KAAMOS_INLINE void transpose(Floats (&r)[4]) {
   const Floats ab = low_pairs(r[0], r[1]), ab_high = high_pairs(r[0], r[1]);
   const Floats cd = low_pairs(r[2], r[3]), cd_high = high_pairs(r[2], r[3]);
@@ -98,7 +98,7 @@ KAAMOS_INLINE void store_words(uint8_t* to, const wide<T>& words) {
   __builtin_memcpy(to, &words, sizeof(words));
 }
 
-// What each lane has, one after the other, to what all have.
+// Transposes from the value of one lane after another to the wide value.
 template <class W>
 KAAMOS_INLINE W from_rows(const Lane<W>* rows) {
   constexpr uint32_t kBytes = sizeof(Lane<W>);
@@ -108,7 +108,7 @@ KAAMOS_INLINE W from_rows(const Lane<W>* rows) {
   auto* to = reinterpret_cast<uint8_t*>(&out);
   constexpr uint32_t kQuads = (kBytes + 15) / 16;
   for (uint32_t quad = 0; quad < kQuads; ++quad) {
-    // The last four words may have been there before.
+    // The last four words may overlap the ones before.
     const uint32_t at = 16 * quad < kBytes - 16 ? 16 * quad : kBytes - 16;
     for (int i = 0; i < kLanes; i += kRegisterBytes / 4) {
       Floats r[4];
@@ -129,7 +129,7 @@ KAAMOS_INLINE W from_rows(const Lane<W>* rows) {
   return out;
 }
 
-// Texels of 1, 2 or 4 components of T that lie side by side.
+// Loads adjacent texels of 1, 2 or 4 components of T.
 template <class T>
 KAAMOS_INLINE wide<T> load_row(const uint8_t* from, wide<T>*) {
   return load_words<T>(from);
@@ -202,8 +202,8 @@ KAAMOS_INLINE void store_row(uint8_t* to, const vec<wide<T>, 4>& value) {
 #endif
 }
 
-// The first of texels of `bytes` that are the lanes' in their order, where all lie inside; else
-// null.
+// The first texel of the lanes, if they are in order, have `bytes` bytes each and are all inside
+// the texture; otherwise null.
 KAAMOS_INLINE uint8_t* first_texel(const BoundResource& texture, const TexelRow& row,
                                    uint32_t bytes) {
   if (!row.in_order || row.y >= texture.height || texture.width < uint32_t{kLanes} ||
@@ -214,7 +214,7 @@ KAAMOS_INLINE uint8_t* first_texel(const BoundResource& texture, const TexelRow&
          uint64_t{row.x} * bytes;
 }
 
-// Rows of short formats. [texture_access.h: load_short]
+// Rows of the short formats. [texture_access.h: load_short]
 KAAMOS_INLINE vec<wide<float>, 2> load_snorm16_row(const uint8_t* from) {
   const auto words = load_words<int32_t>(from);
   const auto part = [&words](int shift) KAAMOS_INLINE_LAMBDA {
@@ -258,8 +258,8 @@ template <class V, class C>
 
 }  // namespace simd
 
-// f(at) of each lane that takes part; zeros, or what others have, in the rest. Of what lanes read
-// from memory: often all read the same, which is read once then.
+// f(at) in each active lane; zeros, or other lanes' values, in the rest. For what lanes read from
+// memory: often all read the same, and then it is read only once.
 template <class W, class I, class F>
 KAAMOS_INLINE W gather_at(const lanes& active, const wide<I>& at, const F& f) {
   if constexpr (sizeof(Lane<W>) < 16) {
@@ -282,8 +282,8 @@ KAAMOS_INLINE W gather_at(const lanes& active, const wide<I>& at, const F& f) {
   }
 }
 
-// Texels of mip 0 of a 2-D texture; V is what one lane reads. at() are the coordinates, `row` what
-// is known of them. Lanes that take no part may read what they would if they did.
+// Loads texels of mip 0 of a 2-D texture; V is what one lane reads. at() gives the coordinates, and
+// `row` what is known about them. Inactive lanes may read what they would read if they were active.
 template <class V, class At>
 KAAMOS_INLINE Wide<V> load_texels(const Invocation& invocation, const BoundResource& texture,
                                   const TexelRow& row, const At& at, const lanes& active) {
@@ -327,7 +327,7 @@ KAAMOS_INLINE void store_texels(const Invocation& invocation, const BoundResourc
   simd::store_lanes<V>(invocation, texture, at(), active, value);
 }
 
-// The same where nothing is known of the coordinates.
+// The same when nothing is known about the coordinates.
 template <class V, class C>
 KAAMOS_INLINE Wide<V> load_texels(const Invocation& invocation, const BoundResource& texture,
                                   const vec<wide<C>, 2>& at, const lanes& active) {
@@ -342,7 +342,7 @@ KAAMOS_INLINE void store_texels(const Invocation& invocation, const BoundResourc
       invocation, texture, texel_row(at), [&]() KAAMOS_INLINE_LAMBDA { return at; }, value, active);
 }
 
-// DispatchRaysIndex of kLanes invocations side by side.
+// DispatchRaysIndex of kLanes adjacent invocations.
 KAAMOS_INLINE vec<wide<uint32_t>, 3> wide_rays_index(const Invocation& first) {
   return {{map<op::Add>(spread<wide<uint32_t>>(first.index[0]), lane_numbers()),
            spread<wide<uint32_t>>(first.index[1]), spread<wide<uint32_t>>(first.index[2])}};
@@ -370,7 +370,7 @@ KAAMOS_INLINE WideThread wide_thread(const uint32_t size[3], uint32_t first) {
   }
   return out;
 }
-// W is the parameter's type: one to three of wide<uint32_t> or wide<int32_t>.
+// W is the parameter's type: one to three wide<uint32_t> or wide<int32_t>.
 template <class W>
 KAAMOS_INLINE W wide_group_value(const wide<uint32_t> (&value)[3]) {
   W result{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Component-wise operations on the values of several threads. What has no form for registers is
-// done lane by lane by the scalar operation; every form gives the scalar one's bits.
+// Component-wise operations on the values of several threads. Operations without a form for
+// registers apply the scalar operation lane by lane; every form gives the scalar operation's bits.
 #pragma once
 
 #include "kaamos/shader/intrinsics_bits.h"
@@ -22,7 +22,7 @@ struct lanewise {
 template <class Op>
 struct wide_op : lanewise<Op> {};
 
-// f(lane's values...) for each lane: intrinsics that have no other form.
+// Calls f(the lane's values...) for each lane: for intrinsics that have no other form.
 template <class W, class F, class... X>
 KAAMOS_INLINE W call_lanes(const F& f, const X&... x) {
   W out;
@@ -54,7 +54,7 @@ KAAMOS_INLINE W call_lanes(const F& f, const X&... x) {
 
 namespace simd {
 
-// Signed sums wrap: as unsigned numbers they do in any compiler.
+// Signed sums wrap; computed as unsigned numbers, they do so with any compiler.
 template <class R>
 KAAMOS_INLINE auto wrapping(R x) {
   if constexpr (std::is_same_v<R, Ints>) {
@@ -69,7 +69,7 @@ KAAMOS_INLINE Ints magnitude(Floats x) {
 KAAMOS_INLINE Floats sign_of(Floats from, Floats to) {
   return (Floats)((Ints)to | ((Ints)from & static_cast<int32_t>(0x80000000u)));
 }
-// Whole numbers from 2^23 on; the sum makes a signalling NaN quiet.
+// From 2^23 on every float is a whole number; the addition makes a signalling NaN quiet.
 KAAMOS_INLINE Floats truncate(Floats x) {
   const Ints is_small = magnitude(x) < 0x4B000000;
   const Floats small = (Floats)((Ints)x & is_small);
@@ -84,7 +84,7 @@ KAAMOS_INLINE Floats round_up(Floats x) {
   const Floats t = truncate(x);
   return t < x ? t + 1.0f : t;
 }
-// To even: the sum with 2^23 rounds.
+// To nearest even, because adding 2^23 rounds that way.
 KAAMOS_INLINE Floats round_to_even(Floats x) {
   const Floats positive = (Floats)magnitude(x);
   const Floats whole = (positive + 8388608.0f) - 8388608.0f;
@@ -156,7 +156,7 @@ KAAMOS_INLINE R absolute(R x) {
   }
 }
 
-// op::Convert::from_float of each. What is out of range is replaced before it is converted.
+// op::Convert::from_float in each lane. Values out of range are replaced before the conversion.
 KAAMOS_INLINE Ints to_ints(Floats x) {
   const Ints fits = (x >= -2147483648.0f) & (x < 2147483648.0f);
   const Ints converted = __builtin_convertvector((Floats)((Ints)x & fits), Ints);
@@ -172,7 +172,7 @@ KAAMOS_INLINE Uints to_uints(Floats x) {
   const Ints flipped = low ^ (is_upper & fits & static_cast<int32_t>(0x80000000u));
   return (Uints)(flipped | (Ints)(x >= 4294967296.0f));
 }
-// Two halves that floats hold exactly, so that only the sum rounds.
+// Two halves that are exact in float, so that only the sum rounds.
 KAAMOS_INLINE Floats from_uints(Uints x) {
   const Floats low = __builtin_convertvector((Ints)(x & 0xFFFFu), Floats);
   const Floats high = __builtin_convertvector((Ints)(x >> 16), Floats);
@@ -304,7 +304,7 @@ KAAMOS_WIDE_TERNARY(Mad, simd::is_number<T>,
 KAAMOS_WIDE_TERNARY(Lerp, (std::is_same_v<T, float>), x + z * (y - x))
 #undef KAAMOS_WIDE_TERNARY
 
-// What geometry (dot, mul, ...) computes with.
+// The operators that geometry (dot, mul, ...) is computed with.
 template <class T>
 requires(simd::is_number<T>) KAAMOS_INLINE wide<T>
 operator+(const wide<T>& a, const wide<T>& b) {
@@ -318,7 +318,7 @@ operator*(const wide<T>& a, const wide<T>& b) {
 
 namespace simd {
 
-// Whether any, or all, of the components are not zero.
+// Whether any, or every, component is nonzero.
 template <class V>
 KAAMOS_INLINE lanes any_component(const V& x) {
   lanes set = map<op::AnyBit>(component(x, 0));

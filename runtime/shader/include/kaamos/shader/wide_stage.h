@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay of several invocations at once.
+// TraceRay for several invocations at once.
 #pragma once
 
 #include "kaamos/shader/stage.h"
@@ -8,8 +8,8 @@
 
 namespace kaamos::shader {
 
-// Ray and Payload are the wide structs of HLSL's RayDesc and of a payload; `first_x` is lane 0's
-// DispatchRaysIndex().x.
+// Ray and Payload are the wide structs for HLSL's RayDesc and for a payload; `first_x` is
+// DispatchRaysIndex().x in lane 0.
 template <class Ray, class Payload>
 inline void trace_rays(Invocation& invocation, uint32_t first_x, const lanes& active,
                        const Descriptor& acceleration_structure, uint32_t ray_flags,

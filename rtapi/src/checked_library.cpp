@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "rtapi/src/checked_library.h"
+#include "rtapi/src/shader_library_impl.h"
+#include "runtime/hlsl/driver/build_library.h"
+#include "runtime/hlsl/driver/embedded_source.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/interpret/interpret.h"
+
+namespace rtapi::detail {
+namespace {
+
+namespace hlsl = kaamos::hlsl;
+namespace shader = kaamos::shader;
+
+// The IR of the library's source with checks; null with `error`.
+std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
+                                                       std::string& error) {
+  if (library.source == nullptr) {
+    error = "it carries no source (-no-source)";
+    return nullptr;
+  }
+  auto source = hlsl::read_embedded_source({library.source, library.source_bytes});
+  if (!source) {
+    error = "its source cannot be read; was it made by another version of kaamos-hlsl?";
+    return nullptr;
+  }
+  source->options.check_access = true;
+  hlsl::SourceManager sources(source->files);
+  hlsl::DiagnosticEngine diagnostics({.strict = source->options.strict});
+  std::shared_ptr<const hlsl::ir::Module> module =
+      hlsl::compile_to_ir(source->options, sources, diagnostics);
+  if (!module) error = "its source does not compile:\n" + render_all(diagnostics, sources);
+  return module;
+}
+
+ShaderLibrary interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv,
+                        std::string& error) {
+  hlsl::InterpretOptions options;
+  if (spirv) {
+    hlsl::SpirvLibrary compiled = hlsl::compile_spirv(*module);
+    error = compiled.error.message();
+    if (!error.empty()) return {};
+    options.spirv = std::move(compiled.modules);
+  }
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options, error);
+  if (interpreted == nullptr) return {};
+  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
+  if (library.ok()) return *library;
+  error = library.error().message;
+  return {};
+}
+
+ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& module, bool spirv,
+                    bool debug, std::string& error) {
+  hlsl::BuildOptions options;
+  options.spirv = spirv;
+  // A Vulkan device runs the SPIR-V; the native code beside it only has to be there.
+  options.optimisation = debug   ? hlsl::Optimisation::kDebug
+                         : spirv ? hlsl::Optimisation::kNone
+                                 : hlsl::Optimisation::kFull;
+  const hlsl::SharedObject object = hlsl::build_library(compiler, module, options);
+  error = object.error.message();
+  if (!error.empty()) return {};
+  const auto library = LoadShaderLibraryFromFile(object.path.string());
+  if (library.ok()) return *library;
+  error = library.error().message;
+  return {};
+}
+
+CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  std::string error;
+  const auto module = checked_module(desc, error);
+  if (module == nullptr) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  CheckedLibrary out;
+  out.checked = true;
+  const bool interpreted = (desc.flags & shader::kLibraryInterpreted) != 0;
+  const bool debug = (desc.flags & shader::kLibraryDebug) != 0;
+  std::string missing;
+  if (!interpreted) {
+    if (const auto compiler = hlsl::find_host_compiler(missing)) {
+      out.library = build(*compiler, *module, spirv, debug, missing);
+    }
+  }
+  if (!out.library) {
+    out.library = interpret(module, spirv, error);
+    if (!interpreted && !spirv) {
+      out.note =
+          "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + missing;
+    }
+  }
+  if (!out.library) {
+    return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
+  }
+  return out;
+}
+
+// Programs load the same library again and again, and each time it would be compiled as far as the
+// key of the cache on the disk. So many variants live on when nobody uses them.
+constexpr size_t kMostKept = 32;
+
+struct Known {
+  std::weak_ptr<const ShaderLibraryImpl> variant;
+  std::string note;
+};
+struct KnownVariants {
+  std::mutex mutex;
+  std::map<std::tuple<size_t, size_t, uint32_t, bool>, Known> by_source;
+  std::deque<ShaderLibrary> kept;
+};
+
+}  // namespace
+
+CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
+  const shader::LibraryDesc& desc = *library.impl()->desc;
+  if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
+  // Never taken down: at exit others may still run what it holds.
+  static KnownVariants& known = *new KnownVariants;
+  const std::lock_guard lock(known.mutex);
+  const std::string_view source(reinterpret_cast<const char*>(desc.source),
+                                desc.source == nullptr ? 0 : desc.source_bytes);
+  Known& entry =
+      known.by_source[{std::hash<std::string_view>()(source), source.size(), desc.flags, spirv}];
+  if (auto variant = entry.variant.lock()) {
+    return {ShaderLibrary(std::move(variant)), entry.note, true};
+  }
+  CheckedLibrary out = make(library, spirv);
+  if (!out.checked) return out;
+  entry = {out.library.impl(), out.note};
+  known.kept.push_back(out.library);
+  if (known.kept.size() > kMostKept) known.kept.pop_front();
+  return out;
+}
+
+}  // namespace rtapi::detail

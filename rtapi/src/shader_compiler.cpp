@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <rtapi/shader_compiler.h>
+
+#include <filesystem>
+
+#include "rtapi/src/error_table.h"
+#include "runtime/hlsl/driver/build_library.h"
+#include "runtime/hlsl/driver/frontend.h"
+#include "runtime/hlsl/driver/host_compiler.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/glsl/spirv.h"
+#include "runtime/hlsl/interpret/interpret.h"
+
+namespace rtapi {
+namespace {
+
+using namespace kaamos;
+
+hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
+  hlsl::FrontendOptions out;
+  out.path = options.File;
+  out.text = options.Source;
+  out.include_folders = options.IncludeDirectories;
+  for (const ShaderDefine& define : options.Defines) {
+    out.defines.push_back(define.Name + "=" + define.Value);
+  }
+  out.target = options.Target;
+  if (!options.EntryPoint.empty()) out.entry_point = options.EntryPoint;
+  for (const std::string& name : options.Exports) {
+    out.exports += (out.exports.empty() ? "" : ";") + name;
+  }
+  out.automatic_space = options.AutoBindingSpace.value_or(0);
+  out.hlsl_version = options.HlslVersion == "2018" ? 2018 : 2021;
+  out.row_major = options.RowMajorMatrices;
+  out.payload_qualifiers = options.PayloadQualifiers;
+  out.strict = options.Strict;
+  return out;
+}
+
+ShaderDiagnosticSeverity severity_of(hlsl::Severity severity) {
+  switch (severity) {
+    case hlsl::Severity::kWarning:
+      return ShaderDiagnosticSeverity::kWarning;
+    case hlsl::Severity::kError:
+      return ShaderDiagnosticSeverity::kError;
+    default:
+      return ShaderDiagnosticSeverity::kNote;
+  }
+}
+
+std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
+                                      const hlsl::SourceManager& sources) {
+  std::vector<ShaderDiagnostic> out;
+  for (const hlsl::Diagnostic& diagnostic : engine.diagnostics()) {
+    const hlsl::ResolvedLocation place = sources.resolve(diagnostic.location);
+    out.push_back({severity_of(diagnostic.severity), ErrorId{static_cast<uint16_t>(diagnostic.id)},
+                   std::string(place.path), place.line, place.column, diagnostic.message,
+                   hlsl::render(diagnostic, sources)});
+  }
+  return out;
+}
+
+Error failed(const ShaderCompileOptions& options, const hlsl::BuildFailure& failure) {
+  const auto id = failure.id == 0 ? detail::Id::kCompilerFailed : detail::Id(failure.id);
+  return detail::MakeError(id, options.File, ": ", failure.text);
+}
+
+// Builds the emitted code and loads it.
+void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
+           ShaderCompilation& out) {
+  std::string missing;
+  const auto compiler = hlsl::find_host_compiler(missing, options.CxxCompiler);
+  if (!compiler) {
+    out.Status =
+        detail::MakeError(detail::Id::kNoCompiler, missing,
+                          "; without one, ShaderCompileOptions::Interpret runs shaders, slowly");
+    return;
+  }
+  hlsl::BuildOptions settings;
+  if (options.Debug) settings.optimisation = hlsl::Optimisation::kDebug;
+  if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
+  settings.spirv = options.Spirv;
+  const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
+  if (object.error) {
+    out.Status = failed(options, object.error);
+    return;
+  }
+  out.FromCache = object.from_cache;
+  const auto library = LoadShaderLibraryFromFile(object.path.string());
+  if (!library) {
+    out.Status = library.error();
+    return;
+  }
+  out.Library = *library;
+}
+
+void interpret(const ShaderCompileOptions& options, std::shared_ptr<const hlsl::ir::Module> module,
+               ShaderCompilation& out) {
+  hlsl::InterpretOptions settings;
+  if (options.InterpretStepLimit != 0) settings.step_limit = options.InterpretStepLimit;
+  if (options.Spirv) {
+    hlsl::SpirvLibrary spirv = hlsl::compile_spirv(*module);
+    if (spirv.error) {
+      out.Status = failed(options, spirv.error);
+      return;
+    }
+    settings.spirv = std::move(spirv.modules);
+  }
+  std::string problem;
+  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), settings, problem);
+  if (interpreted == nullptr) {
+    out.Status = detail::MakeError(detail::Id::kInterpreterFailed, problem);
+    return;
+  }
+  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
+  if (!library) {
+    out.Status = library.error();
+    return;
+  }
+  out.Library = *library;
+}
+
+}  // namespace
+
+ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
+  hlsl::DiskFileLoader loader;
+  hlsl::SourceManager sources(loader);
+  hlsl::DiagnosticEngine diagnostics({.strict = options.Strict});
+  auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
+
+  ShaderCompilation out;
+  out.Diagnostics = convert(diagnostics, sources);
+  out.Dependencies = sources.loaded_paths();
+  if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
+    out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
+                                   hlsl::render_all(diagnostics, sources));
+    return out;
+  }
+  if (options.Interpret) {
+    interpret(options, std::move(module), out);
+  } else {
+    build(options, *module, out);
+  }
+  return out;
+}
+
+}  // namespace rtapi

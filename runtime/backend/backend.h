@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// The seam between rtapi and what executes. rtapi/src checks descriptions, links state objects, and
+// lays out root arguments and records; a backend owns memory, views, acceleration structures and
+// execution. Its input has been checked, except for what is in GPU memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <rtapi/descriptor.h>
+#include <rtapi/device.h>
+#include <rtapi/raytracing.h>
+#include <rtapi/resource.h>
+#include <rtapi/result.h>
+
+#include "runtime/backend/address_map.h"
+#include "runtime/backend/commands.h"
+#include "runtime/backend/linked_pipeline.h"
+
+namespace kaamos::checks {
+class Reporter;  // runtime/checks/report.h
+}
+
+namespace kaamos::runtime {
+
+struct AccelerationStructure;
+
+// Linear memory, zero at first; freed with the object.
+class BackendBuffer {
+ public:
+  virtual ~BackendBuffer() = default;
+  virtual uint64_t address() const = 0;     // GPU virtual address, a multiple of 64 KiB
+  virtual uint64_t size_bytes() const = 0;  // as requested
+  // Host pointer; null if the host cannot reach it (default heaps of a discrete GPU). Upload and
+  // readback buffers and descriptor heaps always have one.
+  virtual uint8_t* host() const = 0;
+};
+
+// A texture's memory. Its views end with it: a descriptor left over reads as null and does not
+// crash.
+class BackendTexture {
+ public:
+  virtual ~BackendTexture() = default;
+};
+
+// A ray tracing or compute pipeline, as the backend has prepared it.
+class BackendPipeline {
+ public:
+  virtual ~BackendPipeline() = default;
+};
+
+// A checked view of a texture. Every member is resolved: none means "the rest".
+struct TextureViewDesc {
+  rtapi::Format format = rtapi::Format::kUnknown;  // never typeless
+  // Unordered access views use the same values; never kBuffer or an acceleration structure.
+  rtapi::SrvDimension dimension = rtapi::SrvDimension::kTexture2D;
+  bool unordered_access = false;
+  uint32_t first_mip = 0;
+  uint32_t mip_count = 1;
+  uint32_t first_slice = 0;  // array element, cube face, or w of a 3-D unordered access view
+  uint32_t slice_count = 1;
+  float min_lod = 0;  // ResourceMinLODClamp
+  // D3D12_SHADER_COMPONENT_MAPPING per channel: 0..3 channel, 4 zero, 5 one.
+  uint8_t swizzle[4] = {0, 1, 2, 3};
+
+  bool operator==(const TextureViewDesc&) const = default;
+};
+
+class BackendDevice {
+ public:
+  virtual ~BackendDevice() = default;
+
+  virtual const rtapi::DeviceInfo& info() const = 0;
+
+  // Resources. Error: out of memory.
+  virtual rtapi::Result<std::shared_ptr<BackendBuffer>> create_buffer(
+      const rtapi::BufferDesc& desc) = 0;
+  // MipLevels must be resolved.
+  virtual rtapi::Result<std::shared_ptr<BackendTexture>> create_texture(
+      const rtapi::TextureDesc& desc) = 0;
+  // What goes into Descriptor::address. Lives as long as the texture; views with equal descs may
+  // share one.
+  virtual rtapi::Result<uint64_t> create_texture_view(BackendTexture& texture,
+                                                      const TextureViewDesc& desc) = 0;
+  // The same for samplers; they live as long as the device, and equal ones are shared.
+  virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
+  // Whether typed buffers, textures and their views can have this format.
+  virtual bool supports_format(rtapi::Format format, bool unordered_access) const = 0;
+
+  // Pipelines
+  virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_raytracing_pipeline(
+      std::shared_ptr<const LinkedPipeline> pipeline) = 0;
+  virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_compute_pipeline(
+      std::shared_ptr<const LinkedCompute> pipeline) = 0;
+
+  // Acceleration structures. `geometries` is empty for a top level, `instance_count` is 0 for a
+  // bottom level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.
+  virtual rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
+      rtapi::RaytracingAccelerationStructureType type,
+      rtapi::RaytracingAccelerationStructureBuildFlags flags,
+      std::span<const rtapi::RaytracingGeometryDesc> geometries, uint32_t instance_count) const = 0;
+
+  // Runs the commands in order and returns when all are done. Called by one thread at a time. An
+  // error removes the device; harmless faults in the contents of GPU memory go to Context::message
+  // instead.
+  virtual rtapi::Status execute(std::span<const Command> commands) = 0;
+
+  // The acceleration structure at exactly this address, with what it was built from
+  // (structure_map.h); null if there is none. Not to be called while a list executes.
+  virtual std::shared_ptr<const AccelerationStructure> find_structure(uint64_t) const {
+    return nullptr;
+  }
+
+  virtual rtapi::RaytracingStatistics statistics() const { return {}; }
+  virtual void reset_statistics() {}
+};
+
+// A call in a checked shader whose arguments are not constants.
+struct ReachedFrom {
+  const LinkedShader* shader = nullptr;
+  shader::ReachedCall call;
+};
+
+// Which tables, by RecordKind, a dispatch needed a record from that was missing.
+struct MissingRecords {
+  bool past_the_end[4] = {};
+  // The record had no identifier of that kind from this pipeline, and was not NULL.
+  bool unknown[4] = {};
+};
+
+// Checked mode's layer. The backend notifies it of each command as it executes, since only then is
+// GPU memory as the command will read it.
+class CommandObserver {
+ public:
+  virtual ~CommandObserver() = default;
+  // `label` says which command of the list it is: "DispatchRays, command 3 in \"shadows\"". If
+  // needs_memory(), all earlier work is done.
+  virtual void before(const Command& command, const std::string& label) = 0;
+  virtual void after(const Command& command, bool succeeded) = 0;
+  // Called between the two with what a dispatch reached that was unknown before it ran: each
+  // different call once, as far as there was room.
+  virtual void reached(const Command& command, std::span<const ReachedFrom> calls) {
+    (void)command;
+    (void)calls;
+  }
+  // Called for each DispatchRays that ran, after reached(). A backend that cannot tell the tables
+  // apart names all that it could have been.
+  virtual void missed(const Command& command, const MissingRecords& records) {
+    (void)command;
+    (void)records;
+  }
+  // Whether before() or after() reads GPU memory for this command.
+  virtual bool needs_memory(const Command& command) const = 0;
+  // Whether after() reads what the command wrote.
+  virtual bool needs_memory_after(const Command& command) const {
+    (void)command;
+    return false;
+  }
+};
+
+// What a backend gets from rtapi. All of it outlives the backend.
+struct Context {
+  const AddressMap* addresses = nullptr;
+  std::function<void(const rtapi::Message&)> message;  // never empty; may be called from any thread
+  // Both null unless DeviceDesc::Checked.
+  CommandObserver* observer = nullptr;
+  checks::Reporter* reporter = nullptr;
+};
+
+struct BackendFactory {
+  const char* name;  // the value of DeviceDesc::Backend that selects it
+  std::vector<rtapi::DeviceInfo> (*enumerate)();
+  rtapi::Result<std::unique_ptr<BackendDevice>> (*create)(const rtapi::DeviceDesc&, const Context&);
+};
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/backend/commands.h"
+
+namespace kaamos::runtime {
+namespace {
+
+struct NameOf {
+  const char* operator()(const DispatchRaysCommand&) const { return "DispatchRays"; }
+  const char* operator()(const DispatchCommand&) const { return "Dispatch"; }
+  const char* operator()(const ExecuteIndirectCommand&) const { return "ExecuteIndirect"; }
+  const char* operator()(const BuildCommand&) const {
+    return "BuildRaytracingAccelerationStructure";
+  }
+  const char* operator()(const EmitPostbuildInfoCommand&) const {
+    return "EmitRaytracingAccelerationStructurePostbuildInfo";
+  }
+  const char* operator()(const CopyAccelerationStructureCommand&) const {
+    return "CopyRaytracingAccelerationStructure";
+  }
+  const char* operator()(const CopyBufferCommand&) const { return "CopyBufferRegion"; }
+  const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
+  const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }
+  const char* operator()(const BarrierCommand&) const { return "ResourceBarrier"; }
+  const char* operator()(const EventCommand& event) const {
+    return event.begin ? "BeginEvent" : "EndEvent";
+  }
+};
+
+}  // namespace
+
+const char* command_name(const Command& command) {
+  return std::visit(NameOf(), command);
+}
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+//
+// A recorded command list: plain structures in order. Whatever the host passed was checked and
+// copied when it was recorded; whatever is in GPU memory (tables, instance records, build inputs,
+// descriptors) is read when the command executes. References to objects keep them alive until then.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <kaamos/shader/abi.h>
+#include <rtapi/raytracing.h>
+#include <rtapi/resource.h>
+#include <rtapi/root_signature.h>
+
+namespace kaamos::runtime {
+
+class BackendBuffer;
+class BackendTexture;
+class BackendPipeline;
+struct LinkedPipeline;
+struct LinkedCompute;
+
+// 64 DWORDs of arguments take at most 64 * 8 bytes here, because tables are 8-byte handles. Always
+// full size, with zeros where nothing was set, so that a shader with a different root signature
+// reads no wild memory.
+inline constexpr uint32_t kRootArgumentBytes = 512;
+struct alignas(16) RootArguments {
+  std::array<uint8_t, kRootArgumentBytes> bytes = {};
+};
+
+// What DispatchRays and Dispatch share. Dispatches share a snapshot if nothing was set between
+// them.
+struct DispatchState {
+  std::shared_ptr<const RootArguments> root_arguments;  // never null
+  // The heaps set on the list; [begin, end) of shader::Dispatch. Null: none set.
+  std::shared_ptr<BackendBuffer> view_heap;
+  std::shared_ptr<BackendBuffer> sampler_heap;
+  rtapi::RootSignature root_signature;  // the one that was set; may be empty
+};
+
+struct DispatchRaysCommand {
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  rtapi::DispatchRaysDesc desc;
+  uint64_t pipeline_stack_bytes = 0;  // as it was at record time [DXR: SetPipelineStackSize]
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;  // what `pipeline` was made from
+};
+
+struct DispatchCommand {
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  uint32_t groups[3] = {0, 0, 0};
+  std::shared_ptr<const LinkedCompute> linked = nullptr;
+};
+
+// Where the arguments of a command signature come from and go to: byte offsets in a command of the
+// argument buffer, and in RootArguments.
+struct IndirectArgument {
+  uint32_t source_offset = 0;
+  uint32_t dest_offset = 0;
+  uint32_t size_bytes = 0;
+  uint32_t root_parameter = 0;  // for messages
+  uint32_t view_alignment = 0;  // for addresses; 0: constants
+};
+struct IndirectLayout {
+  std::vector<IndirectArgument> root_arguments;
+  bool dispatch_rays = false;    // a DispatchRaysDesc, else three group counts
+  uint32_t dispatch_offset = 0;  // of the dispatch arguments in a command
+  uint32_t packed_bytes = 0;     // all arguments of a command together
+  uint32_t stride_bytes = 0;
+};
+
+// Dispatches whose arguments are read when the command executes; runtime/backend/indirect.h turns
+// it into plain dispatches. `arguments` has room for max_count commands, and `count` for a count.
+struct ExecuteIndirectCommand {
+  std::shared_ptr<const IndirectLayout> layout;
+  uint32_t max_count = 0;
+  std::shared_ptr<BackendBuffer> arguments;
+  uint64_t arguments_offset = 0;
+  std::shared_ptr<BackendBuffer> count;  // null: exactly max_count
+  uint64_t count_offset = 0;
+  std::shared_ptr<BackendPipeline> pipeline;
+  DispatchState state;
+  uint64_t pipeline_stack_bytes = 0;                              // for ray tracing pipelines
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;         // for ray tracing pipelines
+  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // for compute pipelines
+};
+
+struct BuildCommand {
+  uint64_t dest = 0;
+  uint64_t source = 0;  // 0 unless flags contain kPerformUpdate
+  uint64_t scratch = 0;
+  rtapi::RaytracingAccelerationStructureType type =
+      rtapi::RaytracingAccelerationStructureType::kTopLevel;
+  rtapi::RaytracingAccelerationStructureBuildFlags flags =
+      rtapi::RaytracingAccelerationStructureBuildFlags::kNone;
+  std::vector<rtapi::RaytracingGeometryDesc> geometries;  // bottom level; all of one type
+  uint32_t instance_count = 0;                            // top level
+  rtapi::ElementsLayout instance_layout = rtapi::ElementsLayout::kArray;
+  uint64_t instance_descs = 0;
+  std::vector<rtapi::RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos;
+};
+
+struct EmitPostbuildInfoCommand {
+  rtapi::RaytracingAccelerationStructurePostbuildInfoDesc desc;
+  std::vector<uint64_t> sources;
+};
+
+struct CopyAccelerationStructureCommand {
+  uint64_t dest = 0;
+  uint64_t source = 0;
+  rtapi::RaytracingAccelerationStructureCopyMode mode =
+      rtapi::RaytracingAccelerationStructureCopyMode::kClone;
+};
+
+struct CopyBufferCommand {
+  std::shared_ptr<BackendBuffer> dest;
+  uint64_t dest_offset = 0;
+  std::shared_ptr<BackendBuffer> source;
+  uint64_t source_offset = 0;
+  uint64_t size_bytes = 0;
+};
+
+// Exactly one of texture and buffer is set.
+struct TextureCopyPlace {
+  std::shared_ptr<BackendTexture> texture;
+  uint32_t mip = 0;
+  uint32_t array_element = 0;
+  std::shared_ptr<BackendBuffer> buffer;
+  uint64_t offset = 0;             // bytes up to texel (0,0,0) of the footprint
+  uint32_t row_pitch = 0;          // bytes
+  uint64_t slice_pitch = 0;        // bytes
+  uint32_t origin[3] = {0, 0, 0};  // in texels: where the copy begins
+};
+
+// Copies `extent` texels from one place to another; at most one of them is a buffer. Checked: the
+// copy is inside both, and the formats have texels of equal size.
+struct CopyTextureCommand {
+  TextureCopyPlace dest;
+  TextureCopyPlace source;
+  uint32_t extent[3] = {0, 0, 0};
+  bool any_state = false;  // from a helper that takes resources in any state
+};
+
+// Writes every element of an unordered access view: a typed, raw or structured buffer, or a
+// texture. Values are converted to the format as in HLSL's typed stores; raw and structured buffers
+// take the DWORD values[0].
+struct ClearUavCommand {
+  shader::Descriptor view;
+  bool is_float = false;
+  uint32_t values[4] = {0, 0, 0, 0};     // float: bit patterns
+  std::shared_ptr<const void> resource;  // keeps it alive
+};
+
+// Orders everything before it against everything after it. A backend that runs commands one after
+// another need not do anything.
+struct BarrierCommand {
+  enum class Kind : uint8_t { kUav, kTransition } kind = Kind::kUav;
+  std::shared_ptr<BackendBuffer> buffer;  // both null: all resources
+  std::shared_ptr<BackendTexture> texture;
+  rtapi::ResourceStates before = rtapi::ResourceStates::kCommon;
+  rtapi::ResourceStates after = rtapi::ResourceStates::kCommon;
+  uint32_t subresource = rtapi::kResourceBarrierAllSubresources;  // of the texture
+};
+
+struct EventCommand {
+  bool begin = true;
+  std::string name;
+};
+
+using Command =
+    std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
+                 EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, CopyBufferCommand,
+                 CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand>;
+
+// What the application called, for messages: "DispatchRays".
+const char* command_name(const Command& command);
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// Resources and constant buffers, and the registers they get.
+#include <algorithm>
+
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+constexpr char kClassLetters[] = {'t', 'u', 'b', 's'};
+constexpr uint64_t kUnboundedCount = 0xFFFFFFFFu;
+
+uint64_t end_of(const BindingInfo& binding) {
+  return binding.count == kUnboundedCount ? uint64_t{1} << 32
+                                          : binding.register_index + binding.count;
+}
+
+}  // namespace
+
+void Checker::apply_register(BindingInfo* binding, const Annotations& annotations) {
+  for (const RegisterBinding& written : annotations.registers) {
+    if (written.register_class != 0 &&
+        written.register_class != kClassLetters[binding->register_class]) {
+      report(CheckId::kRegisterClass, written.location,
+             {std::string(1, written.register_class) + std::to_string(written.number),
+              std::string(1, kClassLetters[binding->register_class]), binding->name});
+      continue;
+    }
+    if (written.register_class != 0) {
+      if (binding->has_register) {
+        report(CheckId::kTwoRegisters, written.location, {binding->name});
+        continue;
+      }
+      binding->has_register = true;
+      binding->register_index = written.number;
+      if (uint64_t{written.number} + (binding->count == kUnboundedCount ? 0 : binding->count - 1) >
+          0xFFFFFFFFu) {
+        report(CheckId::kRegisterRange, written.location, {binding->name});
+      }
+    }
+    if (written.has_space) {
+      binding->has_space = true;
+      binding->space = written.space;
+    }
+  }
+}
+
+void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope* scope) {
+  BindingInfo* binding = &bindings_.emplace_back();
+  binding->name = qualify(scope, decl->name);
+  binding->location = decl->location;
+  binding->is_array = type->is_array();
+  const Type* element = type;
+  for (; element->is_array(); element = element->element) {
+    binding->count = element->count == 0
+                         ? kUnboundedCount
+                         : std::min(kUnboundedCount, binding->count * element->count);
+  }
+  if (type->is_array() && type->count == 0) binding->count = kUnboundedCount;
+  binding->type = element;
+  binding->register_class = traits_of(element->resource).register_class;
+  if (element->resource == ir::ResourceKind::kConstantBuffer) {
+    binding->size_bytes = layout_of(element->element, ir::Layout::kConstantBuffer).size;
+  } else if (is_structured(element->resource)) {
+    binding->size_bytes = layout_of(element->element, ir::Layout::kStructured).size;
+  }
+  apply_register(binding, decl->annotations);
+  VariableInfo* info = &variables_.emplace_back();
+  info->kind = VariableKind::kBinding;
+  info->name = decl->name;
+  info->type = type;
+  info->is_const = true;
+  info->binding = binding;
+  add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+}
+
+void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
+  if (decl->is_texture_buffer) {
+    report(CheckId::kUnsupported, decl->location, {"'tbuffer' (texture buffers)"});
+  }
+  StructInfo* structure = make_struct(nullptr, scope, std::string(decl->name));
+  structure->complete = true;
+  BindingInfo* binding = &bindings_.emplace_back();
+  binding->name = decl->name;
+  binding->location = decl->location;
+  binding->register_class = 2;
+  // Set before the members: the size of an array may name one of them, wrongly.
+  binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+  apply_register(binding, decl->annotations);
+  uint32_t offset = 0;
+  for (const Decl* member : decl->members) {
+    const auto* variable = as<VariableDecl>(member);
+    if (!variable || (variable->modifiers & (kModStatic | kModGroupshared))) {
+      declare(member, scope);
+      continue;
+    }
+    const Type* type = resolve_type(variable->type, scope);
+    VariableInfo* info = &variables_.emplace_back();
+    info->name = variable->name;
+    info->type = types_.error();
+    info->is_const = true;
+    if (find_local(scope, variable->name)) {
+      report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
+      continue;
+    }
+    if (check_variable_type(type, variable->location, variable->name)) {
+      const Type* element = type;
+      while (element->is_array()) element = element->element;
+      if (element->is_resource()) {
+        // As DXC does, resources are taken out of the block.
+        declare_binding(variable, type, scope);
+        continue;
+      }
+      if (contains_resource(type)) {
+        report(
+            CheckId::kUnsupported, variable->location,
+            {"a constant buffer member of type '" + to_string(type) + "', which holds resources"});
+      } else if (type->is_array() && type->count == 0) {
+        report(CheckId::kUnboundedVariable, variable->location, {std::string(variable->name)});
+      } else {
+        info->kind = VariableKind::kBufferMember;
+        info->type = type;
+        info->binding = binding;
+        info->offset = place_member(type, offset, ir::Layout::kConstantBuffer);
+        const LayoutSize size = layout_of(type, ir::Layout::kConstantBuffer);
+        ir::Field& field = structure->ir->fields.emplace_back();
+        if (const PackOffset* pack = variable->annotations.pack_offset) {
+          const uint64_t bytes = uint64_t{pack->register_index} * 16 + pack->component * 4;
+          const bool whole_row = type->is_array() || type->is_struct() || type->is_matrix();
+          const bool straddles =
+              type->is_numeric() && !type->is_matrix() && pack->component * 4 + size.size > 16;
+          if (bytes > 65536 - 4 || straddles || (whole_row && pack->component != 0)) {
+            report(CheckId::kPackOffset, pack->location,
+                   {std::string(variable->name), to_string(type)});
+          } else {
+            info->offset = static_cast<uint32_t>(bytes);
+            field.packoffset = static_cast<int32_t>(bytes);
+          }
+        }
+        field.name = variable->name;
+        field.type = type->ir;
+        field.row_major = element->is_matrix() && element->row_major;
+        offset = info->offset + size.size;
+        binding->size_bytes = std::max(binding->size_bytes, offset);
+        if (binding->size_bytes > 65536) {
+          report(CheckId::kBufferSize, variable->location,
+                 {std::string(decl->name), std::to_string(binding->size_bytes)});
+          offset = 0;
+          binding->size_bytes = 0;
+        }
+      }
+    }
+    add_symbol(scope, SymbolKind::kVariable, variable->name, variable->location)->variable = info;
+  }
+}
+
+// A global that is neither static nor a resource is a member of the constant buffer $Globals.
+void Checker::declare_uniform(const VariableDecl* decl, const Type* type, Scope* scope) {
+  if (type->is_array() && type->count == 0) {
+    report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
+    return;
+  }
+  if (!globals_buffer_) {
+    StructInfo* structure = make_struct(nullptr, global_, "$Globals");
+    structure->complete = true;
+    globals_struct_ = structure->ir;
+    globals_buffer_ = &bindings_.emplace_back();
+    globals_buffer_->name = "$Globals";
+    globals_buffer_->register_class = 2;
+    globals_buffer_->location = decl->location;
+    globals_buffer_->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+  }
+  if (decl->initializer) {
+    report(CheckId::kUniformInitialiser, decl->location, {std::string(decl->name)});
+  }
+  VariableInfo* info = &variables_.emplace_back();
+  info->kind = VariableKind::kBufferMember;
+  info->name = decl->name;
+  info->type = type;
+  info->is_const = true;
+  info->binding = globals_buffer_;
+  info->offset = place_member(type, globals_offset_, ir::Layout::kConstantBuffer);
+  globals_offset_ = info->offset + layout_of(type, ir::Layout::kConstantBuffer).size;
+  globals_buffer_->size_bytes = globals_offset_;
+  if (globals_offset_ > 65536) {
+    report(CheckId::kBufferSize, decl->location, {"$Globals", std::to_string(globals_offset_)});
+    globals_offset_ = 0;
+  }
+  ir::Field& field = globals_struct_->fields.emplace_back();
+  field.name = decl->name;
+  field.type = type->ir;
+  const Type* element = type;
+  while (element->is_array()) element = element->element;
+  field.row_major = element->is_matrix() && element->row_major;
+  add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+}
+
+const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* index) {
+  ir::Expr* node = build_.expr(ir::ExprKind::kBinding, binding->type->ir);
+  if (binding->is_array) node->operands.push_back(build_.convert(index, ir::Scalar::kUint32));
+  binding->uses.push_back(node);
+  binding_of_[node] = binding;
+  if (lower_.function_) lower_.function_->bindings.push_back(binding);
+  return node;
+}
+
+// First fit among the registers of its class and space, in the order of declaration; unbounded
+// arrays behind all others. [DXC: resource allocation]
+void Checker::assign_automatic(BindingInfo* binding) {
+  if (!binding->has_space) binding->space = options_.automatic_space;
+  std::vector<const BindingInfo*> taken;
+  for (const BindingInfo& other : bindings_) {
+    const bool same = other.reachable && other.has_register &&
+                      other.register_class == binding->register_class &&
+                      other.space == binding->space;
+    if (same) taken.push_back(&other);
+  }
+  std::sort(taken.begin(), taken.end(), [](const BindingInfo* a, const BindingInfo* b) {
+    return a->register_index < b->register_index;
+  });
+  uint64_t next = 0;
+  for (const BindingInfo* other : taken) {
+    const bool fits =
+        binding->count != kUnboundedCount && next + binding->count <= other->register_index;
+    if (fits) break;
+    next = std::max(next, end_of(*other));
+  }
+  if (next + (binding->count == kUnboundedCount ? 1 : binding->count) > (uint64_t{1} << 32)) {
+    report(CheckId::kNoRegister, binding->location, {binding->name});
+    return;
+  }
+  binding->register_index = static_cast<uint32_t>(next);
+  binding->has_register = true;
+}
+
+void Checker::assign_registers() {
+  std::set<const BindingInfo*> automatic;
+  // DXC makes $Globals before any other constant buffer.
+  if (globals_buffer_ && globals_buffer_->reachable) {
+    assign_automatic(globals_buffer_);
+    automatic.insert(globals_buffer_);
+  }
+  for (const bool unbounded : {false, true}) {
+    for (BindingInfo& binding : bindings_) {
+      if (!binding.reachable || binding.has_register) continue;
+      if ((binding.count == kUnboundedCount) != unbounded) continue;
+      assign_automatic(&binding);
+      automatic.insert(&binding);
+    }
+  }
+  for (BindingInfo& binding : bindings_) {
+    if (!binding.reachable) continue;
+    binding.index = static_cast<uint32_t>(module_->bindings.size());
+    for (ir::Expr* use : binding.uses) use->index = binding.index;
+    ir::Binding& entry = module_->bindings.emplace_back();
+    entry.name = binding.name;
+    entry.type = binding.type->ir;
+    entry.register_class = binding.register_class;
+    entry.register_index = binding.register_index;
+    entry.space = binding.space;
+    entry.count = static_cast<uint32_t>(binding.count);
+    entry.is_array = binding.is_array;
+    entry.automatic = automatic.count(&binding) != 0;
+    entry.size_bytes = binding.size_bytes;
+    entry.location = locate(binding.location);
+  }
+}
+
+// Two bindings of one shader may not share a register.
+void Checker::check_overlaps() {
+  std::vector<BindingInfo*> by_index(module_->bindings.size());
+  for (BindingInfo& binding : bindings_) {
+    if (binding.reachable) by_index[binding.index] = &binding;
+  }
+  std::set<std::pair<uint32_t, uint32_t>> reported;
+  for (const ir::EntryPoint& entry : module_->entry_points) {
+    for (size_t i = 0; i < entry.bindings.size(); ++i) {
+      for (size_t j = i + 1; j < entry.bindings.size(); ++j) {
+        const BindingInfo& a = *by_index[entry.bindings[i]];
+        const BindingInfo& b = *by_index[entry.bindings[j]];
+        const bool overlap = a.register_class == b.register_class && a.space == b.space &&
+                             a.register_index < end_of(b) && b.register_index < end_of(a);
+        if (!overlap || !reported.insert({a.index, b.index}).second) continue;
+        report_with_notes(CheckId::kOverlap, b.location,
+                          {b.name, a.name,
+                           std::string(1, kClassLetters[b.register_class]) +
+                               std::to_string(std::max(a.register_index, b.register_index)),
+                           std::to_string(b.space), entry.name},
+                          {{a.location, "'" + a.name + "' is declared here"}});
+      }
+    }
+  }
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+//
+// The checker's inner state; check.h is what others include. One class, whose parts stand in one
+// file per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
+// subobjects, payloads, payload_uses, finish_module. Bodies and expressions are the lowerer's
+// (lowerer.h).
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/hlsl/check/check.h"
+#include "runtime/hlsl/check/constants.h"
+#include "runtime/hlsl/check/ir_builder.h"
+#include "runtime/hlsl/check/layout.h"
+#include "runtime/hlsl/check/lowerer.h"
+#include "runtime/hlsl/check/symbols.h"
+#include "runtime/hlsl/check/types.h"
+#include "runtime/hlsl/front/diagnostic.h"
+#include "runtime/hlsl/ir/builtin_functions.h"
+#include "runtime/hlsl/ir/builtin_types.h"
+
+namespace kaamos::hlsl {
+
+// [name] among them, written in any case; null where there is none.
+const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
+
+class Checker {
+ public:
+  Checker(const CheckOptions& options, const SourceManager& sources, DiagnosticEngine& diagnostics);
+  std::unique_ptr<ir::Module> run(const TranslationUnit& unit);
+
+ private:
+  friend class Lowerer;
+
+  // -- Messages (check.cpp)
+  void report(CheckId id, SourceLocation location,
+              std::initializer_list<std::string> arguments = {});
+  void report_with_notes(CheckId id, SourceLocation location,
+                         const std::vector<std::string>& arguments,
+                         const std::vector<std::pair<SourceLocation, std::string>>& notes);
+  ir::Location locate(SourceLocation location);
+  void at(SourceLocation location) { build_.location = locate(location); }
+  bool has_errors() const { return has_errors_; }
+
+  // -- Scopes (scopes.cpp)
+  Scope* make_scope(ScopeKind kind, Scope* parent, std::string_view name = {});
+  Symbol* add_symbol(Scope* scope, SymbolKind kind, std::string_view name, SourceLocation location);
+  Symbol* find_local(Scope* scope, std::string_view name);
+  Symbol* find_in_scope(Scope* scope, std::string_view name, bool check_order);
+  Symbol* find_member(StructInfo* structure, std::string_view name);
+  Symbol* find(Scope* scope, std::string_view name);
+  // Reports what is missing unless `quiet`.
+  Symbol* resolve_name(const QualifiedName& name, Scope* scope, bool quiet);
+  Scope* scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope);
+  std::string similar_name(std::string_view text, Scope* scope, bool with_outer);
+  // With a note of what may be meant.
+  void report_unknown(CheckId id, SourceLocation location,
+                      const std::vector<std::string>& arguments, std::string_view text,
+                      Scope* scope, bool with_outer);
+  static std::string qualify(const Scope* scope, std::string_view name);
+  static std::string spell(const QualifiedName& name);
+
+  // -- Types (resolve_types.cpp)
+  const Type* resolve_type(const TypeSyntax* syntax, Scope* scope);
+  const Type* resolve_named(const TypeSyntax* syntax, Scope* scope);
+  const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
+  const Type* resolve_ray_query(const NamePart& part, Scope* scope);
+  const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
+  const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
+  const Type* type_argument(const TemplateArgument& argument, Scope* scope);
+  std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope);
+  static bool is_const_type(const TypeSyntax* syntax);
+  const Type* apply_storage(const Type* type, Modifiers modifiers);
+  Scalar scalar_of(ScalarKind kind, SourceLocation location);
+  std::optional<int64_t> constant_integer(const Expr* expression, Scope* scope,
+                                          std::string_view purpose);
+
+  // -- Declarations (declarations.cpp, structs.cpp)
+  void declare_all(std::span<const Decl* const> declarations, Scope* scope);
+  void declare(const Decl* declaration, Scope* scope);
+  void declare_variable(const VariableDecl* decl, Scope* scope);
+  void declare_static(const VariableDecl* decl, const Type* type, Scope* scope);
+  void check_initialisers();
+  void initialise(VariableInfo* variable);
+  void declare_namespace(const NamespaceDecl* decl, Scope* scope);
+  void declare_alias(const TypeAliasDecl* decl, Scope* scope);
+  void declare_using(const QualifiedName& name, Scope* scope, SourceLocation location);
+  void declare_enum(const EnumDecl* decl, Scope* scope);
+  void declare_struct(const StructDecl* decl, Scope* scope);
+  StructInfo* make_struct(const StructDecl* decl, Scope* parent, const std::string& name);
+  void complete_struct(StructInfo* info);
+  void declare_member(StructInfo* info, const Decl* member);
+  void declare_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
+  FunctionInfo* make_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
+  void resolve_signature(FunctionInfo* function);
+  FunctionInfo* same_signature(Symbol* symbol, const FunctionInfo& function);
+  bool check_variable_type(const Type* type, SourceLocation location, std::string_view name);
+  void declare_builtins();
+
+  // -- Templates (templates.cpp)
+  StructTemplate* template_of(const Symbol* symbol, const NamePart& part);
+  StructInfo* instantiate_struct(StructTemplate* structure, const NamePart& part,
+                                 SourceLocation location, Scope* scope);
+  const Type* instantiate_alias(const TypeAliasDecl* alias, Scope* alias_scope,
+                                const NamePart& part, Scope* scope);
+  FunctionInfo* instantiate_function(FunctionInfo* function,
+                                     std::span<const TemplateArgument> written, Scope* use_scope,
+                                     const std::vector<Value>& arguments);
+  // Empty where an argument is missing or of the wrong kind.
+  bool bind_arguments(std::span<const TemplateParameter> parameters,
+                      std::span<const TemplateArgument> written, Scope* use_scope,
+                      TemplateValues& values);
+  bool complete_arguments(std::span<const TemplateParameter> parameters, Scope* scope,
+                          TemplateValues& values);
+  Scope* template_scope(std::span<const TemplateParameter> parameters, const TemplateValues& values,
+                        Scope* parent);
+  std::string template_suffix(const TemplateValues& values);
+  bool deduce(const TypeSyntax* syntax, const Type* type,
+              std::span<const TemplateParameter> parameters, TemplateValues& values);
+  void deduce_value(const Expr* expression, uint64_t value,
+                    std::span<const TemplateParameter> parameters, TemplateValues& values);
+
+  // -- Bindings (bindings.cpp)
+  void declare_binding(const VariableDecl* decl, const Type* type, Scope* scope);
+  void declare_buffer(const BufferDecl* decl, Scope* scope);
+  void declare_uniform(const VariableDecl* decl, const Type* type, Scope* scope);
+  void finish_globals_buffer();
+  void apply_register(BindingInfo* binding, const Annotations& annotations);
+  void assign_registers();
+  void assign_automatic(BindingInfo* binding);
+  void check_overlaps();
+  const ir::Expr* binding_value(BindingInfo* binding, const ir::Expr* index);
+
+  // -- Entry points, exports, subobjects
+  void find_entry_points();
+  void check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name);
+  bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
+  bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
+  bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
+  uint32_t stage_attribute(FunctionInfo* function);
+  std::vector<std::string> export_names(const FunctionInfo* function);
+  void add_library_functions();
+  void declare_subobject(const SubobjectDecl* decl);
+
+  // -- Payload access qualifiers (payloads.cpp, payload_uses.cpp)
+  static bool has_raypayload(const StructInfo& structure);
+  void check_payload_struct(StructInfo* info);
+  void check_payload_field(FieldInfo& field);
+  void check_payload_use(const Type* type, SourceLocation location);
+  void check_payload_uses();
+  class PayloadUses;
+
+  // -- The module (finish_module.cpp)
+  void finish(ir::Module& module);
+  void mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint32_t mark,
+                      std::set<uint32_t>& globals);
+  void collect_structs();
+  void collect_struct(const ir::Type* type);
+  void collect_structs_of(const ir::Block& body);
+  void collect_structs_of(const ir::Expr* expression);
+  void warn_skipped();
+
+  const CheckOptions& options_;
+  const SourceManager& sources_;
+  DiagnosticEngine& diagnostics_;
+  std::unique_ptr<ir::Module> module_;
+  TypeTable types_;
+  IrBuilder build_;
+  Lowerer lower_;
+  size_t error_count_ = 0;  // those of muted attempts too
+  bool has_errors_ = false;
+  int muted_ = 0;  // inside: messages are dropped, since failing is no error
+
+  std::deque<Scope> scopes_;
+  std::deque<Symbol> symbols_;
+  std::deque<VariableInfo> variables_;
+  std::deque<FunctionInfo> functions_;
+  std::deque<StructInfo> structs_;
+  std::deque<EnumInfo> enums_;
+  std::deque<StructTemplate> struct_templates_;
+  std::deque<BindingInfo> bindings_;
+  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // of kBinding
+  std::deque<std::string> names_;
+  std::unordered_map<const Decl*, const Type*> declared_types_;
+  std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
+      instance_arguments_;
+  std::set<std::string> struct_names_;
+  Scope* global_ = nullptr;
+  uint32_t sequence_ = 0;
+  uint32_t file_cache_ = 0;
+  std::unordered_map<std::string, uint32_t> files_;
+
+  BindingInfo* globals_buffer_ = nullptr;
+  ir::Struct* globals_struct_ = nullptr;
+  uint32_t globals_offset_ = 0;
+  StructInfo* ray_desc_ = nullptr;
+  StructInfo* triangle_attributes_ = nullptr;
+
+  uint32_t visible_ = ~0u;  // symbols of a later sequence are not declared yet
+  int template_depth_ = 0;
+
+  std::vector<FunctionInfo*> all_functions_;  // in declaration order, no templates
+  std::vector<std::pair<FunctionInfo*, size_t>> entries_;
+  std::set<const ir::Struct*> collected_structs_;
+  std::set<const ir::Expr*> collected_exprs_;
+  // An entry point made around one of the source.
+  struct Wrapper {
+    ir::Function* function;
+    FunctionInfo* wrapped;
+    uint32_t stage;
+  };
+  std::vector<Wrapper> wrappers_;
+  std::vector<const FunctionInfo*> library_functions_;  // of Module::library_functions
+  std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
+  std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
+  std::set<std::pair<uint32_t, uint32_t>> reported_uses_;
+  // Of the entry point that mark_reachable walks.
+  std::set<BindingInfo*> entry_bindings_;
+  std::vector<VariableInfo*> entry_globals_;
+};
+
+struct Lowerer::BodyScope {
+  BodyScope(Lowerer& lowerer, FunctionInfo* function, ir::Block* block, Scope* scope)
+      : lowerer_(lowerer),
+        function_(lowerer.function_),
+        block_(lowerer.block_),
+        scope_(lowerer.scope_),
+        this_(lowerer.this_variable_),
+        visible_(lowerer.checker_.visible_),
+        loops_(lowerer.loop_depth_),
+        switches_(lowerer.switch_depth_),
+        unused_(lowerer.result_unused_),
+        location_(lowerer.build_.location) {
+    lowerer.function_ = function;
+    lowerer.block_ = block;
+    lowerer.scope_ = scope;
+    lowerer.this_variable_ = nullptr;
+    lowerer.loop_depth_ = lowerer.switch_depth_ = 0;
+    lowerer.result_unused_ = false;
+  }
+  ~BodyScope() {
+    lowerer_.function_ = function_;
+    lowerer_.block_ = block_;
+    lowerer_.scope_ = scope_;
+    lowerer_.this_variable_ = this_;
+    lowerer_.checker_.visible_ = visible_;
+    lowerer_.loop_depth_ = loops_;
+    lowerer_.switch_depth_ = switches_;
+    lowerer_.result_unused_ = unused_;
+    lowerer_.build_.location = location_;
+  }
+  BodyScope(const BodyScope&) = delete;
+  BodyScope& operator=(const BodyScope&) = delete;
+
+ private:
+  Lowerer& lowerer_;
+  FunctionInfo* function_;
+  ir::Block* block_;
+  Scope* scope_;
+  const ir::Variable* this_;
+  uint32_t visible_;
+  int loops_;
+  int switches_;
+  bool unused_;
+  ir::Location location_;
+};
+
+}  // namespace kaamos::hlsl

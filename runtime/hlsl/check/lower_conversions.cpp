@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+// Conversions, common types, initialiser lists. [hlsl-subset 3.5]
+#include <algorithm>
+
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+enum ScalarRank : uint8_t {
+  kSame = 0,
+  kToDefault = 1,
+  kPromotion = 2,
+  kConversion = 3,
+  kWorst = 4
+};
+
+uint8_t scalar_rank(Scalar from, Scalar to) {
+  if (from == to) return kSame;
+  if (from == Scalar::kLiteralInt) {
+    if (to == Scalar::kInt32) return kToDefault;
+    return to == Scalar::kUint32 || to == Scalar::kLiteralFloat ? kPromotion : kConversion;
+  }
+  if (from == Scalar::kLiteralFloat) {
+    if (to == Scalar::kFloat32) return kToDefault;
+    return is_floating(to) ? kPromotion : kWorst;
+  }
+  if (from == Scalar::kBool) return to == Scalar::kInt32 ? kPromotion : kConversion;
+  const bool same_class =
+      is_floating(from) == is_floating(to) && is_signed_integer(from) == is_signed_integer(to);
+  if (same_class && to != Scalar::kBool && scalar_bytes(to) > scalar_bytes(from)) return kPromotion;
+  return kConversion;
+}
+
+}  // namespace
+
+Scalar Lowerer::common_scalar(Scalar a, Scalar b) {
+  if (a == b) return a;
+  if (is_literal(b)) std::swap(a, b);
+  if (is_literal(a)) {
+    if (a == Scalar::kLiteralInt) {
+      return b == Scalar::kBool ? Scalar::kInt32 : b;
+    }
+    return is_floating(b) || b == Scalar::kLiteralInt
+               ? (b == Scalar::kLiteralInt ? Scalar::kLiteralFloat : b)
+               : Scalar::kFloat32;
+  }
+  if (is_floating(a) != is_floating(b)) return is_floating(a) ? a : b;
+  if (is_floating(a)) return std::max(a, b);
+  if (a == Scalar::kBool) return b;
+  if (b == Scalar::kBool) return a;
+  if (scalar_bytes(a) != scalar_bytes(b)) return scalar_bytes(a) > scalar_bytes(b) ? a : b;
+  return is_signed_integer(a) ? b : a;
+}
+
+bool Lowerer::convertible_numeric(const Type* from, const Type* to, bool) {
+  if (from->components() == 1 && !from->is_matrix()) return true;
+  if (from->is_matrix() && to->is_matrix()) {
+    return from->rows >= to->rows && from->columns >= to->columns;
+  }
+  if (!to->is_matrix() && to->components() == 1) return true;
+  if (from->is_matrix() || to->is_matrix()) return from->components() == to->components();
+  return from->components() >= to->components();
+}
+
+ConversionRank Lowerer::rank(const Type* from, const Type* to) {
+  ConversionRank result;
+  if (from->is_error() || to->is_error()) {
+    result.possible = true;
+    return result;
+  }
+  if (same_type(from, to)) {
+    result.possible = true;
+    return result;
+  }
+  if (from->is_enum() && to->is_numeric() && !from->enumeration->is_class) {
+    result.possible = true;
+    result.shape = to->is_scalar() ? 0 : 1;
+    result.scalar = std::max<uint8_t>(kPromotion, scalar_rank(from->scalar, to->scalar));
+    return result;
+  }
+  if (from->is_numeric() && to->is_numeric()) {
+    result.possible = convertible_numeric(from, to, false);
+    const bool same_shape = from->rows == to->rows && from->columns == to->columns;
+    result.shape = same_shape ? 0 : from->is_scalar() ? 1 : 2;
+    result.scalar = scalar_rank(from->scalar, to->scalar);
+    return result;
+  }
+  if (from->is_struct() && to->is_struct()) {
+    uint8_t distance = 1;
+    for (StructInfo* base = from->structure->base; base; base = base->base, ++distance) {
+      if (base == to->structure) {
+        result.possible = true;
+        result.scalar = distance;
+        return result;
+      }
+    }
+  }
+  if (from->is_resource() && to->is_resource()) {
+    result.possible = from->ir == to->ir;
+    return result;
+  }
+  if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&
+      to->is_struct()) {
+    result = rank(from->element, to);
+    if (result.possible) result.scalar = kPromotion;
+  }
+  return result;
+}
+
+ConversionRank Lowerer::rank(const Value& value, const Type* to) {
+  ConversionRank result;
+  if (value.failed()) {
+    result.possible = true;
+    return result;
+  }
+  if (value.kind == ValueKind::kInitList) return result;
+  if (value.kind == ValueKind::kHeap) {
+    result.possible =
+        value.offset && to->is_resource() && is_sampler(to->resource) == value.is_sampler_heap;
+    return result;
+  }
+  return rank(value.type, to);
+}
+
+const Type* Lowerer::settled(const Type* type) {
+  if (type->is_numeric() && type->scalar == Scalar::kLiteralInt) {
+    return types_.with_scalar(type, Scalar::kInt32);
+  }
+  if (type->is_numeric() && type->scalar == Scalar::kLiteralFloat) {
+    return types_.with_scalar(type, Scalar::kFloat32);
+  }
+  return type;
+}
+
+Value Lowerer::settle(Value value) {
+  if (value.failed() || !value.type || !value.type->is_numeric() ||
+      !is_literal(value.type->scalar)) {
+    return value;
+  }
+  Scalar scalar = value.type->scalar == Scalar::kLiteralInt ? Scalar::kInt32 : Scalar::kFloat32;
+  if (scalar == Scalar::kInt32) {
+    if (const auto bits = evaluate(value.expr)) {
+      for (const uint64_t component : *bits) {
+        const int64_t number = static_cast<int64_t>(component);
+        if (number > INT64_C(0xFFFFFFFF) || number < INT64_C(-0x80000000)) {
+          scalar = Scalar::kInt64;
+        } else if (number > INT64_C(0x7FFFFFFF) && scalar == Scalar::kInt32) {
+          scalar = Scalar::kUint32;
+        }
+      }
+    }
+  }
+  const Type* type = types_.with_scalar(value.type, scalar);
+  return rvalue(build_.convert(value.expr, ir_scalar(scalar)), type);
+}
+
+const ir::Expr* Lowerer::convert_numeric(const ir::Expr* expr, const Type* from, const Type* to) {
+  const ir::Scalar scalar = ir_scalar(to->scalar);
+  const bool same_shape = from->rows == to->rows && from->columns == to->columns;
+  if (same_shape) return build_.convert(expr, scalar);
+  if (from->is_scalar()) return build_.splat(build_.convert(expr, scalar), to->ir);
+  if (from->is_vector()) {
+    if (to->is_scalar()) return build_.convert(build_.swizzle(expr, {0}), scalar);
+    if (to->is_vector()) {
+      const ir::Type* shorter = build_.vector_type(ir_scalar(from->scalar), to->columns);
+      return build_.convert(build_.truncate(expr, shorter), scalar);
+    }
+    return build_.construct(to->ir, {build_.convert(expr, scalar)});
+  }
+  if (to->is_scalar()) return build_.convert(build_.matrix_swizzle(expr, {0}), scalar);
+  if (to->is_vector()) {
+    std::vector<uint8_t> components;
+    for (uint8_t row = 0; row < from->rows; ++row) {
+      for (uint8_t column = 0; column < from->columns; ++column) {
+        components.push_back(static_cast<uint8_t>(row * 4 + column));
+      }
+    }
+    if (components.size() > 4) components.resize(to->columns);
+    return build_.convert(build_.matrix_swizzle(expr, components), scalar);
+  }
+  const bool truncates = from->rows >= to->rows && from->columns >= to->columns;
+  if (truncates) {
+    const Type* smaller = types_.matrix(from->scalar, to->rows, to->columns);
+    return build_.convert(build_.truncate(expr, smaller->ir), scalar);
+  }
+  // The same number of components in another shape: 1x4 to 4x1.
+  std::vector<const ir::Expr*> parts;
+  const ir::Expr* base = repeatable(expr);
+  for (uint8_t row = 0; row < from->rows; ++row) {
+    for (uint8_t column = 0; column < from->columns; ++column) {
+      parts.push_back(build_.convert(
+          build_.matrix_swizzle(base, {static_cast<uint8_t>(row * 4 + column)}), scalar));
+    }
+  }
+  return build_.construct(to->ir, std::move(parts));
+}
+
+const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocation location,
+                                 bool is_explicit) {
+  if (value.failed() || to->is_error() || (value.type && value.type->is_error())) return nullptr;
+  at(location);
+  if (value.kind == ValueKind::kInitList) return lower_init_list(value.init_list, to);
+  if (value.kind == ValueKind::kHeap) {
+    if (!rank(value, to).possible) {
+      report(CheckId::kHeapType, location,
+             {value.is_sampler_heap ? "SamplerDescriptorHeap" : "ResourceDescriptorHeap",
+              to_string(to)});
+      return nullptr;
+    }
+    if (function_) {
+      (value.is_sampler_heap ? function_->uses_sampler_heap : function_->uses_view_heap) = true;
+    }
+    return build_.expr(ir::ExprKind::kHeapResource, to->ir, {value.offset});
+  }
+  const Type* from = value.type;
+  if (from->is_void()) {
+    report(CheckId::kVoidValue, location);
+    return nullptr;
+  }
+  const auto refuse = [&]() -> const ir::Expr* {
+    report(is_explicit ? CheckId::kCast : CheckId::kConversion, location,
+           {to_string(from), to_string(to)});
+    return nullptr;
+  };
+  if (same_type(from, to)) return load(value);
+  const bool numbers = (from->is_numeric() || from->is_enum()) && to->is_numeric();
+  if (numbers) {
+    if (from->is_enum() && from->enumeration->is_class && !is_explicit) return refuse();
+    const Type* shape = from->is_enum() ? types_.scalar(from->scalar) : from;
+    if (!convertible_numeric(shape, to, is_explicit)) return refuse();
+    const bool truncates = !shape->is_scalar() && to->components() < shape->components();
+    if (truncates && !is_explicit) {
+      report(CheckId::kTruncation, location, {to_string(from), to_string(to)});
+    }
+    const ir::Expr* expr = load(value);
+    return expr ? convert_numeric(expr, shape, to) : nullptr;
+  }
+  if (to->is_enum()) {
+    const bool is_literal_zero = from->is_scalar() && is_explicit;
+    if (!is_literal_zero && !(from->is_enum() && is_explicit)) return refuse();
+    const ir::Expr* expr = load(value);
+    return expr ? build_.convert(expr, ir_scalar(to->scalar)) : nullptr;
+  }
+  if (from->is_resource() && to->is_resource()) {
+    return from->ir == to->ir ? load(value) : refuse();
+  }
+  if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&
+      to->is_struct() && rank(from->element, to).possible) {
+    const ir::Expr* resource = load(value);
+    if (!resource) return nullptr;
+    return convert(memory(resource, nullptr, build_.uint32(0), from->element,
+                          ir::Layout::kConstantBuffer, true),
+                   to, location);
+  }
+  if (from->is_struct() && to->is_struct() && rank(from, to).possible) {
+    return load(base_of(value, to->structure));
+  }
+  const bool aggregates = (from->is_numeric() || from->is_struct() || from->is_array()) &&
+                          (to->is_numeric() || to->is_struct() || to->is_array());
+  if (!is_explicit || !aggregates || contains_resource(to) || contains_resource(from)) {
+    return refuse();
+  }
+  const ir::Expr* expr = load(value);
+  if (!expr) return nullptr;
+  if (from->is_scalar()) {
+    if (const auto bits = evaluate(expr);
+        bits && convert_bits((*bits)[0], expr->type->scalar, ir::Scalar::kBool) == 0) {
+      return build_.zero(to->ir);
+    }
+    const uint64_t count = flat_component_count(to);
+    if (count > 4096) return refuse();
+    const ir::Expr* repeated = repeatable(expr);
+    return build_from_pieces(to, std::vector<Piece>(count, Piece{repeated, from}), location, false);
+  }
+  if (flat_component_count(to) > flat_component_count(from)) return refuse();
+  return build_from_pieces(to, {Piece{expr, from}}, location, true);
+}
+
+// `queue` is a stack: its back is the next piece.
+void Lowerer::split(const Piece& piece, std::vector<Piece>& queue) {
+  const Type* type = piece.type;
+  const ir::Expr* expr = repeatable(piece.expr);
+  std::vector<Piece> parts;
+  if (type->is_vector()) {
+    for (uint8_t i = 0; i < type->columns; ++i) {
+      parts.push_back({build_.swizzle(expr, {i}), types_.scalar(type->scalar)});
+    }
+  } else if (type->is_matrix()) {
+    for (uint8_t row = 0; row < type->rows; ++row) {
+      for (uint8_t column = 0; column < type->columns; ++column) {
+        parts.push_back({build_.matrix_swizzle(expr, {static_cast<uint8_t>(row * 4 + column)}),
+                         types_.scalar(type->scalar)});
+      }
+    }
+  } else if (type->is_array()) {
+    for (uint32_t i = 0; i < type->count; ++i) {
+      parts.push_back({build_.element(expr, build_.uint32(i)), type->element});
+    }
+  } else if (type->is_struct()) {
+    if (type->structure->base)
+      parts.push_back({build_.field(expr, 0), type->structure->base->type});
+    for (const FieldInfo& field : type->structure->fields) {
+      parts.push_back({build_.field(expr, field.index), field.type});
+    }
+  }
+  queue.insert(queue.end(), parts.rbegin(), parts.rend());
+}
+
+const ir::Expr* Lowerer::take(const Type* type, std::vector<Piece>& queue, bool& failed,
+                              SourceLocation location) {
+  if (failed || queue.empty()) {
+    failed = true;
+    return nullptr;
+  }
+  if (same_type(queue.back().type, type)) {
+    const ir::Expr* expr = queue.back().expr;
+    queue.pop_back();
+    return expr;
+  }
+  std::vector<const ir::Expr*> parts;
+  const auto take_part = [&](const Type* part) {
+    parts.push_back(take(part, queue, failed, location));
+  };
+  if (type->is_scalar() || type->is_enum() || type->is_resource()) {
+    while (!queue.empty() && (queue.back().type->is_array() || queue.back().type->is_struct() ||
+                              queue.back().type->is_vector() || queue.back().type->is_matrix())) {
+      const Piece piece = queue.back();
+      queue.pop_back();
+      split(piece, queue);
+    }
+    if (queue.empty()) {
+      failed = true;
+      return nullptr;
+    }
+    const Piece piece = queue.back();
+    queue.pop_back();
+    const ir::Expr* expr = convert(rvalue(piece.expr, piece.type), type, location);
+    failed = failed || !expr;
+    return expr;
+  }
+  // A vector of the same shape converts as a whole.
+  const Type* next = queue.back().type;
+  if (type->is_numeric() && next->is_numeric() && next->rows == type->rows &&
+      next->columns == type->columns) {
+    const Piece piece = queue.back();
+    queue.pop_back();
+    return convert_numeric(piece.expr, piece.type, type);
+  }
+  if (type->is_numeric()) {
+    for (uint32_t i = 0; i < type->components() && !failed; ++i) {
+      take_part(types_.scalar(type->scalar));
+    }
+  } else if (type->is_array()) {
+    for (uint32_t i = 0; i < type->count && !failed; ++i) take_part(type->element);
+  } else if (type->is_struct()) {
+    if (type->structure->base) take_part(type->structure->base->type);
+    for (const FieldInfo& field : type->structure->fields) {
+      if (failed) break;
+      take_part(field.type);
+    }
+  } else {
+    failed = true;
+  }
+  return failed ? nullptr : build_.construct(type->ir, std::move(parts));
+}
+
+const ir::Expr* Lowerer::build_from_pieces(const Type* type, std::vector<Piece> pieces,
+                                           SourceLocation location, bool allow_extra) {
+  uint64_t available = 0;
+  for (const Piece& piece : pieces) available += flat_component_count(piece.type);
+  const uint64_t needed = flat_component_count(type);
+  if (available < needed || (available > needed && !allow_extra)) {
+    report(CheckId::kInitialiserCount, location,
+           {to_string(type), std::to_string(needed), std::to_string(available)});
+    return nullptr;
+  }
+  // A struct without fields.
+  if (needed == 0) return build_.zero(type->ir);
+  std::reverse(pieces.begin(), pieces.end());
+  bool failed = false;
+  const size_t errors = checker_.error_count_;
+  const ir::Expr* result = take(type, pieces, failed, location);
+  if (failed && errors == checker_.error_count_) {
+    report(CheckId::kInitialiserCount, location,
+           {to_string(type), std::to_string(needed), std::to_string(available)});
+  }
+  return failed ? nullptr : result;
+}
+
+void Lowerer::collect_pieces(const InitListExpr* list, std::vector<Piece>& pieces, int depth) {
+  std::vector<const Expr*> leaves;
+  const std::function<void(const InitListExpr*, int)> gather = [&](const InitListExpr* at_list,
+                                                                   int level) {
+    if (level > 64) return;
+    for (const Expr* element : at_list->elements) {
+      if (const auto* nested = as<InitListExpr>(element)) {
+        gather(nested, level + 1);
+      } else {
+        leaves.push_back(element);
+      }
+    }
+  };
+  gather(list, depth);
+  for (Value& value : lower_all(leaves, false)) {
+    if (value.failed()) {
+      pieces.push_back({build_.zero(types_.scalar(Scalar::kFloat32)->ir), types_.error()});
+      continue;
+    }
+    const ir::Expr* expr = load(value);
+    pieces.push_back({expr ? expr : build_.int32(0), expr ? value.type : types_.error()});
+  }
+}
+
+const ir::Expr* Lowerer::lower_init_list(const InitListExpr* list, const Type* type) {
+  if (type->is_error()) return nullptr;
+  // `Texture2D t = {..}` and the like come down to one element.
+  std::vector<Piece> pieces;
+  collect_pieces(list, pieces, 0);
+  for (const Piece& piece : pieces) {
+    if (piece.type->is_error()) return nullptr;
+    if (piece.type->is_void()) {
+      report(CheckId::kVoidValue, list->location);
+      return nullptr;
+    }
+  }
+  at(list->location);
+  return build_from_pieces(type, std::move(pieces), list->location, false);
+}
+
+const ir::Expr* Lowerer::as_condition(const Value& value, SourceLocation location) {
+  if (value.failed()) return nullptr;
+  const Type* type = value.type;
+  if (!type || !(type->is_scalar() || type->is_enum())) {
+    const bool single = type && type->is_numeric() && type->components() == 1;
+    if (!single) {
+      report(CheckId::kConditionType, location, {type ? to_string(type) : "a resource"});
+      return nullptr;
+    }
+  }
+  return convert(value, types_.boolean(), location, true);
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,435 @@
+// SPDX-License-Identifier: MIT
+// Names, members, casts, constructors. Operators stand in lower_operators.cpp.
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+constexpr int kMaxDepth = 1000;
+
+}  // namespace
+
+Value Lowerer::lower(const Expr* expression) {
+  if (depth_ >= kMaxDepth) {
+    report(CheckId::kTooDeep, expression->location, {std::to_string(kMaxDepth)});
+    return error_value();
+  }
+  ++depth_;
+  at(expression->location);
+  // Of all others each operand is used, also where the result is not.
+  const ExprKind kind = expression->kind;
+  const bool unused = result_unused_;
+  result_unused_ = unused && (kind == ExprKind::kCall || kind == ExprKind::kAssign ||
+                              kind == ExprKind::kConditional || kind == ExprKind::kUnary);
+  Value value = lower_inner(expression);
+  result_unused_ = unused;
+  value.location = expression->location;
+  if (value.type && value.type->is_error()) value = error_value();
+  --depth_;
+  return value;
+}
+
+Value Lowerer::lower_inner(const Expr* expression) {
+  switch (expression->kind) {
+    case ExprKind::kError:
+      return error_value();
+    case ExprKind::kIntLiteral: {
+      const auto* literal = static_cast<const IntLiteralExpr*>(expression);
+      Scalar scalar = Scalar::kLiteralInt;
+      if (literal->suffix == LiteralSuffix::kU) {
+        scalar = literal->value > 0xFFFFFFFFu ? Scalar::kUint64 : Scalar::kUint32;
+      } else if (literal->suffix == LiteralSuffix::kUL) {
+        scalar = Scalar::kUint64;
+      } else if (literal->suffix == LiteralSuffix::kL) {
+        scalar = Scalar::kInt64;
+      } else if (literal->value > INT64_MAX) {
+        scalar = Scalar::kUint64;
+      }
+      const Type* type = types_.scalar(scalar);
+      return rvalue(build_.literal(type->ir, {literal->value}), type);
+    }
+    case ExprKind::kFloatLiteral: {
+      const auto* literal = static_cast<const FloatLiteralExpr*>(expression);
+      Scalar scalar = Scalar::kLiteralFloat;
+      if (literal->suffix == LiteralSuffix::kF) scalar = Scalar::kFloat32;
+      if (literal->suffix == LiteralSuffix::kL) scalar = Scalar::kFloat64;
+      if (literal->suffix == LiteralSuffix::kH) {
+        scalar = checker_.options_.native_16bit ? Scalar::kFloat16 : Scalar::kFloat32;
+      }
+      const Type* type = types_.scalar(scalar);
+      return rvalue(
+          build_.literal(type->ir, {normalise_bits(float_bits(literal->value), type->ir->scalar)}),
+          type);
+    }
+    case ExprKind::kBoolLiteral:
+      return rvalue(build_.boolean(static_cast<const BoolLiteralExpr*>(expression)->value),
+                    types_.boolean());
+    case ExprKind::kStringLiteral:
+      report(CheckId::kStringUse, expression->location);
+      return error_value();
+    case ExprKind::kName:
+      return lower_name(static_cast<const NameExpr*>(expression));
+    case ExprKind::kThis:
+      return lower_this(expression->location);
+    case ExprKind::kMember:
+      return lower_member(static_cast<const MemberExpr*>(expression));
+    case ExprKind::kIndex:
+      return lower_index(static_cast<const IndexExpr*>(expression));
+    case ExprKind::kCall:
+      return lower_call(static_cast<const CallExpr*>(expression));
+    case ExprKind::kConstruct: {
+      const auto* construct = static_cast<const ConstructExpr*>(expression);
+      const Type* type = checker_.resolve_type(construct->type, scope_);
+      return lower_construct(type, construct->arguments, construct->location);
+    }
+    case ExprKind::kCast:
+      return lower_cast(static_cast<const CastExpr*>(expression));
+    case ExprKind::kInitList: {
+      Value value;
+      value.kind = ValueKind::kInitList;
+      value.init_list = static_cast<const InitListExpr*>(expression);
+      return value;
+    }
+    case ExprKind::kUnary:
+      return lower_unary(static_cast<const UnaryExpr*>(expression));
+    case ExprKind::kBinary:
+      return lower_binary(static_cast<const BinaryExpr*>(expression));
+    case ExprKind::kAssign:
+      return lower_assign(static_cast<const AssignExpr*>(expression));
+    case ExprKind::kConditional:
+      return lower_conditional(static_cast<const ConditionalExpr*>(expression));
+    case ExprKind::kSizeof:
+      return lower_sizeof(static_cast<const SizeofExpr*>(expression));
+  }
+  return error_value();
+}
+
+// Left to right. What an operand gives is saved before a later one's effects, where they could
+// change it; with `keep_places` a place stays one, and only its indices are saved, with
+// `save_values` what it holds as well.
+std::vector<Value> Lowerer::lower_all(std::span<const Expr* const> expressions, bool keep_places,
+                                      bool save_values) {
+  std::vector<Value> values;
+  values.reserve(expressions.size());
+  size_t fixed = 0;  // values[0..fixed) cannot change any more
+  for (const Expr* expression : expressions) {
+    const bool unused = result_unused_;
+    result_unused_ = false;
+    size_t position = block().size();
+    const uint64_t effects = effects_;
+    Value value = lower(expression);
+    result_unused_ = unused;
+    if (effects_ != effects) {
+      for (; fixed < values.size(); ++fixed) {
+        Value& earlier = values[fixed];
+        if (earlier.failed() || earlier.kind == ValueKind::kInitList) continue;
+        if (keep_places || !earlier.type || earlier.kind == ValueKind::kHeap ||
+            earlier.kind == ValueKind::kBindings || earlier.kind == ValueKind::kMips) {
+          freeze(earlier, &position);
+          const bool is_memory =
+              earlier.kind == ValueKind::kMemory || earlier.kind == ValueKind::kTyped;
+          const bool is_query = earlier.type && earlier.type->is_query();
+          if (save_values && !is_query && (earlier.kind == ValueKind::kExpr || is_memory)) {
+            const ir::Expr* held = load(earlier);
+            if (held && !is_fixed(held)) earlier.saved = build_.read(temporary(held, &position));
+          }
+          continue;
+        }
+        const ir::Expr* expr = load(earlier);
+        if (!expr) {
+          earlier = error_value();
+        } else if (!is_fixed(expr)) {
+          earlier = rvalue(frozen(expr, &position), earlier.type);
+        }
+      }
+    }
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+Value Lowerer::lower_this(SourceLocation location) {
+  if (!this_variable_) {
+    report(CheckId::kThisOutside, location);
+    return error_value();
+  }
+  return place(this_variable_, function_->owner->type, function_->is_const_method);
+}
+
+Value Lowerer::variable_value(VariableInfo* variable, SourceLocation location) {
+  if (variable->type->is_error()) return error_value();
+  switch (variable->kind) {
+    case VariableKind::kLocal:
+      if (variable->constant) {
+        Value value = rvalue(variable->constant, variable->type);
+        value.is_const = true;
+        return value;
+      }
+      return place(variable->variable, variable->type, variable->is_const);
+    case VariableKind::kGlobal: {
+      checker_.initialise(variable);
+      at(location);
+      if (function_) function_->globals.push_back(variable);
+      return place(variable->variable, variable->type, variable->is_const);
+    }
+    case VariableKind::kBufferMember:
+      return memory(checker_.binding_value(variable->binding, nullptr), nullptr,
+                    build_.uint32(variable->offset), variable->type, ir::Layout::kConstantBuffer,
+                    true);
+    case VariableKind::kBinding: {
+      if (!variable->binding->is_array) {
+        Value value = rvalue(checker_.binding_value(variable->binding, nullptr), variable->type);
+        value.is_const = true;
+        return value;
+      }
+      Value value;
+      value.kind = ValueKind::kBindings;
+      value.type = variable->type;
+      value.is_const = true;
+      value.binding = variable->binding;
+      value.offset = build_.uint32(0);
+      return value;
+    }
+  }
+  return error_value();
+}
+
+Value Lowerer::symbol_value(Symbol* symbol, SourceLocation location) {
+  switch (symbol->kind) {
+    case SymbolKind::kVariable:
+      return variable_value(symbol->variable, location);
+    case SymbolKind::kConstant:
+      return rvalue(symbol->value, symbol->type);
+    case SymbolKind::kFunctions:
+      report(CheckId::kFunctionValue, location, {std::string(symbol->name)});
+      return error_value();
+    case SymbolKind::kField: {
+      if (!this_variable_) {
+        report(CheckId::kFieldOutside, location, {std::string(symbol->name)});
+        return error_value();
+      }
+      return error_value();
+    }
+    default:
+      report(CheckId::kNotAValue, location, {std::string(symbol->name)});
+      return error_value();
+  }
+}
+
+Value Lowerer::lower_name(const NameExpr* expr) {
+  const QualifiedName& name = *expr->name;
+  if (name.is_simple()) {
+    const std::string_view identifier = name.last().identifier;
+    const bool is_sampler = identifier == "SamplerDescriptorHeap";
+    if (is_sampler || identifier == "ResourceDescriptorHeap") {
+      Value value;
+      value.kind = ValueKind::kHeap;
+      value.is_sampler_heap = is_sampler;
+      return value;
+    }
+  }
+  Symbol* symbol = checker_.resolve_name(name, scope_, true);
+  if (!symbol) {
+    if (name.is_simple() && is_builtin_function(name.last().identifier)) {
+      report(CheckId::kFunctionValue, expr->location, {std::string(name.last().identifier)});
+      return error_value();
+    }
+    checker_.resolve_name(name, scope_, false);
+    return error_value();
+  }
+  if (symbol->kind == SymbolKind::kField && this_variable_) {
+    Value self = lower_this(expr->location);
+    return member_of(self, name);
+  }
+  return symbol_value(symbol, expr->location);
+}
+
+Value Lowerer::lower_member(const MemberExpr* expr) {
+  Value base = lower(expr->base);
+  if (base.failed()) return base;
+  at(expr->location);
+  return member_of(base, *expr->name);
+}
+
+Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
+  const std::string_view member = name.last().identifier;
+  const SourceLocation location = name.location;
+  if (base.kind == ValueKind::kHeap || base.kind == ValueKind::kInitList ||
+      base.kind == ValueKind::kMips) {
+    load(base);
+    return error_value();
+  }
+  const Type* type = base.type;
+  if (type->is_resource()) {
+    if (type->resource == ir::ResourceKind::kConstantBuffer) {
+      const ir::Expr* resource = load(base);
+      if (!resource) return error_value();
+      return member_of(memory(resource, nullptr, build_.uint32(0), type->element,
+                              ir::Layout::kConstantBuffer, true),
+                       name);
+    }
+    if (member == "mips" && is_sampled_texture(type->resource)) {
+      Value value = base;
+      value.kind = ValueKind::kMips;
+      value.expr = load(base);
+      value.offset = nullptr;
+      return value.expr ? value : error_value();
+    }
+  }
+  if (type->is_matrix()) return matrix_swizzle_of(base, member, location);
+  if (type->is_numeric()) return swizzle_of(base, member, location);
+  if (!type->is_struct()) {
+    report(CheckId::kNoMembers, location, {to_string(type), std::string(member)});
+    return error_value();
+  }
+  StructInfo* structure = type->structure;
+  Value object = base;
+  if (name.parts.size() > 1) {
+    // derived.Base::member
+    for (StructInfo* info = structure; info; info = info->base) {
+      const std::string_view qualifier = name.parts[name.parts.size() - 2].identifier;
+      if (info->decl && info->decl->name == qualifier) {
+        structure = info;
+        object = base_of(base, info);
+        break;
+      }
+    }
+  }
+  for (StructInfo* info = structure; info; info = info->base) {
+    Symbol* symbol = checker_.find_local(info->scope, member);
+    if (!symbol) continue;
+    if (symbol->kind != SymbolKind::kField) return symbol_value(symbol, location);
+    const FieldInfo& field = info->fields[symbol->field];
+    if (field.type->is_error()) return error_value();
+    Value owner = base_of(object, info);
+    if (owner.failed()) return owner;
+    const Value result = field_of(owner, field.index, field.type);
+    const bool is_access = info->is_payload && result.kind == ValueKind::kExpr &&
+                           result.expr->kind == ir::ExprKind::kField;
+    if (is_access) payload_accesses_[result.expr] = location;
+    return result;
+  }
+  checker_.report_unknown(CheckId::kNoSuchMember, location, {to_string(type), std::string(member)},
+                          member, structure->scope, false);
+  return error_value();
+}
+
+Value Lowerer::lower_index(const IndexExpr* expr) {
+  const Expr* operands[] = {expr->base, expr->index};
+  std::vector<Value> values = lower_all(operands, true);
+  if (values[0].failed() || values[1].failed()) return error_value();
+  at(expr->location);
+  const Value& base = values[0];
+  if (base.kind == ValueKind::kHeap && !base.offset) {
+    const ir::Expr* index = index_value(values[1], expr->index->location);
+    if (!index) return error_value();
+    Value value = base;
+    value.offset = build_.convert(index, ir::Scalar::kUint32);
+    return value;
+  }
+  if (base.kind == ValueKind::kHeap || base.kind == ValueKind::kInitList) {
+    load(base);
+    return error_value();
+  }
+  if (base.kind == ValueKind::kMips || (base.type->is_resource())) {
+    return index_resource(base, values[1], expr->index->location);
+  }
+  if (base.type->is_struct()) {
+    if (auto result = overloaded_operator("operator[]", base, {values[1]}, expr->location)) {
+      return *result;
+    }
+  }
+  const bool indexable = base.type->is_array() || base.type->is_vector() || base.type->is_matrix();
+  if (!indexable) {
+    report(CheckId::kNotIndexable, expr->location, {to_string(base.type)});
+    return error_value();
+  }
+  return element_of(base, values[1], expr->index->location);
+}
+
+Value Lowerer::lower_cast(const CastExpr* expr) {
+  const Type* type = checker_.resolve_type(expr->type, scope_);
+  Value operand = lower(expr->operand);
+  if (operand.failed() || type->is_error()) return error_value();
+  at(expr->location);
+  if (type->is_void()) return rvalue(build_.zero(types_.scalar(Scalar::kInt32)->ir), type);
+  return rvalue(convert(operand, type, expr->location, true), type);
+}
+
+Value Lowerer::lower_construct(const Type* type, std::span<const Expr* const> arguments,
+                               SourceLocation location) {
+  std::vector<Value> values = lower_all(arguments, false);
+  if (type->is_error()) return error_value();
+  at(location);
+  for (const Value& value : values) {
+    if (value.failed()) return error_value();
+  }
+  if (!type->is_numeric()) {
+    if (values.size() == 1 && (type->is_enum() || type->is_struct())) {
+      return rvalue(convert(values[0], type, location, true), type);
+    }
+    report(CheckId::kNotConstructible, location, {to_string(type)});
+    return error_value();
+  }
+  if (values.size() == 1 && values[0].type &&
+      (values[0].type->is_scalar() || values[0].type->is_enum() || type->is_scalar() ||
+       same_type(values[0].type, type))) {
+    return rvalue(convert(values[0], type, location, true), type);
+  }
+  std::vector<const ir::Expr*> parts;
+  uint32_t count = 0;
+  for (const Value& value : values) {
+    if (!value.type || !(value.type->is_numeric() || value.type->is_enum())) {
+      report(CheckId::kConstructorArgument, value.location,
+             {to_string(type), value.type ? to_string(value.type) : "an initialiser list"});
+      return error_value();
+    }
+    const Type* from = value.type->is_enum() ? types_.scalar(value.type->scalar) : value.type;
+    const ir::Expr* expr = load(value);
+    if (!expr) return error_value();
+    count += from->components();
+    if (from->is_matrix()) {
+      // As its elements, row by row.
+      const ir::Expr* base = repeatable(expr);
+      for (uint8_t row = 0; row < from->rows; ++row) {
+        for (uint8_t column = 0; column < from->columns; ++column) {
+          parts.push_back(
+              build_.convert(build_.matrix_swizzle(base, {static_cast<uint8_t>(row * 4 + column)}),
+                             ir_scalar(type->scalar)));
+        }
+      }
+    } else {
+      parts.push_back(build_.convert(expr, ir_scalar(type->scalar)));
+    }
+  }
+  if (count != type->components()) {
+    report(CheckId::kConstructorCount, location,
+           {to_string(type), std::to_string(type->components()), std::to_string(count)});
+    return error_value();
+  }
+  return rvalue(build_.construct(type->ir, std::move(parts)), type);
+}
+
+Value Lowerer::lower_sizeof(const SizeofExpr* expr) {
+  const Type* type = nullptr;
+  if (expr->type) {
+    type = checker_.resolve_type(expr->type, scope_);
+  } else {
+    ir::Block ignored;
+    ir::Block* outer = block_;
+    block_ = &ignored;
+    Value value = lower(expr->operand);
+    block_ = outer;
+    if (value.failed() || !value.type) return error_value();
+    type = settled(value.type);
+  }
+  if (type->is_error()) return error_value();
+  if (type->is_void() || contains_resource(type) || (type->is_array() && type->count == 0)) {
+    report(CheckId::kSizeof, expr->location, {to_string(type)});
+    return error_value();
+  }
+  const Type* result = types_.scalar(Scalar::kUint32);
+  return rvalue(build_.uint32(layout_of(type, ir::Layout::kStructured).size), result);
+}
+
+}  // namespace kaamos::hlsl

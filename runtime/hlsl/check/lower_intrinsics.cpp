@@ -1,0 +1,453 @@
+// SPDX-License-Identifier: MIT
+// Intrinsic functions: maths, bit casts, barriers. [HLSL: Intrinsic functions]
+#include <algorithm>
+
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+bool is_number(const Value& value) {
+  return value.type && (value.type->is_numeric() ||
+                        (value.type->is_enum() && !value.type->enumeration->is_class));
+}
+
+}  // namespace
+
+bool Lowerer::check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
+                          SourceLocation location) {
+  if (given >= lowest && given <= highest) return true;
+  const std::string allowed = lowest == highest
+                                  ? std::to_string(lowest)
+                                  : std::to_string(lowest) + " to " + std::to_string(highest);
+  report(CheckId::kArgumentCount, location, {std::string(name), allowed, std::to_string(given)});
+  return false;
+}
+
+void Lowerer::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
+  if (!function_) return;
+  const bool known = std::any_of(function_->stage_uses.begin(), function_->stage_uses.end(),
+                                 [&](const StageUse& use) { return use.name == name; });
+  if (!known) function_->stage_uses.push_back({location, name, stages});
+}
+
+std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Value>& arguments,
+                                           SourceLocation location) {
+  const std::string_view name = part.identifier;
+  const size_t count = arguments.size();
+  at(location);
+  if (name == "mul") return call_mul(arguments, location);
+  if (name == "select") return call_select(arguments, location);
+  if (name == "and" || name == "or") return call_and_or(name == "and", arguments, location);
+  if (name == "sincos" || name == "modf" || name == "frexp" || (name == "asuint" && count == 3)) {
+    return call_with_outputs(name, arguments, location);
+  }
+  if (const IntrinsicRule* rule = find_intrinsic(name)) {
+    if (!check_count(name, count, rule->count, rule->count, location)) return error_value();
+    return call_maths(*rule, arguments, location);
+  }
+  if (const SystemValueRule* rule = find_system_value(name)) {
+    if (!check_count(name, count, 0, 0, location)) return error_value();
+    return call_system_value(*rule, location);
+  }
+  if (name == "NonUniformResourceIndex") {
+    if (!check_count(name, count, 1, 1, location)) return error_value();
+    const Type* type = types_.scalar(Scalar::kUint32);
+    const ir::Expr* index = index_value(arguments[0], location);
+    return rvalue(index ? build_.convert(index, ir::Scalar::kUint32) : nullptr, type);
+  }
+  if (name == "D3DCOLORtoUBYTE4") {
+    if (!check_count(name, count, 1, 1, location)) return error_value();
+    const Type* type = types_.vector(Scalar::kFloat32, 4);
+    const ir::Expr* value = convert(arguments[0], type, location);
+    if (!value) return error_value();
+    const ir::Expr* scale =
+        build_.splat(build_.literal(types_.scalar(Scalar::kFloat32)->ir,
+                                    {normalise_bits(float_bits(255.001953), ir::Scalar::kFloat32)}),
+                     type->ir);
+    const ir::Expr* scaled =
+        build_.binary(ir::BinaryOp::kMultiply, build_.swizzle(value, {2, 1, 0, 3}), scale);
+    return rvalue(build_.convert(scaled, ir::Scalar::kInt32), types_.vector(Scalar::kInt32, 4));
+  }
+  if (name == "TraceRay") return call_trace_ray(arguments, location);
+  if (name == "ReportHit") return call_report_hit(arguments, location);
+  if (name == "CallShader") return call_call_shader(arguments, location);
+  if (name == "IgnoreHit" || name == "AcceptHitAndEndSearch") {
+    if (!check_count(name, count, 0, 0, location)) return error_value();
+    use_in_stages(name, ir::kStageAnyHit, location);
+    if (function_) function_->ends_shader = true;
+    emit(build_.stmt(name == "IgnoreHit" ? ir::StmtKind::kIgnoreHit
+                                         : ir::StmtKind::kAcceptHitAndEndSearch));
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  if (const BarrierRule* rule = find_barrier(name)) {
+    if (!check_count(name, count, 0, 0, location)) return error_value();
+    const bool group = rule->flags & (ir::kGroupMemory | ir::kGroupSync);
+    if (group && name != "AllMemoryBarrier") use_in_stages(name, ir::kStageCompute, location);
+    if (function_ && (rule->flags & ir::kGroupSync)) function_->has_barrier = true;
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kBarrier);
+    statement->barrier = rule->flags;
+    emit(statement);
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  if (is_pixel_function(name)) {
+    if (!check_count(name, count, 1, 1, location)) return error_value();
+    use_in_stages(name, 0, location);
+    if (name == "clip" || !is_number(arguments[0])) {
+      return rvalue(build_.int32(0), types_.void_type());
+    }
+    const Type* type = types_.with_scalar(arguments[0].type, Scalar::kFloat32);
+    return rvalue(build_.zero(type->ir), type);
+  }
+  if (name.find("Float") == std::string_view::npos) {
+    if (const AtomicRule* rule = find_atomic(name); rule && !name.ends_with("64")) {
+      return call_interlocked(*rule, arguments, location);
+    }
+  }
+  if (const auto wave = call_wave(name, arguments, location)) return wave;
+  const std::string_view family = unsupported_function(name);
+  if (!family.empty()) {
+    report(CheckId::kUnsupported, location,
+           {"'" + std::string(name) + "' (" + std::string(family) + ")"});
+    return error_value();
+  }
+  return std::nullopt;
+}
+
+Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& arguments,
+                          SourceLocation location) {
+  using S = IntrinsicShape;
+  const S shape = rule.shape;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (!is_number(arguments[i])) {
+      report(CheckId::kIntrinsicArgument, arguments[i].location,
+             {std::to_string(i + 1), std::string(rule.name), "a number",
+              arguments[i].type ? to_string(arguments[i].type) : "a resource"});
+      return error_value();
+    }
+  }
+  // One shape and scalar for all arguments; refract's last stands apart.
+  const size_t joined = shape == S::kRefract ? 2 : arguments.size();
+  const Type* type =
+      arguments[0].type->is_enum() ? types_.scalar(arguments[0].type->scalar) : arguments[0].type;
+  for (size_t i = 1; i < joined; ++i) {
+    bool truncates = false;
+    const Type* next = common_type(type, arguments[i].type, location, truncates);
+    if (!next) return error_value();
+    if (truncates) {
+      const bool first = type->components() > next->components();
+      report(CheckId::kTruncation, location,
+             {to_string(first ? type : arguments[i].type), to_string(next)});
+    }
+    type = next;
+  }
+  const bool matrix_operation = shape == S::kTranspose || shape == S::kDeterminant;
+  const bool floating_only = shape == S::kFloat || shape == S::kTest || shape == S::kLength ||
+                             shape == S::kDistance || shape == S::kVector || shape == S::kRefract ||
+                             shape == S::kCross || shape == S::kDeterminant || shape == S::kDst ||
+                             shape == S::kLit || shape == S::kFloatToHalf;
+  if (floating_only && (!is_floating(type->scalar) || is_literal(type->scalar))) {
+    type = types_.with_scalar(type, Scalar::kFloat32);
+  }
+  if (is_literal(type->scalar)) {
+    const bool big = arguments.size() == 1 && settle(arguments[0]).type->scalar == Scalar::kUint32;
+    type = big ? types_.with_scalar(type, Scalar::kUint32) : settled(type);
+  }
+  if (shape == S::kNumeric || shape == S::kSign || shape == S::kDot) {
+    if (type->scalar == Scalar::kBool) type = types_.with_scalar(type, Scalar::kInt32);
+  }
+  const auto refuse = [&](size_t index, std::string_view expected) {
+    report(CheckId::kIntrinsicArgument, arguments[index].location,
+           {std::to_string(index + 1), std::string(rule.name), std::string(expected),
+            to_string(arguments[index].type)});
+    return error_value();
+  };
+  const bool vectors_only = shape == S::kLength || shape == S::kDistance || shape == S::kVector ||
+                            shape == S::kRefract || shape == S::kDot;
+  if (vectors_only && type->is_matrix()) return refuse(0, "a vector");
+  if (matrix_operation && !type->is_matrix()) return refuse(0, "a matrix");
+  const Type* result = type;
+  switch (shape) {
+    case S::kUint:
+      if (is_floating(type->scalar)) return refuse(0, "an integer");
+      if (type->scalar == Scalar::kBool) type = types_.with_scalar(type, Scalar::kUint32);
+      result = types_.with_scalar(type, Scalar::kUint32);
+      if (rule.intrinsic == Intrinsic::reversebits) {
+        type = types_.with_scalar(
+            type, scalar_bytes(type->scalar) == 8 ? Scalar::kUint64 : Scalar::kUint32);
+        result = type;
+      }
+      if (rule.intrinsic == Intrinsic::countbits && scalar_bytes(type->scalar) == 4) {
+        type = result;
+      }
+      break;
+    case S::kSign:
+      result = types_.with_scalar(type, Scalar::kInt32);
+      break;
+    case S::kTest:
+      result = types_.with_scalar(type, Scalar::kBool);
+      break;
+    case S::kReduce:
+      type = types_.with_scalar(type, Scalar::kBool);
+      result = types_.boolean();
+      if (type->is_scalar()) return rvalue(convert(arguments[0], type, location), result);
+      break;
+    case S::kDot:
+    case S::kLength:
+    case S::kDistance:
+      result = types_.scalar(type->scalar);
+      break;
+    case S::kCross:
+      if (!type->is_vector() || type->columns < 3) return refuse(0, "a vector of 3");
+      type = result = types_.vector(type->scalar, 3);
+      break;
+    case S::kTranspose:
+      result = types_.matrix(type->scalar, type->columns, type->rows);
+      break;
+    case S::kDeterminant:
+      if (type->rows != type->columns) return refuse(0, "a square matrix");
+      result = types_.scalar(type->scalar);
+      break;
+    case S::kAsFloat:
+    case S::kAsInt:
+    case S::kAsUint: {
+      const bool fits = type->scalar == Scalar::kInt32 || type->scalar == Scalar::kUint32 ||
+                        type->scalar == Scalar::kFloat32;
+      if (!fits) return refuse(0, "components of 32 bits (int, uint or float)");
+      result = types_.with_scalar(type, shape == S::kAsFloat ? Scalar::kFloat32
+                                        : shape == S::kAsInt ? Scalar::kInt32
+                                                             : Scalar::kUint32);
+      if (same_type(type, result)) return rvalue(convert(arguments[0], type, location), type);
+      break;
+    }
+    case S::kAsFloat16:
+    case S::kAsInt16:
+    case S::kAsUint16:
+      if (scalar_bytes(type->scalar) != 2) return refuse(0, "components of 16 bits");
+      result = types_.with_scalar(type, shape == S::kAsFloat16 ? Scalar::kFloat16
+                                        : shape == S::kAsInt16 ? Scalar::kInt16
+                                                               : Scalar::kUint16);
+      if (same_type(type, result)) return rvalue(convert(arguments[0], type, location), type);
+      break;
+    case S::kHalfToFloat:
+      type = types_.with_scalar(type, Scalar::kUint32);
+      result = types_.with_scalar(type, Scalar::kFloat32);
+      break;
+    case S::kFloatToHalf:
+      type = types_.with_scalar(type, Scalar::kFloat32);
+      result = types_.with_scalar(type, Scalar::kUint32);
+      break;
+    case S::kDouble:
+      type = result = types_.with_scalar(type, Scalar::kFloat64);
+      break;
+    case S::kAsDouble:
+      type = types_.with_scalar(type, Scalar::kUint32);
+      if (type->is_matrix() || type->columns > 2) return refuse(0, "at most 2 components");
+      result = types_.with_scalar(type, Scalar::kFloat64);
+      break;
+    case S::kDst:
+      type = result = types_.vector(type->scalar, 4);
+      break;
+    case S::kLit:
+      type = types_.scalar(type->scalar);
+      result = types_.vector(type->scalar, 4);
+      break;
+    default:
+      break;
+  }
+  std::vector<const ir::Expr*> operands;
+  if (shape == S::kMsad4) {
+    const Type* uint_type = types_.scalar(Scalar::kUint32);
+    const Type* types[] = {uint_type, types_.vector(Scalar::kUint32, 2),
+                           types_.vector(Scalar::kUint32, 4)};
+    for (size_t i = 0; i < 3; ++i) {
+      operands.push_back(convert(arguments[i], types[i], arguments[i].location));
+    }
+    result = types[2];
+  } else {
+    for (size_t i = 0; i < arguments.size(); ++i) {
+      const Type* to = i < joined ? type : types_.scalar(type->scalar);
+      const ir::Expr* expr = load(arguments[i]);
+      if (!expr) return error_value();
+      const Type* from = arguments[i].type->is_enum() ? types_.scalar(arguments[i].type->scalar)
+                                                      : arguments[i].type;
+      if (!convertible_numeric(from, to, false)) return refuse(i, to_string(to));
+      operands.push_back(convert_numeric(expr, from, to));
+    }
+  }
+  for (const ir::Expr* operand : operands) {
+    if (!operand) return error_value();
+  }
+  at(location);
+  if (type->is_scalar()) {
+    // Vector functions on scalars come down to arithmetic.
+    const auto absolute = [&](const ir::Expr* value) {
+      return build_.intrinsic(Intrinsic::abs, type->ir, {value});
+    };
+    if (shape == S::kDot) {
+      return rvalue(build_.binary(ir::BinaryOp::kMultiply, operands[0], operands[1]), result);
+    }
+    if (shape == S::kLength) return rvalue(absolute(operands[0]), result);
+    if (shape == S::kDistance) {
+      return rvalue(absolute(build_.binary(ir::BinaryOp::kSubtract, operands[0], operands[1])),
+                    result);
+    }
+    if (rule.intrinsic == Intrinsic::normalize) {
+      const ir::Expr* value = repeatable(operands[0]);
+      return rvalue(build_.binary(ir::BinaryOp::kDivide, value, absolute(value)), result);
+    }
+  }
+  return rvalue(build_.intrinsic(rule.intrinsic, result->ir, std::move(operands)), result);
+}
+
+Value Lowerer::call_mul(std::vector<Value>& arguments, SourceLocation location) {
+  if (!check_count("mul", arguments.size(), 2, 2, location)) return error_value();
+  for (size_t i = 0; i < 2; ++i) {
+    if (!is_number(arguments[i])) {
+      report(CheckId::kIntrinsicArgument, arguments[i].location,
+             {std::to_string(i + 1), "mul", "a number, a vector or a matrix",
+              arguments[i].type ? to_string(arguments[i].type) : "a resource"});
+      return error_value();
+    }
+  }
+  const Type* a = arguments[0].type;
+  const Type* b = arguments[1].type;
+  Scalar scalar = common_scalar(a->scalar, b->scalar);
+  if (scalar == Scalar::kBool || scalar == Scalar::kLiteralInt) scalar = Scalar::kInt32;
+  if (scalar == Scalar::kLiteralFloat) scalar = Scalar::kFloat32;
+  const auto single = [](const Type* type) { return type->is_scalar() || type->is_enum(); };
+  if (single(a) || single(b)) {
+    const Type* type = types_.with_scalar(single(a) ? b : a, scalar);
+    const ir::Expr* left = convert(arguments[0], type, arguments[0].location);
+    const ir::Expr* right = convert(arguments[1], type, arguments[1].location);
+    if (!left || !right) return error_value();
+    return rvalue(build_.binary(ir::BinaryOp::kMultiply, left, right), type);
+  }
+  // A vector stands on the left as a row, on the right as a column.
+  const uint32_t inner_a = a->columns;
+  const uint32_t inner_b = b->is_matrix() ? b->rows : b->columns;
+  const uint32_t inner = std::min(inner_a, inner_b);
+  if (inner_a != inner_b) {
+    report(CheckId::kMulShape, location, {to_string(a), to_string(b), std::to_string(inner)});
+  }
+  const Type* left_type =
+      a->is_matrix() ? types_.matrix(scalar, a->rows, inner) : types_.vector(scalar, inner);
+  const Type* right_type =
+      b->is_matrix() ? types_.matrix(scalar, inner, b->columns) : types_.vector(scalar, inner);
+  const Type* result = a->is_matrix() && b->is_matrix() ? types_.matrix(scalar, a->rows, b->columns)
+                       : a->is_matrix()                 ? types_.vector(scalar, a->rows)
+                       : b->is_matrix()                 ? types_.vector(scalar, b->columns)
+                                                        : types_.scalar(scalar);
+  const ir::Expr* left = convert(arguments[0], left_type, arguments[0].location, true);
+  const ir::Expr* right = convert(arguments[1], right_type, arguments[1].location, true);
+  if (!left || !right) return error_value();
+  at(location);
+  const bool vectors = a->is_vector() && b->is_vector();
+  return rvalue(
+      build_.intrinsic(vectors ? Intrinsic::dot : Intrinsic::mul, result->ir, {left, right}),
+      result);
+}
+
+Value Lowerer::call_select(std::vector<Value>& arguments, SourceLocation location) {
+  if (!check_count("select", arguments.size(), 3, 3, location)) return error_value();
+  Value& condition = arguments[0];
+  if (!is_number(condition)) {
+    report(CheckId::kConditionType, location,
+           {condition.type ? to_string(condition.type) : "a resource"});
+    return error_value();
+  }
+  const Type* type = nullptr;
+  if (is_number(arguments[1]) && is_number(arguments[2])) {
+    bool truncates = false;
+    type = common_type(arguments[1].type, arguments[2].type, location, truncates);
+    if (!type) return error_value();
+    type = settled(type);
+    if (!condition.type->is_scalar() && type->is_scalar()) {
+      type = types_.with_scalar(condition.type, type->scalar);
+    }
+    if (!condition.type->is_scalar() && type->components() != condition.type->components()) {
+      report(CheckId::kNoCommonType, location, {to_string(condition.type), to_string(type)});
+      return error_value();
+    }
+  } else if (arguments[1].type && arguments[2].type &&
+             same_type(arguments[1].type, arguments[2].type) && condition.type->is_scalar()) {
+    type = arguments[1].type;
+  } else {
+    report(CheckId::kNoCommonType, location,
+           {arguments[1].type ? to_string(arguments[1].type) : "a resource",
+            arguments[2].type ? to_string(arguments[2].type) : "a resource"});
+    return error_value();
+  }
+  const Type* boolean = condition.type->is_enum()
+                            ? types_.boolean()
+                            : types_.with_scalar(condition.type, Scalar::kBool);
+  const ir::Expr* test = convert(condition, boolean, condition.location);
+  const ir::Expr* yes = convert(arguments[1], type, arguments[1].location, true);
+  const ir::Expr* no = convert(arguments[2], type, arguments[2].location, true);
+  if (!test || !yes || !no) return error_value();
+  at(location);
+  return rvalue(build_.expr(ir::ExprKind::kSelect, type->ir, {test, yes, no}), type);
+}
+
+Value Lowerer::call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location) {
+  if (!check_count(is_and ? "and" : "or", arguments.size(), 2, 2, location)) return error_value();
+  return binary_value(is_and ? BinaryOp::kLogicalAnd : BinaryOp::kLogicalOr, arguments[0],
+                      arguments[1], location);
+}
+
+Value Lowerer::call_with_outputs(std::string_view name, std::vector<Value>& arguments,
+                                 SourceLocation location) {
+  const size_t count = name == "sincos" || name == "asuint" ? 3 : 2;
+  if (!check_count(name, arguments.size(), count, count, location)) return error_value();
+  if (!is_number(arguments[0])) {
+    report(CheckId::kIntrinsicArgument, arguments[0].location,
+           {"1", std::string(name), "a number",
+            arguments[0].type ? to_string(arguments[0].type) : "a resource"});
+    return error_value();
+  }
+  for (size_t i = 1; i < count; ++i) {
+    if (!require_place(arguments[i], arguments[i].location,
+                       "an output of '" + std::string(name) + "'")) {
+      return error_value();
+    }
+  }
+  const bool is_double = name == "asuint";
+  Scalar scalar = arguments[0].type->scalar;
+  if (is_double) {
+    scalar = Scalar::kFloat64;
+  } else if (!is_floating(scalar) || is_literal(scalar)) {
+    scalar = Scalar::kFloat32;
+  }
+  const Type* type = types_.with_scalar(
+      arguments[0].type->is_enum() ? types_.scalar(scalar) : arguments[0].type, scalar);
+  const ir::Expr* input = convert(arguments[0], type, location);
+  if (!input) return error_value();
+  const ir::Expr* x = build_.read(temporary(input));
+  const auto put = [&](size_t index, Intrinsic part, const Type* part_type) {
+    const Value value = rvalue(build_.intrinsic(part, part_type->ir, {x}), part_type);
+    Value target = arguments[index];
+    size_t position = block().size();
+    freeze(target, &position);
+    store(target, convert(value, target.type, location, false));
+  };
+  const Type* void_type = types_.void_type();
+  if (name == "sincos") {
+    put(1, Intrinsic::sin, type);
+    put(2, Intrinsic::cos, type);
+    return rvalue(build_.int32(0), void_type);
+  }
+  if (name == "asuint") {
+    const Type* part = types_.with_scalar(type, Scalar::kUint32);
+    put(1, Intrinsic::asuint_low, part);
+    put(2, Intrinsic::asuint_high, part);
+    return rvalue(build_.int32(0), void_type);
+  }
+  const bool is_modf = name == "modf";
+  put(1, is_modf ? Intrinsic::modf_integer : Intrinsic::frexp_exponent, type);
+  at(location);
+  return rvalue(build_.intrinsic(is_modf ? Intrinsic::modf_fraction : Intrinsic::frexp_mantissa,
+                                 type->ir, {x}),
+                type);
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Which of several functions a call means: the one whose conversions are nowhere worse and
+// somewhere better than those of every other. [hlsl-subset 3.5]
+#include <algorithm>
+
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+
+std::string Lowerer::describe(const FunctionInfo& function) {
+  std::string text = function.result ? to_string(function.result) + " " : "";
+  text += function.qualified + "(";
+  if (function.is_template) return text + "..)";
+  for (size_t i = 0; i < function.parameters.size(); ++i) {
+    const ParameterInfo& parameter = function.parameters[i];
+    if (i > 0) text += ", ";
+    if (parameter.is_out) text += parameter.is_in ? "inout " : "out ";
+    text += to_string(parameter.type);
+  }
+  return text + ")";
+}
+
+std::string Lowerer::describe(const std::vector<Value>& arguments) {
+  std::string text = "(";
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (i > 0) text += ", ";
+    const Value& value = arguments[i];
+    text += value.type                           ? to_string(value.type)
+            : value.kind == ValueKind::kInitList ? "{..}"
+            : value.kind == ValueKind::kHeap     ? "a heap element"
+                                                 : "?";
+  }
+  return text + ")";
+}
+
+bool Lowerer::is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
+                        std::vector<uint32_t>& costs) {
+  const auto& parameters = function->parameters;
+  if (function->signature_failed || arguments.size() > parameters.size()) return false;
+  for (size_t i = arguments.size(); i < parameters.size(); ++i) {
+    if (!parameters[i].default_value) return false;
+  }
+  costs.clear();
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const Value& argument = arguments[i];
+    const ParameterInfo& parameter = parameters[i];
+    uint32_t cost = 0;
+    if (parameter.is_in) {
+      const ConversionRank in = rank(argument, parameter.type);
+      if (!in.possible) return false;
+      cost = in.cost();
+    }
+    if (parameter.is_out && !argument.failed()) {
+      if (!argument.type) return false;
+      const ConversionRank out = rank(parameter.type, argument.type);
+      if (!out.possible) return false;
+      cost = std::max(cost, out.cost());
+    }
+    costs.push_back(cost);
+  }
+  return true;
+}
+
+FunctionInfo* Lowerer::resolve_overload(const std::vector<FunctionInfo*>& candidates,
+                                        const NamePart& part, const std::vector<Value>& arguments,
+                                        SourceLocation location, bool quiet) {
+  struct Viable {
+    FunctionInfo* function;
+    std::vector<uint32_t> costs;
+    bool is_instance;
+  };
+  std::vector<Viable> viable;
+  for (FunctionInfo* candidate : candidates) {
+    if (candidate->sequence > checker_.visible_) continue;
+    FunctionInfo* function = candidate;
+    if (candidate->is_template) {
+      function =
+          checker_.instantiate_function(candidate, part.template_arguments, scope_, arguments);
+      if (!function) continue;
+    } else if (part.has_template_arguments) {
+      continue;
+    }
+    std::vector<uint32_t> costs;
+    if (is_viable(function, arguments, costs)) {
+      const bool repeated = std::any_of(viable.begin(), viable.end(), [&](const Viable& other) {
+        return other.function == function;
+      });
+      if (!repeated) viable.push_back({function, std::move(costs), candidate->is_template});
+    }
+  }
+  const auto better = [](const Viable& a, const Viable& b) {
+    bool somewhere = false;
+    for (size_t i = 0; i < a.costs.size(); ++i) {
+      if (a.costs[i] > b.costs[i]) return false;
+      somewhere = somewhere || a.costs[i] < b.costs[i];
+    }
+    return somewhere || (!a.is_instance && b.is_instance);
+  };
+  std::vector<const Viable*> best;
+  for (const Viable& one : viable) {
+    const bool beaten = std::any_of(viable.begin(), viable.end(), [&](const Viable& other) {
+      return &other != &one && better(other, one);
+    });
+    if (!beaten) best.push_back(&one);
+  }
+  if (best.size() == 1) return best[0]->function;
+  if (quiet) return nullptr;
+  const std::string name(part.identifier);
+  std::vector<std::pair<SourceLocation, std::string>> notes;
+  if (!best.empty()) {
+    for (const Viable* one : best) {
+      notes.push_back({one->function->decl->location, "candidate: " + describe(*one->function)});
+    }
+    checker_.report_with_notes(CheckId::kAmbiguousCall, location, {name, describe(arguments)},
+                               notes);
+    return nullptr;
+  }
+  for (FunctionInfo* candidate : candidates) {
+    if (notes.size() == 8) break;
+    const bool hidden = candidate->sequence > checker_.visible_;
+    notes.push_back({candidate->decl->location,
+                     (hidden ? "declared only here: " : "candidate: ") + describe(*candidate)});
+  }
+  checker_.report_with_notes(CheckId::kNoOverload, location, {name, describe(arguments)}, notes);
+  return nullptr;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+// Methods of textures and typed buffers. [hlsl-subset 3.12]
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+
+std::optional<Value> Lowerer::call_texture_method(const Value& object, const NamePart& part,
+                                                  std::vector<Value>& arguments,
+                                                  SourceLocation location) {
+  const std::string_view name = part.identifier;
+  const bool sampled = is_sampled_texture(object.type->resource);
+  if (name == "Load") return call_load(object, arguments, location);
+  if (!sampled) return std::nullopt;
+  if (name.starts_with("CalculateLevelOfDetail")) {
+    use_in_stages(
+        name.ends_with("Unclamped") ? "CalculateLevelOfDetailUnclamped" : "CalculateLevelOfDetail",
+        0, location);
+    const Type* type = types_.scalar(Scalar::kFloat32);
+    return rvalue(build_.zero(type->ir), type);
+  }
+  if (const SampleRule* rule = find_sample(name)) {
+    return call_sample(object, *rule, arguments, location);
+  }
+  if (name.starts_with("Gather") || name.starts_with("Sample")) {
+    report(CheckId::kUnsupported, location, {"'" + std::string(name) + "'"});
+    return error_value();
+  }
+  return std::nullopt;
+}
+
+Value Lowerer::call_load(const Value& object, std::vector<Value>& arguments,
+                         SourceLocation location) {
+  const Type* type = object.type;
+  const ResourceTraits& traits = traits_of(type->resource);
+  const bool sampled = is_sampled_texture(type->resource);
+  if (type->resource == ir::ResourceKind::kTextureCube ||
+      type->resource == ir::ResourceKind::kTextureCubeArray) {
+    report(CheckId::kNoSuchMethod, location, {std::string(traits.name), "Load"});
+    return error_value();
+  }
+  if (arguments.size() > 1 && !sampled) {
+    report(CheckId::kUnsupported, location, {"the status of a load (tiled resources)"});
+    return error_value();
+  }
+  if (!check_count("Load", arguments.size(), 1, sampled ? 2 : 1, location)) return error_value();
+  const ir::Expr* resource = load(object);
+  if (!resource) return error_value();
+  if (!sampled) {
+    const ir::Expr* coordinates =
+        to_vector(arguments[0], Scalar::kInt32, traits.coordinates, arguments[0].location);
+    if (!coordinates) return error_value();
+    Value value = texel(resource, type, coordinates, nullptr, true);
+    value.is_place = false;
+    return value;
+  }
+  // The last component of the location is the mip level.
+  const ir::Expr* all =
+      to_vector(arguments[0], Scalar::kInt32, traits.coordinates + 1u, arguments[0].location);
+  if (!all) return error_value();
+  at(location);
+  all = repeatable(all);
+  std::vector<uint8_t> components;
+  for (uint8_t i = 0; i < traits.coordinates; ++i) components.push_back(i);
+  const ir::Expr* coordinates = build_.swizzle(all, components);
+  const ir::Expr* mip = build_.swizzle(all, {traits.coordinates});
+  if (arguments.size() == 2) {
+    const uint32_t size = traits.coordinates - (traits.is_array ? 1u : 0u);
+    const ir::Expr* offset = to_vector(arguments[1], Scalar::kInt32, size, arguments[1].location);
+    if (!offset) return error_value();
+    at(location);
+    return rvalue(build_.expr(ir::ExprKind::kTypedLoad, type->element->ir,
+                              {resource, coordinates, mip, offset}),
+                  type->element);
+  }
+  Value value = texel(resource, type, coordinates, mip, true);
+  value.is_place = false;
+  return value;
+}
+
+Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
+                           std::vector<Value>& arguments, SourceLocation location) {
+  using F = SampleForm;
+  const Type* type = object.type;
+  const ResourceTraits& traits = traits_of(type->resource);
+  const uint32_t dimensions = traits.coordinates - (traits.is_array ? 1u : 0u);
+  const bool compares = rule.form == F::kCompare || rule.form == F::kCompareZero ||
+                        rule.form == F::kCompareLevel || rule.form == F::kGatherCompare;
+  const bool gathers = rule.form == F::kGather || rule.form == F::kGatherCompare;
+  const bool is_cube = type->resource == ir::ResourceKind::kTextureCube ||
+                       type->resource == ir::ResourceKind::kTextureCubeArray;
+  if (gathers && !is_cube && dimensions != 2) {
+    report(CheckId::kNoSuchMethod, location, {std::string(traits.name), std::string(rule.name)});
+    return error_value();
+  }
+  // Sampler, location, what the form asks for; then an offset, where the texture takes one.
+  size_t fixed = 2;
+  if (rule.form == F::kGradient || rule.form == F::kCompareLevel) {
+    fixed = 4;
+  } else if (rule.form != F::kSample && rule.form != F::kGather) {
+    fixed = 3;
+  }
+  const size_t extra = is_cube ? 0 : 1;
+  if (arguments.size() > fixed + extra) {
+    report(CheckId::kUnsupported, location,
+           {"a clamp, a status or several offsets in '" + std::string(rule.name) + "'"});
+    return error_value();
+  }
+  if (!check_count(rule.name, arguments.size(), fixed, fixed + extra, location)) {
+    return error_value();
+  }
+  const auto sampler_kind =
+      compares ? ir::ResourceKind::kSamplerComparison : ir::ResourceKind::kSampler;
+  const ir::Expr* resource = load(object);
+  const ir::Expr* sampler =
+      convert(arguments[0], types_.resource(sampler_kind, nullptr), arguments[0].location);
+  const ir::Expr* coordinates =
+      to_vector(arguments[1], Scalar::kFloat32, traits.coordinates, arguments[1].location);
+  if (!resource || !sampler || !coordinates) return error_value();
+  std::vector<const ir::Expr*> operands = {resource, sampler, coordinates};
+  const auto scalar_operand = [&](size_t index) {
+    operands.push_back(
+        convert(arguments[index], types_.scalar(Scalar::kFloat32), arguments[index].location));
+  };
+  const auto zero_level = [&] {
+    operands.push_back(build_.zero(types_.scalar(Scalar::kFloat32)->ir));
+  };
+  ir::SampleKind kind = ir::SampleKind::kLevel;
+  switch (rule.form) {
+    case F::kSample:
+    case F::kBias:
+      report(CheckId::kImplicitLevel, location, {std::string(rule.name)});
+      zero_level();
+      break;
+    case F::kLevel:
+      scalar_operand(2);
+      break;
+    case F::kGradient:
+      kind = ir::SampleKind::kGradient;
+      for (size_t i = 2; i < 4; ++i) {
+        operands.push_back(
+            to_vector(arguments[i], Scalar::kFloat32, dimensions, arguments[i].location));
+      }
+      break;
+    case F::kCompare:
+      report(CheckId::kImplicitLevel, location, {std::string(rule.name)});
+      [[fallthrough]];
+    case F::kCompareZero:
+      kind = ir::SampleKind::kCompareLevel;
+      scalar_operand(2);
+      zero_level();
+      break;
+    case F::kCompareLevel:
+      kind = ir::SampleKind::kCompareLevel;
+      scalar_operand(2);
+      scalar_operand(3);
+      break;
+    case F::kGather:
+      kind = ir::SampleKind::kGather;
+      break;
+    case F::kGatherCompare:
+      kind = ir::SampleKind::kGatherCompare;
+      scalar_operand(2);
+      break;
+  }
+  if (arguments.size() > fixed) {
+    operands.push_back(
+        to_vector(arguments[fixed], Scalar::kInt32, dimensions, arguments[fixed].location));
+  }
+  for (const ir::Expr* operand : operands) {
+    if (!operand) return error_value();
+  }
+  at(location);
+  const Type* result = gathers    ? types_.vector(type->element->scalar, 4)
+                       : compares ? types_.scalar(Scalar::kFloat32)
+                                  : type->element;
+  ir::Expr* node = build_.expr(ir::ExprKind::kSample, result->ir);
+  node->operands = std::move(operands);
+  node->sample = kind;
+  node->index = rule.component;
+  return rvalue(node, result);
+}
+
+Value Lowerer::call_dimensions(const Value& object, std::vector<Value>& arguments,
+                               SourceLocation location) {
+  using K = ir::ResourceKind;
+  const Type* type = object.type;
+  const ResourceTraits& traits = traits_of(type->resource);
+  // Which component of ir::ExprKind::kDimensions each output gets.
+  std::vector<uint8_t> outputs;
+  bool has_mips = is_sampled_texture(type->resource);
+  if (is_structured(type->resource)) {
+    outputs = {0, 1};
+  } else if (!is_texture(type->resource)) {
+    outputs = {0};
+  } else {
+    outputs = {0};
+    const uint32_t dimensions = traits.coordinates - (traits.is_array ? 1u : 0u);
+    if (dimensions >= 2) outputs.push_back(1);
+    if (type->resource == K::kTexture3D || type->resource == K::kRWTexture3D || traits.is_array) {
+      outputs.push_back(2);
+    }
+  }
+  const bool with_mip = has_mips && arguments.size() == outputs.size() + 2;
+  if (!with_mip &&
+      !check_count("GetDimensions", arguments.size(), outputs.size(), outputs.size(), location)) {
+    return error_value();
+  }
+  const ir::Expr* resource = load(object);
+  if (!resource) return error_value();
+  ir::Expr* node =
+      build_.expr(ir::ExprKind::kDimensions, types_.vector(Scalar::kUint32, 4)->ir, {resource});
+  if (has_mips) {
+    const ir::Expr* mip = build_.uint32(0);
+    if (with_mip) {
+      mip = convert(arguments[0], types_.scalar(Scalar::kUint32), arguments[0].location);
+      outputs.push_back(3);
+    }
+    if (!mip) return error_value();
+    node->operands.push_back(mip);
+  }
+  at(location);
+  const ir::Expr* all = build_.read(temporary(node));
+  for (size_t i = 0; i < outputs.size(); ++i) {
+    Value target = arguments[i + (with_mip ? 1 : 0)];
+    if (!require_place(target, target.location, "an output of GetDimensions")) {
+      return error_value();
+    }
+    const Value value = rvalue(build_.swizzle(all, {outputs[i]}), types_.scalar(Scalar::kUint32));
+    store(target, convert(value, target.type, target.location));
+  }
+  return rvalue(build_.int32(0), types_.void_type());
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: MIT
+// Warns where a shader reads a payload field that has no value there, and where what it writes is
+// lost. Follows the payload through calls; every path through a body counts.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "runtime/hlsl/check/checker.h"
+#include "runtime/hlsl/check/payload_access.h"
+#include "runtime/hlsl/ir/visit.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+enum FieldState : uint8_t {
+  kUndefined = 1,     // on some path
+  kAfterTrace = 2,    // and that because TraceRay did not return it
+  kMayBeWritten = 4,  // by the source, on some path
+  kMayBeLeft = 8,     // not written on some path
+};
+
+}  // namespace
+
+class Checker::PayloadUses {
+ public:
+  PayloadUses(Checker& checker, uint32_t stage)
+      : checker_(checker), stage_(payload_stage_of(stage)) {}
+
+  void check(const FunctionInfo& function) {
+    State state;
+    const ir::Variable* payload = nullptr;
+    if (stage_ != kPayloadCaller && !function.parameters.empty() &&
+        function.parameters[0].type->structure->is_payload) {
+      payload = function.ir->parameters[0];
+      Fields& fields = track(state, payload, *function.parameters[0].type->structure);
+      for (size_t i = 0; i < fields.leaves->size(); ++i) {
+        fields.states[i] = kMayBeLeft;
+        if (!((*fields.leaves)[i].access.read & stage_)) fields.states[i] |= kUndefined;
+      }
+      fields.of_stage = true;
+    }
+    const State end = walk_function(*function.ir, std::move(state));
+    if (!payload) return;
+    for (const auto& [leaf, location] : dropped_) {
+      // In a shader that hands its payload on, the next trace gets it.
+      if (passed_on_.count(leaf)) continue;
+      checker_.report(CheckId::kPayloadDropped, location,
+                      {std::string(leaf->field->name), payload_stage_name(stage_)});
+    }
+    const auto found = end.fields.find(payload);
+    if (found == end.fields.end()) return;
+    for (size_t i = 0; i < found->second.leaves->size(); ++i) {
+      const PayloadLeaf& leaf = (*found->second.leaves)[i];
+      const bool only_writes = (leaf.access.write & stage_) && !(leaf.access.read & stage_);
+      const bool written_before = leaf.access.write & (kPayloadCaller | kPayloadAnyHit);
+      if (only_writes && written_before && (found->second.states[i] & kMayBeLeft)) {
+        checker_.report(CheckId::kPayloadDataLoss, function.parameters[0].decl->location,
+                        {std::string(leaf.field->name), payload_stage_name(stage_)});
+      }
+    }
+  }
+
+ private:
+  struct Fields {
+    const std::vector<PayloadLeaf>* leaves = nullptr;
+    std::vector<uint8_t> states;  // FieldState
+    bool of_stage = false;        // the payload that the shader got
+    bool operator==(const Fields&) const = default;
+  };
+  struct State {
+    std::map<const ir::Variable*, Fields> fields;
+    bool reachable = true;
+  };
+  struct Jumps {
+    std::optional<State> out;
+  };
+
+  const std::vector<PayloadLeaf>* leaves_of(const StructInfo& structure) {
+    auto& leaves = leaves_[&structure];
+    if (leaves.empty()) leaves = payload_leaves(structure);
+    return &leaves;
+  }
+
+  Fields& track(State& state, const ir::Variable* variable, const StructInfo& structure) {
+    Fields& fields = state.fields[variable];
+    if (!fields.leaves) {
+      fields.leaves = leaves_of(structure);
+      fields.states.assign(fields.leaves->size(), kMayBeLeft);
+    }
+    return fields;
+  }
+
+  static void merge(State& into, const State& from) {
+    if (!from.reachable) return;
+    if (!into.reachable) {
+      into = from;
+      return;
+    }
+    for (const auto& [variable, fields] : from.fields) {
+      Fields& to = into.fields[variable];
+      if (!to.leaves) {
+        to = fields;
+        continue;
+      }
+      for (size_t i = 0; i < fields.states.size(); ++i) to.states[i] |= fields.states[i];
+    }
+  }
+  static void merge(std::optional<State>& into, const State& from) {
+    if (into) {
+      merge(*into, from);
+    } else {
+      into = from;
+    }
+  }
+
+  // The leaves that a chain of fields on a tracked variable selects: [first, last).
+  Fields* select(State& state, const ir::Expr* expr, size_t& first, size_t& last) {
+    std::vector<uint32_t> path;
+    for (; expr->kind != ir::ExprKind::kVariable; expr = expr->operands[0]) {
+      if (expr->kind == ir::ExprKind::kField) {
+        path.push_back(expr->index);
+      } else if (expr->kind == ir::ExprKind::kElement || expr->kind == ir::ExprKind::kSwizzle ||
+                 expr->kind == ir::ExprKind::kMatrixSwizzle) {
+        path.clear();  // inside of a leaf
+      } else {
+        return nullptr;
+      }
+    }
+    const auto found = state.fields.find(expr->variable);
+    if (found == state.fields.end()) return nullptr;
+    std::reverse(path.begin(), path.end());
+    const std::vector<PayloadLeaf>& leaves = *found->second.leaves;
+    const auto fits = [&](const PayloadLeaf& leaf) {
+      const size_t common = std::min(leaf.path.size(), path.size());
+      return std::equal(leaf.path.begin(), leaf.path.begin() + static_cast<ptrdiff_t>(common),
+                        path.begin());
+    };
+    first = 0;
+    while (first < leaves.size() && !fits(leaves[first])) ++first;
+    last = first;
+    while (last < leaves.size() && fits(leaves[last])) ++last;
+    return &found->second;
+  }
+
+  const SourceLocation* source_of(const ir::Expr* expr) const {
+    const auto found = checker_.lower_.payload_accesses_.find(expr);
+    return found == checker_.lower_.payload_accesses_.end() ? nullptr : &found->second;
+  }
+
+  void read(State& state, const ir::Expr* expr) {
+    if (!state.reachable) return;
+    ir::visit_expr(expr, [&](const ir::Expr& one) {
+      const SourceLocation* location = one.kind == ir::ExprKind::kField ? source_of(&one) : nullptr;
+      size_t first = 0;
+      size_t last = 0;
+      Fields* fields = location ? select(state, &one, first, last) : nullptr;
+      // A nested payload struct as a whole says nothing about its fields.
+      if (!fields || last != first + 1 || !(fields->states[first] & kUndefined)) return;
+      const std::string name((*fields->leaves)[first].field->name);
+      if (fields->states[first] & kAfterTrace) {
+        checker_.report(CheckId::kPayloadNotReturned, *location, {name});
+      } else {
+        checker_.report(CheckId::kPayloadUndefined, *location, {name, payload_stage_name(stage_)});
+      }
+    });
+  }
+
+  void write(State& state, const ir::Expr* place) {
+    if (!state.reachable) return;
+    const SourceLocation* location = nullptr;
+    for (const ir::Expr* one = place;
+         one->kind != ir::ExprKind::kVariable && !one->operands.empty(); one = one->operands[0]) {
+      if (one->kind == ir::ExprKind::kElement) read(state, one->operands[1]);
+      if (!location) location = source_of(one);
+    }
+    const bool whole = place->kind == ir::ExprKind::kVariable;
+    if (!location && !whole) return;  // of the compiler's own
+    size_t first = 0;
+    size_t last = 0;
+    Fields* fields = select(state, place, first, last);
+    if (!fields) return;
+    for (size_t i = first; i < last; ++i) {
+      const PayloadLeaf& leaf = (*fields->leaves)[i];
+      if (fields->of_stage && !whole && !(leaf.access.write & stage_)) {
+        dropped_.push_back({&leaf, *location});
+      }
+      // A struct that is set as a whole is initialised; that says nothing of its fields.
+      fields->states[i] = whole ? 0 : kMayBeWritten;
+    }
+  }
+
+  void trace(State& state, const ir::Stmt& stmt) {
+    const auto found = checker_.lower_.trace_payloads_.find(&stmt);
+    if (found == checker_.lower_.trace_payloads_.end() || !state.reachable) return;
+    const Lowerer::TracePayload& payload = found->second;
+    Fields& fields = track(state, payload.variable, *payload.structure);
+    for (size_t i = 0; i < fields.leaves->size(); ++i) {
+      const PayloadLeaf& leaf = (*fields.leaves)[i];
+      if (fields.of_stage && (leaf.access.write & kPayloadCaller)) passed_on_.insert(&leaf);
+      if (!(leaf.access.write & kPayloadCaller) && (fields.states[i] & kMayBeWritten)) {
+        checker_.report(CheckId::kPayloadNotPassed, payload.location,
+                        {std::string(leaf.field->name)});
+      }
+      const uint8_t left = fields.states[i] & kMayBeLeft;
+      fields.states[i] = leaf.access.read & kPayloadCaller ? left : left | kUndefined | kAfterTrace;
+    }
+  }
+
+  void call(State& state, const ir::Stmt& stmt) {
+    const ir::Function& callee = *stmt.function;
+    State inside;
+    for (size_t i = 0; i < stmt.arguments.size(); ++i) {
+      const ir::Expr* argument = stmt.arguments[i];
+      const auto found = argument->kind == ir::ExprKind::kVariable
+                             ? state.fields.find(argument->variable)
+                             : state.fields.end();
+      if (found == state.fields.end()) {
+        read(state, argument);
+        continue;
+      }
+      const ir::ParameterMode mode = callee.parameters[i]->mode;
+      Fields fields = found->second;
+      if (mode == ir::ParameterMode::kIn) fields.of_stage = false;
+      if (mode == ir::ParameterMode::kOut) {
+        for (uint8_t& one : fields.states) one &= static_cast<uint8_t>(~(kUndefined | kAfterTrace));
+      }
+      inside.fields[callee.parameters[i]] = std::move(fields);
+    }
+    if (!state.reachable) return;
+    const State after = walk_function(callee, inside);
+    for (size_t i = 0; i < stmt.arguments.size(); ++i) {
+      const auto found = after.fields.find(callee.parameters[i]);
+      if (found == after.fields.end() || !inside.fields.count(callee.parameters[i])) continue;
+      if (callee.parameters[i]->mode == ir::ParameterMode::kIn) continue;
+      state.fields[stmt.arguments[i]->variable].states = found->second.states;
+    }
+  }
+
+  State walk_function(const ir::Function& function, State state) {
+    Known& known = known_[&function];
+    for (const auto& [in, out] : known) {
+      if (in.fields == state.fields) return out;
+    }
+    const State in = state;
+    std::vector<Jumps> loops;
+    loops.swap(breaks_);
+    std::optional<State> outer;
+    outer.swap(returns_);
+    walk(function.body, state);
+    if (returns_) merge(state, *returns_);
+    returns_.swap(outer);
+    loops.swap(breaks_);
+    state.reachable = true;
+    known_[&function].emplace_back(in, state);
+    return state;
+  }
+
+  void walk(const ir::Block& block, State& state) {
+    for (const ir::Stmt* stmt : block) walk(*stmt, state);
+  }
+
+  void walk(const ir::Stmt& stmt, State& state) {
+    using ir::StmtKind;
+    if (stmt.kind == StmtKind::kCall) return call(state, stmt);
+    if (stmt.value) read(state, stmt.value);
+    if (stmt.compare) read(state, stmt.compare);
+    for (const ir::Expr* operand : stmt.operands) read(state, operand);
+    switch (stmt.kind) {
+      case StmtKind::kDeclare: {
+        const ir::Type* type = stmt.variable->type;
+        const auto found = checker_.payload_structs_.find(type->structure);
+        if (!state.reachable || found == checker_.payload_structs_.end()) break;
+        state.fields.erase(stmt.variable);
+        track(state, stmt.variable, *found->second);
+        break;
+      }
+      case StmtKind::kAssign:
+        write(state, stmt.place);
+        break;
+      case StmtKind::kTraceRay:
+        trace(state, stmt);
+        break;
+      case StmtKind::kBlock:
+        walk(stmt.body, state);
+        break;
+      case StmtKind::kIf: {
+        State other = state;
+        walk(stmt.body, state);
+        walk(stmt.orelse, other);
+        merge_branches(state, other);
+        break;
+      }
+      case StmtKind::kLoop:
+        loop(stmt, state);
+        break;
+      case StmtKind::kSwitch:
+        switches(stmt, state);
+        break;
+      case StmtKind::kBreak:
+        if (state.reachable && !breaks_.empty()) merge(breaks_.back().out, state);
+        state.reachable = false;
+        break;
+      case StmtKind::kContinue:
+        // What it skips is taken as not written behind the loop too.
+        if (state.reachable && !breaks_.empty()) merge(breaks_.back().out, state);
+        state.reachable = false;
+        break;
+      case StmtKind::kReturn:
+      case StmtKind::kIgnoreHit:
+      case StmtKind::kAcceptHitAndEndSearch:
+        if (state.reachable) merge(returns_, state);
+        state.reachable = false;
+        break;
+      default:
+        break;
+    }
+  }
+
+  static void merge_branches(State& state, const State& other) {
+    if (!state.reachable) {
+      const State kept = other;
+      state = kept;
+      return;
+    }
+    merge(state, other);
+  }
+
+  void loop(const ir::Stmt& stmt, State& state) {
+    // A second time with what the first leaves: a trace in the body may undo fields.
+    const int rounds = breaks_.size() < 4 ? 2 : 1;
+    for (int i = 0; i < rounds; ++i) {
+      State once = state;
+      breaks_.emplace_back();
+      if (!stmt.test_at_end) {
+        walk(stmt.prelude, once);
+        if (stmt.value) read(once, stmt.value);
+      }
+      walk(stmt.body, once);
+      walk(stmt.step, once);
+      if (stmt.test_at_end) walk(stmt.prelude, once);
+      const std::optional<State> left = std::move(breaks_.back().out);
+      breaks_.pop_back();
+      if (left) merge_branches(once, *left);
+      if (stmt.test_at_end) {
+        if (i + 1 == rounds || !once.reachable) {
+          state = once;
+        } else {
+          merge(state, once);
+        }
+      } else {
+        merge(state, once);
+      }
+    }
+  }
+
+  void switches(const ir::Stmt& stmt, State& state) {
+    const State start = state;
+    bool has_default = false;
+    breaks_.emplace_back();
+    state.reachable = false;
+    for (const ir::SwitchCase& one : stmt.cases) {
+      has_default = has_default || one.is_default;
+      merge_branches(state, start);
+      walk(one.body, state);
+    }
+    if (breaks_.back().out) merge_branches(state, *breaks_.back().out);
+    breaks_.pop_back();
+    if (!has_default) merge_branches(state, start);
+  }
+
+  using Known = std::vector<std::pair<State, State>>;
+  Checker& checker_;
+  const uint8_t stage_;
+  std::map<const StructInfo*, std::vector<PayloadLeaf>> leaves_;
+  std::map<const ir::Function*, Known> known_;
+  std::vector<std::pair<const PayloadLeaf*, SourceLocation>> dropped_;
+  std::set<const PayloadLeaf*> passed_on_;
+  std::vector<Jumps> breaks_;
+  std::optional<State> returns_;
+};
+
+void Checker::check_payload_uses() {
+  if (payload_structs_.empty()) return;
+  for (const auto& [function, index] : entries_) {
+    const uint32_t stage = module_->entry_points[index].stage;
+    if (function->ir) PayloadUses(*this, stage).check(*function);
+  }
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+// From types as written to types.
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+constexpr int64_t kMaxArrayElements = 1 << 24;
+constexpr int64_t kAllRayFlags = 0x3FF;
+
+}  // namespace
+
+Scalar Checker::scalar_of(ScalarKind kind, SourceLocation location) {
+  const bool native = options_.native_16bit;
+  const auto native_only = [&](Scalar scalar, std::string_view name) {
+    if (!native) report(CheckId::kNeeds16Bit, location, {std::string(name)});
+    return scalar;
+  };
+  switch (kind) {
+    case ScalarKind::kBool:
+      return Scalar::kBool;
+    case ScalarKind::kInt:
+      return Scalar::kInt32;
+    case ScalarKind::kUint:
+      return Scalar::kUint32;
+    case ScalarKind::kHalf:
+    case ScalarKind::kMin10Float:
+    case ScalarKind::kMin16Float:
+      return native ? Scalar::kFloat16 : Scalar::kFloat32;
+    case ScalarKind::kFloat:
+      return Scalar::kFloat32;
+    case ScalarKind::kDouble:
+      return Scalar::kFloat64;
+    case ScalarKind::kInt16:
+      return native_only(Scalar::kInt16, "int16_t");
+    case ScalarKind::kUint16:
+      return native_only(Scalar::kUint16, "uint16_t");
+    case ScalarKind::kFloat16:
+      return native_only(Scalar::kFloat16, "float16_t");
+    case ScalarKind::kInt64:
+      return Scalar::kInt64;
+    case ScalarKind::kUint64:
+      return Scalar::kUint64;
+    case ScalarKind::kMin12Int:
+    case ScalarKind::kMin16Int:
+      return native ? Scalar::kInt16 : Scalar::kInt32;
+    case ScalarKind::kMin16Uint:
+      return native ? Scalar::kUint16 : Scalar::kUint32;
+  }
+  return Scalar::kInt32;
+}
+
+bool Checker::is_const_type(const TypeSyntax* syntax) {
+  for (; syntax; syntax = syntax->element) {
+    if (syntax->modifiers & kModConst) return true;
+  }
+  return false;
+}
+
+const Type* Checker::apply_storage(const Type* type, Modifiers modifiers) {
+  const bool row = (modifiers & kModRowMajor) != 0;
+  const bool column = (modifiers & kModColumnMajor) != 0;
+  if (!row && !column) return type;
+  if (type->is_matrix()) {
+    return types_.matrix(type->scalar, type->rows, type->columns, row);
+  }
+  if (type->is_array()) {
+    return types_.array(apply_storage(type->element, modifiers), type->count);
+  }
+  return type;
+}
+
+const Type* Checker::resolve_type(const TypeSyntax* syntax, Scope* scope) {
+  if (!syntax) return types_.error();
+  switch (syntax->kind) {
+    case TypeSyntaxKind::kError:
+      return types_.error();
+    case TypeSyntaxKind::kVoid:
+      return types_.void_type();
+    case TypeSyntaxKind::kNumeric: {
+      const Scalar scalar = scalar_of(syntax->scalar, syntax->location);
+      const bool row_major = syntax->modifiers & kModRowMajor
+                                 ? true
+                                 : options_.row_major && !(syntax->modifiers & kModColumnMajor);
+      return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
+    }
+    case TypeSyntaxKind::kNamed:
+      return apply_storage(resolve_named(syntax, scope), syntax->modifiers);
+    case TypeSyntaxKind::kDefinition: {
+      if (!syntax->definition) return types_.error();
+      const auto found = declared_types_.find(syntax->definition);
+      if (found != declared_types_.end()) return found->second;
+      declare(syntax->definition, scope);
+      const auto again = declared_types_.find(syntax->definition);
+      return again == declared_types_.end() ? types_.error() : again->second;
+    }
+    case TypeSyntaxKind::kArray:
+      return resolve_array(syntax, scope);
+  }
+  return types_.error();
+}
+
+const Type* Checker::resolve_array(const TypeSyntax* syntax, Scope* scope) {
+  if (lower_.depth_ > 200) return types_.error();
+  ++lower_.depth_;
+  const Type* element = resolve_type(syntax->element, scope);
+  --lower_.depth_;
+  element = apply_storage(element, syntax->modifiers);
+  if (element->is_error()) return element;
+  if (element->is_void()) {
+    report(CheckId::kVoidVariable, syntax->location, {"an array of void"});
+    return types_.error();
+  }
+  if (element->is_array() && element->count == 0) {
+    report(CheckId::kInnerUnbounded, syntax->location);
+    return types_.error();
+  }
+  if (!syntax->array_size) return types_.array(element, 0);
+  const auto size = constant_integer(syntax->array_size, scope, "the size of an array");
+  if (!size) return types_.error();
+  const int64_t inner = static_cast<int64_t>(flat_component_count(element));
+  if (*size < 1 || *size > kMaxArrayElements || *size * inner > kMaxArrayElements) {
+    report(CheckId::kArraySize, syntax->array_size->location,
+           {std::to_string(*size), std::to_string(kMaxArrayElements)});
+    return types_.error();
+  }
+  return types_.array(element, static_cast<uint32_t>(*size));
+}
+
+const Type* Checker::resolve_named(const TypeSyntax* syntax, Scope* scope) {
+  const QualifiedName& name = *syntax->name;
+  Symbol* symbol = resolve_name(name, scope, true);
+  if (!symbol) {
+    if (name.is_simple()) {
+      if (const Type* type = resolve_builtin(name.last(), syntax->location, scope)) return type;
+      const std::string_view reason = unsupported_type(name.last().identifier);
+      if (!reason.empty()) {
+        report(CheckId::kUnsupported, syntax->location,
+               {"'" + std::string(name.last().identifier) + "' (" + std::string(reason) + ")"});
+        return types_.error();
+      }
+    }
+    resolve_name(name, scope, false);
+    return types_.error();
+  }
+  switch (symbol->kind) {
+    case SymbolKind::kType:
+      if (StructTemplate* own = template_of(symbol, name.last())) {
+        StructInfo* info = instantiate_struct(own, name.last(), syntax->location, scope);
+        return info ? info->type : types_.error();
+      }
+      if (name.last().has_template_arguments) {
+        report(CheckId::kNotATemplate, syntax->location, {spell(name)});
+        return types_.error();
+      }
+      return symbol->type;
+    case SymbolKind::kStructTemplate: {
+      StructInfo* info =
+          instantiate_struct(symbol->struct_template, name.last(), syntax->location, scope);
+      return info ? info->type : types_.error();
+    }
+    case SymbolKind::kAliasTemplate:
+      return instantiate_alias(symbol->alias, symbol->scope, name.last(), scope);
+    default:
+      report(CheckId::kNotAType, syntax->location, {spell(name)});
+      return types_.error();
+  }
+}
+
+const Type* Checker::type_argument(const TemplateArgument& argument, Scope* scope) {
+  if (argument.type) return resolve_type(argument.type, scope);
+  // The parser takes a name that it does not know as a type for a value.
+  if (const auto* name = as<NameExpr>(argument.value)) {
+    Symbol* symbol = resolve_name(*name->name, scope, true);
+    if (symbol && symbol->kind == SymbolKind::kType) return symbol->type;
+  }
+  report(CheckId::kTypeArgument, argument.location);
+  return types_.error();
+}
+
+std::optional<int64_t> Checker::value_argument(const TemplateArgument& argument, Scope* scope) {
+  if (argument.value) return constant_integer(argument.value, scope, "a template argument");
+  if (argument.type && argument.type->kind == TypeSyntaxKind::kNamed) {
+    Symbol* symbol = resolve_name(*argument.type->name, scope, true);
+    if (symbol && symbol->kind == SymbolKind::kConstant && symbol->value) {
+      const auto value = evaluate(symbol->value);
+      if (value) return static_cast<int64_t>((*value)[0]);
+    }
+  }
+  report(CheckId::kValueArgument, argument.location);
+  return std::nullopt;
+}
+
+const Type* Checker::resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const bool is_vector = part.identifier == "vector";
+  if (is_vector || part.identifier == "matrix") {
+    Scalar scalar = Scalar::kFloat32;
+    int64_t sizes[2] = {4, 4};
+    if (!arguments.empty()) {
+      const Type* element = type_argument(arguments[0], scope);
+      if (element->is_error()) return element;
+      if (!element->is_scalar()) {
+        report(CheckId::kVectorElement, arguments[0].location, {to_string(element)});
+        return types_.error();
+      }
+      scalar = element->scalar;
+    }
+    const size_t dimensions = is_vector ? 1 : 2;
+    if (arguments.size() > dimensions + 1) {
+      report(CheckId::kTemplateCount, location,
+             {std::string(part.identifier), std::to_string(dimensions + 1),
+              std::to_string(arguments.size())});
+      return types_.error();
+    }
+    for (size_t i = 1; i < arguments.size(); ++i) {
+      const auto size = value_argument(arguments[i], scope);
+      if (!size) return types_.error();
+      if (*size < 1 || *size > 4) {
+        report(CheckId::kVectorSize, arguments[i].location, {std::to_string(*size)});
+        return types_.error();
+      }
+      sizes[i - 1] = *size;
+    }
+    if (is_vector) return types_.vector(scalar, static_cast<uint32_t>(sizes[0]));
+    return types_.matrix(scalar, static_cast<uint32_t>(sizes[0]), static_cast<uint32_t>(sizes[1]),
+                         options_.row_major);
+  }
+  if (part.identifier == "string") return types_.string();
+  const ResourceTraits* traits = find_resource(part.identifier);
+  return traits ? resolve_resource(*traits, part, scope) : nullptr;
+}
+
+const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePart& part,
+                                      Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  if (traits.kind == ir::ResourceKind::kRayQuery) return resolve_ray_query(part, scope);
+  if (traits.element == ElementRule::kNone) {
+    if (!arguments.empty()) report(CheckId::kNotATemplate, part.location, {name});
+    return types_.resource(traits.kind, nullptr);
+  }
+  if (arguments.empty()) {
+    if (traits.element == ElementRule::kTexel) {
+      return types_.resource(traits.kind, types_.vector(Scalar::kFloat32, 4), false);
+    }
+    report(CheckId::kMissingElement, part.location, {name});
+    return types_.error();
+  }
+  const Type* element = type_argument(arguments[0], scope);
+  if (element->is_error()) return element;
+  if (arguments.size() > 1) {
+    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+    return types_.error();
+  }
+  const bool texel = traits.element != ElementRule::kStruct;
+  const bool fits = texel ? (element->is_scalar() || element->is_vector())
+                    : traits.kind == ir::ResourceKind::kConstantBuffer
+                        ? element->is_struct()
+                        : (element->is_numeric() || element->is_struct() || element->is_enum() ||
+                           element->is_array());
+  if (!fits || contains_resource(element)) {
+    report(CheckId::kElementType, arguments[0].location,
+           {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
+    return types_.error();
+  }
+  if (texel && element->scalar == Scalar::kFloat64) {
+    report(CheckId::kElementType, arguments[0].location,
+           {name, "components of at most 32 bits", to_string(element)});
+    return types_.error();
+  }
+  return types_.resource(traits.kind, element);
+}
+
+const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
+  const auto arguments = part.template_arguments;
+  const std::string name(part.identifier);
+  if (arguments.size() != 1) {
+    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+    return types_.error();
+  }
+  const auto flags = value_argument(arguments[0], scope);
+  if (!flags) return types_.error();
+  if (*flags < 0 || *flags > kAllRayFlags) {
+    report(CheckId::kRayQueryFlags, arguments[0].location, {std::to_string(*flags)});
+    return types_.error();
+  }
+  return types_.ray_query(static_cast<uint32_t>(*flags));
+}
+
+std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* scope,
+                                                 std::string_view purpose) {
+  ir::Block ignored;
+  Lowerer::BodyScope body(lower_, lower_.function_, &ignored, scope);
+  lower_.this_variable_ = nullptr;
+  at(expression->location);
+  Value value = lower_.lower(expression);
+  if (value.failed()) return std::nullopt;
+  if (!value.type) {  // a heap, an initialiser list: no value yet
+    report(CheckId::kNotConstant, expression->location, {std::string(purpose)});
+    return std::nullopt;
+  }
+  if (!(value.type->is_scalar() || value.type->is_enum())) {
+    report(CheckId::kNotAnInteger, expression->location,
+           {std::string(purpose), to_string(value.type)});
+    return std::nullopt;
+  }
+  const ir::Expr* loaded = lower_.load(value);
+  const auto bits = loaded ? evaluate(loaded) : std::nullopt;
+  if (!bits || !ignored.empty()) {
+    report(CheckId::kNotConstant, expression->location, {std::string(purpose)});
+    return std::nullopt;
+  }
+  if (value.type->is_scalar() && is_floating(value.type->scalar)) {
+    report(CheckId::kNotAnInteger, expression->location,
+           {std::string(purpose), to_string(value.type)});
+    return std::nullopt;
+  }
+  return static_cast<int64_t>((*bits)[0]);
+}
+
+}  // namespace kaamos::hlsl

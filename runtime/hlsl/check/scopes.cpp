@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+// Letters to change, add or leave out.
+size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t i = 0; i <= b.size(); ++i) row[i] = i;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+// What the writer of an unknown name may have meant; empty: no idea.
+std::string Checker::similar_name(std::string_view text, Scope* scope, bool with_outer) {
+  if (text.size() > 64) return {};
+  size_t best = (text.size() <= 4 ? 1 : 2) + 1;
+  std::string_view result;
+  const auto offer = [&](std::string_view candidate) {
+    if (candidate.size() > text.size() + 2 || text.size() > candidate.size() + 2) return;
+    const size_t found = edit_distance(text, candidate);
+    // Equal ones by name, so that the answer does not depend on the order of a hash table.
+    const bool is_better = found < best || (found == best && candidate < result);
+    if (!is_better) return;
+    best = found;
+    result = candidate;
+  };
+  for (Scope* at = scope; at; at = with_outer ? at->parent : nullptr) {
+    for (const auto& [name, symbol] : at->symbols) {
+      if (symbol->sequence <= visible_) offer(name);
+    }
+    if (at->structure && at->structure->base) {
+      for (const auto& [name, symbol] : at->structure->base->scope->symbols) offer(name);
+    }
+  }
+  if (with_outer) {
+    for (const std::string_view name : builtin_function_names()) offer(name);
+  }
+  return std::string(result);
+}
+
+void Checker::report_unknown(CheckId id, SourceLocation location,
+                             const std::vector<std::string>& arguments, std::string_view text,
+                             Scope* scope, bool with_outer) {
+  const std::string similar = similar_name(text, scope, with_outer);
+  if (similar.empty()) {
+    report_with_notes(id, location, arguments, {});
+  } else {
+    report_with_notes(id, location, arguments, {{location, "did you mean '" + similar + "'?"}});
+  }
+}
+
+Scope* Checker::make_scope(ScopeKind kind, Scope* parent, std::string_view name) {
+  Scope* scope = &scopes_.emplace_back();
+  scope->kind = kind;
+  scope->parent = parent;
+  if (kind == ScopeKind::kBlock) return scope;
+  scope->name = name.empty() && parent ? parent->name
+                : parent               ? qualify(parent, name)
+                                       : std::string(name);
+  return scope;
+}
+
+std::string Checker::qualify(const Scope* scope, std::string_view name) {
+  while (scope && scope->kind == ScopeKind::kBlock) scope = scope->parent;
+  if (!scope || scope->name.empty()) return std::string(name);
+  return scope->name + "::" + std::string(name);
+}
+
+std::string Checker::spell(const QualifiedName& name) {
+  std::string text = name.is_global ? "::" : "";
+  for (const NamePart& part : name.parts) {
+    if (&part != name.parts.data()) text += "::";
+    text += part.identifier;
+  }
+  return text;
+}
+
+Symbol* Checker::add_symbol(Scope* scope, SymbolKind kind, std::string_view name,
+                            SourceLocation location) {
+  Symbol* symbol = &symbols_.emplace_back();
+  symbol->kind = kind;
+  symbol->name = name;
+  symbol->location = location;
+  const bool ordered = scope->kind == ScopeKind::kGlobal || scope->kind == ScopeKind::kNamespace;
+  symbol->sequence = ordered && location.is_valid() ? ++sequence_ : 0;
+  if (!name.empty()) scope->symbols[name] = symbol;
+  return symbol;
+}
+
+Symbol* Checker::find_local(Scope* scope, std::string_view name) {
+  const auto found = scope->symbols.find(name);
+  return found == scope->symbols.end() ? nullptr : found->second;
+}
+
+Symbol* Checker::find_in_scope(Scope* scope, std::string_view name, bool check_order) {
+  Symbol* symbol = find_local(scope, name);
+  if (symbol && (!check_order || symbol->sequence <= visible_)) return symbol;
+  if (scope->structure && scope->structure->base) {
+    if (Symbol* inherited = find_member(scope->structure->base, name)) return inherited;
+  }
+  for (Scope* used : scope->used) {
+    Symbol* found = find_local(used, name);
+    if (found && (!check_order || found->sequence <= visible_)) return found;
+  }
+  return nullptr;
+}
+
+Symbol* Checker::find_member(StructInfo* structure, std::string_view name) {
+  for (StructInfo* info = structure; info; info = info->base) {
+    if (Symbol* symbol = find_local(info->scope, name)) return symbol;
+  }
+  return nullptr;
+}
+
+Symbol* Checker::find(Scope* scope, std::string_view name) {
+  for (Scope* at_scope = scope; at_scope; at_scope = at_scope->parent) {
+    if (Symbol* symbol = find_in_scope(at_scope, name, true)) return symbol;
+  }
+  return nullptr;
+}
+
+// The scope that stands in front of `::`.
+Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope) {
+  switch (symbol->kind) {
+    case SymbolKind::kNamespace:
+      return symbol->scope;
+    case SymbolKind::kType:
+      if (StructTemplate* own = template_of(symbol, part)) {
+        StructInfo* info = instantiate_struct(own, part, part.location, scope);
+        return info ? info->scope : nullptr;
+      }
+      if (symbol->scope) return symbol->scope;
+      return symbol->type->is_struct() ? symbol->type->structure->scope : nullptr;
+    case SymbolKind::kStructTemplate: {
+      StructInfo* info = instantiate_struct(symbol->struct_template, part, part.location, scope);
+      return info ? info->scope : nullptr;
+    }
+    default:
+      return nullptr;
+  }
+}
+
+Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quiet) {
+  Scope* in = name.is_global ? global_ : nullptr;
+  Symbol* symbol = nullptr;
+  for (const NamePart& part : name.parts) {
+    symbol = in ? find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
+                : find(scope, part.identifier);
+    if (!symbol) {
+      if (!quiet) {
+        const std::string where = in && in != global_ ? " in '" + in->name + "'" : "";
+        report_unknown(CheckId::kUndeclared, part.location, {std::string(part.identifier), where},
+                       part.identifier, in ? in : scope, in == nullptr);
+      }
+      return nullptr;
+    }
+    if (&part == &name.parts.back()) break;
+    in = scope_of_part(part, symbol, scope);
+    if (!in) {
+      if (!quiet) report(CheckId::kNotAScope, part.location, {std::string(part.identifier)});
+      return nullptr;
+    }
+  }
+  return symbol;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+
+StructInfo* Checker::make_struct(const StructDecl* decl, Scope* parent, const std::string& name) {
+  StructInfo* info = &structs_.emplace_back();
+  info->decl = decl;
+  info->name = qualify(parent, name);
+  info->ir = &module_->struct_pool.emplace_back();
+  // Structs of two functions, or of two libraries' headers, may share a name.
+  std::string unique = info->name;
+  for (int i = 2; !struct_names_.insert(unique).second; ++i) {
+    unique = info->name + "#" + std::to_string(i);
+  }
+  info->ir->name = unique;
+  if (decl) info->ir->location = locate(decl->location);
+  info->scope = make_scope(ScopeKind::kStruct, parent, name);
+  info->scope->structure = info;
+  types_.structure(info);
+  return info;
+}
+
+void Checker::declare_struct(const StructDecl* decl, Scope* scope) {
+  Symbol* symbol = decl->name.empty() ? nullptr : find_local(scope, decl->name);
+  if (decl->is_template) {
+    if (symbol && symbol->kind == SymbolKind::kStructTemplate) {
+      if (!decl->is_definition) return;
+      if (symbol->struct_template->decl->is_definition) {
+        report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+        return;
+      }
+      symbol->struct_template->decl = decl;
+      return;
+    }
+    StructTemplate* entry = &struct_templates_.emplace_back();
+    entry->decl = decl;
+    entry->scope = scope;
+    entry->name = decl->name;
+    add_symbol(scope, SymbolKind::kStructTemplate, decl->name, decl->location)->struct_template =
+        entry;
+    return;
+  }
+  StructInfo* info = nullptr;
+  if (symbol) {
+    const bool is_forward = symbol->kind == SymbolKind::kType && symbol->type->is_struct() &&
+                            !symbol->type->structure->complete && symbol->type->structure->decl &&
+                            !symbol->type->structure->decl->is_definition;
+    const bool repeats =
+        symbol->kind == SymbolKind::kType && symbol->type->is_struct() && !decl->is_definition;
+    if (repeats) {
+      declared_types_[decl] = symbol->type;
+      return;
+    }
+    if (!is_forward) {
+      report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
+      return;
+    }
+    info = symbol->type->structure;
+    info->decl = decl;
+  } else {
+    const std::string name = decl->name.empty() ? "anonymous_" + std::to_string(structs_.size())
+                                                : std::string(decl->name);
+    info = make_struct(decl, scope, name);
+    if (!decl->name.empty()) {
+      symbol = add_symbol(scope, SymbolKind::kType, decl->name, decl->location);
+      symbol->type = info->type;
+      symbol->scope = info->scope;
+    }
+  }
+  declared_types_[decl] = info->type;
+  if (decl->is_definition) complete_struct(info);
+}
+
+void Checker::complete_struct(StructInfo* info) {
+  const StructDecl* decl = info->decl;
+  if (!decl->name.empty()) {
+    Symbol* injected = add_symbol(info->scope, SymbolKind::kType, decl->name, {});
+    injected->type = info->type;
+    injected->scope = info->scope;
+  }
+  for (const TypeSyntax* base_syntax : decl->bases) {
+    const Type* base = resolve_type(base_syntax, info->scope->parent);
+    if (base->is_error()) continue;
+    if (!base->is_struct() || !base->structure->complete || base->structure == info) {
+      report(CheckId::kBadBase, base_syntax->location, {to_string(base)});
+    } else if (info->base) {
+      report(CheckId::kUnsupported, base_syntax->location, {"more than one base struct"});
+    } else {
+      info->base = base->structure;
+      ir::Field& field = info->ir->fields.emplace_back();
+      field.name = "base";
+      field.type = base->ir;
+    }
+  }
+  for (const Decl* member : decl->members) declare_member(info, member);
+  info->complete = true;
+  check_payload_struct(info);
+}
+
+void Checker::declare_member(StructInfo* info, const Decl* member) {
+  const auto* variable = as<VariableDecl>(member);
+  if (const auto* function = as<FunctionDecl>(member)) {
+    declare_function(function, info->scope, info);
+    return;
+  }
+  if (!variable) {
+    declare(member, info->scope);
+    return;
+  }
+  const Type* type = resolve_type(variable->type, info->scope);
+  if (!check_variable_type(type, variable->location, variable->name)) type = types_.error();
+  if (type->is_query()) {
+    report(CheckId::kRayQueryPlace, variable->location, {to_string(type), "a member of a struct"});
+    type = types_.error();
+  }
+  if (find_local(info->scope, variable->name)) {
+    report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
+    return;
+  }
+  if (variable->modifiers & kModStatic) {
+    declare_static(variable, type, info->scope);
+    return;
+  }
+  if (type->is_array() && type->count == 0) {
+    report(CheckId::kUnboundedVariable, variable->location, {std::string(variable->name)});
+    type = types_.error();
+  }
+  if (variable->initializer) {
+    report(CheckId::kMemberInitialiser, variable->location, {std::string(variable->name)});
+  }
+  FieldInfo& field = info->fields.emplace_back();
+  field.name = variable->name;
+  field.type = type;
+  field.decl = variable;
+  field.index = static_cast<uint32_t>(info->ir->fields.size());
+  ir::Field& ir_field = info->ir->fields.emplace_back();
+  ir_field.name = variable->name;
+  // An unknown type takes the place of a float, so that the struct stays usable in messages.
+  ir_field.type = type->is_error() ? types_.scalar(Scalar::kFloat32)->ir : type->ir;
+  const Type* element = type;
+  while (element->is_array()) element = element->element;
+  ir_field.row_major = element->is_matrix() && element->row_major;
+  Symbol* symbol = add_symbol(info->scope, SymbolKind::kField, variable->name, {});
+  symbol->field = static_cast<uint32_t>(info->fields.size() - 1);
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// What the checker knows about names: bindings, variables, functions, scopes; and the values that
+// expressions come to.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/hlsl/check/types.h"
+#include "runtime/hlsl/front/ast.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+struct BindingInfo {
+  std::string name;
+  const Type* type = nullptr;  // resource, or an array of them
+  bool is_array = false;
+  uint64_t count = 1;
+  uint8_t register_class = 0;
+  bool has_register = false;
+  uint32_t register_index = 0;
+  bool has_space = false;
+  uint32_t space = 0;
+  uint32_t size_bytes = 0;
+  SourceLocation location;
+  bool reachable = false;
+  uint32_t index = 0;  // in Module::bindings, once that is known
+  std::vector<ir::Expr*> uses;
+};
+
+enum class VariableKind : uint8_t { kLocal, kGlobal, kBufferMember, kBinding };
+
+struct FunctionInfo;
+
+struct VariableInfo {
+  VariableKind kind = VariableKind::kLocal;
+  std::string_view name;
+  const Type* type = nullptr;
+  bool is_const = false;
+  ir::Variable* variable = nullptr;
+  BindingInfo* binding = nullptr;      // kBufferMember, kBinding
+  uint32_t offset = 0;                 // kBufferMember
+  const ir::Expr* constant = nullptr;  // kLocal: a const scalar whose value is known
+  // kGlobal: the initialiser is lowered at the first use.
+  const VariableDecl* decl = nullptr;
+  Scope* scope = nullptr;
+  uint32_t sequence = 0;
+  enum class State : uint8_t { kPending, kRunning, kDone } state = State::kDone;
+  ir::Block start_up;  // what initialises it at the start of a shader, if an expression cannot
+  std::unique_ptr<FunctionInfo> initialiser_facts;
+};
+
+struct ParameterInfo {
+  std::string_view name;
+  const Type* type = nullptr;
+  bool is_in = true;
+  bool is_out = false;
+  bool is_const = false;
+  const ParameterDecl* decl = nullptr;
+  const Expr* default_value = nullptr;
+};
+
+// Something that only some stages may do.
+struct StageUse {
+  SourceLocation location;
+  std::string_view name;
+  uint32_t stages = 0;  // ir::StageBits
+};
+
+// An argument of a template: a type, or a value of a scalar type.
+struct TemplateValue {
+  const Type* type = nullptr;
+  const ir::Expr* value = nullptr;
+  const Type* value_type = nullptr;
+  bool is_set() const { return type || value; }
+};
+using TemplateValues = std::vector<TemplateValue>;
+
+struct FunctionInfo {
+  std::string_view name;
+  std::string qualified;
+  const FunctionDecl* decl = nullptr;
+  const FunctionDecl* definition = nullptr;
+  Scope* scope = nullptr;  // what its parameters' types and its body see
+  StructInfo* owner = nullptr;
+  bool is_static = false;
+  bool is_const_method = false;
+  bool is_exported = false;
+  std::vector<ParameterInfo> parameters;
+  const Type* result = nullptr;
+  uint32_t sequence = 0;
+  uint32_t body_sequence = 0;
+  bool signature_failed = false;
+
+  bool is_template = false;
+  std::unordered_map<std::string, FunctionInfo*> instances;
+  std::string template_suffix;  // "<float>" of an instance
+  TemplateValues template_values;
+
+  enum class State : uint8_t { kPending, kLowering, kDone } state = State::kPending;
+  ir::Function* ir = nullptr;
+  // Facts of its own body.
+  std::vector<FunctionInfo*> callees;
+  std::vector<BindingInfo*> bindings;
+  std::vector<VariableInfo*> globals;
+  std::vector<StageUse> stage_uses;
+  bool traces = false;
+  bool queries = false;
+  bool calls_shader = false;
+  bool ends_shader = false;
+  uint32_t reported_bytes = 0;  // the largest attributes that it gives to ReportHit
+  uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
+  bool has_barrier = false;
+  bool uses_view_heap = false;
+  bool uses_sampler_heap = false;
+  uint32_t visit_mark = 0;
+};
+
+enum class SymbolKind : uint8_t {
+  kVariable,
+  kField,  // of the enclosing struct: through `this`
+  kFunctions,
+  kType,
+  kNamespace,
+  kStructTemplate,
+  kAliasTemplate,
+  kConstant,  // enumerator, template value argument, built-in constant
+};
+
+struct StructTemplate {
+  const StructDecl* decl = nullptr;
+  Scope* scope = nullptr;
+  std::string name;
+  std::unordered_map<std::string, StructInfo*> instances;
+};
+
+struct Symbol {
+  SymbolKind kind = SymbolKind::kVariable;
+  std::string_view name;
+  SourceLocation location;
+  uint32_t sequence = 0;  // 0: visible everywhere in its scope
+  VariableInfo* variable = nullptr;
+  std::vector<FunctionInfo*> functions;
+  const Type* type = nullptr;  // kType, kConstant
+  Scope* scope = nullptr;      // kNamespace; kType: the members of a struct or enum
+  StructTemplate* struct_template = nullptr;
+  const TypeAliasDecl* alias = nullptr;
+  const ir::Expr* value = nullptr;  // kConstant
+  uint32_t field = 0;               // kField: position in StructInfo::fields
+};
+
+enum class ScopeKind : uint8_t { kGlobal, kNamespace, kStruct, kEnum, kTemplate, kBlock };
+
+struct Scope {
+  ScopeKind kind = ScopeKind::kBlock;
+  Scope* parent = nullptr;
+  std::string name;  // qualified, without a trailing ::
+  StructInfo* structure = nullptr;
+  std::unordered_map<std::string_view, Symbol*> symbols;
+  std::vector<Scope*> used;  // using namespace
+};
+
+enum class ValueKind : uint8_t {
+  kError,
+  kExpr,      // expr: a value, or the place of one in a variable
+  kMemory,    // in a buffer: expr is the resource, offset the byte offset
+  kTyped,     // a texel: expr is the resource, coordinates its location
+  kBindings,  // an array of resources, partly indexed: binding, offset is the flat index so far
+  kHeap,      // ResourceDescriptorHeap, SamplerDescriptorHeap; and an element of it until its
+              // type is known: offset is the index
+  kMips,      // texture.mips, texture.mips[level] (offset)
+  kInitList,  // init_list, whose type is that of its target
+};
+
+// What an expression came to. Nothing is read from memory until load().
+struct Value {
+  ValueKind kind = ValueKind::kError;
+  const Type* type = nullptr;
+  bool is_place = false;
+  bool is_const = false;
+  const ir::Expr* expr = nullptr;
+  const ir::Expr* element = nullptr;  // kMemory: structured buffers' element index
+  const ir::Expr* offset = nullptr;
+  const ir::Expr* coordinates = nullptr;
+  const ir::Expr* mip = nullptr;
+  ir::Layout layout = ir::Layout::kStructured;
+  uint32_t component_stride = 0;  // kMemory: of a vector that is not contiguous, bytes
+  // kMemory, kTyped: a swizzle of `whole` that is not applied yet.
+  std::vector<uint8_t> components;
+  const Type* whole = nullptr;
+  BindingInfo* binding = nullptr;
+  bool is_sampler_heap = false;
+  const InitListExpr* init_list = nullptr;
+  // What the place held when it was evaluated, where a later argument may have changed it.
+  const ir::Expr* saved = nullptr;
+  SourceLocation location;
+
+  bool failed() const { return kind == ValueKind::kError; }
+};
+
+// How far a conversion goes; lower is better.
+struct ConversionRank {
+  bool possible = false;
+  uint8_t shape = 0;   // 0 same, 1 splat, 2 truncation or another shape
+  uint8_t scalar = 0;  // 0 same, 1 literal to its default, 2 promotion, 3 conversion
+  uint32_t cost() const { return shape * 8u + scalar; }
+};
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+// Templates of structs, aliases and functions: one copy for each set of arguments.
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+constexpr int kMaxTemplateDepth = 64;
+
+std::optional<size_t> parameter_named(std::span<const TemplateParameter> parameters,
+                                      const QualifiedName* name) {
+  if (!name || !name->is_simple() || name->last().has_template_arguments) return std::nullopt;
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].name == name->last().identifier) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool Checker::bind_arguments(std::span<const TemplateParameter> parameters,
+                             std::span<const TemplateArgument> written, Scope* use_scope,
+                             TemplateValues& values) {
+  values.resize(parameters.size());
+  if (written.size() > parameters.size()) return false;
+  for (size_t i = 0; i < written.size(); ++i) {
+    if (!parameters[i].value_type) {
+      values[i].type = type_argument(written[i], use_scope);
+      if (values[i].type->is_error()) return false;
+      continue;
+    }
+    const auto value = value_argument(written[i], use_scope);
+    if (!value) return false;
+    values[i].value =
+        build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
+  }
+  return true;
+}
+
+bool Checker::complete_arguments(std::span<const TemplateParameter> parameters, Scope* scope,
+                                 TemplateValues& values) {
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    const TemplateParameter& parameter = parameters[i];
+    Scope* known = template_scope(parameters, values, scope);
+    if (!values[i].is_set() && parameter.default_type) {
+      values[i].type = resolve_type(parameter.default_type, known);
+    } else if (!values[i].is_set() && parameter.default_value) {
+      const auto value = constant_integer(parameter.default_value, known, "a template argument");
+      if (!value) return false;
+      values[i].value =
+          build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
+    }
+    if (!values[i].is_set() || (values[i].type && values[i].type->is_error())) return false;
+    if (parameter.value_type && !values[i].value_type) {
+      const Type* type = resolve_type(parameter.value_type, known);
+      if (!(type->is_scalar() || type->is_enum())) return false;
+      values[i].value_type = type;
+      values[i].value =
+          build_.literal(type->ir, {convert_bits(values[i].value->literal[0],
+                                                 values[i].value->type->scalar, type->ir->scalar)});
+    }
+  }
+  return true;
+}
+
+Scope* Checker::template_scope(std::span<const TemplateParameter> parameters,
+                               const TemplateValues& values, Scope* parent) {
+  Scope* scope = make_scope(ScopeKind::kTemplate, parent);
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].name.empty() || !values[i].is_set()) continue;
+    if (values[i].type) {
+      Symbol* symbol = add_symbol(scope, SymbolKind::kType, parameters[i].name, {});
+      symbol->type = values[i].type;
+    } else {
+      Symbol* symbol = add_symbol(scope, SymbolKind::kConstant, parameters[i].name, {});
+      symbol->type = values[i].value_type ? values[i].value_type : types_.scalar(Scalar::kInt64);
+      symbol->value = values[i].value;
+    }
+  }
+  return scope;
+}
+
+std::string Checker::template_suffix(const TemplateValues& values) {
+  std::string text = "<";
+  for (const TemplateValue& value : values) {
+    if (text.size() > 1) text += ", ";
+    text += value.type ? to_string(value.type)
+                       : std::to_string(static_cast<int64_t>(value.value->literal[0]));
+  }
+  return text + ">";
+}
+
+// Inside of Pair<float>, `Pair` alone is that instance and `Pair<int>` is another.
+StructTemplate* Checker::template_of(const Symbol* symbol, const NamePart& part) {
+  if (symbol->kind == SymbolKind::kStructTemplate) return symbol->struct_template;
+  if (symbol->kind != SymbolKind::kType || !part.has_template_arguments ||
+      !symbol->type->is_struct() || symbol->type->structure->template_name != part.identifier) {
+    return nullptr;
+  }
+  const auto found = instance_arguments_.find(symbol->type->structure);
+  return found == instance_arguments_.end() ? nullptr : found->second.first;
+}
+
+StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePart& part,
+                                        SourceLocation location, Scope* scope) {
+  const StructDecl* decl = structure->decl;
+  TemplateValues values;
+  if (!bind_arguments(decl->template_parameters, part.template_arguments, scope, values) ||
+      !complete_arguments(decl->template_parameters, structure->scope, values)) {
+    report(CheckId::kTemplateArguments, location, {structure->name});
+    return nullptr;
+  }
+  const std::string suffix = template_suffix(values);
+  if (auto found = structure->instances.find(suffix); found != structure->instances.end()) {
+    return found->second;
+  }
+  if (!decl->is_definition) {
+    report(CheckId::kIncomplete, location, {structure->name});
+    return nullptr;
+  }
+  // Arguments made of the ones before, twice, double with each level: the name tells long before
+  // the depth does.
+  constexpr size_t kMaxSuffixBytes = 4096;
+  constexpr size_t kMaxInstances = 1024;  // of one template: levels may branch as well
+  if (template_depth_ >= kMaxTemplateDepth || suffix.size() > kMaxSuffixBytes ||
+      structure->instances.size() >= kMaxInstances) {
+    report(CheckId::kTemplateDepth, location,
+           {structure->name, std::to_string(std::min(template_depth_, kMaxTemplateDepth))});
+    return nullptr;
+  }
+  ++template_depth_;
+  Scope* inner = template_scope(decl->template_parameters, values, structure->scope);
+  StructInfo* info = make_struct(decl, inner, structure->name + suffix);
+  info->template_name = decl->name;
+  structure->instances[suffix] = info;
+  instance_arguments_[info] = {structure, values};
+  const uint32_t visible = visible_;
+  visible_ = ~0u;
+  complete_struct(info);
+  visible_ = visible;
+  --template_depth_;
+  return info;
+}
+
+const Type* Checker::instantiate_alias(const TypeAliasDecl* alias, Scope* alias_scope,
+                                       const NamePart& part, Scope* scope) {
+  TemplateValues values;
+  if (template_depth_ >= kMaxTemplateDepth ||
+      !bind_arguments(alias->template_parameters, part.template_arguments, scope, values) ||
+      !complete_arguments(alias->template_parameters, alias_scope, values)) {
+    report(CheckId::kTemplateArguments, part.location, {std::string(alias->name)});
+    return types_.error();
+  }
+  ++template_depth_;
+  const Type* type =
+      resolve_type(alias->type, template_scope(alias->template_parameters, values, alias_scope));
+  --template_depth_;
+  return type;
+}
+
+void Checker::deduce_value(const Expr* expression, uint64_t value,
+                           std::span<const TemplateParameter> parameters, TemplateValues& values) {
+  const auto* name = as<NameExpr>(expression);
+  if (!name) return;
+  const auto index = parameter_named(parameters, name->name);
+  if (!index || values[*index].is_set()) return;
+  values[*index].value = build_.literal(types_.scalar(Scalar::kInt64)->ir, {value});
+}
+
+// False where `type` contradicts what is known already.
+bool Checker::deduce(const TypeSyntax* syntax, const Type* type,
+                     std::span<const TemplateParameter> parameters, TemplateValues& values) {
+  if (syntax->kind == TypeSyntaxKind::kArray) {
+    if (!type->is_array()) return true;
+    if (syntax->array_size) deduce_value(syntax->array_size, type->count, parameters, values);
+    return deduce(syntax->element, type->element, parameters, values);
+  }
+  if (syntax->kind != TypeSyntaxKind::kNamed) return true;
+  if (const auto index = parameter_named(parameters, syntax->name)) {
+    TemplateValue& value = values[*index];
+    if (value.value) return true;
+    const Type* plain = lower_.settled(type);
+    if (value.type) return same_type(value.type, plain) || is_literal(type->scalar);
+    value.type = plain;
+    return true;
+  }
+  const NamePart& part = syntax->name->last();
+  const auto arguments = part.template_arguments;
+  const auto deduce_type = [&](size_t i, const Type* element) {
+    if (i >= arguments.size()) return true;
+    if (arguments[i].type) return deduce(arguments[i].type, element, parameters, values);
+    return true;
+  };
+  const auto deduce_number = [&](size_t i, uint64_t number) {
+    if (i >= arguments.size()) return;
+    if (arguments[i].value) deduce_value(arguments[i].value, number, parameters, values);
+    if (arguments[i].type && arguments[i].type->kind == TypeSyntaxKind::kNamed) {
+      const auto index = parameter_named(parameters, arguments[i].type->name);
+      if (index && !values[*index].is_set()) {
+        values[*index].value = build_.literal(types_.scalar(Scalar::kInt64)->ir, {number});
+      }
+    }
+  };
+  if (part.identifier == "vector" && (type->is_vector() || type->is_scalar())) {
+    deduce_number(1, type->components());
+    return deduce_type(0, types_.scalar(type->scalar));
+  }
+  if (part.identifier == "matrix" && type->is_matrix()) {
+    deduce_number(1, type->rows);
+    deduce_number(2, type->columns);
+    return deduce_type(0, types_.scalar(type->scalar));
+  }
+  if (type->is_resource() && part.identifier == resource_name(type->resource)) {
+    return !type->element || deduce_type(0, type->element);
+  }
+  if (type->is_struct() && part.identifier == type->structure->template_name) {
+    const TemplateValues& instance = instance_arguments_[type->structure].second;
+    for (size_t i = 0; i < instance.size(); ++i) {
+      if (instance[i].type) {
+        if (!deduce_type(i, instance[i].type)) return false;
+      } else {
+        deduce_number(i, instance[i].value->literal[0]);
+      }
+    }
+  }
+  return true;
+}
+
+FunctionInfo* Checker::instantiate_function(FunctionInfo* function,
+                                            std::span<const TemplateArgument> written,
+                                            Scope* use_scope, const std::vector<Value>& arguments) {
+  const FunctionDecl* decl = function->decl;
+  const auto parameters = decl->template_parameters;
+  TemplateValues values;
+  ++muted_;
+  bool fits = arguments.size() <= decl->parameters.size() &&
+              bind_arguments(parameters, written, use_scope, values);
+  // What is no literal decides first: in f(x, 1) x gives the type.
+  for (const bool literals : {false, true}) {
+    for (size_t i = 0; fits && i < arguments.size(); ++i) {
+      const Type* type = arguments[i].type;
+      if (!type || type->is_error()) continue;
+      if ((type->is_numeric() && is_literal(type->scalar)) != literals) continue;
+      fits = deduce(decl->parameters[i]->type, type, parameters, values);
+    }
+  }
+  fits = fits && complete_arguments(parameters, function->scope, values);
+  FunctionInfo* instance = nullptr;
+  if (fits) {
+    const std::string suffix = template_suffix(values);
+    FunctionInfo*& slot = function->instances[suffix];
+    if (!slot && template_depth_ < kMaxTemplateDepth) {
+      ++template_depth_;
+      Scope* inner = template_scope(parameters, values, function->scope);
+      slot = make_function(decl, inner, function->owner);
+      slot->is_template = false;
+      slot->qualified += suffix;
+      slot->template_suffix = suffix;
+      slot->template_values = values;
+      slot->sequence = function->sequence;
+      slot->body_sequence = ~0u;
+      const uint32_t visible = visible_;
+      visible_ = ~0u;
+      resolve_signature(slot);
+      visible_ = visible;
+      --template_depth_;
+    }
+    instance = slot;
+  }
+  --muted_;
+  return instance && !instance->signature_failed ? instance : nullptr;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/check/types.h"
+
+#include <algorithm>
+
+#include "runtime/hlsl/ir/builtin_types.h"
+
+namespace kaamos::hlsl {
+
+ir::Scalar ir_scalar(Scalar scalar) {
+  if (scalar == Scalar::kLiteralInt) return ir::Scalar::kInt64;
+  if (scalar == Scalar::kLiteralFloat) return ir::Scalar::kFloat64;
+  return static_cast<ir::Scalar>(scalar);
+}
+
+uint32_t scalar_bytes(ir::Scalar scalar) {
+  switch (scalar) {
+    case ir::Scalar::kInt16:
+    case ir::Scalar::kUint16:
+    case ir::Scalar::kFloat16:
+      return 2;
+    case ir::Scalar::kInt64:
+    case ir::Scalar::kUint64:
+    case ir::Scalar::kFloat64:
+      return 8;
+    default:
+      return 4;
+  }
+}
+
+uint32_t scalar_bytes(Scalar scalar) {
+  return is_literal(scalar) ? 4 : scalar_bytes(ir_scalar(scalar));
+}
+
+std::string_view name_of(Scalar scalar) {
+  static constexpr std::string_view kNames[] = {"bool",  "int16_t", "uint16_t",    "int",
+                                                "uint",  "int64_t", "uint64_t",    "float16_t",
+                                                "float", "double",  "literal int", "literal float"};
+  return kNames[static_cast<size_t>(scalar)];
+}
+
+uint64_t flat_component_count(const Type* type) {
+  constexpr uint64_t kMany = 1ull << 31;
+  switch (type->kind) {
+    case TypeKind::kNumeric:
+      return type->components();
+    case TypeKind::kArray:
+      return std::min(kMany, flat_component_count(type->element) * std::max(type->count, 1u));
+    case TypeKind::kStruct: {
+      uint64_t count =
+          type->structure->base ? flat_component_count(type->structure->base->type) : 0;
+      for (const FieldInfo& field : type->structure->fields) {
+        count = std::min(kMany, count + flat_component_count(field.type));
+      }
+      return count;
+    }
+    default:
+      return 1;
+  }
+}
+
+bool contains_resource(const Type* type) {
+  if (type->is_resource()) return true;
+  if (type->is_array()) return contains_resource(type->element);
+  if (!type->is_struct()) return false;
+  if (type->structure->base && contains_resource(type->structure->base->type)) return true;
+  return std::any_of(type->structure->fields.begin(), type->structure->fields.end(),
+                     [](const FieldInfo& field) { return contains_resource(field.type); });
+}
+
+TypeTable::TypeTable(ir::Module& module) : module_(module) {
+  Type* error_type = make(TypeKind::kError);
+  error_type->ir = make_ir(ir::TypeKind::kVoid);
+  error_ = error_type;
+  Type* void_type = make(TypeKind::kVoid);
+  void_type->ir = make_ir(ir::TypeKind::kVoid);
+  void_ = void_type;
+  string_ = make(TypeKind::kString);
+}
+
+Type* TypeTable::make(TypeKind kind) {
+  Type* type = &pool_.emplace_back();
+  type->kind = kind;
+  type->canonical = type;
+  return type;
+}
+
+ir::Type* TypeTable::make_ir(ir::TypeKind kind) {
+  ir::Type* type = &module_.type_pool.emplace_back();
+  type->kind = kind;
+  return type;
+}
+
+const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, bool row_major) {
+  if (rows == 0 && columns == 1) columns = 0;
+  if (rows == 0) row_major = false;
+  const uint32_t key =
+      static_cast<uint32_t>(scalar) << 16 | rows << 8 | columns << 1 | (row_major ? 1u : 0u);
+  if (auto found = numeric_.find(key); found != numeric_.end()) return found->second;
+  const Type* canonical = row_major ? numeric(scalar, rows, columns, false) : nullptr;
+  Type* type = make(TypeKind::kNumeric);
+  type->scalar = scalar;
+  type->rows = static_cast<uint8_t>(rows);
+  type->columns = static_cast<uint8_t>(columns);
+  type->row_major = row_major;
+  if (canonical) {
+    type->canonical = canonical;
+    type->ir = canonical->ir;
+  } else if (scalar == Scalar::kLiteralInt) {
+    type->ir = numeric(Scalar::kInt64, rows, columns)->ir;
+  } else if (scalar == Scalar::kLiteralFloat) {
+    type->ir = numeric(Scalar::kFloat64, rows, columns)->ir;
+  } else {
+    ir::Type* ir_type = make_ir(rows      ? ir::TypeKind::kMatrix
+                                : columns ? ir::TypeKind::kVector
+                                          : ir::TypeKind::kScalar);
+    ir_type->scalar = ir_scalar(scalar);
+    ir_type->rows = static_cast<uint8_t>(std::max(rows, 1u));
+    ir_type->columns = static_cast<uint8_t>(std::max(columns, 1u));
+    type->ir = ir_type;
+  }
+  numeric_[key] = type;
+  return type;
+}
+
+const Type* TypeTable::with_scalar(const Type* shape, Scalar scalar) {
+  return numeric(scalar, shape->rows, shape->columns, shape->row_major);
+}
+
+const Type* TypeTable::array(const Type* element, uint32_t count) {
+  const Type*& slot = arrays_[{element, count}];
+  if (slot) return slot;
+  const Type* canonical =
+      element->canonical != element ? array(element->canonical, count) : nullptr;
+  Type* type = make(TypeKind::kArray);
+  type->element = element;
+  type->count = count;
+  if (canonical) {
+    type->canonical = canonical;
+    type->ir = canonical->ir;
+  } else {
+    ir::Type* ir_type = make_ir(ir::TypeKind::kArray);
+    ir_type->element = element->ir;
+    ir_type->count = count;
+    type->ir = ir_type;
+  }
+  return arrays_[{element, count}] = type;
+}
+
+const Type* TypeTable::resource(ir::ResourceKind kind, const Type* element, bool written) {
+  const Type*& slot = resources_[{kind, element, written}];
+  if (slot) return slot;
+  const Type* canonical = nullptr;
+  if (element && (element->canonical != element || !written)) {
+    canonical = resource(kind, element->canonical, true);
+  }
+  Type* type = make(TypeKind::kResource);
+  type->resource = kind;
+  type->element = element;
+  type->has_written_element = written && element != nullptr;
+  if (canonical) {
+    type->canonical = canonical;
+    type->ir = canonical->ir;
+  } else {
+    const ir::Type*& ir_slot = ir_resources_[{kind, element ? element->ir : nullptr}];
+    if (!ir_slot) {
+      ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
+      ir_type->resource = kind;
+      ir_type->element = element ? element->ir : nullptr;
+      ir_slot = ir_type;
+    }
+    type->ir = ir_slot;
+  }
+  return resources_[{kind, element, written}] = type;
+}
+
+const Type* TypeTable::ray_query(uint32_t flags) {
+  const Type*& slot = ray_queries_[flags];
+  if (slot) return slot;
+  Type* type = make(TypeKind::kResource);
+  type->resource = ir::ResourceKind::kRayQuery;
+  type->ray_query_flags = flags;
+  ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
+  ir_type->resource = ir::ResourceKind::kRayQuery;
+  ir_type->ray_query_flags = flags;
+  type->ir = ir_type;
+  slot = type;
+  return slot;
+}
+
+const Type* TypeTable::structure(StructInfo* info) {
+  Type* type = make(TypeKind::kStruct);
+  type->structure = info;
+  ir::Type* ir_type = make_ir(ir::TypeKind::kStruct);
+  ir_type->structure = info->ir;
+  type->ir = ir_type;
+  info->type = type;
+  return type;
+}
+
+const Type* TypeTable::enumeration(EnumInfo* info) {
+  Type* type = make(TypeKind::kEnum);
+  type->enumeration = info;
+  type->scalar = info->underlying;
+  type->ir = scalar(info->underlying)->ir;
+  return type;
+}
+
+std::string to_string(const Type* type) {
+  switch (type->kind) {
+    case TypeKind::kError:
+      return "<error>";
+    case TypeKind::kVoid:
+      return "void";
+    case TypeKind::kString:
+      return "string";
+    case TypeKind::kEnum:
+      return type->enumeration->name;
+    case TypeKind::kStruct:
+      return type->structure->name;
+    case TypeKind::kNumeric: {
+      std::string text(name_of(type->scalar));
+      if (type->rows) {
+        return (type->row_major ? "row_major " : "") + text + std::to_string(type->rows) + "x" +
+               std::to_string(type->columns);
+      }
+      if (type->columns) text += std::to_string(type->columns);
+      return text;
+    }
+    case TypeKind::kArray: {
+      std::string bounds;
+      const Type* element = type;
+      for (; element->is_array(); element = element->element) {
+        bounds += "[" + (element->count ? std::to_string(element->count) : std::string()) + "]";
+      }
+      return to_string(element) + bounds;
+    }
+    case TypeKind::kResource: {
+      std::string text(resource_name(type->resource));
+      if (type->is_query()) text += "<" + std::to_string(type->ray_query_flags) + ">";
+      if (type->element && type->resource != ir::ResourceKind::kByteAddressBuffer &&
+          type->resource != ir::ResourceKind::kRWByteAddressBuffer) {
+        text += "<" + to_string(type->element) + ">";
+      }
+      return text;
+    }
+  }
+  return {};
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+//
+// The checker's types. They know what the intermediate representation does not: literal types,
+// enums, the storage order of a matrix and which struct declaration a type came from. Types are
+// interned: two are equal where their `canonical` pointers are.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <unordered_map>
+#include <vector>
+
+#include "runtime/hlsl/front/ast.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+// The first ten have the numbers of ir::Scalar. A literal type adapts to what it meets; its values
+// are held as 64-bit integers and doubles.
+enum class Scalar : uint8_t {
+  kBool,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat16,
+  kFloat32,
+  kFloat64,
+  kLiteralInt,
+  kLiteralFloat,
+};
+
+constexpr bool is_floating(Scalar scalar) {
+  return scalar == Scalar::kFloat16 || scalar == Scalar::kFloat32 || scalar == Scalar::kFloat64 ||
+         scalar == Scalar::kLiteralFloat;
+}
+constexpr bool is_literal(Scalar scalar) {
+  return scalar == Scalar::kLiteralInt || scalar == Scalar::kLiteralFloat;
+}
+constexpr bool is_signed_integer(Scalar scalar) {
+  return scalar == Scalar::kInt16 || scalar == Scalar::kInt32 || scalar == Scalar::kInt64 ||
+         scalar == Scalar::kLiteralInt;
+}
+constexpr bool is_integer(Scalar scalar) {
+  return !is_floating(scalar) && scalar != Scalar::kBool;
+}
+ir::Scalar ir_scalar(Scalar scalar);
+// Bytes in memory; a bool takes 4.
+uint32_t scalar_bytes(Scalar scalar);
+uint32_t scalar_bytes(ir::Scalar scalar);
+std::string_view name_of(Scalar scalar);
+
+enum class TypeKind : uint8_t {
+  kError,  // was diagnosed; converts to and from anything in silence
+  kVoid,
+  kNumeric,
+  kEnum,
+  kArray,
+  kStruct,
+  kResource,
+  kString,
+};
+
+struct StructInfo;
+struct EnumInfo;
+
+struct Type {
+  TypeKind kind = TypeKind::kError;
+  Scalar scalar = Scalar::kFloat32;
+  uint8_t rows = 0;     // 0: no matrix
+  uint8_t columns = 0;  // 0: a scalar
+  bool row_major = false;
+  const Type* element = nullptr;  // array; resource
+  uint32_t count = 0;             // array; 0: unbounded
+  StructInfo* structure = nullptr;
+  EnumInfo* enumeration = nullptr;
+  ir::ResourceKind resource = ir::ResourceKind::kByteAddressBuffer;
+  bool has_written_element = false;  // Texture2D<float4>, not Texture2D
+  uint32_t ray_query_flags = 0;      // of RayQuery<flags>
+  const Type* canonical = nullptr;   // without storage order
+  const ir::Type* ir = nullptr;
+
+  bool is_numeric() const { return kind == TypeKind::kNumeric; }
+  bool is_scalar() const { return kind == TypeKind::kNumeric && columns == 0; }
+  bool is_vector() const { return kind == TypeKind::kNumeric && columns > 0 && rows == 0; }
+  bool is_matrix() const { return kind == TypeKind::kNumeric && rows > 0; }
+  bool is_array() const { return kind == TypeKind::kArray; }
+  bool is_struct() const { return kind == TypeKind::kStruct; }
+  bool is_resource() const { return kind == TypeKind::kResource; }
+  bool is_query() const { return ir && ir->is_query(); }
+  bool is_enum() const { return kind == TypeKind::kEnum; }
+  bool is_void() const { return kind == TypeKind::kVoid; }
+  bool is_error() const { return kind == TypeKind::kError; }
+  // 1 for a scalar.
+  uint32_t components() const {
+    return (rows == 0 ? 1u : rows) * (columns == 0 ? 1u : static_cast<uint32_t>(columns));
+  }
+};
+
+inline bool same_type(const Type* a, const Type* b) {
+  return a->canonical == b->canonical;
+}
+
+// Scalars, vectors, matrices, arrays and structs in all: what a value takes when it is flattened.
+// Saturates at 2^31 so that nested arrays cannot overflow.
+uint64_t flat_component_count(const Type* type);
+bool contains_resource(const Type* type);
+
+// The stages that may read and write a field of a payload. [DXR: Payload access qualifiers]
+struct PayloadAccessBits {
+  uint8_t read = 0;  // PayloadStageBits
+  uint8_t write = 0;
+};
+
+struct FieldInfo {
+  std::string_view name;
+  const Type* type = nullptr;
+  const VariableDecl* decl = nullptr;
+  uint32_t index = 0;  // in ir::Struct::fields
+  PayloadAccessBits access;
+};
+
+struct Scope;
+
+struct StructInfo {
+  std::string name;  // qualified
+  const StructDecl* decl = nullptr;
+  Scope* scope = nullptr;      // its members
+  StructInfo* base = nullptr;  // field 0 of the ir::Struct, where there is one
+  std::vector<FieldInfo> fields;
+  ir::Struct* ir = nullptr;
+  const Type* type = nullptr;
+  bool complete = false;
+  bool is_payload = false;         // its access qualifiers count
+  std::string_view template_name;  // "Pair" of Pair<float>; empty where it is no instance
+};
+
+struct EnumInfo {
+  std::string name;
+  Scalar underlying = Scalar::kInt32;
+  bool is_class = false;
+};
+
+// Creates types, once each. Owned by a check; its ir::Types live in the module.
+class TypeTable {
+ public:
+  explicit TypeTable(ir::Module& module);
+
+  const Type* error() const { return error_; }
+  const Type* void_type() const { return void_; }
+  const Type* string() const { return string_; }
+  const Type* scalar(Scalar scalar) { return numeric(scalar, 0, 0); }
+  const Type* vector(Scalar scalar, uint32_t size) { return numeric(scalar, 0, size); }
+  const Type* matrix(Scalar scalar, uint32_t rows, uint32_t columns, bool row_major = false) {
+    return numeric(scalar, rows, columns, row_major);
+  }
+  // `float1` is the type `float`: rows 0 and columns 1 give the scalar.
+  const Type* numeric(Scalar scalar, uint32_t rows, uint32_t columns, bool row_major = false);
+  const Type* with_scalar(const Type* shape, Scalar scalar);
+  const Type* array(const Type* element, uint32_t count);
+  const Type* resource(ir::ResourceKind kind, const Type* element, bool written = true);
+  const Type* ray_query(uint32_t flags);
+  const Type* structure(StructInfo* info);
+  const Type* enumeration(EnumInfo* info);
+  const Type* boolean() { return scalar(Scalar::kBool); }
+
+ private:
+  Type* make(TypeKind kind);
+  ir::Type* make_ir(ir::TypeKind kind);
+
+  ir::Module& module_;
+  std::deque<Type> pool_;
+  const Type* error_ = nullptr;
+  const Type* void_ = nullptr;
+  const Type* string_ = nullptr;
+  std::unordered_map<uint32_t, const Type*> numeric_;
+  std::map<std::pair<const Type*, uint32_t>, const Type*> arrays_;
+  std::map<std::tuple<ir::ResourceKind, const Type*, bool>, const Type*> resources_;
+  std::map<std::pair<ir::ResourceKind, const ir::Type*>, const ir::Type*> ir_resources_;
+  std::map<uint32_t, const Type*> ray_queries_;
+};
+
+// As written in HLSL: "float3", "row_major float4x4", "Light[4]".
+std::string to_string(const Type* type);
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
+// structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
+// tables), emit_groups.cpp (compute shaders with barriers). Those that run several threads at once
+// are WideEmitter's.
+//
+// The emitted unit: prelude as namespace `ks`, everything of the library in namespace `u`:
+// structs, constants, `u::Context` (one for each shader invocation: the ABI's Invocation, static
+// globals, how the shader ended), functions that take a Context, then entry functions of the ABI's
+// types and the tables.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "runtime/hlsl/analysis/split_groups.h"
+#include "runtime/hlsl/cpp/emit_cpp.h"
+#include "runtime/hlsl/ir/emitted_names.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+struct ReachedCalls;
+class WideEmitter;
+
+class CppEmitter {
+ public:
+  CppEmitter(const ir::Module& module, const EmitCppOptions& options);
+  std::string run();
+
+ private:
+  friend class WideEmitter;  // prints into the same unit
+
+  // emit_types.cpp
+  std::string type(const ir::Type* type);
+  void emit_structs();
+  void emit_memory_functions();
+  std::string memory_read(const ir::Type* type, ir::Layout layout, bool row_major,
+                          const std::string& view, const std::string& offset);
+  std::string memory_write(const ir::Type* type, ir::Layout layout, bool row_major,
+                           const std::string& view, const std::string& offset,
+                           const std::string& text);
+  static uint64_t bytes_in_place(const ir::Type* type, ir::Layout layout);
+  std::string read_function(const ir::Type* structure, ir::Layout layout);
+  // Bytes of a value of the type as C++ stores it, near enough for stack sizes.
+  uint32_t stack_bytes(const ir::Type* type) const;
+
+  // emit_expressions.cpp
+  std::string value(const ir::Expr* expr);
+  std::string place(const ir::Expr* expr);  // an lvalue: what may stand left of "="
+  std::string literal(const ir::Expr& expr);
+  std::string scalar_literal(ir::Scalar scalar, uint64_t bits);
+  std::string construct(const ir::Expr& expr);
+  std::string unary(const ir::Expr& expr);
+  std::string binary(const ir::Expr& expr);
+  std::string element(const ir::Expr& expr, bool as_place);
+  std::string system_value(const ir::Expr& expr);
+  std::string query_value(const ir::Expr& expr);
+  std::string binding(const ir::Expr& expr);
+  bool is_bound(const ir::Expr& expr) const;
+  // A binding that was looked up before, for a group or for all invocations of a ray shader.
+  bool is_looked_up(const ir::Expr& resource) const;
+  // `element`: the index into a structured buffer; null for raw and constant buffers. `text` is
+  // asked for the index, and for the buffer unless it was looked up.
+  using TextOf = std::function<std::string(const ir::Expr*)>;
+  std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element, const TextOf& text);
+  std::string bound(const ir::Expr& expr);
+  std::string texture(const ir::Expr* expr);  // operand of a texel load or store
+  std::string load(const ir::Expr& expr);
+  // The resource operand of an access to memory, in a checked library with the check around it, or
+  // with `result` "_view" what is read or written. `element`: null for raw and constant buffers.
+  // write: 0 read, 1 write, 2 atomic.
+  std::string accessed(const char* result, const ir::Expr* resource, const ir::Expr* element,
+                       const ir::Expr* offset, const ir::Type* type, ir::Layout layout,
+                       bool row_major, int write, const ir::Location& location);
+  // CheckReport::site, of the expression or else of the statement that is being printed.
+  std::string site(const ir::Location& location) const;
+  std::string typed_load(const ir::Expr& expr);
+  // The same of operands that the caller has printed.
+  std::string sample_text(const ir::Expr& expr, const TextOf& text);
+  std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
+  std::string variable(const ir::Variable* variable);
+  // Texel coordinates as the ABI wants them: {x, y, z or array element, mip}.
+  std::string texel_coordinates(const ir::Type* resource, const ir::Expr* coordinates,
+                                const ir::Expr* mip, const ir::Expr* offset);
+  std::string texel_coordinates_text(const ir::Type* resource, const std::string& coordinates,
+                                     const std::string& mip, const std::string& offset);
+
+  // emit_statements.cpp
+  void block(const ir::Block& body);
+  void statement(const ir::Stmt& stmt);
+  void begin_statement(const ir::Stmt& stmt);
+  const std::string& name_local(const ir::Variable* variable);  // where it is declared
+  void declare(const ir::Stmt& stmt);
+  bool declare_in_place(const ir::Stmt& stmt);
+  void assign(const ir::Expr* target, const std::string& value);
+  void store(const ir::Stmt& stmt);
+  std::string atomic_text(const ir::Stmt& stmt, const TextOf& text);
+  void call_function(const ir::Stmt& stmt, bool declares_result);
+  void trace_ray(const ir::Stmt& stmt);
+  void report_hit(const ir::Stmt& stmt);
+  void query(const ir::Stmt& stmt);
+  void loop(const ir::Stmt& stmt);
+  void switch_(const ir::Stmt& stmt);
+  void payload_check(const ir::EntryPoint& entry);
+  void end_shader();  // return from the function with any value
+
+  // emit_cpp.cpp
+  void emit_constants();
+  void emit_context();
+  void emit_functions();
+  void emit_signature(const ir::Function& function);
+  void emit_function(const ir::Function& function);
+  void emit_entry(size_t index);
+  bool emit_row(size_t index);  // ExportDesc::row; false: none
+  void emit_bound(const ir::EntryPoint& entry);
+  void emit_compute_entry(size_t index);
+  void emit_static_initialisers(const ir::Function& function);
+  void emit_calls(size_t index, const ReachedCalls& calls);
+  void emit_tables();
+  std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
+  std::string entry_arguments(const ir::EntryPoint& entry);
+  void collect_parameters_by_reference();
+  void collect_static_use();
+  void look_up_once(const ir::Function& function);
+
+  // emit_groups.cpp: compute shaders that are cut at their barriers
+  bool emit_split_group(size_t index);  // false: it must run on fibers
+  void emit_group_body(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_group_variables(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_piece_start(const ir::EntryPoint& entry);
+  void emit_piece_end();
+  void emit_first_piece(const ir::EntryPoint& entry, const GroupPlan& plan);
+  void emit_threads(const ir::EntryPoint& entry, const GroupPlan& plan, const Region& region);
+  void emit_regions(const ir::EntryPoint& entry, const GroupPlan& plan,
+                    const std::vector<Region>& regions);
+  void emit_region_loop(const ir::EntryPoint& entry, const GroupPlan& plan, const Region& region);
+  uint64_t kept_bytes(const ir::EntryPoint& entry, const GroupPlan& plan) const;
+
+  // The output.
+  void line(std::string_view text) {
+    out_.append(static_cast<size_t>(indent_) * 2, ' ');
+    out_ += text;
+    out_ += '\n';
+  }
+  void open(std::string_view text) {
+    line(text);
+    ++indent_;
+  }
+  void close(std::string_view text) {
+    --indent_;
+    line(text);
+  }
+  void at(const ir::Location& location);
+  void at_generated();
+
+  const ir::Module& module_;
+  const EmitCppOptions& options_;
+  bool binds_per_group_ = false;  // compute shaders only: bound.h
+  bool reads_bound_ = false;      // Invocation::bound
+  std::vector<bool> has_row_;     // by entry point: ExportDesc::row
+  // Where the elements of each array stand in `bound`, behind what is no array; 0: they do not.
+  std::vector<uint32_t> bound_elements_;
+  uint32_t bound_count_ = 0;
+  std::string out_;
+  int indent_ = 0;
+
+  NameSet global_names_;  // namespace u
+  std::unordered_map<const ir::Struct*, std::string> struct_names_;
+  std::unordered_map<const ir::Struct*, std::vector<std::string>> field_names_;
+  std::unordered_map<const ir::Function*, std::string> function_names_;
+  std::unordered_map<const ir::Variable*, std::string> variable_names_;
+  ScopedNames local_names_;
+  // Static globals that a function and everything it calls can touch, in the module's order.
+  std::unordered_map<const ir::Function*, std::unordered_set<const ir::Variable*>> statics_;
+  std::unordered_map<const ir::Function*, uint32_t> stack_;
+  std::unordered_set<const ir::Function*> hit_kind_readers_;  // and what calls them
+  // By binding: what the running function has looked up for all its uses.
+  std::unordered_map<uint32_t, std::string> resources_found_;  // ks::Descriptor
+  std::unordered_map<uint32_t, std::string> views_found_;      // ks::MemoryView
+  // Parameters of several words that no statement writes: passed by reference.
+  std::unordered_set<const ir::Variable*> by_reference_;
+  const ir::Function* current_ = nullptr;
+  ir::Location statement_location_;
+  // The innermost loops: number of the label that `continue` jumps to.
+  std::vector<int> loops_;
+  std::unordered_set<int> used_labels_;
+  int next_label_ = 0;
+  // While a split group is emitted: variables that are declared outside of its pieces, and what
+  // `return` becomes.
+  std::unordered_set<const ir::Variable*> placed_;
+  std::string return_text_ = "return;";
+};
+
+// Whether the statements i and i + 1 are `T x;` and `x = f();`.
+bool begins_with_call(const ir::Block& body, size_t i);
+// Whether a loop is one that KAAMOS_UNROLL can stand before.
+bool is_unrolled(const ir::Stmt& loop);
+// As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".
+const char* scalar_name(ir::Scalar scalar);
+// Quoted for C and C++.
+std::string quote(std::string_view text);
+
+}  // namespace kaamos::hlsl

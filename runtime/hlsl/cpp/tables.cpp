@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+//
+// The tables of a library: what a backend reads of it without running it. [kaamos/shader/abi.h]
+#include "runtime/hlsl/analysis/trace_calls.h"
+#include "runtime/hlsl/cpp/emitter.h"
+#include "runtime/hlsl/ir/payload_layout.h"
+
+namespace kaamos::hlsl {
+
+using namespace ir;
+
+namespace {
+
+const char* stage_name(uint32_t stage) {
+  switch (stage) {
+    case kStageRayGeneration:
+      return "kRayGeneration";
+    case kStageIntersection:
+      return "kIntersection";
+    case kStageAnyHit:
+      return "kAnyHit";
+    case kStageClosestHit:
+      return "kClosestHit";
+    case kStageMiss:
+      return "kMiss";
+    case kStageCallable:
+      return "kCallable";
+    case kStageCompute:
+      return "kCompute";
+    default:
+      return "kLibrary";
+  }
+}
+
+const char* binding_type(ResourceKind kind) {
+  switch (kind) {
+    case ResourceKind::kConstantBuffer:
+      return "kConstantBuffer";
+    case ResourceKind::kByteAddressBuffer:
+    case ResourceKind::kRWByteAddressBuffer:
+      return "kRawBuffer";
+    case ResourceKind::kStructuredBuffer:
+    case ResourceKind::kRWStructuredBuffer:
+      return "kStructuredBuffer";
+    case ResourceKind::kBuffer:
+    case ResourceKind::kRWBuffer:
+      return "kTypedBuffer";
+    case ResourceKind::kSampler:
+      return "kSampler";
+    case ResourceKind::kSamplerComparison:
+      return "kComparisonSampler";
+    case ResourceKind::kAccelerationStructure:
+      return "kAccelerationStructure";
+    default:
+      return "kTexture";
+  }
+}
+
+const char* register_class_name(uint8_t register_class) {
+  constexpr const char* kNames[] = {"kShaderResource", "kUnorderedAccess", "kConstantBuffer",
+                                    "kSampler"};
+  return kNames[register_class & 3];
+}
+
+}  // namespace
+
+void CppEmitter::emit_calls(size_t index, const ReachedCalls& calls) {
+  const auto number = [](uint32_t n) { return std::to_string(n) + "u"; };
+  std::string traces;
+  for (const shader::TraceCall& t : calls.traces) {
+    traces += "{" + number(t.known) + ", " + number(t.binding) + ", " + number(t.ray_flags) + ", " +
+              number(t.mask) + ", " + number(t.ray_contribution) + ", " + number(t.multiplier) +
+              ", " + number(t.miss_index) + ", " + number(t.line) + ", " + quote(t.file) + "}, ";
+  }
+  line("static const ks::TraceCall traces_" + std::to_string(index) + "[] = {" + traces + "{}};");
+  std::string callables;
+  for (const uint32_t n : calls.callables) callables += number(n) + ", ";
+  line("static const uint32_t callables_" + std::to_string(index) + "[] = {" + callables + "0u};");
+}
+
+void CppEmitter::emit_tables() {
+  const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
+  open("static const ks::BindingDesc bindings[] = {");
+  for (const Binding& b : module_.bindings) {
+    line("{" + quote(b.name) + ", ks::RegisterClass::" + register_class_name(b.register_class) +
+         ", ks::BindingType::" + binding_type(b.type->resource) + ", " + number(b.register_index) +
+         ", " + number(b.space) + ", " + number(b.count) + ", " + number(b.size_bytes) + ", " +
+         (b.automatic ? "true" : "false") + "},");
+  }
+  line("{}};");
+  --indent_;
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    std::string list = "static const uint32_t bindings_" + std::to_string(i) + "[] = {";
+    for (const uint32_t binding : module_.entry_points[i].bindings) {
+      list += number(binding) + ", ";
+    }
+    line(list + "0u};");
+  }
+  for (size_t i = 0; i < options_.spirv.size(); ++i) {
+    out_ += "static const uint32_t spirv_" + std::to_string(i) + "[] = {";
+    for (const uint32_t word : options_.spirv[i]) {
+      out_ += std::to_string(word);
+      out_ += ',';
+    }
+    out_ += "};\n";
+  }
+  std::vector<ReachedCalls> calls;
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    calls.push_back(collect_calls(module_, module_.entry_points[i]));
+    emit_calls(i, calls.back());
+  }
+  for (size_t i = 0; i < module_.library_functions.size(); ++i) {
+    std::string list;
+    for (const uint32_t caller : module_.library_functions[i].callers)
+      list += number(caller) + ", ";
+    line("static const uint32_t callers_" + std::to_string(i) + "[] = {" + list + "0u};");
+  }
+  open("static const ks::ExportDesc exports[] = {");
+  for (size_t i = 0; i < module_.entry_points.size(); ++i) {
+    const EntryPoint& e = module_.entry_points[i];
+    const std::string n = std::to_string(i);
+    const bool compute = e.stage == kStageCompute;
+    const bool callable = e.stage == kStageCallable;
+    const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
+    uint32_t flags = (e.function->may_trace ? 1u : 0u) | (e.function->uses_query ? 32u : 0u) |
+                     (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
+                     (e.uses_sampler_heap ? 8u : 0u) |
+                     (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u) |
+                     (e.unbounded_payload ? 64u : 0u) | (reads_bound_ && !compute ? 128u : 0u);
+    line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
+         ", ks::Stage::" + stage_name(e.stage) + ", " +
+         (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +
+         (compute ? "&compute_" + n : "nullptr") + ", " + number(callable ? 0 : e.payload_bytes) +
+         ", " + storage + ", " + number(e.attribute_bytes) + ", " +
+         number(callable ? e.payload_bytes : 0) + ", " + number(stack_[e.function]) + ", " +
+         number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) +
+         (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
+                                    : ", nullptr, 0u") +
+         ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
+         number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
+         quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) +
+         (has_row_[i] ? ", row_" + n : "") + "},");
+  }
+  for (size_t i = 0; i < module_.library_functions.size(); ++i) {
+    const LibraryFunction& f = module_.library_functions[i];
+    line("{" + quote(f.name) + ", " + quote(f.mangled) +
+         ", ks::Stage::kLibrary, nullptr, nullptr, 0u, 0u, 0u, 0u, 0u, 0u, nullptr, 0u, nullptr, "
+         "0u, "
+         "nullptr, 0u, callers_" +
+         std::to_string(i) + ", " + number(f.callers.size()) + "},");
+  }
+  line("{}};");
+  --indent_;
+  open("static const ks::SubobjectDesc subobjects[] = {");
+  for (const Subobject& s : module_.subobjects) {
+    const auto text = [&](size_t i) {
+      return i < s.strings.size() ? quote(s.strings[i]) : std::string("nullptr");
+    };
+    const auto n = [&](size_t i) { return number(i < s.values.size() ? s.values[i] : 0); };
+    line("{" + quote(s.name) + ", " + number(s.type) + ", {" + text(0) + ", " + text(1) + ", " +
+         text(2) + "}, {" + n(0) + ", " + n(1) + "}},");
+  }
+  line("{}};");
+  --indent_;
+  std::string files = "static const char* const files[] = {";
+  for (const std::string& file : module_.files) files += quote(file) + ", ";
+  line(files + "nullptr};");
+  if (!module_.source.empty()) {
+    out_ += "static const char source[] =\n";
+    // Compilers read many short literals faster than one long one, and some allow no long ones.
+    for (size_t at = 0; at < module_.source.size(); at += 4000) {
+      out_ += quote(std::string_view(module_.source).substr(at, 4000)) + "\n";
+    }
+    out_ += ";\n";
+  }
+  line("static const ks::LibraryDesc library = {ks::kAbiVersion, sizeof(ks::LibraryDesc), " +
+       quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
+       number(module_.entry_points.size() + module_.library_functions.size()) + ", bindings, " +
+       number(module_.bindings.size()) + ", subobjects, " + number(module_.subobjects.size()) +
+       ", " + number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " +
+       number(module_.files.size()) + ", " +
+       (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + "};");
+}
+
+}  // namespace kaamos::hlsl

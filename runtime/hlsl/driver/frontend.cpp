@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/driver/frontend.h"
+
+#include "runtime/hlsl/driver/embedded_source.h"
+#include "runtime/hlsl/front/ast_arena.h"
+#include "runtime/hlsl/front/parse.h"
+#include "runtime/hlsl/front/preprocess.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+std::vector<std::string> split_at(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  size_t start = 0;
+  for (size_t end = text.find(separator); end != std::string::npos;
+       end = text.find(separator, start)) {
+    parts.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  parts.push_back(text.substr(start));
+  return parts;
+}
+
+// lib_6_3 or cs_6_6: the digit behind "6_"; x counts as 8. -1: another profile.
+int minor_version(const std::string& target) {
+  const bool known = (target.starts_with("lib_6_") && target.size() == 7) ||
+                     (target.starts_with("cs_6_") && target.size() == 6);
+  if (!known) return -1;
+  const char digit = target.back();
+  const bool library = target.starts_with("lib");
+  if (digit == 'x') return library ? 8 : -1;
+  if (digit < (library ? '3' : '0') || digit > '8') return -1;
+  return digit - '0';
+}
+
+}  // namespace
+
+std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text) {
+  std::vector<ExportRequest> requests;
+  if (text.empty()) return requests;
+  for (const std::string& part : split_at(text, ';')) {
+    if (part.empty()) continue;
+    const size_t equals = part.find('=');
+    ExportRequest request;
+    request.function = equals == std::string::npos ? part : part.substr(equals + 1);
+    request.names = split_at(part.substr(0, equals), ',');
+    for (const std::string& name : request.names) {
+      if (name.empty()) return std::nullopt;
+    }
+    if (request.function.empty()) return std::nullopt;
+    requests.push_back(std::move(request));
+  }
+  return requests;
+}
+
+std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
+                                          DiagnosticEngine& diagnostics) {
+  const int minor = minor_version(options.target);
+  if (minor < 0) {
+    diagnostics.report(DiagnosticId::kUnknownTarget, {}, {options.target});
+    return nullptr;
+  }
+  const auto exports = parse_exports(options.exports);
+  if (!exports) {
+    diagnostics.report(DiagnosticId::kExportSyntax, {}, {options.exports});
+    return nullptr;
+  }
+  if (options.payload_qualifiers.value_or(false) && minor < 6) {
+    diagnostics.report(DiagnosticId::kPayloadTarget, {}, {options.target});
+    return nullptr;
+  }
+  PreprocessOptions preprocess;
+  preprocess.include_folders = options.include_folders;
+  preprocess.defines = options.defines;
+  preprocess.stage =
+      options.target.starts_with("lib") ? ShaderStage::kLibrary : ShaderStage::kCompute;
+  preprocess.shader_model_minor = static_cast<uint32_t>(minor);
+  preprocess.hlsl_version = options.hlsl_version;
+  preprocess.enable_16bit_types = options.native_16bit;
+  const TokenList tokens =
+      options.text ? preprocess_text(options.path, *options.text, preprocess, sources, diagnostics)
+                   : preprocess_file(options.path, preprocess, sources, diagnostics);
+  AstArena arena;
+  const TranslationUnit* unit = parse(tokens, arena, diagnostics);
+
+  CheckOptions check_options;
+  check_options.name = options.path;
+  check_options.target = options.target;
+  check_options.entry_point = options.entry_point;
+  check_options.exports = *exports;
+  check_options.external_linkage = options.external_linkage;
+  check_options.automatic_space = options.automatic_space;
+  check_options.native_16bit = options.native_16bit;
+  check_options.row_major = options.row_major;
+  check_options.hlsl_version = options.hlsl_version;
+  check_options.payload_qualifiers = options.payload_qualifiers.value_or(minor >= 7);
+  check_options.strict = options.strict;
+  auto module = check(*unit, check_options, sources, diagnostics);
+  if (module != nullptr) {
+    module->check_access = options.check_access;
+    if (options.embed_source) module->source = embed_source(options, sources);
+  }
+  return module;
+}
+
+}  // namespace kaamos::hlsl

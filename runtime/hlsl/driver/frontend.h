@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// From HLSL source to the intermediate representation: preprocess, parse, check.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/hlsl/check/check.h"
+#include "runtime/hlsl/front/diagnostic.h"
+#include "runtime/hlsl/front/source.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+struct FrontendOptions {
+  std::string path;                 // of the main file; with `text`, its name in messages
+  std::optional<std::string> text;  // the source itself; empty: the file is read
+  std::vector<std::string> include_folders;
+  std::vector<std::string> defines;  // "NAME" or "NAME=VALUE"
+  std::string target = "lib_6_6";    // lib_6_3 .. lib_6_8, lib_6_x, cs_6_0 .. cs_6_8
+  std::string entry_point = "main";  // cs_6_x only [-E]
+  std::string exports;               // as DXC's -exports: "A;B1,B2=C"
+  bool external_linkage = false;     // [-default-linkage external]; lib_6_x always has it
+  uint32_t automatic_space = 0;      // [-auto-binding-space]
+  uint32_t hlsl_version = 2021;      // [-HV]
+  bool native_16bit = false;         // [-enable-16bit-types]
+  bool row_major = false;            // [-Zpr]; false is [-Zpc]
+  // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: from lib_6_7 on.
+  std::optional<bool> payload_qualifiers = {};
+  bool check_access = false;  // Module::check_access
+  bool embed_source = true;   // Module::source
+  bool strict = false;        // refuse what DXC refuses; give it to the engine as well
+};
+
+// Null where there is an error; it then stands in `diagnostics`. `sources` must outlive the
+// rendering of the diagnostics, and lists the files that were read.
+std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
+                                          DiagnosticEngine& diagnostics);
+
+// "A;B1,B2=C" to requests. Empty: `text` has no such form.
+std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text);
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The syntax tree as text, for tests and for people who look for a mistake in the parser.
+// Expressions are written (operator operand ...), each statement and declaration on its own line.
+#pragma once
+
+#include <string>
+
+#include "runtime/hlsl/front/ast.h"
+
+namespace kaamos::hlsl {
+
+std::string dump(const TranslationUnit& unit);
+std::string dump(const Decl& decl);
+std::string dump(const Stmt& stmt);
+std::string dump(const Expr& expr);
+std::string dump(const TypeSyntax& type);
+
+}  // namespace kaamos::hlsl

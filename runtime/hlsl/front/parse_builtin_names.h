@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The names that mean a type before any declaration: the parser needs them to tell `Name x;` and
+// `(Name)x` from expressions.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "runtime/hlsl/front/ast.h"
+
+namespace kaamos::hlsl {
+
+struct BuiltinName {
+  enum Kind : uint8_t {
+    kNone,
+    kNumeric,     // float3, int64_t2x2; scalar, rows, columns as in TypeSyntax.
+    kType,        // Texture2D, RayDesc, vector, ...
+    kSubobject,   // TriangleHitGroup, ...
+    kNamespace,   // dx
+    kScopedType,  // HitObject of dx::HitObject
+  };
+  Kind kind = kNone;
+  ScalarKind scalar = ScalarKind::kFloat;
+  uint8_t rows = 0;
+  uint8_t columns = 0;
+  SubobjectKind subobject = SubobjectKind::kStateObjectConfig;
+};
+
+BuiltinName find_builtin_name(std::string_view text);
+
+// What a writer of the unknown type `text` may have meant: a name of `declared` or a built-in one
+// with one or two letters changed, or HLSL's word for a GLSL type. Empty: no idea.
+std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared);
+
+}  // namespace kaamos::hlsl

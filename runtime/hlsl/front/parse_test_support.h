@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What the parser's tests share: a text in, the tree and the diagnostics out.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "runtime/hlsl/front/ast_dump.h"
+#include "runtime/hlsl/front/file_loader.h"
+#include "runtime/hlsl/front/parse.h"
+#include "runtime/hlsl/front/preprocess.h"
+
+namespace kaamos::hlsl::test {
+
+struct Parsed {
+  MemoryFileLoader loader;
+  SourceManager sources{loader};
+  DiagnosticEngine diagnostics;
+  AstArena arena;
+  TokenList tokens;
+  const TranslationUnit* unit = nullptr;
+
+  explicit Parsed(std::string text) {
+    tokens = preprocess_text("test.hlsl", std::move(text), {}, sources, diagnostics);
+    unit = parse(tokens, arena, diagnostics);
+  }
+  // Empty where there is nothing to say.
+  std::string messages() const {
+    return diagnostics.diagnostics().empty() ? "" : render_all(diagnostics, sources);
+  }
+};
+
+// The dump of a whole text; the messages where there are any.
+inline std::string dump_unit(std::string_view text) {
+  const Parsed parsed{std::string(text)};
+  const std::string messages = parsed.messages();
+  return messages.empty() ? dump(*parsed.unit) : messages;
+}
+
+// The dump of an expression; `before` declares what it needs.
+inline std::string dump_expression(std::string_view text, std::string_view before = "") {
+  const Parsed parsed(std::string(before) + "\nstatic float test_value = " + std::string(text) +
+                      ";");
+  const std::string messages = parsed.messages();
+  if (!messages.empty()) return messages;
+  const auto* variable = as<VariableDecl>(parsed.unit->declarations.back());
+  return variable != nullptr && variable->initializer != nullptr ? dump(*variable->initializer)
+                                                                 : "no expression";
+}
+
+// The dump of the statements of a function's body.
+inline std::string dump_statements(std::string_view text, std::string_view before = "") {
+  const Parsed parsed(std::string(before) + "\nvoid test_function() { " + std::string(text) + " }");
+  const std::string messages = parsed.messages();
+  if (!messages.empty()) return messages;
+  const auto* function = as<FunctionDecl>(parsed.unit->declarations.back());
+  if (function == nullptr || function->body == nullptr) return "no function";
+  std::string result;
+  for (const Stmt* statement : function->body->statements) result += dump(*statement);
+  return result;
+}
+
+// "KA2201 3:4" for each message, one a line.
+inline std::string positions(const Parsed& parsed) {
+  std::string result;
+  for (const Diagnostic& diagnostic : parsed.diagnostics.diagnostics()) {
+    const ResolvedLocation place = parsed.sources.resolve(diagnostic.location);
+    if (!result.empty()) result += '\n';
+    result += diagnostic_code(diagnostic.id) + " " + std::to_string(place.line) + ":" +
+              std::to_string(place.column);
+  }
+  return result;
+}
+
+}  // namespace kaamos::hlsl::test

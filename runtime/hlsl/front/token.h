@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// What the lexer and the preprocessor hand to the parser.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "runtime/hlsl/front/literal.h"
+#include "runtime/hlsl/front/source.h"
+
+namespace kaamos::hlsl {
+
+enum class TokenKind : uint8_t {
+#define KAAMOS_TOKEN(name, text) name,
+#include "runtime/hlsl/front/token_kinds.inc"
+};
+
+struct Token {
+  enum Flag : uint8_t {
+    kAtLineStart = 1,   // First of its line in the file.
+    kSpaceBefore = 2,   // White space or a comment stands before it.
+    kNoExpand = 4,      // Its macro was being expanded: never again a macro [C++: rescan].
+    kQuotedBroken = 8,  // A string or character without its end, reported already.
+  };
+
+  TokenKind kind = TokenKind::kEndOfFile;
+  uint8_t flags = 0;
+  SourceLocation location;
+  // Names and keywords: the same number for the same text. Numbers: index into
+  // TokenList::numbers.
+  uint32_t value = 0;
+  // As written, line continuations removed; kStringLiteral: the value, escapes resolved, adjacent
+  // literals joined; kPragmaPackMatrix: row_major or column_major. Lives as long as the
+  // SourceManager.
+  std::string_view text;
+
+  bool is(TokenKind k) const { return kind == k; }
+};
+
+struct TokenList {
+  std::vector<Token> tokens;  // The last one is kEndOfFile.
+  std::vector<NumberLiteral> numbers;
+
+  const NumberLiteral& number(const Token& token) const { return numbers[token.value]; }
+};
+
+// "(" for kLeftParen, "name" for kIdentifier.
+std::string_view token_kind_text(TokenKind kind);
+// The token as diagnostics quote it: 'foo', end of file.
+std::string describe(const Token& token);
+// Keyword, reserved word, or kIdentifier.
+TokenKind keyword_kind(std::string_view text);
+bool is_keyword(TokenKind kind);
+// sample, linear, ...: keywords that DXC also takes as names.
+bool is_contextual_keyword(TokenKind kind);
+inline bool can_be_name(TokenKind kind) {
+  return kind == TokenKind::kIdentifier || is_contextual_keyword(kind);
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// The tables of an interpreted library.
+#include <kaamos/shader/abi.h>
+
+#include <deque>
+
+#include "runtime/hlsl/analysis/trace_calls.h"
+#include "runtime/hlsl/interpret/closure.h"
+#include "runtime/hlsl/ir/payload_layout.h"
+
+namespace kaamos::hlsl {
+
+using namespace interpret;
+
+struct InterpretedLibrary::Tables {
+  std::unique_ptr<Program> program;
+  std::vector<std::unique_ptr<Closure>> closures;
+  std::vector<shader::BindingDesc> bindings;
+  std::vector<shader::ExportDesc> exports;
+  std::vector<shader::SubobjectDesc> subobjects;
+  std::deque<shader::ComputeDesc> compute;
+  std::deque<std::string> layouts;
+  std::deque<ReachedCalls> calls;
+  std::vector<const char*> files;
+  shader::LibraryDesc library = {};
+};
+
+namespace {
+
+shader::Stage stage_of(uint32_t stage) {
+  switch (stage) {
+    case ir::kStageRayGeneration:
+      return shader::Stage::kRayGeneration;
+    case ir::kStageIntersection:
+      return shader::Stage::kIntersection;
+    case ir::kStageAnyHit:
+      return shader::Stage::kAnyHit;
+    case ir::kStageClosestHit:
+      return shader::Stage::kClosestHit;
+    case ir::kStageMiss:
+      return shader::Stage::kMiss;
+    case ir::kStageCallable:
+      return shader::Stage::kCallable;
+    case ir::kStageCompute:
+      return shader::Stage::kCompute;
+    default:
+      return shader::Stage::kLibrary;
+  }
+}
+
+shader::BindingType binding_type_of(ir::ResourceKind kind) {
+  switch (kind) {
+    case ir::ResourceKind::kConstantBuffer:
+      return shader::BindingType::kConstantBuffer;
+    case ir::ResourceKind::kByteAddressBuffer:
+    case ir::ResourceKind::kRWByteAddressBuffer:
+      return shader::BindingType::kRawBuffer;
+    case ir::ResourceKind::kStructuredBuffer:
+    case ir::ResourceKind::kRWStructuredBuffer:
+      return shader::BindingType::kStructuredBuffer;
+    case ir::ResourceKind::kBuffer:
+    case ir::ResourceKind::kRWBuffer:
+      return shader::BindingType::kTypedBuffer;
+    case ir::ResourceKind::kSampler:
+      return shader::BindingType::kSampler;
+    case ir::ResourceKind::kSamplerComparison:
+      return shader::BindingType::kComparisonSampler;
+    case ir::ResourceKind::kAccelerationStructure:
+      return shader::BindingType::kAccelerationStructure;
+    default:
+      return shader::BindingType::kTexture;
+  }
+}
+
+shader::BindingDesc describe(const ir::Binding& b) {
+  return {b.name.c_str(),
+          static_cast<shader::RegisterClass>(b.register_class & 3),
+          binding_type_of(b.type->resource),
+          b.register_index,
+          b.space,
+          b.count,
+          b.size_bytes,
+          b.automatic};
+}
+
+shader::SubobjectDesc describe(const ir::Subobject& s) {
+  shader::SubobjectDesc out = {};
+  out.name = s.name.c_str();
+  out.type = s.type;
+  for (size_t i = 0; i < 3 && i < s.strings.size(); ++i) out.strings[i] = s.strings[i].c_str();
+  for (size_t i = 0; i < 2 && i < s.values.size(); ++i) out.values[i] = s.values[i];
+  return out;
+}
+
+shader::ComputeDesc describe_compute(const EntryCode& code, uint32_t shared_bytes,
+                                     shader::AnyFn function) {
+  const ir::EntryPoint& entry = *code.entry;
+  shader::ComputeDesc out = {{entry.thread_group[0], entry.thread_group[1], entry.thread_group[2]},
+                             shared_bytes,
+                             nullptr,
+                             nullptr};
+  if (entry.function->has_barrier) {
+    out.thread = reinterpret_cast<shader::ComputeThreadFn>(function);
+  } else {
+    out.group = reinterpret_cast<shader::ComputeGroupFn>(function);
+  }
+  return out;
+}
+
+shader::ExportDesc describe(const EntryCode& code) {
+  const ir::EntryPoint& entry = *code.entry;
+  const bool callable = entry.stage == ir::kStageCallable;
+  shader::ExportDesc out = {};
+  out.name = entry.name.c_str();
+  out.mangled_name = entry.function->mangled.c_str();
+  out.stage = stage_of(entry.stage);
+  out.payload_bytes = callable ? 0 : entry.payload_bytes;
+  out.payload_storage_bytes = code.payload_bytes;
+  out.attribute_bytes = entry.attribute_bytes;
+  out.attribute_type = entry.attribute_type;
+  out.callable_data_bytes = callable ? entry.payload_bytes : 0;
+  out.stack_bytes = code.code->stack_bytes + code.static_bytes;
+  out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |
+              (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
+              (entry.function->may_call ? shader::kExportCalls : 0u) |
+              (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
+              (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
+              (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u) |
+              (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u);
+  out.bindings = entry.bindings.data();
+  out.binding_count = static_cast<uint32_t>(entry.bindings.size());
+  return out;
+}
+
+}  // namespace
+
+InterpretedLibrary::InterpretedLibrary() : tables_(std::make_unique<Tables>()) {}
+InterpretedLibrary::~InterpretedLibrary() = default;
+
+const shader::LibraryDesc& InterpretedLibrary::desc() const {
+  return tables_->library;
+}
+
+std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
+    std::shared_ptr<const ir::Module> module, const InterpretOptions& options, std::string& error) {
+  std::shared_ptr<InterpretedLibrary> out(new InterpretedLibrary);
+  Tables& tables = *out->tables_;
+  const ir::Module& m = *module;
+  tables.program = make_program(std::move(module), options);
+  if (!tables.program->error.empty()) {
+    error = m.name + " cannot be interpreted: " + tables.program->error;
+    return nullptr;
+  }
+  for (const EntryCode& code : tables.program->entries) {
+    auto closure = Closure::create(*tables.program, code);
+    if (closure == nullptr) {
+      error =
+          "the system gives no executable memory for functions made at run time; use a C++ "
+          "compiler instead of the interpreter";
+      return nullptr;
+    }
+    shader::ExportDesc desc = describe(code);
+    if (code.entry->stage == ir::kStageCompute) {
+      desc.compute = &tables.compute.emplace_back(
+          describe_compute(code, tables.program->shared_bytes, closure->function()));
+    } else {
+      desc.entry = closure->function();
+    }
+    const auto& spirv = tables.program->options.spirv;
+    if (const size_t i = tables.exports.size(); i < spirv.size()) {
+      desc.spirv = spirv[i].data();
+      desc.spirv_words = static_cast<uint32_t>(spirv[i].size());
+    }
+    const ReachedCalls& calls = tables.calls.emplace_back(collect_calls(m, *code.entry));
+    desc.trace_calls = calls.traces.data();
+    desc.trace_call_count = static_cast<uint32_t>(calls.traces.size());
+    desc.payload_layout = tables.layouts.emplace_back(value_layout(code.entry->payload)).c_str();
+    desc.attribute_layout =
+        tables.layouts.emplace_back(value_layout(code.entry->attributes)).c_str();
+    desc.callable_indices = calls.callables.data();
+    desc.callable_index_count = static_cast<uint32_t>(calls.callables.size());
+    tables.exports.push_back(desc);
+    tables.closures.push_back(std::move(closure));
+  }
+  for (const ir::LibraryFunction& f : m.library_functions) {
+    shader::ExportDesc desc = {};
+    desc.name = f.name.c_str();
+    desc.mangled_name = f.mangled.c_str();
+    desc.stage = shader::Stage::kLibrary;
+    desc.callable_indices = f.callers.data();
+    desc.callable_index_count = static_cast<uint32_t>(f.callers.size());
+    tables.exports.push_back(desc);
+  }
+  for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));
+  for (const ir::Subobject& s : m.subobjects) tables.subobjects.push_back(describe(s));
+  for (const std::string& file : m.files) tables.files.push_back(file.c_str());
+  const auto count = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
+  tables.library = {shader::kAbiVersion,     sizeof(shader::LibraryDesc), m.name.c_str(),
+                    m.target.c_str(),        tables.exports.data(),       count(tables.exports),
+                    tables.bindings.data(),  count(tables.bindings),      tables.subobjects.data(),
+                    count(tables.subobjects)};
+  tables.library.flags =
+      shader::kLibraryInterpreted | (m.check_access ? shader::kLibraryChecked : 0u);
+  tables.library.files = tables.files.data();
+  tables.library.file_count = count(tables.files);
+  if (!m.source.empty()) {
+    tables.library.source = m.source.data();
+    tables.library.source_bytes = m.source.size();
+  }
+  return out;
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+//
+// What a module is turned into before it runs: variables are byte offsets, expressions are nodes
+// that know how to evaluate themselves, statements refer to nodes. Immutable while it runs, so that
+// several threads run it at once; all that changes lies in Frame and Context on the stack of the
+// thread. Nothing there owns memory: a backend leaves a shader that fails by a jump.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <kaamos/shader/abi.h>
+#include "runtime/hlsl/analysis/checked_access.h"
+#include "runtime/hlsl/interpret/interpret.h"
+#include "runtime/hlsl/ir/host_layout.h"
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl::interpret {
+
+struct Program;
+struct Node;
+
+// One shader invocation.
+struct Context {
+  shader::Invocation* invocation = nullptr;
+  shader::ComputeGroup* group = nullptr;
+  const Program* program = nullptr;
+  const ir::EntryPoint* entry = nullptr;
+  std::byte* shared = nullptr;
+  std::byte* statics = nullptr;
+  uint64_t steps_left = 0;
+  bool ended = false;
+  shader::AnyHitResult any_hit = shader::AnyHitResult::kAccept;
+};
+
+// One function's activation.
+struct Frame {
+  Context* context = nullptr;
+  std::byte* variables = nullptr;
+  std::byte* temporaries = nullptr;  // results of the expressions of one statement
+  std::byte* result =
+      nullptr;  // where `return` puts the value; null: nobody wants it, or it is there
+};
+
+// The value, which stays valid until the next statement; it may lie in a variable.
+using Evaluate = const std::byte* (*)(const Node& node, Frame& frame);
+// Where a value can be written to; null: out of range, the write is dropped.
+using Locate = std::byte* (*)(const Node& node, Frame& frame);
+// Computes a value from those of the operands.
+using Kernel = void (*)(const Node& node, std::byte* out, const std::byte* const* operands);
+
+struct Node {
+  Evaluate evaluate = nullptr;
+  Locate locate = nullptr;
+  Kernel kernel = nullptr;
+  const ir::Expr* expr = nullptr;
+  std::vector<const Node*> operands;
+  uint32_t slot = 0;    // of the result among the temporaries
+  uint32_t bytes = 0;   // of the value
+  uint32_t offset = 0;  // variable, field; swizzle of one component
+  uint32_t count = 0;   // components
+  uint32_t length = 0;  // elements of what is indexed
+  uint32_t stride = 0;  // bytes from one component or element to the next
+  uint8_t rows = 1;     // mul: rows of the left, common size, columns of the right operand
+  uint8_t inner = 1;
+  uint8_t columns = 1;
+  std::vector<uint8_t> components;  // result component i is operand component components[i]
+  std::vector<uint32_t> offsets;    // construct: of each part
+  const std::byte* data = nullptr;  // literals, constants
+  std::vector<Move> moves;          // loads
+  Access access;                    // loads, in checked libraries
+};
+
+// Atomic operation on a place that may be null; result may be null.
+using Atomic = void (*)(void* place, const std::byte* compare, const std::byte* value,
+                        std::byte* result);
+
+struct Action;
+using Actions = std::vector<const Action*>;
+struct Code;
+
+struct ActionCase {
+  std::vector<int64_t> labels;
+  bool is_default = false;
+  Actions body;
+};
+
+// A statement.
+struct Action {
+  const ir::Stmt* stmt = nullptr;
+  const Node* place = nullptr;
+  const Node* value = nullptr;
+  const Node* compare = nullptr;
+  const Node* result = nullptr;  // the variable
+  std::vector<const Node*> operands;
+  std::vector<const Node*> arguments;
+  const Code* callee = nullptr;
+  uint32_t offset = 0;  // kDeclare: of the variable
+  uint32_t bytes = 0;
+  Actions prelude;
+  Actions body;
+  Actions orelse;
+  Actions step;
+  std::vector<ActionCase> cases;
+  std::vector<Move> moves;  // stores
+  Access access;            // stores and atomics, in checked libraries
+  Atomic atomic = nullptr;
+};
+
+// A function.
+struct Code {
+  const ir::Function* function = nullptr;
+  std::vector<uint32_t> parameters;       // offsets of the values, or of pointers to them
+  std::vector<uint32_t> parameter_bytes;  // of the values
+  Actions body;
+  uint32_t variable_bytes = 0;
+  uint32_t temporary_bytes = 0;
+  uint32_t result_bytes = 0;
+  uint32_t stack_bytes = 0;                  // with all that it calls
+  std::vector<const ir::Variable*> statics;  // that it and its callees touch, in the module's order
+  bool reads_hit_kind = false;               // it or a callee
+};
+
+struct StaticInitialiser {
+  const Node* value = nullptr;  // null: zero
+  uint32_t offset = 0;
+  uint32_t bytes = 0;
+};
+
+// What runs before the body of an entry point.
+struct EntryCode {
+  const ir::EntryPoint* entry = nullptr;
+  const Code* code = nullptr;
+  uint32_t payload_bytes = 0;
+  std::vector<StaticInitialiser> statics;
+  uint32_t temporary_bytes = 0;  // of the initialisers
+  uint32_t static_bytes = 0;
+};
+
+struct Program {
+  std::shared_ptr<const ir::Module> module;
+  InterpretOptions options;
+  std::deque<Node> nodes;
+  std::deque<Action> actions;
+  std::deque<Code> codes;
+  std::deque<EntryCode> entries;                 // as Module::entry_points
+  Layouts layouts;                               // while it is made
+  std::deque<std::vector<std::byte>> constants;  // literals, constants
+  std::vector<std::byte> zeros;                  // as long as the longest value
+  uint32_t static_bytes = 0;
+  uint32_t shared_bytes = 0;
+  std::string error;     // of a module that breaks the rules of the IR
+  bool checked = false;  // Module::check_access
+};
+
+// interpret_compile.cpp
+std::unique_ptr<Program> make_program(std::shared_ptr<const ir::Module> module,
+                                      const InterpretOptions& options);
+
+// interpret_run.cpp: the stages' entry points. attributes, payload: null where the stage has none.
+// Returns what an any-hit shader decided.
+shader::AnyHitResult run_ray_entry(const Program& program, const EntryCode& entry,
+                                   shader::Invocation& invocation, void* payload,
+                                   const void* attributes);
+void run_compute_thread(const Program& program, const EntryCode& entry,
+                        shader::Invocation& invocation, shader::ComputeGroup& group,
+                        const uint32_t thread[3]);
+
+// Tells whoever listens.
+void report(Context& context, InterpretFinding finding, const ir::Location& location);
+
+// interpret_statements.cpp: runs a function whose parameters are in place.
+void run_body(const Code& code, Frame& frame);
+
+inline const std::byte* evaluate(const Node& node, Frame& frame) {
+  return node.evaluate(node, frame);
+}
+template <class T>
+T read_as(const std::byte* bytes) {
+  T value;
+  __builtin_memcpy(&value, bytes, sizeof(value));
+  return value;
+}
+template <class T>
+T evaluate_as(const Node& node, Frame& frame) {
+  return read_as<T>(node.evaluate(node, frame));
+}
+
+}  // namespace kaamos::hlsl::interpret

@@ -1,0 +1,375 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/ir/builtin_functions.h"
+
+#include <algorithm>
+#include <iterator>
+#include <unordered_map>
+#include <vector>
+
+namespace kaamos::hlsl {
+namespace {
+
+using S = IntrinsicShape;
+using I = Intrinsic;
+
+constexpr IntrinsicRule kIntrinsics[] = {
+    {"abs", I::abs, S::kNumeric, 1},
+    {"acos", I::acos, S::kFloat, 1},
+    {"all", I::all, S::kReduce, 1},
+    {"any", I::any, S::kReduce, 1},
+    {"asdouble", I::asdouble, S::kAsDouble, 2},
+    {"asfloat", I::asfloat, S::kAsFloat, 1},
+    {"asfloat16", I::asfloat16, S::kAsFloat16, 1},
+    {"asin", I::asin, S::kFloat, 1},
+    {"asint", I::asint, S::kAsInt, 1},
+    {"asint16", I::asint16, S::kAsInt16, 1},
+    {"asuint", I::asuint, S::kAsUint, 1},
+    {"asuint16", I::asuint16, S::kAsUint16, 1},
+    {"atan", I::atan, S::kFloat, 1},
+    {"atan2", I::atan2, S::kFloat, 2},
+    {"ceil", I::ceil, S::kFloat, 1},
+    {"clamp", I::clamp, S::kNumeric, 3},
+    {"cos", I::cos, S::kFloat, 1},
+    {"cosh", I::cosh, S::kFloat, 1},
+    {"countbits", I::countbits, S::kUint, 1},
+    {"cross", I::cross, S::kCross, 2},
+    {"degrees", I::degrees, S::kFloat, 1},
+    {"determinant", I::determinant, S::kDeterminant, 1},
+    {"distance", I::distance, S::kDistance, 2},
+    {"dot", I::dot, S::kDot, 2},
+    {"dst", I::dst, S::kDst, 2},
+    {"exp", I::exp, S::kFloat, 1},
+    {"exp2", I::exp2, S::kFloat, 1},
+    {"f16tof32", I::f16tof32, S::kHalfToFloat, 1},
+    {"f32tof16", I::f32tof16, S::kFloatToHalf, 1},
+    {"faceforward", I::faceforward, S::kVector, 3},
+    {"firstbithigh", I::firstbithigh, S::kUint, 1},
+    {"firstbitlow", I::firstbitlow, S::kUint, 1},
+    {"floor", I::floor, S::kFloat, 1},
+    {"fma", I::fma, S::kDouble, 3},
+    {"fmod", I::fmod, S::kFloat, 2},
+    {"frac", I::frac, S::kFloat, 1},
+    {"isfinite", I::isfinite, S::kTest, 1},
+    {"isinf", I::isinf, S::kTest, 1},
+    {"isnan", I::isnan, S::kTest, 1},
+    {"ldexp", I::ldexp, S::kFloat, 2},
+    {"length", I::length, S::kLength, 1},
+    {"lerp", I::lerp, S::kFloat, 3},
+    {"lit", I::lit, S::kLit, 3},
+    {"log", I::log, S::kFloat, 1},
+    {"log10", I::log10, S::kFloat, 1},
+    {"log2", I::log2, S::kFloat, 1},
+    {"mad", I::mad, S::kNumeric, 3},
+    {"max", I::max, S::kNumeric, 2},
+    {"min", I::min, S::kNumeric, 2},
+    {"msad4", I::msad4, S::kMsad4, 3},
+    {"normalize", I::normalize, S::kVector, 1},
+    {"pow", I::pow, S::kFloat, 2},
+    {"radians", I::radians, S::kFloat, 1},
+    {"rcp", I::rcp, S::kFloat, 1},
+    {"reflect", I::reflect, S::kVector, 2},
+    {"refract", I::refract, S::kRefract, 3},
+    {"reversebits", I::reversebits, S::kUint, 1},
+    {"round", I::round, S::kFloat, 1},
+    {"rsqrt", I::rsqrt, S::kFloat, 1},
+    {"saturate", I::saturate, S::kFloat, 1},
+    {"sign", I::sign, S::kSign, 1},
+    {"sin", I::sin, S::kFloat, 1},
+    {"sinh", I::sinh, S::kFloat, 1},
+    {"smoothstep", I::smoothstep, S::kFloat, 3},
+    {"sqrt", I::sqrt, S::kFloat, 1},
+    {"step", I::step, S::kFloat, 2},
+    {"tan", I::tan, S::kFloat, 1},
+    {"tanh", I::tanh, S::kFloat, 1},
+    {"transpose", I::transpose, S::kTranspose, 1},
+    {"trunc", I::trunc, S::kFloat, 1},
+};
+
+constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection |
+                                ir::kStageAnyHit | ir::kStageClosestHit | ir::kStageMiss |
+                                ir::kStageCallable;
+constexpr uint32_t kHitStages = ir::kStageIntersection | ir::kStageAnyHit | ir::kStageClosestHit;
+constexpr uint32_t kRayDataStages = kHitStages | ir::kStageMiss;
+using V = ir::SystemValue;
+constexpr ir::Scalar kF = ir::Scalar::kFloat32;
+constexpr ir::Scalar kU = ir::Scalar::kUint32;
+
+// [DXR: Ray tracing system values by stage]
+constexpr QueryValueRule kQueryValues[] = {
+    {"CandidateType", ir::QueryValue::kType, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedStatus", ir::QueryValue::kType, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateTriangleRayT", ir::QueryValue::kRayT, false, ir::Scalar::kFloat32, 0, 0},
+    {"CommittedRayT", ir::QueryValue::kRayT, true, ir::Scalar::kFloat32, 0, 0},
+    {"CandidateInstanceIndex", ir::QueryValue::kInstanceIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceIndex", ir::QueryValue::kInstanceIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateInstanceID", ir::QueryValue::kInstanceId, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceID", ir::QueryValue::kInstanceId, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateInstanceContributionToHitGroupIndex", ir::QueryValue::kInstanceContribution, false,
+     ir::Scalar::kUint32, 0, 0},
+    {"CommittedInstanceContributionToHitGroupIndex", ir::QueryValue::kInstanceContribution, true,
+     ir::Scalar::kUint32, 0, 0},
+    {"CandidateGeometryIndex", ir::QueryValue::kGeometryIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedGeometryIndex", ir::QueryValue::kGeometryIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidatePrimitiveIndex", ir::QueryValue::kPrimitiveIndex, false, ir::Scalar::kUint32, 0, 0},
+    {"CommittedPrimitiveIndex", ir::QueryValue::kPrimitiveIndex, true, ir::Scalar::kUint32, 0, 0},
+    {"CandidateObjectRayOrigin", ir::QueryValue::kObjectRayOrigin, false, ir::Scalar::kFloat32, 0,
+     3},
+    {"CommittedObjectRayOrigin", ir::QueryValue::kObjectRayOrigin, true, ir::Scalar::kFloat32, 0,
+     3},
+    {"CandidateObjectRayDirection", ir::QueryValue::kObjectRayDirection, false,
+     ir::Scalar::kFloat32, 0, 3},
+    {"CommittedObjectRayDirection", ir::QueryValue::kObjectRayDirection, true, ir::Scalar::kFloat32,
+     0, 3},
+    {"CandidateObjectToWorld3x4", ir::QueryValue::kObjectToWorld3x4, false, ir::Scalar::kFloat32, 3,
+     4},
+    {"CommittedObjectToWorld3x4", ir::QueryValue::kObjectToWorld3x4, true, ir::Scalar::kFloat32, 3,
+     4},
+    {"CandidateObjectToWorld4x3", ir::QueryValue::kObjectToWorld4x3, false, ir::Scalar::kFloat32, 4,
+     3},
+    {"CommittedObjectToWorld4x3", ir::QueryValue::kObjectToWorld4x3, true, ir::Scalar::kFloat32, 4,
+     3},
+    {"CandidateWorldToObject3x4", ir::QueryValue::kWorldToObject3x4, false, ir::Scalar::kFloat32, 3,
+     4},
+    {"CommittedWorldToObject3x4", ir::QueryValue::kWorldToObject3x4, true, ir::Scalar::kFloat32, 3,
+     4},
+    {"CandidateWorldToObject4x3", ir::QueryValue::kWorldToObject4x3, false, ir::Scalar::kFloat32, 4,
+     3},
+    {"CommittedWorldToObject4x3", ir::QueryValue::kWorldToObject4x3, true, ir::Scalar::kFloat32, 4,
+     3},
+    {"CandidateTriangleBarycentrics", ir::QueryValue::kBarycentrics, false, ir::Scalar::kFloat32, 0,
+     2},
+    {"CommittedTriangleBarycentrics", ir::QueryValue::kBarycentrics, true, ir::Scalar::kFloat32, 0,
+     2},
+    {"CandidateTriangleFrontFace", ir::QueryValue::kFrontFace, false, ir::Scalar::kBool, 0, 0},
+    {"CommittedTriangleFrontFace", ir::QueryValue::kFrontFace, true, ir::Scalar::kBool, 0, 0},
+    {"CandidateProceduralPrimitiveNonOpaque", ir::QueryValue::kProceduralNonOpaque, false,
+     ir::Scalar::kBool, 0, 0},
+    {"RayFlags", ir::QueryValue::kRayFlags, false, ir::Scalar::kUint32, 0, 0},
+    {"RayTMin", ir::QueryValue::kRayTMin, false, ir::Scalar::kFloat32, 0, 0},
+    {"WorldRayOrigin", ir::QueryValue::kWorldRayOrigin, false, ir::Scalar::kFloat32, 0, 3},
+    {"WorldRayDirection", ir::QueryValue::kWorldRayDirection, false, ir::Scalar::kFloat32, 0, 3},
+};
+
+constexpr SystemValueRule kSystemValues[] = {
+    {"DispatchRaysIndex", V::kDispatchRaysIndex, kU, 0, 3, kRayStages},
+    {"DispatchRaysDimensions", V::kDispatchRaysDimensions, kU, 0, 3, kRayStages},
+    {"WorldRayOrigin", V::kWorldRayOrigin, kF, 0, 3, kRayDataStages},
+    {"WorldRayDirection", V::kWorldRayDirection, kF, 0, 3, kRayDataStages},
+    {"RayTMin", V::kRayTMin, kF, 0, 0, kRayDataStages},
+    {"RayTCurrent", V::kRayTCurrent, kF, 0, 0, kRayDataStages},
+    {"RayFlags", V::kRayFlags, kU, 0, 0, kRayDataStages},
+    {"InstanceIndex", V::kInstanceIndex, kU, 0, 0, kHitStages},
+    {"InstanceID", V::kInstanceId, kU, 0, 0, kHitStages},
+    {"GeometryIndex", V::kGeometryIndex, kU, 0, 0, kHitStages},
+    {"PrimitiveIndex", V::kPrimitiveIndex, kU, 0, 0, kHitStages},
+    {"ObjectRayOrigin", V::kObjectRayOrigin, kF, 0, 3, kHitStages},
+    {"ObjectRayDirection", V::kObjectRayDirection, kF, 0, 3, kHitStages},
+    {"ObjectToWorld3x4", V::kObjectToWorld3x4, kF, 3, 4, kHitStages},
+    {"ObjectToWorld4x3", V::kObjectToWorld4x3, kF, 4, 3, kHitStages},
+    {"ObjectToWorld", V::kObjectToWorld3x4, kF, 3, 4, kHitStages},
+    {"WorldToObject3x4", V::kWorldToObject3x4, kF, 3, 4, kHitStages},
+    {"WorldToObject4x3", V::kWorldToObject4x3, kF, 4, 3, kHitStages},
+    {"WorldToObject", V::kWorldToObject3x4, kF, 3, 4, kHitStages},
+    {"HitKind", V::kHitKind, kU, 0, 0, ir::kStageAnyHit | ir::kStageClosestHit},
+};
+
+using A = ir::AtomicOp;
+constexpr AtomicRule kAtomics[] = {
+    {"InterlockedAdd", A::kAdd, false, false, true},
+    {"InterlockedAnd", A::kAnd, false, false, true},
+    {"InterlockedOr", A::kOr, false, false, true},
+    {"InterlockedXor", A::kXor, false, false, true},
+    {"InterlockedMin", A::kMin, false, false, true},
+    {"InterlockedMax", A::kMax, false, false, true},
+    {"InterlockedExchange", A::kExchange, false, true, true},
+    {"InterlockedCompareExchange", A::kCompareExchange, true, true, true},
+    {"InterlockedCompareStore", A::kCompareStore, true, false, false},
+};
+
+constexpr BarrierRule kBarriers[] = {
+    {"GroupMemoryBarrier", ir::kGroupMemory},
+    {"GroupMemoryBarrierWithGroupSync", ir::kGroupMemory | ir::kGroupSync},
+    {"DeviceMemoryBarrier", ir::kDeviceMemory},
+    {"DeviceMemoryBarrierWithGroupSync", ir::kDeviceMemory | ir::kGroupSync},
+    {"AllMemoryBarrier", ir::kGroupMemory | ir::kDeviceMemory},
+    {"AllMemoryBarrierWithGroupSync", ir::kGroupMemory | ir::kDeviceMemory | ir::kGroupSync},
+};
+
+using F = SampleForm;
+constexpr SampleRule kSamples[] = {
+    {"Sample", F::kSample, 0},
+    {"SampleBias", F::kBias, 0},
+    {"SampleLevel", F::kLevel, 0},
+    {"SampleGrad", F::kGradient, 0},
+    {"SampleCmp", F::kCompare, 0},
+    {"SampleCmpLevelZero", F::kCompareZero, 0},
+    {"SampleCmpLevel", F::kCompareLevel, 0},
+    {"Gather", F::kGather, 0},
+    {"GatherRed", F::kGather, 0},
+    {"GatherGreen", F::kGather, 1},
+    {"GatherBlue", F::kGather, 2},
+    {"GatherAlpha", F::kGather, 3},
+    {"GatherCmp", F::kGatherCompare, 0},
+    {"GatherCmpRed", F::kGatherCompare, 0},
+};
+
+struct Family {
+  std::string_view prefix;  // of a name, or the whole of it where `whole`
+  std::string_view what;
+  bool whole;
+};
+
+constexpr Family kUnsupported[] = {
+    {"Wave", "wave intrinsics", false},
+    {"Quad", "quad intrinsics", false},
+    {"GetAttributeAtVertex", "barycentric attributes", true},
+    {"MaybeReorderThread", "shader execution reordering", true},
+    {"ReorderThread", "shader execution reordering", true},
+    {"IsHelperLane", "pixel shaders", true},
+    {"EvaluateAttribute", "pixel shaders", false},
+    {"GetRenderTargetSample", "pixel shaders", false},
+    {"CheckAccessFullyMapped", "tiled resources", true},
+    {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},
+    {"printf", "printf", true},
+    {"errorf", "errorf", true},
+    {"abort", "abort", true},
+    {"Process2DQuadTessFactors", "tessellation", false},
+    {"dot2add", "packed dot products", true},
+    {"dot4add_u8packed", "packed dot products", true},
+    {"dot4add_i8packed", "packed dot products", true},
+    {"pack_u8", "packed 8-bit intrinsics", true},
+    {"pack_s8", "packed 8-bit intrinsics", true},
+    {"pack_clamp_u8", "packed 8-bit intrinsics", true},
+    {"pack_clamp_s8", "packed 8-bit intrinsics", true},
+    {"unpack_u8u16", "packed 8-bit intrinsics", true},
+    {"unpack_u8u32", "packed 8-bit intrinsics", true},
+    {"unpack_s8s16", "packed 8-bit intrinsics", true},
+    {"unpack_s8s32", "packed 8-bit intrinsics", true},
+    {"InterlockedExchangeFloat", "interlocked operations on floats", true},
+    {"InterlockedCompareExchangeFloatBitwise", "interlocked operations on floats", true},
+    {"InterlockedCompareStoreFloatBitwise", "interlocked operations on floats", true},
+    {"tex1D", "Direct3D 9 texture functions", false},
+    {"tex2D", "Direct3D 9 texture functions", false},
+    {"tex3D", "Direct3D 9 texture functions", false},
+    {"texCUBE", "Direct3D 9 texture functions", false},
+    {"noise", "noise", true},
+};
+
+constexpr std::string_view kPixelFunctions[] = {"ddx",        "ddx_coarse", "ddx_fine", "ddy",
+                                                "ddy_coarse", "ddy_fine",   "fwidth",   "clip"};
+
+constexpr std::string_view kByName[] = {"mul",
+                                        "select",
+                                        "and",
+                                        "or",
+                                        "sincos",
+                                        "modf",
+                                        "frexp",
+                                        "NonUniformResourceIndex",
+                                        "D3DCOLORtoUBYTE4",
+                                        "TraceRay",
+                                        "ReportHit",
+                                        "CallShader",
+                                        "IgnoreHit",
+                                        "AcceptHitAndEndSearch"};
+
+template <class Rule, size_t N>
+const Rule* find_rule(const Rule (&rules)[N], std::string_view name) {
+  static const std::unordered_map<std::string_view, const Rule*> map = [&rules] {
+    std::unordered_map<std::string_view, const Rule*> result;
+    for (const Rule& rule : rules) result[rule.name] = &rule;
+    return result;
+  }();
+  const auto found = map.find(name);
+  return found == map.end() ? nullptr : found->second;
+}
+
+}  // namespace
+
+const IntrinsicRule* find_intrinsic(std::string_view name) {
+  return find_rule(kIntrinsics, name);
+}
+const SystemValueRule* find_system_value(std::string_view name) {
+  return find_rule(kSystemValues, name);
+}
+const QueryValueRule* find_query_value(std::string_view name) {
+  return find_rule(kQueryValues, name);
+}
+const AtomicRule* find_atomic(std::string_view name) {
+  if (name.ends_with("64")) name.remove_suffix(2);
+  return find_rule(kAtomics, name);
+}
+const BarrierRule* find_barrier(std::string_view name) {
+  return find_rule(kBarriers, name);
+}
+const SampleRule* find_sample(std::string_view name) {
+  return find_rule(kSamples, name);
+}
+
+std::string_view unsupported_function(std::string_view name) {
+  for (const Family& family : kUnsupported) {
+    if (family.whole ? name == family.prefix : name.starts_with(family.prefix)) return family.what;
+  }
+  return {};
+}
+
+bool is_pixel_function(std::string_view name) {
+  return std::find(std::begin(kPixelFunctions), std::end(kPixelFunctions), name) !=
+         std::end(kPixelFunctions);
+}
+
+bool is_builtin_function(std::string_view name) {
+  return find_intrinsic(name) || find_system_value(name) || find_atomic(name) ||
+         find_barrier(name) || is_pixel_function(name) ||
+         std::find(std::begin(kByName), std::end(kByName), name) != std::end(kByName) ||
+         !unsupported_function(name).empty();
+}
+
+const std::vector<std::string_view>& builtin_function_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> result(std::begin(kByName), std::end(kByName));
+    for (const auto& rule : kIntrinsics) result.push_back(rule.name);
+    for (const auto& rule : kSystemValues) result.push_back(rule.name);
+    for (const auto& rule : kAtomics) result.push_back(rule.name);
+    for (const auto& rule : kBarriers) result.push_back(rule.name);
+    return result;
+  }();
+  return names;
+}
+
+std::string_view stage_name(uint32_t stage) {
+  switch (stage) {
+    case ir::kStageRayGeneration:
+      return "ray generation";
+    case ir::kStageIntersection:
+      return "intersection";
+    case ir::kStageAnyHit:
+      return "any hit";
+    case ir::kStageClosestHit:
+      return "closest hit";
+    case ir::kStageMiss:
+      return "miss";
+    case ir::kStageCallable:
+      return "callable";
+    case ir::kStageCompute:
+      return "compute";
+    default:
+      return "pixel";
+  }
+}
+
+std::string stage_list(uint32_t stages) {
+  std::vector<std::string_view> names;
+  for (uint32_t bit = 1; bit <= ir::kStageCompute; bit <<= 1) {
+    if (stages & bit) names.push_back(stage_name(bit));
+  }
+  if (names.empty()) names.push_back("pixel");
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  return text + " shaders";
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/hlsl/ir/builtin_types.h"
+
+#include <iterator>
+
+namespace kaamos::hlsl {
+namespace {
+
+using K = ir::ResourceKind;
+using E = ElementRule;
+
+// In the order of ir::ResourceKind.
+constexpr ResourceTraits kTraits[] = {
+    {"ConstantBuffer", K::kConstantBuffer, E::kStruct, 2, 0, false, false},
+    {"ByteAddressBuffer", K::kByteAddressBuffer, E::kNone, 0, 0, false, false},
+    {"RWByteAddressBuffer", K::kRWByteAddressBuffer, E::kNone, 1, 0, false, true},
+    {"StructuredBuffer", K::kStructuredBuffer, E::kStruct, 0, 0, false, false},
+    {"RWStructuredBuffer", K::kRWStructuredBuffer, E::kStruct, 1, 0, false, true},
+    {"Buffer", K::kBuffer, E::kTexel, 0, 1, false, false},
+    {"RWBuffer", K::kRWBuffer, E::kRequiredTexel, 1, 1, false, true},
+    {"Texture1D", K::kTexture1D, E::kTexel, 0, 1, false, false},
+    {"Texture1DArray", K::kTexture1DArray, E::kTexel, 0, 2, true, false},
+    {"Texture2D", K::kTexture2D, E::kTexel, 0, 2, false, false},
+    {"Texture2DArray", K::kTexture2DArray, E::kTexel, 0, 3, true, false},
+    {"Texture3D", K::kTexture3D, E::kTexel, 0, 3, false, false},
+    {"TextureCube", K::kTextureCube, E::kTexel, 0, 3, false, false},
+    {"TextureCubeArray", K::kTextureCubeArray, E::kTexel, 0, 4, true, false},
+    {"RWTexture1D", K::kRWTexture1D, E::kRequiredTexel, 1, 1, false, true},
+    {"RWTexture1DArray", K::kRWTexture1DArray, E::kRequiredTexel, 1, 2, true, true},
+    {"RWTexture2D", K::kRWTexture2D, E::kRequiredTexel, 1, 2, false, true},
+    {"RWTexture2DArray", K::kRWTexture2DArray, E::kRequiredTexel, 1, 3, true, true},
+    {"RWTexture3D", K::kRWTexture3D, E::kRequiredTexel, 1, 3, false, true},
+    {"SamplerState", K::kSampler, E::kNone, 3, 0, false, false},
+    {"SamplerComparisonState", K::kSamplerComparison, E::kNone, 3, 0, false, false},
+    {"RaytracingAccelerationStructure", K::kAccelerationStructure, E::kNone, 0, 0, false, false},
+    {"RayQuery", K::kRayQuery, E::kNone, 0, 0, false, false},
+};
+
+struct Unsupported {
+  std::string_view name;
+  std::string_view reason;
+};
+
+constexpr Unsupported kUnsupported[] = {
+    {"HitObject", "shader execution reordering"},
+    {"Texture2DMS", "multisampled textures"},
+    {"Texture2DMSArray", "multisampled textures"},
+    {"AppendStructuredBuffer", "append buffers"},
+    {"ConsumeStructuredBuffer", "consume buffers"},
+    {"FeedbackTexture2D", "sampler feedback"},
+    {"FeedbackTexture2DArray", "sampler feedback"},
+    {"TextureBuffer", "texture buffers"},
+    {"RasterizerOrderedTexture2D", "rasterizer-ordered views"},
+    {"RasterizerOrderedBuffer", "rasterizer-ordered views"},
+    {"RasterizerOrderedStructuredBuffer", "rasterizer-ordered views"},
+    {"RasterizerOrderedByteAddressBuffer", "rasterizer-ordered views"},
+    {"InputPatch", "hull and domain shaders"},
+    {"OutputPatch", "hull and domain shaders"},
+    {"PointStream", "geometry shaders"},
+    {"LineStream", "geometry shaders"},
+    {"TriangleStream", "geometry shaders"},
+    {"DispatchNodeInputRecord", "work graphs"},
+    {"NodeOutput", "work graphs"},
+};
+
+}  // namespace
+
+const ResourceTraits& traits_of(ir::ResourceKind kind) {
+  return kTraits[static_cast<size_t>(kind)];
+}
+
+std::string_view resource_name(ir::ResourceKind kind) {
+  return traits_of(kind).name;
+}
+
+const ResourceTraits* find_resource(std::string_view name) {
+  if (name == "sampler" || name == "sampler2D" || name == "SamplerState") {
+    return &traits_of(K::kSampler);
+  }
+  if (name == "texture" || name == "texture2D") return &traits_of(K::kTexture2D);
+  for (const ResourceTraits& traits : kTraits) {
+    if (traits.name == name) return &traits;
+  }
+  return nullptr;
+}
+
+std::string_view unsupported_type(std::string_view name) {
+  for (const Unsupported& entry : kUnsupported) {
+    if (entry.name == name) return entry.reason;
+  }
+  return {};
+}
+
+const BuiltinConstant kBuiltinConstants[] = {
+    {"RAY_FLAG_NONE", 0},
+    {"RAY_FLAG_FORCE_OPAQUE", 0x01},
+    {"RAY_FLAG_FORCE_NON_OPAQUE", 0x02},
+    {"RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH", 0x04},
+    {"RAY_FLAG_SKIP_CLOSEST_HIT_SHADER", 0x08},
+    {"RAY_FLAG_CULL_BACK_FACING_TRIANGLES", 0x10},
+    {"RAY_FLAG_CULL_FRONT_FACING_TRIANGLES", 0x20},
+    {"RAY_FLAG_CULL_OPAQUE", 0x40},
+    {"RAY_FLAG_CULL_NON_OPAQUE", 0x80},
+    {"RAY_FLAG_SKIP_TRIANGLES", 0x100},
+    {"RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES", 0x200},
+    {"HIT_KIND_TRIANGLE_FRONT_FACE", 0xFE},
+    {"HIT_KIND_TRIANGLE_BACK_FACE", 0xFF},
+    {"CANDIDATE_NON_OPAQUE_TRIANGLE", 0},
+    {"CANDIDATE_PROCEDURAL_PRIMITIVE", 1},
+    {"COMMITTED_NOTHING", 0},
+    {"COMMITTED_TRIANGLE_HIT", 1},
+    {"COMMITTED_PROCEDURAL_PRIMITIVE_HIT", 2},
+    {"STATE_OBJECT_FLAGS_ALLOW_LOCAL_DEPENDENCIES_ON_EXTERNAL_DEFINITONS", 0x1},
+    {"STATE_OBJECT_FLAGS_ALLOW_LOCAL_DEPENDENCIES_ON_EXTERNAL_DEFINITIONS", 0x1},
+    {"STATE_OBJECT_FLAG_ALLOW_LOCAL_DEPENDENCIES_ON_EXTERNAL_DEFINITIONS", 0x1},
+    {"STATE_OBJECT_FLAGS_ALLOW_EXTERNAL_DEPENDENCIES_ON_LOCAL_DEFINITIONS", 0x2},
+    {"STATE_OBJECT_FLAG_ALLOW_EXTERNAL_DEPENDENCIES_ON_LOCAL_DEFINITIONS", 0x2},
+    {"STATE_OBJECT_FLAG_ALLOW_STATE_OBJECT_ADDITIONS", 0x4},
+    {"RAYTRACING_PIPELINE_FLAG_NONE", 0x0},
+    {"RAYTRACING_PIPELINE_FLAG_SKIP_TRIANGLES", 0x100},
+    {"RAYTRACING_PIPELINE_FLAG_SKIP_PROCEDURAL_PRIMITIVES", 0x200},
+};
+const size_t kBuiltinConstantCount = std::size(kBuiltinConstants);
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// HLSL's resource types, by name.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+enum class ElementRule : uint8_t {
+  kNone,           // takes no argument: SamplerState
+  kStruct,         // any type without resources: StructuredBuffer<T>
+  kTexel,          // scalar or vector of up to four: Texture2D<T>, float4 where none is given
+  kRequiredTexel,  // the same, always written: RWTexture2D<T>
+};
+
+struct ResourceTraits {
+  std::string_view name;
+  ir::ResourceKind kind;
+  ElementRule element;
+  uint8_t register_class;  // 0 t, 1 u, 2 b, 3 s
+  uint8_t coordinates;     // of a location: Texture2DArray has 3; 0: no texture or typed buffer
+  bool is_array;
+  bool is_writable;
+};
+
+const ResourceTraits& traits_of(ir::ResourceKind kind);
+std::string_view resource_name(ir::ResourceKind kind);
+// Also older spellings (`sampler`, `TextureBuffer` has none). Null: not a resource's name.
+const ResourceTraits* find_resource(std::string_view name);
+// A type of HLSL that is known and not supported: the reason to print, empty: no such type.
+std::string_view unsupported_type(std::string_view name);
+
+inline bool is_texture(ir::ResourceKind kind) {
+  return kind >= ir::ResourceKind::kTexture1D && kind <= ir::ResourceKind::kRWTexture3D;
+}
+inline bool is_sampled_texture(ir::ResourceKind kind) {
+  return kind >= ir::ResourceKind::kTexture1D && kind <= ir::ResourceKind::kTextureCubeArray;
+}
+inline bool is_typed(ir::ResourceKind kind) {
+  return is_texture(kind) || kind == ir::ResourceKind::kBuffer ||
+         kind == ir::ResourceKind::kRWBuffer;
+}
+inline bool is_structured(ir::ResourceKind kind) {
+  return kind == ir::ResourceKind::kStructuredBuffer ||
+         kind == ir::ResourceKind::kRWStructuredBuffer;
+}
+inline bool is_raw(ir::ResourceKind kind) {
+  return kind == ir::ResourceKind::kByteAddressBuffer ||
+         kind == ir::ResourceKind::kRWByteAddressBuffer;
+}
+inline bool is_sampler(ir::ResourceKind kind) {
+  return kind == ir::ResourceKind::kSampler || kind == ir::ResourceKind::kSamplerComparison;
+}
+
+// Global constants that every library sees: RAY_FLAG_FORCE_OPAQUE, HIT_KIND_TRIANGLE_BACK_FACE ..
+// [DXR: Ray flags, Hit kinds]
+struct BuiltinConstant {
+  std::string_view name;
+  uint32_t value;
+};
+extern const BuiltinConstant kBuiltinConstants[];
+extern const size_t kBuiltinConstantCount;
+
+}  // namespace kaamos::hlsl

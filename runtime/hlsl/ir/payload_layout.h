@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// How a payload lies in memory, for debuggers and explanations.
+#pragma once
+
+#include <string>
+
+#include "runtime/hlsl/ir/ir.h"
+
+namespace kaamos::hlsl {
+
+// The text of shader::ExportDesc::payload_layout. Long values are cut after some hundred fields;
+// null gives an empty text.
+std::string value_layout(const ir::Type* type);
+
+}  // namespace kaamos::hlsl

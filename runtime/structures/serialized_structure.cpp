@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/structures/serialized_structure.h"
+
+#include <cstring>
+#include <string>
+#include <unordered_map>
+
+#include "runtime/backend/errors.h"
+#include "runtime/structures/serialized_identifier.h"
+
+namespace kaamos::runtime {
+namespace {
+
+using Header = rtapi::SerializedRaytracingAccelerationStructureHeader;
+using Type = rtapi::RaytracingAccelerationStructureType;
+using rtapi::RaytracingGeometryType;
+
+constexpr uint32_t kOpaque = 1;
+constexpr uint32_t kNoDuplicateAnyHit = 2;
+constexpr uint32_t kTransformed = 4;
+
+struct PayloadHeader {
+  uint64_t checksum;
+  uint32_t type;  // Type
+  uint32_t flags;
+  uint64_t count;  // geometries or instances
+};
+struct GeometryRecord {
+  uint32_t type;
+  uint32_t vertex_format;
+  uint32_t index_format;
+  uint32_t flags;
+  uint32_t vertices;
+  uint32_t primitives;
+};
+static_assert(sizeof(PayloadHeader) == 24 && sizeof(GeometryRecord) == 24);
+
+uint64_t padded(uint64_t bytes) {
+  return (bytes + 7) / 8 * 8;
+}
+
+// Counts that follow from the shape alone, so that damaged counts cannot contradict each other.
+struct ArrayCounts {
+  uint64_t floats = 0;
+  uint64_t indices = 0;
+  uint64_t boxes = 0;
+  uint64_t bytes() const {
+    return padded(floats * 4) + padded(indices * 4) + boxes * sizeof(rtapi::RaytracingAabb);
+  }
+};
+ArrayCounts counts_of(const GeometryShape& shape) {
+  ArrayCounts counts;
+  if (shape.type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+    counts.boxes = shape.primitives;
+  } else if (shape.vertices != 0 && shape.primitives != 0) {
+    counts.floats = 3 * uint64_t{shape.vertices};
+    if (shape.index_format != rtapi::Format::kUnknown) {
+      counts.indices = 3 * uint64_t{shape.primitives};
+    }
+  }
+  return counts;
+}
+
+class Writer {
+ public:
+  explicit Writer(std::span<uint8_t> out) : at_(out.data()) {}
+  void put(const void* data, uint64_t bytes) {
+    if (bytes != 0) std::memcpy(at_, data, bytes);
+    std::memset(at_ + bytes, 0, padded(bytes) - bytes);
+    at_ += padded(bytes);
+  }
+  template <typename T>
+  void put(const T& value) {
+    put(&value, sizeof(value));
+  }
+  template <typename T>
+  void put_array(std::span<const T> values) {
+    put(values.data(), values.size_bytes());
+  }
+  void put_contents(const GeometryContents& contents, const ArrayCounts& counts) {
+    put_array(contents.xyz.first(counts.floats));
+    put_array(contents.indices.first(counts.indices));
+    put_array(contents.boxes.first(counts.boxes));
+  }
+
+ private:
+  uint8_t* at_;
+};
+
+uint64_t checksum_of(std::span<const uint8_t> bytes, const Header& header, uint64_t payload) {
+  uint64_t sum = 0xCBF29CE484222325;
+  const auto add = [&sum](uint64_t word) {
+    // A bijection of each word, so that a change of a single word is always detected.
+    sum = (sum ^ word) * 0x9E3779B97F4A7C15;
+    sum ^= sum >> 32;
+  };
+  add(header.SerializedSizeInBytesIncludingHeader);
+  add(header.DeserializedSizeInBytes);
+  add(header.NumBottomLevelAccelerationStructurePointersAfterHeader);
+  for (uint64_t at = payload + sizeof(uint64_t); at + 8 <= bytes.size(); at += 8) {
+    uint64_t word;
+    std::memcpy(&word, &bytes[at], sizeof(word));
+    add(word);
+  }
+  return sum;
+}
+
+// The different addresses, in the order in which the instances first use them.
+std::vector<uint64_t> bottom_levels_of(const AccelerationStructure& structure,
+                                       std::unordered_map<uint64_t, uint64_t>& places) {
+  std::vector<uint64_t> addresses;
+  for (const auto& instance : *structure.instances) {
+    const uint64_t address = instance.AccelerationStructure;
+    if (address != 0 && places.try_emplace(address, addresses.size() + 1).second) {
+      addresses.push_back(address);
+    }
+  }
+  return addresses;
+}
+
+GeometryRecord record_of(const GeometryShape& shape) {
+  GeometryRecord record;
+  record.type = static_cast<uint32_t>(shape.type);
+  record.vertex_format = static_cast<uint32_t>(shape.vertex_format);
+  record.index_format = static_cast<uint32_t>(shape.index_format);
+  record.flags = (shape.opaque ? kOpaque : 0) |
+                 (shape.no_duplicate_any_hit ? kNoDuplicateAnyHit : 0) |
+                 (shape.transformed ? kTransformed : 0);
+  record.vertices = shape.vertices;
+  record.primitives = shape.primitives;
+  return record;
+}
+
+rtapi::RaytracingGeometryFlags flags_of(const GeometryShape& shape) {
+  auto flags = rtapi::RaytracingGeometryFlags::kNone;
+  if (shape.opaque) flags = flags | rtapi::RaytracingGeometryFlags::kOpaque;
+  if (shape.no_duplicate_any_hit) {
+    flags = flags | rtapi::RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
+  }
+  return flags;
+}
+
+// A desc of the arrays that follow each other from `address` on.
+rtapi::RaytracingGeometryDesc desc_of(const GeometryShape& shape, uint64_t address) {
+  const ArrayCounts counts = counts_of(shape);
+  rtapi::RaytracingGeometryDesc desc;
+  desc.Type = shape.type;
+  desc.Flags = flags_of(shape);
+  if (shape.type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+    desc.AABBs = {counts.boxes, {counts.boxes == 0 ? 0 : address, sizeof(rtapi::RaytracingAabb)}};
+    return desc;
+  }
+  auto& triangles = desc.Triangles;
+  triangles.VertexFormat = rtapi::Format::kR32G32B32Float;
+  triangles.VertexCount = counts.floats == 0 ? 0 : shape.vertices;
+  triangles.VertexBuffer = {counts.floats == 0 ? 0 : address, 12};
+  if (counts.indices != 0) {
+    triangles.IndexFormat = rtapi::Format::kR32Uint;
+    triangles.IndexCount = static_cast<uint32_t>(counts.indices);
+    triangles.IndexBuffer = address + padded(counts.floats * 4);
+  }
+  return desc;
+}
+
+// Parses the bytes; every read is checked against their end.
+class Parser {
+ public:
+  explicit Parser(std::span<const uint8_t> bytes) : bytes_(bytes) {}
+  rtapi::Result<SerializedStructure> run();
+
+ private:
+  static rtapi::Error error(const std::string& what) {
+    return make_error(Id::kSerializedData, what + ".");
+  }
+  template <typename T>
+  bool get(T& value) {
+    if (bytes_.size() - at_ < sizeof(T)) return false;
+    std::memcpy(&value, &bytes_[at_], sizeof(T));
+    at_ += sizeof(T);
+    return true;
+  }
+  rtapi::Status read_header();
+  rtapi::Status read_payload_header();
+  rtapi::Status read_instances();
+  rtapi::Status read_geometry(uint32_t index);
+
+  std::span<const uint8_t> bytes_;
+  uint64_t at_ = 0;
+  Header header_;
+  PayloadHeader payload_ = {};
+  std::vector<uint64_t> pointers_;
+  SerializedStructure result_;
+};
+
+rtapi::Status Parser::read_header() {
+  using Match = rtapi::DriverMatchingIdentifierStatus;
+  if (!get(header_)) {
+    return error("its header takes 56 bytes, there are " + std::to_string(bytes_.size()));
+  }
+  const Match match = check_identifier(rtapi::SerializedDataType::kRaytracingAccelerationStructure,
+                                       header_.DriverMatchingIdentifier);
+  if (match == Match::kUnrecognized) {
+    return error("its identifier is another driver's. Ask CheckDriverMatchingIdentifier first");
+  }
+  if (match != Match::kCompatibleWithDevice) {
+    return error("it is not of version " + std::to_string(kSerializedVersion) +
+                 ". Ask CheckDriverMatchingIdentifier first, and build anew");
+  }
+  const uint64_t size = header_.SerializedSizeInBytesIncludingHeader;
+  if (size > bytes_.size()) {
+    return error("it is cut off: its header says " + std::to_string(size) +
+                 " bytes, from there its buffer has " + std::to_string(bytes_.size()));
+  }
+  const uint64_t count = header_.NumBottomLevelAccelerationStructurePointersAfterHeader;
+  if (size % 8 != 0 || size < sizeof(Header) + sizeof(PayloadHeader) ||
+      count > (size - sizeof(Header) - sizeof(PayloadHeader)) / 8) {
+    return error("its header is damaged: " + std::to_string(size) + " bytes with " +
+                 std::to_string(count) + " addresses of bottom levels");
+  }
+  bytes_ = bytes_.first(size);
+  pointers_.resize(count);
+  if (count != 0) std::memcpy(pointers_.data(), &bytes_[at_], count * 8);
+  at_ += count * 8;
+  return {};
+}
+
+rtapi::Status Parser::read_payload_header() {
+  const uint64_t begin = at_;
+  get(payload_);
+  if (payload_.checksum != checksum_of(bytes_, header_, begin)) {
+    return error(
+        "its checksum does not match: it was damaged, or changed elsewhere than in the "
+        "addresses of bottom levels");
+  }
+  const bool top = payload_.type == static_cast<uint32_t>(Type::kTopLevel);
+  const uint64_t most = top ? rtapi::kRaytracingMaxInstancesPerTopLevelAccelerationStructure
+                            : rtapi::kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure;
+  const uint64_t each = top ? sizeof(rtapi::RaytracingInstanceDesc) : sizeof(GeometryRecord);
+  const auto flags = static_cast<BuildFlags>(payload_.flags);
+  const bool exclusive = rtapi::HasAny(flags, BuildFlags::kPreferFastTrace) &&
+                         rtapi::HasAny(flags, BuildFlags::kPreferFastBuild);
+  if (payload_.type > static_cast<uint32_t>(Type::kBottomLevel) || payload_.count > most ||
+      payload_.count > (bytes_.size() - at_) / each || (payload_.flags & ~0x1Fu) != 0 ||
+      exclusive || (!top && !pointers_.empty())) {
+    return error("its contents are damaged: type " + std::to_string(payload_.type) + " of " +
+                 std::to_string(payload_.count) + " with build flags " +
+                 std::to_string(payload_.flags));
+  }
+  if (header_.DeserializedSizeInBytes < 256 || header_.DeserializedSizeInBytes % 256 != 0) {
+    return error("DeserializedSizeInBytes is " + std::to_string(header_.DeserializedSizeInBytes) +
+                 ", no multiple of 256");
+  }
+  result_.type = static_cast<Type>(payload_.type);
+  result_.flags = flags;
+  result_.size_bytes = header_.DeserializedSizeInBytes;
+  return {};
+}
+
+rtapi::Status Parser::read_instances() {
+  result_.instances.resize(payload_.count);
+  for (uint64_t i = 0; i < payload_.count; ++i) {
+    auto& instance = result_.instances[i];
+    get(instance);
+    const uint64_t place = instance.AccelerationStructure;
+    if (place > pointers_.size()) {
+      return error("instance " + std::to_string(i) + " names bottom level " +
+                   std::to_string(place) + " of " + std::to_string(pointers_.size()));
+    }
+    instance.AccelerationStructure = place == 0 ? 0 : pointers_[place - 1];
+  }
+  return {};
+}
+
+rtapi::Status Parser::read_geometry(uint32_t index) {
+  GeometryRecord record;
+  const std::string where = "geometry " + std::to_string(index);
+  if (!get(record)) return error(where + " is cut off");
+  GeometryShape shape;
+  shape.type = static_cast<RaytracingGeometryType>(record.type);
+  shape.index = index;
+  shape.vertex_format = static_cast<rtapi::Format>(record.vertex_format);
+  shape.index_format = static_cast<rtapi::Format>(record.index_format);
+  shape.opaque = (record.flags & kOpaque) != 0;
+  shape.no_duplicate_any_hit = (record.flags & kNoDuplicateAnyHit) != 0;
+  shape.transformed = (record.flags & kTransformed) != 0;
+  shape.vertices = record.vertices;
+  shape.primitives = record.primitives;
+  const bool boxes = shape.type == RaytracingGeometryType::kProceduralPrimitiveAabbs;
+  const bool indexed = shape.index_format == rtapi::Format::kR16Uint ||
+                       shape.index_format == rtapi::Format::kR32Uint;
+  const bool plain = shape.index_format == rtapi::Format::kUnknown;
+  bool sound =
+      record.type <= 1 && record.flags < 8 && (indexed || plain) &&
+      (index == 0 || record.type == static_cast<uint32_t>(result_.shapes[0].type)) &&
+      record.primitives <= rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure;
+  if (boxes) {
+    sound &= plain && record.vertices == 0;
+  } else if (plain) {
+    sound &= record.primitives == record.vertices / 3;
+  }
+  if (!sound) return error(where + " is damaged");
+  const uint64_t bytes = counts_of(shape).bytes();
+  if (bytes > bytes_.size() - at_) {
+    return error(where + " is cut off: its arrays take " + std::to_string(bytes) +
+                 " bytes, there are " + std::to_string(bytes_.size() - at_));
+  }
+  result_.geometries.push_back(desc_of(shape, reinterpret_cast<uint64_t>(bytes_.data() + at_)));
+  result_.shapes.push_back(shape);
+  at_ += bytes;
+  return {};
+}
+
+rtapi::Result<SerializedStructure> Parser::run() {
+  if (auto s = read_header(); !s) return s.error();
+  if (auto s = read_payload_header(); !s) return s.error();
+  if (result_.type == Type::kTopLevel) {
+    if (auto s = read_instances(); !s) return s.error();
+  } else {
+    for (uint32_t i = 0; i < payload_.count; ++i) {
+      if (auto s = read_geometry(i); !s) return s.error();
+    }
+  }
+  if (at_ != bytes_.size()) {
+    return error("its contents take " + std::to_string(at_) + " bytes, its header says " +
+                 std::to_string(bytes_.size()));
+  }
+  return std::move(result_);
+}
+
+}  // namespace
+
+SerializedSize serialized_size(const AccelerationStructure& structure) {
+  SerializedSize size;
+  size.bytes = sizeof(Header) + sizeof(PayloadHeader);
+  if (structure.bottom_level == nullptr) {
+    std::unordered_map<uint64_t, uint64_t> places;
+    size.pointers = bottom_levels_of(structure, places).size();
+    size.bytes +=
+        size.pointers * 8 + structure.instances->size() * sizeof(rtapi::RaytracingInstanceDesc);
+    return size;
+  }
+  for (const GeometryShape& shape : structure.bottom_level->geometry_shapes()) {
+    size.bytes += sizeof(GeometryRecord) + counts_of(shape).bytes();
+  }
+  return size;
+}
+
+void serialize(const AccelerationStructure& structure, std::span<uint8_t> out) {
+  const bool top = structure.bottom_level == nullptr;
+  std::unordered_map<uint64_t, uint64_t> places;
+  std::vector<uint64_t> pointers;
+  std::vector<GeometryShape> shapes;
+  if (top) {
+    pointers = bottom_levels_of(structure, places);
+  } else {
+    shapes = structure.bottom_level->geometry_shapes();
+  }
+  Header header;
+  header.DriverMatchingIdentifier = serialized_identifier();
+  header.SerializedSizeInBytesIncludingHeader = out.size();
+  header.DeserializedSizeInBytes = structure.size_bytes;
+  header.NumBottomLevelAccelerationStructurePointersAfterHeader = pointers.size();
+  PayloadHeader payload = {};
+  payload.type = static_cast<uint32_t>(top ? Type::kTopLevel : Type::kBottomLevel);
+  payload.flags = static_cast<uint32_t>(structure.flags);
+  payload.count = top ? structure.instances->size() : shapes.size();
+  Writer writer(out);
+  writer.put(header);
+  writer.put_array(std::span<const uint64_t>(pointers));
+  writer.put(payload);
+  if (top) {
+    for (rtapi::RaytracingInstanceDesc instance : *structure.instances) {
+      if (instance.AccelerationStructure != 0) {
+        instance.AccelerationStructure = places[instance.AccelerationStructure];
+      }
+      writer.put(instance);
+    }
+  }
+  for (const GeometryShape& shape : shapes) {
+    writer.put(record_of(shape));
+    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape));
+  }
+  seal_serialized(out);
+}
+
+rtapi::Result<SerializedStructure> parse_serialized(std::span<const uint8_t> bytes) {
+  return Parser(bytes).run();
+}
+
+void seal_serialized(std::span<uint8_t> bytes) {
+  Header header;
+  if (bytes.size() < sizeof(header) + sizeof(PayloadHeader)) return;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  const uint64_t size = header.SerializedSizeInBytesIncludingHeader;
+  const uint64_t count = header.NumBottomLevelAccelerationStructurePointersAfterHeader;
+  if (size > bytes.size() || size < sizeof(header) + sizeof(PayloadHeader) ||
+      count > (size - sizeof(header) - sizeof(PayloadHeader)) / 8) {
+    return;
+  }
+  const uint64_t payload = sizeof(header) + count * 8;
+  const uint64_t checksum = checksum_of(bytes.first(size), header, payload);
+  std::memcpy(&bytes[payload], &checksum, sizeof(checksum));
+}
+
+uint64_t decoded_size(const AccelerationStructure& structure) {
+  uint64_t bytes = sizeof(rtapi::BuildRaytracingAccelerationStructureToolsVisualizationHeader);
+  if (structure.bottom_level == nullptr) {
+    return bytes + structure.instances->size() * sizeof(rtapi::RaytracingInstanceDesc);
+  }
+  for (const GeometryShape& shape : structure.bottom_level->geometry_shapes()) {
+    bytes += sizeof(rtapi::RaytracingGeometryDesc) + counts_of(shape).bytes();
+  }
+  return bytes;
+}
+
+void decode_for_tools(const AccelerationStructure& structure, uint64_t address,
+                      std::span<uint8_t> out) {
+  Writer writer(out);
+  rtapi::BuildRaytracingAccelerationStructureToolsVisualizationHeader header;
+  if (structure.bottom_level == nullptr) {
+    header.NumDescs = static_cast<uint32_t>(structure.instances->size());
+    writer.put(header);
+    writer.put_array(std::span<const rtapi::RaytracingInstanceDesc>(*structure.instances));
+    return;
+  }
+  const auto shapes = structure.bottom_level->geometry_shapes();
+  header.Type = Type::kBottomLevel;
+  header.NumDescs = static_cast<uint32_t>(shapes.size());
+  writer.put(header);
+  address += sizeof(header) + shapes.size() * sizeof(rtapi::RaytracingGeometryDesc);
+  for (const GeometryShape& shape : shapes) {
+    writer.put(desc_of(shape, address));
+    address += counts_of(shape).bytes();
+  }
+  for (const GeometryShape& shape : shapes) {
+    writer.put_contents(structure.bottom_level->geometry_contents(shape.index), counts_of(shape));
+  }
+}
+
+}  // namespace kaamos::runtime

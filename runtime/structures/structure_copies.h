@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// Copies of acceleration structures in every mode. [DXR: CopyRaytracingAccelerationStructure]
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <rtapi/raytracing.h>
+#include <rtapi/result.h>
+
+#include "runtime/backend/commands.h"
+#include "runtime/structures/instances.h"
+#include "runtime/structures/structure_commands.h"
+
+namespace kaamos::runtime {
+
+// How a backend builds what was deserialized. Both functions set compacted_bytes as a BuildLevel
+// does.
+struct RebuildLevel {
+  // `geometries` have host addresses, all valid. The level adopts `shapes`, so that updates are
+  // checked against the formats of the first build.
+  std::function<rtapi::Status(std::span<const rtapi::RaytracingGeometryDesc> geometries,
+                              std::span<const GeometryShape> shapes, AccelerationStructure& result)>
+      bottom_level;
+  std::function<rtapi::Status(const std::vector<Instance>& instances,
+                              AccelerationStructure& result)>
+      top_level;
+};
+
+// Errors: KA0796: no acceleration structure at the source, or compaction without its flag; KA0795:
+// destination too small; KA0789: serialized data that cannot be read, from parse_serialized.
+rtapi::Status copy_structure(const StructureEnvironment& environment,
+                             const CopyAccelerationStructureCommand& command,
+                             const RebuildLevel& rebuild);
+
+// To be called before a dispatch: rebuilds deserialized top levels whose bottom levels were
+// deserialized after them, since any order is allowed. [DXR:
+// D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE] What is still missing stays inactive and is
+// reported once, as KA0797.
+rtapi::Status complete_top_levels(const StructureEnvironment& environment,
+                                  const RebuildLevel& rebuild);
+
+}  // namespace kaamos::runtime

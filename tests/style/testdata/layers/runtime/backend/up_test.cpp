@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include "rtapi/src/device_impl.h"

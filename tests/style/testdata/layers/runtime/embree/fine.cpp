@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/backend/up.h"
+#include "runtime/embree/own.h"
