@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, documented, layers.
+# listed, used, told, twice, recipes, documented, layers.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -193,6 +193,17 @@ check_used() {
   done
 }
 
+# The recipes of CONTRIBUTING.md name files of this tree: `folder/file` and `folder/`, with * as in a shell. What
+# has <...> in it is for the reader to fill in; build/ is made.
+check_recipes() {
+  local file=CONTRIBUTING.md line name
+  [[ -f $file ]] || return 0
+  grep -noE '`[.A-Za-z0-9_*-]+/[.A-Za-z0-9_*/-]*`|`[A-Z]+\.md`' "$file" | tr -d '`' |
+    while IFS=: read -r line name; do
+      [[ $name == build/* || -n $(compgen -G "${name%/}") ]] || echo "$file:$line: there is no $name"
+    done
+}
+
 # The headers that the reference manual is made of, by the project's Doxyfile.
 list_public_headers() {
   local patterns pattern hidden=()
@@ -264,7 +275,7 @@ check_layers() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | documented | layers) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
