@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, recipes, documented, layers.
+# listed, used, told, twice, recipes, documented, layers, pages.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -67,6 +67,37 @@ check_marks() {
   list_files "${code[@]}" -o -name '*.md' |
     xargs -r -d '\n' grep -nIHE '\b(TO[D]O|FIX[M]E|XX[X]|HA[C]K)\b' |
     sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a left-over mark/' || true
+}
+
+# Pages link to files that exist. A block of code below the line "<!-- From FILE -->" is from that file:
+# each of its lines is there, in this order; "..." stands for what is left out.
+check_pages() {
+  local page line target
+  list_files -name '*.md' | while read -r page; do
+    awk '
+      /^ *```/ { code = !code }
+      code { next }
+      {
+        gsub(/`[^`]*`/, "")
+        while (match($0, /\]\([^()]+\)/)) {
+          target = substr($0, RSTART + 2, RLENGTH - 3)
+          $0 = substr($0, RSTART + RLENGTH)
+          sub(/#.*/, "", target)
+          if (target != "" && target !~ /^[a-z]+:/) print FNR, target
+        }
+      }' "$page" | while read -r line target; do
+      [[ -e ${page%"${page##*/}"}$target ]] || echo "$page:$line: links to $target, which does not exist"
+    done
+    awk -v page="$page" '
+      /^<!-- From .* -->$/ { source = $3; next }
+      /^```/ && code { code = 0; close(source); source = ""; next }
+      /^```/ { code = source != ""; next }
+      code && !/^[[:space:]]*([.][.][.])?$/ {
+        found = 0
+        while (!found && (getline text < source) > 0) found = text == $0
+        if (!found) { print page ":" FNR ": is not in " source " (or not behind the line above)"; close(source) }
+      }' "$page"
+  done
 }
 
 # A folder of sources has a README.md of at most one page. Folders that only continue the one above
@@ -275,7 +306,7 @@ check_layers() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

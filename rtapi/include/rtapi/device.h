@@ -34,7 +34,7 @@ struct DeviceInfo {
   uint32_t HardwareThreads = 0;  ///< of this machine
 };
 
-/// Speed against exactness of ray-primitive tests on the CPU. Measured in the project's README.
+/// Speed against exactness of ray-primitive tests on the CPU. Measured in tests/numerics/PRECISION.md.
 /// [DXR: Watertightness; Fixed function ray-triangle intersection specification]
 enum class TraversalPrecision : uint32_t {
   kFast,    ///< Embree's default; a rare ray slips through an edge that two triangles share
