@@ -207,7 +207,7 @@ TEST_F(Driver, Exports) {
   const Outcome unknown = run(reflect + "-exports nobody");
   EXPECT_EQ(unknown.status, 1);
   EXPECT_EQ(unknown.error,
-            "error: export 'nobody' is asked for, but there is no such function [KA2577]\n"
+            "error: there is no function 'nobody' to export [KA2577]\n"
             "1 error\n");
   EXPECT_EQ(run(reflect + "-exports '=Main'").status, 1);
 }
@@ -224,7 +224,7 @@ TEST_F(Driver, ComputeTargets) {
   EXPECT_EQ(kernel.status, 0) << kernel.error;
   EXPECT_THAT(kernel.out, HasSubstr("\"name\": \"kernel\""));
   EXPECT_EQ(run("-T cs_6_0 -E nobody kernel.hlsl").error,
-            "error: there is no function 'nobody', the entry point asked for [KA2562]\n1 error\n");
+            "error: there is no function 'nobody' to use as entry point [KA2562]\n1 error\n");
   const Outcome pixel = run("-T ps_6_0 kernel.hlsl");
   EXPECT_EQ(pixel.status, 1);
   EXPECT_THAT(pixel.error, HasSubstr("target 'ps_6_0' is not known"));

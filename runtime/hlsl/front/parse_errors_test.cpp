@@ -119,8 +119,8 @@ constexpr Mistake kMistakes[] = {
     {"StructInParameters", "void f(struct S { int a; } s) { }", "KA2219 1:8",
      "a struct can only be declared"},
     {"AttributeOnNothing", "void f() { [unroll] }", "KA2251 1:13",
-     "attribute 'unroll' must stand before a statement, found '}'"},
-    {"ListAsArgument", "float a = f({1, 2});", "KA2218 1:13", "an initializer list can only stand"},
+     "attribute 'unroll' must precede a statement, found '}'"},
+    {"ListAsArgument", "float a = f({1, 2});", "KA2218 1:13", "an initializer list is only allowed"},
 
     // ---- Names and types
     {"UnknownType", "void f() { Foo a; a.x = 1; }", "KA2207 1:12",
@@ -182,7 +182,7 @@ constexpr Mistake kMistakes[] = {
     {"Variadic", "void f(int a, ...) { }", "KA2237 1:15", "no variable number of parameters"},
     {"ParameterPack", "template<typename... T> void f() { }", "KA2237 1:18",
      "no variable number of template parameters"},
-    {"BoundsBeforeName", "float[3] a;", "KA2238 1:6", "array bounds stand behind the name"},
+    {"BoundsBeforeName", "float[3] a;", "KA2238 1:6", "array bounds follow the name"},
     {"BitField", "struct S { uint a : 4; uint b; };", "KA2240 1:21",
      "bit fields are not supported"},
     {"ConversionOperator", "struct S { operator float() { return 1; } };", "KA2274 1:12",
