@@ -52,7 +52,7 @@ struct DeviceDesc {
   TraversalPrecision Precision = TraversalPrecision::kRobust;
   RaytracingTier Tier = RaytracingTier::kTier1_1;  // 1.0 refuses what 1.1 brought
   bool CollectStatistics = false;                  // counts rays; costs some speed
-  // Checked mode: says through OnMessage (ids KA0400-0499, rtapi/errors.md) what plain DXR leaves
+  // Checked mode: says through OnMessage (ids KA0400-0499, rtapi/ERRORS.md) what plain DXR leaves
   // undefined: records outside a table or of another state object, missing barriers, structures
   // that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
   bool Checked = false;
