@@ -165,8 +165,7 @@ Status CommandList::Reset() {
 
 Status CommandList::Close() {
   if (!impl_) return MakeError(Id::kNullHandle, "Close on an empty command list handle");
-  if (!impl_->open)
-    return MakeError(Id::kListNotOpen, "Close on a command list that is closed already");
+  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close on a closed command list");
   if (impl_->open_events > 0) {
     impl_->Fail(
         MakeError(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
