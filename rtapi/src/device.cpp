@@ -138,7 +138,7 @@ Status CheckDesc(const DeviceDesc& desc) {
   }
   if (desc.Threads > 4096) {
     return detail::MakeError(Id::kDeviceDesc, "Threads is ", desc.Threads,
-                             "; it must be 0 (one per core) to 4096");
+                             "; it must be 0 (all threads of the machine) to 4096");
   }
   return {};
 }

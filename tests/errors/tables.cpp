@@ -76,7 +76,9 @@ std::string escaped(std::string_view text) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
     const bool edge = text[i] == '_' && !(in_word(i - 1) && in_word(i + 1));
-    if (edge || std::string_view("|<*`\\").find(text[i]) != std::string_view::npos) out += '\\';
+    const bool link = text[i] == '#' && in_word(i + 1);  // Doxygen takes #name for a reference
+    if (edge || link || std::string_view("|<*`\\").find(text[i]) != std::string_view::npos)
+      out += '\\';
     out += text[i];
   }
   return out;
