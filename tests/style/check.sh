@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, recipes, documented, layers, pages.
+# listed, used, told, twice, recipes, documented, layers, pages, ids.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -210,6 +210,15 @@ check_told() {
   done
 }
 
+# An error's id comes from its layer's table: code that spells one out would not show in rtapi/ERRORS.md. The
+# pattern is a string literal with an id, after any other literals of its line and outside of comments.
+check_ids() {
+  list_files -name '*.cpp' -o -name '*.h' | grep -E '^(rtapi|runtime|effects)/' |
+    grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$' | xargs -r -d '\n' grep -nHE \
+    '^([^"/]|/[^/]|"([^"\\]|\\.)*")*"([^"\\]|\\.)*KA[0-9]{4}' |
+    sed 's/^\([^:]*:[0-9]*\):.*/\1: spells out the id of an error; take it from the table/' || true
+}
+
 # No package is installed that nothing uses.
 check_used() {
   local package pattern
@@ -306,7 +315,7 @@ check_layers() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages | ids) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")
