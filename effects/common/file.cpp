@@ -14,13 +14,13 @@
 namespace kaamos::effects {
 namespace {
 
-Status file_error(const char* doing, const std::string& path, int error) {
+Error file_error(const char* doing, const std::string& path, int error) {
   const char* advice = "";
   if (error == ENOSPC || error == EDQUOT) advice = ": free some space or write to another disk";
   if (error == EACCES || error == EROFS) advice = ": choose a folder that you may write to";
   if (error == ENOENT) advice = ": check the spelling of the path and that its folder exists";
-  return Status::failure(std::string("cannot ") + doing + " \"" + path +
-                         "\": " + std::strerror(error) + advice);
+  return make_error(ErrorId::kFile, std::string("cannot ") + doing + " \"" + path +
+                                        "\": " + std::strerror(error) + advice);
 }
 
 class FileDescriptor {
@@ -63,7 +63,7 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
   if (S_ISDIR(info.st_mode)) return file_error("read", path, EISDIR);
   // Devices such as /dev/zero never end.
   if (!S_ISREG(info.st_mode))
-    return Status::failure("cannot read \"" + path + "\": it is not a regular file");
+    return make_error(ErrorId::kFile, "cannot read \"" + path + "\": it is not a regular file");
   std::vector<std::uint8_t> bytes;
   bytes.reserve(std::min(static_cast<std::size_t>(info.st_size), max_bytes));
   std::vector<std::uint8_t> block(1 << 20);
@@ -74,8 +74,9 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::size_t
     if (got == 0) return bytes;
     bytes.insert(bytes.end(), block.begin(), block.begin() + got);
     if (bytes.size() > max_bytes)
-      return Status::failure("cannot read \"" + path + "\": it is larger than the limit of " +
-                             std::to_string(max_bytes) + " bytes");
+      return make_error(ErrorId::kFile, "cannot read \"" + path +
+                                            "\": it is larger than the limit of " +
+                                            std::to_string(max_bytes) + " bytes");
   }
 }
 

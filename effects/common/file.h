@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 
 namespace kaamos::effects {
 

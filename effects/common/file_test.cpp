@@ -35,7 +35,7 @@ std::vector<std::uint8_t> bytes(const std::string& text) {
 TEST_F(FileTest, WhatIsWrittenIsRead) {
   ASSERT_TRUE(write_file_atomically(path("a"), bytes("hello")).ok());
   const auto read = read_file(path("a"));
-  ASSERT_TRUE(read.ok()) << read.error();
+  ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_EQ(read.value(), bytes("hello"));
   EXPECT_EQ(files(), 1u) << "no temporary file is left";
 }
@@ -51,7 +51,7 @@ TEST_F(FileTest, AFailedWriteLeavesNothingBehind) {
   std::filesystem::create_directories(folder_ / "taken" / "inside");
   const Status status = write_file_atomically(path("taken"), bytes("x"));
   EXPECT_FALSE(status.ok());
-  EXPECT_NE(status.error().find("taken"), std::string::npos) << status.error();
+  EXPECT_NE(status.error().message.find("taken"), std::string::npos) << status.error().message;
   EXPECT_EQ(files(), 1u);
 }
 
@@ -68,18 +68,19 @@ TEST_F(FileTest, AWriteThatEndsHalfWayKeepsTheEarlierFile) {
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_FALSE(status.ok());
-  EXPECT_NE(status.error().find(path("a")), std::string::npos) << status.error();
+  EXPECT_NE(status.error().message.find(path("a")), std::string::npos) << status.error().message;
   EXPECT_EQ(read_file(path("a")).value(), bytes("earlier"));
   EXPECT_EQ(files(), 1u) << "no temporary file is left";
 }
 
 TEST_F(FileTest, MissingFolderAndMissingFileAreNamed) {
   const Status write = write_file_atomically(path("no/such/folder"), bytes("x"));
-  EXPECT_NE(write.error().find("no/such/folder"), std::string::npos) << write.error();
+  EXPECT_NE(write.error().message.find("no/such/folder"), std::string::npos)
+      << write.error().message;
   const auto read = read_file(path("missing"));
   ASSERT_FALSE(read.ok());
-  EXPECT_NE(read.error().find("missing"), std::string::npos) << read.error();
-  EXPECT_NE(read.error().find("No such file"), std::string::npos) << read.error();
+  EXPECT_NE(read.error().message.find("missing"), std::string::npos) << read.error().message;
+  EXPECT_NE(read.error().message.find("No such file"), std::string::npos) << read.error().message;
 }
 
 TEST_F(FileTest, FoldersAndTooLargeFilesAreRefused) {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <utility>
 
+#include "effects/common/errors.h"
 #include "effects/frame/picture.h"
 
 namespace kaamos::effects {
@@ -100,11 +101,10 @@ rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Fram
                                          const std::vector<Signal>& signals,
                                          const DenoiseDesc& desc) {
   if (signals.empty() || signals.size() > kMostSignals) {
-    return rtapi::Error{{},
-                        rtapi::ErrorCode::kInvalidArgument,
-                        "a Denoiser of " + std::to_string(signals.size()) +
-                            " signals: it takes 1 to " + std::to_string(kMostSignals) +
-                            "; make a second one for the others"};
+    return make_error(ErrorId::kDenoiser, "a Denoiser of " + std::to_string(signals.size()) +
+                                              " signals: it takes 1 to " +
+                                              std::to_string(kMostSignals) +
+                                              "; make a second one for the others");
   }
   Denoiser out;
   out.desc_ = desc;

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "effects/common/blue_noise.h"
+#include "effects/common/errors.h"
 #include "effects/frame/picture.h"
 #include "effects/lights/light_constants.h"
 
@@ -171,10 +172,10 @@ rtapi::Result<Texture> Frame::create_picture(const Device& device, std::string n
 
 rtapi::Result<PassViews> Frame::create_pass_views(const Device& device) const {
   if (*pass_views_ == desc_.max_pass_views) {
-    return Error{{}, ErrorCode::kFailed,
-                 "the frame has room for " + std::to_string(desc_.max_pass_views) +
-                     " passes with views of their own and one more was asked for; raise "
-                     "FrameDesc::max_pass_views"};
+    return make_error(ErrorId::kFrame,
+                      "the frame has room for " + std::to_string(desc_.max_pass_views) +
+                          " passes with views of their own and one more was asked for; raise "
+                          "FrameDesc::max_pass_views");
   }
   const std::uint32_t first =
       views_.GetDesc().NumDescriptors - kPassViews * (desc_.max_pass_views - *pass_views_);

@@ -22,8 +22,8 @@ bool same(float a, float b) {
 Result<ImageDifference> compare(const FloatImage& a, const FloatImage& b, double peak) {
   if (a.width != b.width || a.height != b.height || a.channels != b.channels ||
       a.values.size() != b.values.size())
-    return Status::failure("cannot compare a picture of " + size_text(a) + " with one of " +
-                           size_text(b));
+    return make_error(ErrorId::kPictures, "cannot compare a picture of " + size_text(a) +
+                                              " with one of " + size_text(b));
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   ImageDifference out;
   double squares = 0.0, sum = 0.0;

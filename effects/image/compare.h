@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/image/image.h"
 
 namespace kaamos::effects {

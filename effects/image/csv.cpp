@@ -65,21 +65,22 @@ std::string write_csv(const Table& table) {
 }
 
 Result<Table> parse_csv(std::string_view text) {
-  if (text.empty()) return Status::failure("the table is empty: a line of column names is missing");
+  if (text.empty())
+    return make_error(ErrorId::kCsv, "the table is empty: a line of column names is missing");
   Table table;
   std::vector<std::string> cells;
   for (std::size_t line = 1; !text.empty(); ++line) {
     if (!take_line(text, cells)) {
-      return Status::failure("row " + std::to_string(line) + ": a quote is not closed");
+      return make_error(ErrorId::kCsv, "row " + std::to_string(line) + ": a quote is not closed");
     }
     if (line == 1) {
       table.columns = cells;
       continue;
     }
     if (cells.size() != table.columns.size()) {
-      return Status::failure("row " + std::to_string(line) + " has " +
-                             std::to_string(cells.size()) + " cells, the first one has " +
-                             std::to_string(table.columns.size()));
+      return make_error(ErrorId::kCsv,
+                        "row " + std::to_string(line) + " has " + std::to_string(cells.size()) +
+                            " cells, the first one has " + std::to_string(table.columns.size()));
     }
     table.rows.push_back(cells);
   }

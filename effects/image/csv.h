@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 
 namespace kaamos::effects {
 

@@ -85,25 +85,28 @@ std::string full_name(const std::string& layer, const std::string& channel) {
 }
 
 Status check(const ExrFile& file) {
-  if (file.layers.empty()) return Status::failure("has no layer");
+  if (file.layers.empty()) return make_error(ErrorId::kExr, "has no layer");
   const FloatImage& first = file.layers[0].image;
   for (std::size_t i = 0; i < file.layers.size(); ++i) {
     const ExrLayer& layer = file.layers[i];
     const std::string where = "layer \"" + layer.name + "\"";
     const FloatImage& image = layer.image;
     if (image.width == 0 || image.height == 0 || image.channels == 0)
-      return Status::failure(where + ": is empty");
+      return make_error(ErrorId::kExr, where + ": is empty");
     if (image.width != first.width || image.height != first.height)
-      return Status::failure(where + ": is " + std::to_string(image.width) + " x " +
-                             std::to_string(image.height) + " pixels, the first layer is " +
-                             std::to_string(first.width) + " x " + std::to_string(first.height));
+      return make_error(ErrorId::kExr,
+                        where + ": is " + std::to_string(image.width) + " x " +
+                            std::to_string(image.height) + " pixels, the first layer is " +
+                            std::to_string(first.width) + " x " + std::to_string(first.height));
     if (image.values.size() != std::size_t{image.width} * image.height * image.channels)
-      return Status::failure(where + ": its values do not fill its size");
+      return make_error(ErrorId::kExr, where + ": its values do not fill its size");
     if (channel_names(layer).size() != image.channels)
-      return Status::failure(where + ": has " + std::to_string(layer.channels.size()) +
-                             " channel names for " + std::to_string(image.channels) + " channels");
+      return make_error(ErrorId::kExr, where + ": has " + std::to_string(layer.channels.size()) +
+                                           " channel names for " + std::to_string(image.channels) +
+                                           " channels");
     for (std::size_t j = 0; j < i; ++j)
-      if (file.layers[j].name == layer.name) return Status::failure(where + ": occurs twice");
+      if (file.layers[j].name == layer.name)
+        return make_error(ErrorId::kExr, where + ": occurs twice");
   }
   return {};
 }
@@ -206,25 +209,22 @@ ExrFile decode(const std::vector<std::uint8_t>& bytes, const std::string& path) 
 }  // namespace
 
 Status write_exr(const std::string& path, const ExrFile& file) {
-  const auto failed = [&](const std::string& text) {
-    return Status::failure("cannot write \"" + path + "\": " + text);
-  };
   const Status status = check(file);
-  if (!status.ok()) return failed(status.error());
+  if (!status.ok()) return within("\"" + path + "\"", status.error(), ErrorId::kExr);
   try {
     return write_file_atomically(path, encode(file));
   } catch (const std::exception& error) {
-    return failed(error.what());
+    return make_error(ErrorId::kExr, "\"" + path + "\": " + error.what());
   }
 }
 
 Result<ExrFile> read_exr(const std::string& path) {
   const Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   try {
     return decode(bytes.value(), path);
   } catch (const std::exception& error) {
-    return Status::failure("cannot read \"" + path + "\": " + error.what());
+    return make_error(ErrorId::kExr, "\"" + path + "\": " + error.what());
   }
 }
 

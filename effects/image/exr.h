@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/image/image.h"
 
 namespace kaamos::effects {

@@ -69,10 +69,11 @@ Result<TemporalChange> temporal_change(const FloatImage& then, const FloatImage&
   };
   if (!fits(then) || then.channels != now.channels || !fits(previous_view_z) ||
       !fits(surfaces.view_z) || !fits(surfaces.motion) || surfaces.motion.channels < 3) {
-    return Status::failure("pictures of a sequence must be of one size: then " + size_of(then) +
-                           ", now " + size_of(now) + ", depths " + size_of(previous_view_z) +
-                           " and " + size_of(surfaces.view_z) + ", motion " +
-                           size_of(surfaces.motion) + " (3 channels or more)");
+    return make_error(ErrorId::kPictures, "pictures of a sequence must be of one size: then " +
+                                              size_of(then) + ", now " + size_of(now) +
+                                              ", depths " + size_of(previous_view_z) + " and " +
+                                              size_of(surfaces.view_z) + ", motion " +
+                                              size_of(surfaces.motion) + " (3 channels or more)");
   }
   const std::uint32_t channels = std::min(now.channels, 3u);
   TemporalChange sum;

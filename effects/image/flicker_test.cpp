@@ -87,7 +87,8 @@ TEST(Flicker, SizesMustFit) {
   const FloatImage depth(kWidth, kHeight, 1, 2.0f);
   const auto change = temporal_change(FloatImage(3, 3, 3), ramp(0), depth, moved(0));
   ASSERT_FALSE(change.ok());
-  EXPECT_NE(change.error().find("then 3x3x3, now 40x24x3"), std::string::npos) << change.error();
+  EXPECT_NE(change.error().message.find("then 3x3x3, now 40x24x3"), std::string::npos)
+      << change.error().message;
 }
 
 }  // namespace

@@ -172,8 +172,9 @@ Result<Flip> flip(const FloatImage& picture, const FloatImage& reference,
       return std::to_string(image.width) + " x " + std::to_string(image.height) + " x " +
              std::to_string(image.channels);
     };
-    return Status::failure("FLIP needs two pictures of one size with 3 channels, these have " +
-                           text(picture) + " and " + text(reference));
+    return make_error(ErrorId::kPictures,
+                      "FLIP needs two pictures of one size with 3 channels, these have " +
+                          text(picture) + " and " + text(reference));
   }
   constexpr double kColorExponent = 0.7, kFeatureExponent = 0.5, kFeatureWidthDegrees = 0.082;
   constexpr double kPi = 3.14159265358979323846;

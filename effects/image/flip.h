@@ -4,7 +4,7 @@
 /// Difference Evaluator for Alternating Images]
 #pragma once
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/image/image.h"
 
 namespace kaamos::effects {

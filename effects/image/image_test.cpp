@@ -50,7 +50,7 @@ TEST_F(ImageTest, PngRoundTripOfEachKind) {
       image.values.push_back(static_cast<std::uint8_t>(i * 41 % 256));
     ASSERT_TRUE(write_png(path("a.png"), image).ok());
     const auto read = read_png(path("a.png"));
-    ASSERT_TRUE(read.ok()) << read.error();
+    ASSERT_TRUE(read.ok()) << read.error().message;
     ASSERT_EQ(read.value().width, 7u);
     ASSERT_EQ(read.value().height, 5u);
     for (std::size_t p = 0; p < 35; ++p)
@@ -83,7 +83,7 @@ TEST_F(ImageTest, BrokenPngIsAnErrorAndNamesTheFile) {
           .ok());
   const auto read = read_png(path("bad.png"));
   ASSERT_FALSE(read.ok());
-  EXPECT_NE(read.error().find("bad.png"), std::string::npos);
+  EXPECT_NE(read.error().message.find("bad.png"), std::string::npos);
 }
 
 TEST_F(ImageTest, ExrRoundTripKeepsLayersBitsAndAttributes) {
@@ -96,16 +96,16 @@ TEST_F(ImageTest, ExrRoundTripKeepsLayersBitsAndAttributes) {
   file.layers[1].image.at(1, 0) = kNan;
   file.attributes["samples"] = "4096";
   const Status written = write_exr(path("a.exr"), file);
-  ASSERT_TRUE(written.ok()) << written.error();
+  ASSERT_TRUE(written.ok()) << written.error().message;
   const auto read = read_exr(path("a.exr"));
-  ASSERT_TRUE(read.ok()) << read.error();
+  ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_EQ(read.value().attributes.at("samples"), "4096");
   ASSERT_EQ(read.value().layers.size(), file.layers.size());
   for (const ExrLayer& layer : file.layers) {
     const ExrLayer* found = find_layer(read.value(), layer.name);
     ASSERT_NE(found, nullptr) << layer.name;
     const auto difference = compare(layer.image, found->image);
-    ASSERT_TRUE(difference.ok()) << difference.error();
+    ASSERT_TRUE(difference.ok()) << difference.error().message;
     EXPECT_EQ(difference.value().unequal, 0u) << layer.name << describe(difference.value());
   }
   EXPECT_EQ(find_layer(read.value(), "normal")->channels,
@@ -119,7 +119,8 @@ TEST_F(ImageTest, ExrWriteFailuresKeepTheEarlierFile) {
   const auto before = read_file(path("a.exr"));
   file.layers.push_back({"ao", ramp(3, 2, 1)});
   const Status other_size = write_exr(path("a.exr"), file);
-  EXPECT_NE(other_size.error().find("\"ao\""), std::string::npos) << other_size.error();
+  EXPECT_NE(other_size.error().message.find("\"ao\""), std::string::npos)
+      << other_size.error().message;
   file.layers[1] = {"", ramp(2, 2, 1)};
   EXPECT_FALSE(write_exr(path("a.exr"), file).ok()) << "a name twice";
   EXPECT_FALSE(write_exr(path("a.exr"), ExrFile{}).ok()) << "no layer";

@@ -20,8 +20,8 @@ Status same_size(const FloatImage& a, const FloatImage& b) {
       a.values.size() == b.values.size()) {
     return {};
   }
-  return Status::failure("cannot measure a picture of " + size_text(a) + " against one of " +
-                         size_text(b));
+  return make_error(ErrorId::kPictures, "cannot measure a picture of " + size_text(a) +
+                                            " against one of " + size_text(b));
 }
 
 // The mean without the largest thousandth of the values.
@@ -100,11 +100,11 @@ double ssim_of_planes(const std::vector<double>& a, const std::vector<double>& b
 
 Result<Metrics> measure(const FloatImage& picture, const FloatImage& reference,
                         std::span<const std::uint8_t> mask) {
-  if (const Status s = same_size(picture, reference); !s.ok()) return s;
+  if (const Status s = same_size(picture, reference); !s.ok()) return s.error();
   const std::size_t pixels = std::size_t{picture.width} * picture.height;
   if (!mask.empty() && mask.size() != pixels) {
-    return Status::failure("the mask has " + std::to_string(mask.size()) +
-                           " pixels and the picture " + std::to_string(pixels));
+    return make_error(ErrorId::kPictures, "the mask has " + std::to_string(mask.size()) +
+                                              " pixels and the picture " + std::to_string(pixels));
   }
   Metrics out;
   double squares = 0, differences = 0, energy = 0, reference_energy = 0;
@@ -137,7 +137,7 @@ Result<Metrics> measure(const FloatImage& picture, const FloatImage& reference,
 }
 
 Result<double> ssim(const FloatImage& picture, const FloatImage& reference) {
-  if (const Status s = same_size(picture, reference); !s.ok()) return s;
+  if (const Status s = same_size(picture, reference); !s.ok()) return s.error();
   const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
   if (picture.values.empty()) return 1.0;
   double sum = 0;
@@ -154,11 +154,11 @@ Result<double> ssim(const FloatImage& picture, const FloatImage& reference) {
 
 Result<ErrorParts> split_error(std::span<const FloatImage> pictures, const FloatImage& reference) {
   if (pictures.size() < 2) {
-    return Status::failure("bias and variance need 2 pictures or more, there are " +
-                           std::to_string(pictures.size()));
+    return make_error(ErrorId::kPictures, "bias and variance need 2 pictures or more, there are " +
+                                              std::to_string(pictures.size()));
   }
   for (const FloatImage& picture : pictures) {
-    if (const Status s = same_size(picture, reference); !s.ok()) return s;
+    if (const Status s = same_size(picture, reference); !s.ok()) return s.error();
   }
   const auto n = static_cast<double>(pictures.size());
   ErrorParts out;
@@ -182,7 +182,7 @@ Result<ErrorParts> split_error(std::span<const FloatImage> pictures, const Float
 Result<double> flicker(const FloatImage& previous, const FloatImage& current,
                        const FloatImage& previous_reference, const FloatImage& reference) {
   for (const FloatImage* image : {&previous, &previous_reference, &reference}) {
-    if (const Status s = same_size(*image, current); !s.ok()) return s;
+    if (const Status s = same_size(*image, current); !s.ok()) return s.error();
   }
   double sum = 0;
   for (std::size_t i = 0; i < current.values.size(); ++i) {

@@ -11,7 +11,7 @@
 #include <optional>
 #include <span>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/image/image.h"
 
 namespace kaamos::effects {

@@ -88,16 +88,17 @@ TEST(Csv, ComesBackAsItWas) {
   const Table table{{"setting", "a,b", "c"},
                     {{"say \"so\"", "1,5", ""}, {"two\nlines", "", "x"}, {"", "", ""}}};
   const auto parsed = parse_csv(write_csv(table));
-  ASSERT_TRUE(parsed.ok()) << parsed.error();
+  ASSERT_TRUE(parsed.ok()) << parsed.error().message;
   EXPECT_EQ(parsed.value().columns, table.columns);
   EXPECT_EQ(parsed.value().rows, table.rows);
 }
 
 TEST(Csv, TellsWhatIsWrong) {
-  EXPECT_NE(parse_csv("").error().find("empty"), std::string::npos);
-  EXPECT_NE(parse_csv("a,b\n1\n").error().find("row 2 has 1 cells, the first one has 2"),
+  EXPECT_NE(parse_csv("").error().message.find("empty"), std::string::npos);
+  EXPECT_NE(parse_csv("a,b\n1\n").error().message.find("row 2 has 1 cells, the first one has 2"),
             std::string::npos);
-  EXPECT_NE(parse_csv("a\n\"b\n").error().find("row 2: a quote is not closed"), std::string::npos);
+  EXPECT_NE(parse_csv("a\n\"b\n").error().message.find("row 2: a quote is not closed"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -28,16 +28,16 @@ class PngImage {
 
 Status check(const ByteImage& image) {
   if (image.width == 0 || image.height == 0 || image.width > kMaxSide || image.height > kMaxSide)
-    return Status::failure("cannot write a PNG of " + std::to_string(image.width) + " x " +
-                           std::to_string(image.height) + " pixels, sides of 1.." +
-                           std::to_string(kMaxSide) + " are allowed");
+    return make_error(ErrorId::kPng, "a picture of " + std::to_string(image.width) + " x " +
+                                         std::to_string(image.height) + " pixels, sides of 1.." +
+                                         std::to_string(kMaxSide) + " are allowed");
   if (image.channels != 1 && image.channels != 3 && image.channels != 4)
-    return Status::failure("cannot write a PNG of " + std::to_string(image.channels) +
-                           " channels, 1, 3 and 4 are allowed");
+    return make_error(ErrorId::kPng, "a picture of " + std::to_string(image.channels) +
+                                         " channels, 1, 3 and 4 are allowed");
   const std::size_t wanted = std::size_t{image.width} * image.height * image.channels;
   if (image.values.size() != wanted)
-    return Status::failure("cannot write a PNG from " + std::to_string(image.values.size()) +
-                           " bytes, " + std::to_string(wanted) + " are needed");
+    return make_error(ErrorId::kPng, "a picture of " + std::to_string(image.values.size()) +
+                                         " bytes, " + std::to_string(wanted) + " are needed");
   return {};
 }
 
@@ -45,7 +45,7 @@ Status check(const ByteImage& image) {
 
 Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image) {
   const Status status = check(image);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   PngImage png;
   png.image.width = image.width;
   png.image.height = image.height;
@@ -57,23 +57,23 @@ Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image) {
   std::vector<std::uint8_t> bytes(size);
   if (!png_image_write_to_memory(&png.image, bytes.data(), &size, 0, image.values.data(), 0,
                                  nullptr))
-    return Status::failure(std::string("cannot write a PNG: ") + png.image.message);
+    return make_error(ErrorId::kPng, png.image.message);
   bytes.resize(size);
   return bytes;
 }
 
 Status write_png(const std::string& path, const ByteImage& image) {
   const Result<std::vector<std::uint8_t>> bytes = encode_png(image);
-  if (!bytes.ok()) return Status::failure("\"" + path + "\": " + bytes.error());
+  if (!bytes.ok()) return within("\"" + path + "\"", bytes.error(), ErrorId::kPng);
   return write_file_atomically(path, bytes.value());
 }
 
 Result<ByteImage> read_png(const std::string& path) {
   const Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   PngImage png;
   const auto failed = [&](const char* reason) {
-    return Status::failure("cannot read \"" + path + "\": " + reason);
+    return make_error(ErrorId::kPng, "\"" + path + "\": " + reason);
   };
   if (!png_image_begin_read_from_memory(&png.image, bytes.value().data(), bytes.value().size()))
     return failed(png.image.message);

@@ -240,13 +240,13 @@ TEST(IndirectVolumes, FilesComeBack) {
   }
   bytes.resize(bytes.size() - 1);
   ASSERT_TRUE(write_file_atomically(path, bytes).ok());
-  EXPECT_NE(load_volume(path).error().find("bake it again"), std::string::npos);
+  EXPECT_NE(load_volume(path).error().message.find("bake it again"), std::string::npos);
   std::filesystem::remove(path);
   EXPECT_FALSE(load_volume(path).ok());
 }
 
 TEST(IndirectVolumes, TooManyCellsAreAnError) {
-  EXPECT_NE(layout_volume(small_scene(1.0f), 0.001f).error().find("larger cells"),
+  EXPECT_NE(layout_volume(small_scene(1.0f), 0.001f).error().message.find("larger cells"),
             std::string::npos);
 }
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/frame/frame.h"
 #include "effects/frame/outcome.h"
 #include "effects/lights/lighting.h"

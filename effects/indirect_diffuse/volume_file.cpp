@@ -40,9 +40,8 @@ void append(std::vector<std::uint8_t>& bytes, const std::vector<T>& values) {
   bytes.insert(bytes.end(), begin, begin + values.size() * sizeof(T));
 }
 
-Status damaged(const std::string& path, const std::string& what) {
-  return Status::failure(path + " is no volume of indirect light that can be used: " + what +
-                         "; bake it again");
+Error damaged(const std::string& path, const std::string& what) {
+  return make_error(ErrorId::kVolume, "\"" + path + "\": " + what + "; bake it again");
 }
 
 }  // namespace
@@ -68,7 +67,7 @@ Status save_volume(const std::string& path, const IndirectVolume& volume) {
 
 Result<IndirectVolume> load_volume(const std::string& path) {
   const auto read = read_file(path);
-  if (!read.ok()) return Status::failure(read.error());
+  if (!read.ok()) return read.error();
   const std::vector<std::uint8_t>& bytes = read.value();
   Header header;
   if (bytes.size() < sizeof(header)) {

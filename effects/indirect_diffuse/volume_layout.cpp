@@ -86,10 +86,11 @@ Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std:
   const glm::dvec3 count = glm::ceil((bounds.max + margin - volume.origin) / size);
   // A scene that spans many kilometres may have few bricks, but its grid must stay small too.
   if (!(count.x * count.y * count.z < static_cast<double>(kMaxCells))) {
-    return Status::failure("a volume with cells of " + std::to_string(cell_metres) +
-                           " m would need a grid of " + std::to_string(count.x) + " x " +
-                           std::to_string(count.y) + " x " + std::to_string(count.z) +
-                           " bricks, more than 2^24; choose larger cells");
+    return make_error(ErrorId::kVolume, "a volume with cells of " + std::to_string(cell_metres) +
+                                            " m would need a grid of " + std::to_string(count.x) +
+                                            " x " + std::to_string(count.y) + " x " +
+                                            std::to_string(count.z) +
+                                            " bricks, more than 2^24; choose larger cells");
   }
   volume.bricks = glm::uvec3(count);
   volume.brick_starts.assign(std::size_t{volume.bricks.x} * volume.bricks.y * volume.bricks.z,
@@ -103,9 +104,9 @@ Result<IndirectVolume> layout_bricks(const Scene& scene, float cell_metres, std:
     cells += kCellsPerBrick;
   }
   if (cells > kMaxCells) {
-    return Status::failure("a volume with cells of " + std::to_string(cell_metres) +
-                           " m would have " + std::to_string(cells) +
-                           " of them, more than 2^24; choose larger cells");
+    return make_error(ErrorId::kVolume, "a volume with cells of " + std::to_string(cell_metres) +
+                                            " m would have " + std::to_string(cells) +
+                                            " of them, more than 2^24; choose larger cells");
   }
   return volume;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "effects/common/errors.h"
 #include "effects/frame/picture.h"
 
 namespace kaamos::effects {
@@ -45,10 +46,10 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
                                          const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                          std::uint32_t light_count) {
   if (light_count > kMaxLights) {
-    return rtapi::Error{{}, rtapi::ErrorCode::kInvalidArgument,
-                        "the scene has " + std::to_string(light_count) +
-                            " local lights and the atlas of shadow maps has room for " +
-                            std::to_string(kMaxLights) + "; leave some out"};
+    return make_error(ErrorId::kLights,
+                      "the scene has " + std::to_string(light_count) +
+                          " local lights and the atlas of shadow maps has room for " +
+                          std::to_string(kMaxLights) + "; leave some out");
   }
   Lighting out;
   out.light_count_ = light_count;

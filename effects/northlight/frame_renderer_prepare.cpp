@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "effects/common/errors.h"
 #include "effects/frame/picture.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/lights/light_constants.h"
@@ -16,10 +17,6 @@ namespace kaamos::effects {
 namespace {
 
 constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
 
 bool has_glass(const Scene& scene) {
   return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) {
@@ -115,11 +112,13 @@ rtapi::Status FrameRenderer::check_effects() const {
   for (const auto& [name, ignored] : settings_.effects) {
     const Effect* effect = find_effect(effects_, name);
     if (effect == nullptr) {
-      return failure("there is no effect \"" + name + "\" but " + effect_names(effects_));
+      return make_error(ErrorId::kFrameRenderer,
+                        "there is no effect \"" + name + "\" but " + effect_names(effects_));
     }
     if (!settings_.whole_frame && has_own_pictures(*effect)) {
-      return failure("effect \"" + name +
-                     "\" has pictures of its own: set FrameSettings::whole_frame");
+      return make_error(
+          ErrorId::kFrameRenderer,
+          "effect \"" + name + "\" has pictures of its own: set FrameSettings::whole_frame");
     }
   }
   return {};
@@ -276,7 +275,7 @@ rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
     volume = *wanted.given;
   } else if (!wanted.file.empty() && std::filesystem::exists(wanted.file)) {
     auto loaded = load_volume(wanted.file);
-    if (!loaded.ok()) return failure(loaded.error());
+    if (!loaded.ok()) return loaded.error();
     volume = std::move(loaded.value());
   } else if (const auto baked = bake(volume, progress); !is_done(baked)) {
     return baked;
@@ -294,7 +293,7 @@ rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
 rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progress& progress) {
   const VolumeSettings& wanted = settings_.volume;
   auto laid_out = layout_volume(scene_, wanted.cell);
-  if (!laid_out.ok()) return failure(laid_out.error());
+  if (!laid_out.ok()) return laid_out.error();
   volume = std::move(laid_out.value());
   if (!wanted.cell && volume.cell != kVolumeCell) {
     std::ostringstream text;
@@ -310,7 +309,7 @@ rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progres
                   libraries_.at("indirect_diffuse/volume_bake"), desc, volume, step);
   if (!is_done(baked) || wanted.file.empty()) return baked;
   if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
-    return failure(saved.error());
+    return saved.error();
   }
   return Outcome::kDone;
 }
@@ -340,7 +339,8 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
   effect.samples = effect.settings.samples;
   if (!row.pass) return {};
   if (row.needs.strongest_lights && !direct_) {
-    return failure("effect \"" + row.name + "\" needs local lights, which are not rendered");
+    return make_error(ErrorId::kFrameRenderer,
+                      "effect \"" + row.name + "\" needs local lights, which are not rendered");
   }
   for (const EffectSignal& signal : row.signals) {
     if (signal.picture) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "effects/common/errors.h"
 #include "effects/frame/picture.h"
 #include "effects/northlight/frame_renderer.h"
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr double kDispatchMs = 300;
 constexpr std::uint32_t kMostSamplesPerDispatch = 1024;
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kInvalidArgument, text};
-}
 
 }  // namespace
 
@@ -55,12 +52,16 @@ rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string&
   if (const auto s = draw_surfaces(); !s) return s.error();
   auto* effect = const_cast<Active*>(active(name));
   if (effect == nullptr || !effect->row->pass) {
-    return failure("effect \"" + name +
-                   "\" cannot be run: it is not chosen, traces no rays, or the scene has no use "
-                   "for it");
+    return make_error(
+        ErrorId::kFrameRenderer,
+        "effect \"" + name +
+            "\" cannot be run: it is not chosen, traces no rays, or the scene has no use "
+            "for it");
   }
   if (!settings.trace_only || effect->trace_views) return effect;
-  if (!effect->row->trace) return failure("effect \"" + name + "\" has no pass that only traces");
+  if (!effect->row->trace)
+    return make_error(ErrorId::kFrameRenderer,
+                      "effect \"" + name + "\" has no pass that only traces");
   if (const auto s = create_views(*effect, no_volume_, effect->trace_views); !s) return s.error();
   const RayPassDesc desc = effect->row->trace(libraries_.at(effect->row->library.file));
   const auto pass = RayPass::create(device_, frame_, gpu_, desc);
@@ -245,7 +246,8 @@ rtapi::Result<FloatImage> FrameRenderer::read(const std::string& name) {
   }
   std::string known;
   for (const std::string& layer : layers()) known += (known.empty() ? "" : ", ") + layer;
-  return failure("the frame has no layer \"" + name + "\" but " + known);
+  return make_error(ErrorId::kFrameRenderer,
+                    "the frame has no layer \"" + name + "\" but " + known);
 }
 
 }  // namespace kaamos::effects

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "effects/ray_order/ray_order.h"
+#include "effects/common/errors.h"
 
 #include <shaders/ray_order.h>
 
@@ -57,10 +58,10 @@ rtapi::Result<ShaderLibrary> ray_order_library() {
 rtapi::Result<RaySorter> RaySorter::create(const Device& device, const Frame& frame,
                                            const ShaderLibrary& library) {
   if (frame.width() > kLargestSide || frame.height() > kLargestSide) {
-    return Error{{}, ErrorCode::kInvalidArgument,
-                 "rays of a picture of " + std::to_string(frame.width()) + " x " +
-                     std::to_string(frame.height()) + " pixels cannot be sorted: " +
-                     std::to_string(kLargestSide) + " are allowed on a side"};
+    return make_error(ErrorId::kRayOrder, "a picture of " + std::to_string(frame.width()) + " x " +
+                                              std::to_string(frame.height()) +
+                                              " pixels: " + std::to_string(kLargestSide) +
+                                              " are allowed on a side");
   }
   RaySorter sorter;
   for (const auto& [buffer, name] :

@@ -23,7 +23,7 @@ TEST(BuiltInScenes, AreValidAndFoundByName) {
     EXPECT_EQ(scene.name, entry.name);
     EXPECT_FALSE(scene.cameras.empty()) << entry.name;
     const Status status = validate(scene);
-    EXPECT_TRUE(status.ok()) << entry.name << ": " << (status.ok() ? "" : status.error());
+    EXPECT_TRUE(status.ok()) << entry.name << ": " << (status.ok() ? "" : status.error().message);
     EXPECT_NE(built_in_scene_names().find(entry.name), std::string::npos);
   }
   EXPECT_EQ(find_built_in_scene("attic"), nullptr);

@@ -132,8 +132,8 @@ Result<CameraPath> make_camera_path(const Scene& scene, const std::string& name)
   } else if (path.name == "orbit") {
     path.keys = orbit(scene, camera);
   } else {
-    return Status::failure("no camera path \"" + name + "\": there are " + kCameraPaths +
-                           ", and files of positions");
+    return make_error(ErrorId::kCameraPath, "no camera path \"" + name + "\": there are " +
+                                                kCameraPaths + ", and files of positions");
   }
   return path;
 }
@@ -153,11 +153,13 @@ Result<CameraPath> parse_camera_path(std::string_view text, const std::string& n
     if (wrong.empty() && !path.keys.empty() && !(key.seconds > path.keys.back().seconds)) {
       wrong = "times must rise, and " + std::string(words[0]) + " does not";
     }
-    if (!wrong.empty()) return Status::failure(name + ":" + std::to_string(number) + ": " + wrong);
+    if (!wrong.empty())
+      return make_error(ErrorId::kCameraPath, name + ":" + std::to_string(number) + ": " + wrong);
     path.keys.push_back(key);
   }
   if (path.keys.empty()) {
-    return Status::failure(
+    return make_error(
+        ErrorId::kCameraPath,
         name + ": no position; give lines of seconds, the eye's x y z and the target's x y z");
   }
   return path;
@@ -165,7 +167,7 @@ Result<CameraPath> parse_camera_path(std::string_view text, const std::string& n
 
 Result<CameraPath> load_camera_path(const std::string& file) {
   const auto bytes = read_file(file, std::size_t{16} << 20);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   const auto& text = bytes.value();
   return parse_camera_path({reinterpret_cast<const char*>(text.data()), text.size()}, file);
 }

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/scene/scene.h"
 
 namespace kaamos::effects {

@@ -45,7 +45,7 @@ TEST(CameraPath, BuiltInOnesStartAtTheScenesCameraAndAreSmooth) {
   EXPECT_EQ(make_camera_path(make_runner_scene(), "").value().name, "still");
   const auto unknown = make_camera_path(make_runner_scene(), "roundabout");
   ASSERT_FALSE(unknown.ok());
-  EXPECT_NE(unknown.error().find("\"roundabout\": there are still, dolly, orbit"),
+  EXPECT_NE(unknown.error().message.find("\"roundabout\": there are still, dolly, orbit"),
             std::string::npos);
 }
 
@@ -93,7 +93,7 @@ TEST(CameraPath, MistakesAreNamed) {
   for (const auto& [text, expected] : cases) {
     const auto path = parse_camera_path(text, "keys");
     ASSERT_FALSE(path.ok()) << text;
-    EXPECT_NE(path.error().find(expected), std::string::npos) << path.error();
+    EXPECT_NE(path.error().message.find(expected), std::string::npos) << path.error().message;
   }
   EXPECT_FALSE(load_camera_path("no/such/file").ok());
 }

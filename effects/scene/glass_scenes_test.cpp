@@ -24,7 +24,7 @@ TEST(GlassScenes, AreValidAndHaveTheirPanes) {
     for (const bool thick : {false, true}) {
       const Scene scene = make_glass_stack({.panes = 8, .crossed = crossed, .thick = thick});
       const Status status = validate(scene);
-      EXPECT_TRUE(status.ok()) << status.error();
+      EXPECT_TRUE(status.ok()) << status.error().message;
       EXPECT_EQ(glass_instances(scene), 8 + 3);
       EXPECT_LT(instanced_triangle_count(scene), 20000u);
     }
@@ -37,7 +37,7 @@ TEST(GlassScenes, AreValidAndHaveTheirPanes) {
 TEST(MirrorHall, IsValidAndHasItsStrip) {
   const Scene scene = make_mirror_hall();
   const Status status = validate(scene);
-  ASSERT_TRUE(status.ok()) << status.error();
+  ASSERT_TRUE(status.ok()) << status.error().message;
   EXPECT_EQ(scene.instances[0].name, "mirror left");
   EXPECT_EQ(scene.instances[1].name, "mirror right");
   int strips = 0;
@@ -64,7 +64,7 @@ TEST(MirrorHall, IsValidAndHasItsStrip) {
 
 TEST(MaterialOverride, Parses) {
   const auto parsed = parse_material_override("a:b:alpha=0.3,roughness=0");
-  ASSERT_TRUE(parsed.ok()) << parsed.error();
+  ASSERT_TRUE(parsed.ok()) << parsed.error().message;
   EXPECT_EQ(parsed.value().name, "a:b");
   ASSERT_EQ(parsed.value().values.size(), 2u);
   EXPECT_EQ(parsed.value().values[0].first, "alpha");
@@ -91,13 +91,14 @@ TEST(MaterialOverride, SaysWhatIsWrong) {
   for (const auto& row : rows) {
     const auto parsed = parse_material_override(row.text);
     ASSERT_FALSE(parsed.ok()) << row.text;
-    EXPECT_NE(parsed.error().find(row.part), std::string::npos) << parsed.error();
+    EXPECT_NE(parsed.error().message.find(row.part), std::string::npos) << parsed.error().message;
   }
   Scene scene = make_glass_stack({.panes = 1, .cabinet = false});
   const Status missing = override_material(scene, {"nothing", {}});
   ASSERT_FALSE(missing.ok());
-  EXPECT_NE(missing.error().find("no material \"nothing\""), std::string::npos);
-  EXPECT_NE(missing.error().find("\"pane 0\""), std::string::npos) << missing.error();
+  EXPECT_NE(missing.error().message.find("no material \"nothing\""), std::string::npos);
+  EXPECT_NE(missing.error().message.find("\"pane 0\""), std::string::npos)
+      << missing.error().message;
 }
 
 // A mesh that becomes glass in part is split; instances that are opaque again lose the glass mask.
@@ -120,7 +121,7 @@ TEST(MaterialOverride, MakesGlass) {
   EXPECT_EQ(instanced_triangle_count(scene), triangles);
   EXPECT_EQ(scene.materials[1].constants.base_color.a, 0.3f);
   const Status status = validate(scene);
-  EXPECT_TRUE(status.ok()) << status.error();
+  EXPECT_TRUE(status.ok()) << status.error().message;
   ASSERT_TRUE(override_material(scene, {"lens", {{"alpha", 1.0f}}}).ok());
   EXPECT_EQ(glass_instances(scene), 0);
 }

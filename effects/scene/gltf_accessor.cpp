@@ -92,8 +92,8 @@ bool is_index_type(int component_type) {
          component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
-Status fail(const std::string& where, const std::string& what) {
-  return Status::failure(where + ": " + what);
+Error fail(const std::string& where, const std::string& what) {
+  return make_error(ErrorId::kGltf, where + ": " + what);
 }
 
 /// Checks that `view.count` elements from `offset` lie in the buffer view, and points view.data at
@@ -101,7 +101,7 @@ Status fail(const std::string& where, const std::string& what) {
 Status place(const tinygltf::Model& model, int buffer_view, std::size_t offset,
              const std::string& where, ElementView& view) {
   const Result<std::span<const std::uint8_t>> bytes = buffer_view_bytes(model, buffer_view, where);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   const std::size_t size = std::size_t{component_size(view.component_type)} * view.components;
   if (view.stride == 0) view.stride = size;
   if (view.stride < size || view.stride > 65536)
@@ -161,7 +161,7 @@ Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
   Status status = place(model, a.sparse.indices.bufferView,
                         static_cast<std::size_t>(a.sparse.indices.byteOffset),
                         place_name + " indices", indices);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   ElementView values = base;
   values.count = indices.count;
   values.stride = 0;
@@ -169,7 +169,7 @@ Status apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& a,
   status =
       place(model, a.sparse.values.bufferView, static_cast<std::size_t>(a.sparse.values.byteOffset),
             place_name + " values", values);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   for (std::size_t i = 0; i < indices.count; ++i) {
     const std::uint32_t index =
         index_component(indices.component_type, indices.data + i * indices.stride);
@@ -220,13 +220,13 @@ Result<std::span<const std::uint8_t>> buffer_view_bytes(const tinygltf::Model& m
 Result<std::vector<float>> read_floats(const tinygltf::Model& model, int accessor,
                                        std::uint32_t components, const std::string& user) {
   const Result<std::string> where = accessor_place(model, accessor, user);
-  if (!where.ok()) return Status::failure(where.error());
+  if (!where.ok()) return where.error();
   if (accessor_components(model, accessor) != components)
     return fail(where.value(), "has " + std::to_string(accessor_components(model, accessor)) +
                                    " components, " + std::to_string(components) + " are expected");
   ElementView view;
   Status status = locate(model, accessor, where.value(), view);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   std::vector<float> out(view.count * components, 0.0f);
   const std::uint32_t size = component_size(view.component_type);
   const auto store = [&](std::size_t index, const std::uint8_t* p) {
@@ -237,17 +237,17 @@ Result<std::vector<float>> read_floats(const tinygltf::Model& model, int accesso
     for (std::size_t i = 0; i < view.count; ++i) store(i, view.data + i * view.stride);
   status = apply_sparse(model, model.accessors[static_cast<std::size_t>(accessor)], view,
                         where.value(), store);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   return out;
 }
 
 Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, int accessor,
                                                 const std::string& user) {
   const Result<std::string> where = accessor_place(model, accessor, user);
-  if (!where.ok()) return Status::failure(where.error());
+  if (!where.ok()) return where.error();
   ElementView view;
   Status status = locate(model, accessor, where.value(), view);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   if (view.components != 1 || !is_index_type(view.component_type))
     return fail(where.value(), "has component type " + std::to_string(view.component_type) +
                                    " and " + std::to_string(view.components) +
@@ -261,7 +261,7 @@ Result<std::vector<std::uint32_t>> read_indices(const tinygltf::Model& model, in
     for (std::size_t i = 0; i < view.count; ++i) store(i, view.data + i * view.stride);
   status = apply_sparse(model, model.accessors[static_cast<std::size_t>(accessor)], view,
                         where.value(), store);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   return out;
 }
 

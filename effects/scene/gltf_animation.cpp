@@ -28,11 +28,11 @@ Status read_sampler(const GltfReader& reader, const tinygltf::AnimationSampler& 
                           : sampler.interpolation == "CUBICSPLINE" ? Interpolation::kCubicSpline
                                                                    : Interpolation::kLinear;
   Result<std::vector<float>> times = read_floats(reader.model, sampler.input, 1, where + ", input");
-  if (!times.ok()) return Status::failure(times.error());
+  if (!times.ok()) return times.error();
   const std::uint32_t components = channel.path == ChannelPath::kRotation ? 4 : 3;
   Result<std::vector<float>> values =
       read_floats(reader.model, sampler.output, components, where + ", output");
-  if (!values.ok()) return Status::failure(values.error());
+  if (!values.ok()) return values.error();
   channel.times = std::move(times.value());
   const std::vector<float>& v = values.value();
   for (std::size_t i = 0; i + components <= v.size(); i += components) {
@@ -40,9 +40,10 @@ Status read_sampler(const GltfReader& reader, const tinygltf::AnimationSampler& 
   }
   const std::size_t per_key = channel.interpolation == Interpolation::kCubicSpline ? 3 : 1;
   if (channel.times.empty() || channel.values.size() != per_key * channel.times.size())
-    return Status::failure(where + ": has " + std::to_string(channel.times.size()) + " times and " +
-                           std::to_string(channel.values.size()) + " values, " +
-                           std::to_string(per_key) + " per time are expected");
+    return make_error(ErrorId::kGltf, where + ": has " + std::to_string(channel.times.size()) +
+                                          " times and " + std::to_string(channel.values.size()) +
+                                          " values, " + std::to_string(per_key) +
+                                          " per time are expected");
   return {};
 }
 
@@ -60,13 +61,13 @@ Status read_animation(GltfReader& reader, const tinygltf::Animation& from, const
     if (part.target_node < 0) continue;  // no target, or one of an extension
     const std::size_t node = static_cast<std::size_t>(part.target_node);
     if (node >= reader.node_ids.size())
-      return Status::failure(place + ": names node " + std::to_string(node) + " of " +
-                             std::to_string(reader.node_ids.size()));
+      return make_error(ErrorId::kGltf, place + ": names node " + std::to_string(node) + " of " +
+                                            std::to_string(reader.node_ids.size()));
     if (reader.node_ids[node] == kNoIndex) continue;  // in a scene that is not shown
     channel.node = static_cast<std::uint32_t>(reader.node_ids[node]);
     if (part.sampler < 0 || static_cast<std::size_t>(part.sampler) >= from.samplers.size())
-      return Status::failure(place + ": names sampler " + std::to_string(part.sampler) + " of " +
-                             std::to_string(from.samplers.size()));
+      return make_error(ErrorId::kGltf, place + ": names sampler " + std::to_string(part.sampler) +
+                                            " of " + std::to_string(from.samplers.size()));
     const Status status =
         read_sampler(reader, from.samplers[static_cast<std::size_t>(part.sampler)], place, channel);
     if (!status.ok()) return status;

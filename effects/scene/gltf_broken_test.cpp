@@ -98,7 +98,7 @@ TEST(GltfBroken, NotAGltfFile) {
   expect_error(load_text("{\"a\":" + std::string(100000, '[')), "nested deeper");
   const auto missing = load_gltf("no/such/scene.gltf");
   ASSERT_FALSE(missing.ok());
-  EXPECT_NE(missing.error().find("no/such/scene.gltf"), std::string::npos);
+  EXPECT_NE(missing.error().message.find("no/such/scene.gltf"), std::string::npos);
   const auto buffer =
       load_text(R"({"asset":{"version":"2.0"},"buffers":[{"uri":"gone.bin","byteLength":4}]})");
   expect_error(buffer, "gone.bin");
@@ -126,7 +126,7 @@ TEST(GltfBroken, CutAndChangedFilesNeverCrash) {
     if (loaded.ok()) {
       EXPECT_TRUE(validate(loaded.value().scene).ok()) << i;
     } else {
-      EXPECT_FALSE(loaded.error().empty());
+      EXPECT_FALSE(loaded.error().message.empty());
     }
   }
   EXPECT_GT(refused, 1000);

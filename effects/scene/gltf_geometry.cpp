@@ -27,8 +27,8 @@ int attribute(const tinygltf::Primitive& primitive, const char* name) {
 
 Status count_error(const std::string& where, const char* name, std::size_t actual,
                    std::size_t expected) {
-  return Status::failure(where + ", " + name + ": has " + std::to_string(actual) +
-                         " elements, POSITION has " + std::to_string(expected));
+  return make_error(ErrorId::kGltf, where + ", " + name + ": has " + std::to_string(actual) +
+                                        " elements, POSITION has " + std::to_string(expected));
 }
 
 /// Reads an optional attribute. `values` stays empty if the primitive does not have it.
@@ -38,7 +38,7 @@ Status optional_attribute(const GltfReader& reader, const tinygltf::Primitive& p
   const int id = attribute(primitive, name);
   if (id < 0) return {};
   Result<std::vector<float>> read = read_floats(reader.model, id, components, where + ", " + name);
-  if (!read.ok()) return Status::failure(read.error());
+  if (!read.ok()) return read.error();
   if (read.value().size() != count * components)
     return count_error(where, name, read.value().size() / components, count);
   values = std::move(read.value());
@@ -56,15 +56,15 @@ Status read_positions(const GltfReader& reader, const tinygltf::Primitive& primi
                       const std::string& where, Piece& piece) {
   const Result<std::vector<float>> positions =
       read_floats(reader.model, attribute(primitive, "POSITION"), 3, where + ", POSITION");
-  if (!positions.ok()) return Status::failure(positions.error());
+  if (!positions.ok()) return positions.error();
   const std::vector<float>& p = positions.value();
   piece.vertices.resize(p.size() / 3);
   for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
     piece.vertices[v].position = glm::vec3(p[3 * v], p[3 * v + 1], p[3 * v + 2]);
     for (std::size_t c = 0; c < 3; ++c)
       if (!std::isfinite(p[3 * v + c]))
-        return Status::failure(where + ", POSITION: element " + std::to_string(v) +
-                               " is not finite");
+        return make_error(ErrorId::kGltf,
+                          where + ", POSITION: element " + std::to_string(v) + " is not finite");
   }
   return {};
 }
@@ -124,13 +124,14 @@ Status read_triangles(const GltfReader& reader, const tinygltf::Primitive& primi
   if (primitive.indices >= 0) {
     Result<std::vector<std::uint32_t>> read =
         read_indices(reader.model, primitive.indices, where + ", indices");
-    if (!read.ok()) return Status::failure(read.error());
+    if (!read.ok()) return read.error();
     raw = std::move(read.value());
     for (std::size_t i = 0; i < raw.size(); ++i)
       if (raw[i] >= piece.vertices.size())
-        return Status::failure(where + ", indices: element " + std::to_string(i) + " is " +
-                               std::to_string(raw[i]) + ", the primitive has " +
-                               std::to_string(piece.vertices.size()) + " vertices");
+        return make_error(ErrorId::kGltf, where + ", indices: element " + std::to_string(i) +
+                                              " is " + std::to_string(raw[i]) +
+                                              ", the primitive has " +
+                                              std::to_string(piece.vertices.size()) + " vertices");
   } else {
     raw.resize(piece.vertices.size());
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = static_cast<std::uint32_t>(i);
@@ -144,8 +145,9 @@ Status read_material_id(const GltfReader& reader, const tinygltf::Primitive& pri
   // The default material comes after the file's materials.
   const std::size_t count = reader.model.materials.size();
   if (primitive.material >= 0 && static_cast<std::size_t>(primitive.material) >= count)
-    return Status::failure(where + ": names material " + std::to_string(primitive.material) +
-                           " of " + std::to_string(count));
+    return make_error(ErrorId::kGltf, where + ": names material " +
+                                          std::to_string(primitive.material) + " of " +
+                                          std::to_string(count));
   piece.material = primitive.material < 0 ? static_cast<std::uint32_t>(count)
                                           : static_cast<std::uint32_t>(primitive.material);
   return {};
@@ -189,9 +191,9 @@ Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
       if (!(weights[k] > 0.0f) || !std::isfinite(weights[k])) continue;
       const std::size_t joint = static_cast<std::size_t>(std::max(0.0f, ids[k]));
       if (joint >= joints.size())
-        return Status::failure(where + ", JOINTS_0: element " + std::to_string(v) +
-                               " names joint " + std::to_string(joint) + " of " +
-                               std::to_string(joints.size()));
+        return make_error(ErrorId::kGltf, where + ", JOINTS_0: element " + std::to_string(v) +
+                                              " names joint " + std::to_string(joint) + " of " +
+                                              std::to_string(joints.size()));
       m += joints[joint] * static_cast<double>(weights[k]);
       sum += weights[k];
     }
@@ -207,8 +209,8 @@ Status pose(const GltfReader& reader, const tinygltf::Primitive& primitive,
     vertex.tangent = glm::vec4(tangent, vertex.tangent.w);
     const glm::vec3& p = vertex.position;
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      return Status::failure(where + ": element " + std::to_string(v) +
-                             " is not finite in the pose of its skin");
+      return make_error(ErrorId::kGltf, where + ": element " + std::to_string(v) +
+                                            " is not finite in the pose of its skin");
   }
   return {};
 }
@@ -265,7 +267,7 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
     if (status.ok() && joints) status = pose(reader, primitive, *joints, where, piece);
     if (status.ok() && !joints && reader.animated)
       status = read_skin(reader, primitive, where, piece);
-    if (!status.ok()) return status;
+    if (!status.ok()) return status.error();
     if (!piece.indices.empty()) finish(reader.scene, piece, mesh);
   }
   if (mesh.skin.size() != mesh.vertices.size()) mesh.skin.clear();  // some pieces have none
@@ -277,7 +279,7 @@ Result<Mesh> read_mesh(GltfReader& reader, std::size_t id, const std::vector<glm
 Status read_gltf_meshes(GltfReader& reader) {
   for (std::size_t id = 0; id < reader.model.meshes.size(); ++id) {
     Result<Mesh> mesh = read_mesh(reader, id, nullptr);
-    if (!mesh.ok()) return Status::failure(mesh.error());
+    if (!mesh.ok()) return mesh.error();
     const bool empty = mesh.value().geometries.empty();
     reader.mesh_ids.push_back(empty ? -1 : static_cast<int>(reader.scene.meshes.size()));
     if (!empty) reader.scene.meshes.push_back(std::move(mesh.value()));

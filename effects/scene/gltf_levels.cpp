@@ -48,8 +48,8 @@ Status read_gltf_levels(GltfReader& reader, const tinygltf::Node& node, const st
     const tinygltf::Value& entry = ids.Get(static_cast<int>(i));
     const int id = entry.IsInt() ? entry.GetNumberAsInt() : -1;
     if (id < 0 || static_cast<std::size_t>(id) >= reader.model.nodes.size())
-      return Status::failure(where + ", MSFT_lod: names node " + std::to_string(id) + " of " +
-                             std::to_string(reader.model.nodes.size()));
+      return make_error(ErrorId::kGltf, where + ", MSFT_lod: names node " + std::to_string(id) +
+                                            " of " + std::to_string(reader.model.nodes.size()));
     const tinygltf::Node& level = reader.model.nodes[static_cast<std::size_t>(id)];
     if (level.mesh < 0 || static_cast<std::size_t>(level.mesh) >= reader.mesh_ids.size() ||
         reader.mesh_ids[static_cast<std::size_t>(level.mesh)] < 0 || level.skin >= 0 ||

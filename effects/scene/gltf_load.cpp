@@ -46,7 +46,7 @@ bool read_named_file(std::vector<unsigned char>* out, std::string* error, const 
   if (bytes.ok()) {
     *out = std::move(bytes.value());
   } else {
-    *error += bytes.error();
+    *error += bytes.error().message;
   }
   return bytes.ok();
 }
@@ -109,29 +109,29 @@ Result<std::string_view> json_text(std::span<const std::uint8_t> bytes) {
   if (!is_glb(bytes)) {
     const std::size_t first = view(0, bytes.size()).find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first == std::string_view::npos || bytes[first] != '{')
-      return Status::failure("is neither a .gltf (JSON) nor a .glb file");
+      return make_error(ErrorId::kGltf, "is neither a .gltf (JSON) nor a .glb file");
     return view(0, bytes.size());
   }
   std::uint32_t chunk = 0;
   if (bytes.size() < 20)
-    return Status::failure("is cut: " + std::to_string(bytes.size()) +
-                           " bytes, a .glb has at least 20");
+    return make_error(ErrorId::kGltf,
+                      "is cut: " + std::to_string(bytes.size()) + " bytes, a .glb has at least 20");
   std::memcpy(&chunk, bytes.data() + 12, 4);
   if (chunk > bytes.size() - 20)
-    return Status::failure("is cut: its JSON needs " + std::to_string(chunk) +
-                           " bytes, the file has " + std::to_string(bytes.size() - 20) +
-                           " after the header");
+    return make_error(ErrorId::kGltf, "is cut: its JSON needs " + std::to_string(chunk) +
+                                          " bytes, the file has " +
+                                          std::to_string(bytes.size() - 20) + " after the header");
   return view(20, chunk);
 }
 
 Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tinygltf::Model& model,
              std::vector<std::vector<std::uint8_t>>& images, std::vector<std::string>& warnings) {
-  if (bytes.size() > 0xFFFFFF00u) return Status::failure("is larger than 4 GB");
+  if (bytes.size() > 0xFFFFFF00u) return make_error(ErrorId::kGltf, "is larger than 4 GB");
   const Result<std::string_view> json = json_text(bytes);
-  if (!json.ok()) return Status::failure(json.error());
+  if (!json.ok()) return json.error();
   if (!shallow(json.value()))
-    return Status::failure("its JSON is nested deeper than " + std::to_string(kMaxJsonDepth) +
-                           " levels");
+    return make_error(ErrorId::kGltf, "its JSON is nested deeper than " +
+                                          std::to_string(kMaxJsonDepth) + " levels");
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, &images);
   loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>());
@@ -149,7 +149,8 @@ Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tin
                                         static_cast<unsigned int>(json.value().size()), folder);
   }
   if (!warning.empty()) warnings.push_back(one_line(warning));
-  if (!parsed) return Status::failure(error.empty() ? "cannot be parsed" : one_line(error));
+  if (!parsed)
+    return make_error(ErrorId::kGltf, error.empty() ? "cannot be parsed" : one_line(error));
   images.resize(model.images.size());
   return {};
 }
@@ -157,8 +158,8 @@ Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tin
 Status check_extensions(const tinygltf::Model& model) {
   for (const std::string& name : model.extensionsRequired)
     if (std::find(kKnownExtensions.begin(), kKnownExtensions.end(), name) == kKnownExtensions.end())
-      return Status::failure("requires the extension " + name +
-                             ", which is not supported: export the file without it");
+      return make_error(ErrorId::kGltf, "requires the extension " + name +
+                                            ", which is not supported: export the file without it");
   return {};
 }
 
@@ -225,9 +226,10 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
   if (status.ok()) status = read_gltf_meshes(reader);
   if (status.ok()) status = read_gltf_nodes(reader);
   if (status.ok()) status = read_gltf_animations(reader);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   if (loaded.scene.instances.empty())
-    return Status::failure("shows no triangles: no node of its scene has a mesh made of triangles");
+    return make_error(ErrorId::kGltf,
+                      "shows no triangles: no node of its scene has a mesh made of triangles");
   if (!model.animations.empty() && !options.animated)
     loaded.warnings.push_back("animations are left out");
   if (const std::size_t joined = join_levels_by_name(loaded.scene); joined > 0)
@@ -238,7 +240,7 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
   drop_unused_meshes(loaded.scene);
   complete(loaded.scene);
   status = validate(loaded.scene);
-  if (!status.ok()) return status;
+  if (!status.ok()) return status.error();
   return loaded;
 }
 
@@ -252,8 +254,8 @@ std::string gltf_part(const char* noun, std::size_t index, const std::string& na
 
 Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const std::string& name,
                                      const std::string& folder, const GltfOptions& options) {
-  const auto failed = [&](const std::string& text) {
-    return Status::failure("cannot load \"" + name + "\": " + text);
+  const auto failed = [&](const Error& error) {
+    return within("\"" + name + "\"", error, ErrorId::kGltf);
   };
   // The parser throws if the JSON has the wrong types, and if memory runs out.
   try {
@@ -261,15 +263,16 @@ Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const 
     if (!loaded.ok()) return failed(loaded.error());
     return loaded;
   } catch (const std::bad_alloc&) {
-    return failed("takes more memory than there is: its counts and sizes may be wrong");
+    return failed(make_error(ErrorId::kGltf,
+                             "takes more memory than there is: its counts and sizes may be wrong"));
   } catch (const std::exception& error) {
-    return failed(one_line(error.what()));
+    return failed(make_error(ErrorId::kGltf, one_line(error.what())));
   }
 }
 
 Result<LoadedScene> load_gltf(const std::string& path, const GltfOptions& options) {
   const Result<std::vector<std::uint8_t>> bytes = read_file(path);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   const std::size_t slash = path.find_last_of('/');
   return load_gltf_memory(bytes.value(), path,
                           slash == std::string::npos ? "." : path.substr(0, slash + 1), options);

@@ -119,26 +119,27 @@ Result<TextureImage> MaterialReader::decode(int source, const std::string& where
   if (from.bufferView >= 0) {
     const Result<std::span<const std::uint8_t>> view =
         buffer_view_bytes(model_, from.bufferView, place);
-    if (!view.ok()) return Status::failure(view.error());
+    if (!view.ok()) return view.error();
     bytes = view.value();
   } else if (bytes.empty()) {
-    return Status::failure(place + ": cannot read the file \"" + from.uri +
-                           "\": it must lie beside the glTF file");
+    return make_error(ErrorId::kGltf, place + ": cannot read the file \"" + from.uri +
+                                          "\": it must lie beside the glTF file");
   }
   const int size =
       static_cast<int>(std::min<std::size_t>(bytes.size(), std::numeric_limits<int>::max()));
   int width = 0, height = 0, channels = 0;
   if (size == 0 || !stbi_info_from_memory(bytes.data(), size, &width, &height, &channels))
-    return Status::failure(place + ": is neither a readable PNG nor a readable JPEG");
+    return make_error(ErrorId::kGltf, place + ": is neither a readable PNG nor a readable JPEG");
   if (width > kMaxImageSide || height > kMaxImageSide)
-    return Status::failure(place + ": is " + std::to_string(width) + " x " +
-                           std::to_string(height) + " pixels, a side of " +
-                           std::to_string(kMaxImageSide) + " is allowed");
+    return make_error(ErrorId::kGltf, place + ": is " + std::to_string(width) + " x " +
+                                          std::to_string(height) + " pixels, a side of " +
+                                          std::to_string(kMaxImageSide) + " is allowed");
   const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
       stbi_load_from_memory(bytes.data(), size, &width, &height, &channels, 4), stbi_image_free);
   if (!pixels) {
     const char* reason = stbi_failure_reason();
-    return Status::failure(place + ": is damaged (" + (reason ? reason : "no reason given") + ")");
+    return make_error(ErrorId::kGltf,
+                      place + ": is damaged (" + (reason ? reason : "no reason given") + ")");
   }
   TextureImage to;
   to.name = !from.name.empty()  ? from.name
@@ -154,7 +155,7 @@ Result<std::int32_t> MaterialReader::image(int source, bool srgb, const std::str
   const auto key = std::make_pair(source, srgb);
   if (const auto found = image_ids_.find(key); found != image_ids_.end()) return found->second;
   Result<TextureImage> decoded = decode(source, where);
-  if (!decoded.ok()) return Status::failure(decoded.error());
+  if (!decoded.ok()) return decoded.error();
   decoded.value().srgb = srgb;
   reader_.scene.images.push_back(std::move(decoded.value()));
   return image_ids_[key] = static_cast<std::int32_t>(reader_.scene.images.size() - 1);
@@ -172,8 +173,8 @@ Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const st
                                MaterialConstants& to) {
   if (use.texture < 0) return {};
   if (static_cast<std::size_t>(use.texture) >= model_.textures.size())
-    return Status::failure(where + ": names texture " + std::to_string(use.texture) + " of " +
-                           std::to_string(model_.textures.size()));
+    return make_error(ErrorId::kGltf, where + ": names texture " + std::to_string(use.texture) +
+                                          " of " + std::to_string(model_.textures.size()));
   const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(use.texture)];
   const std::string place = where + ", texture " + std::to_string(use.texture);
   if (const int tex_coord = tex_coord_of(use); tex_coord != 0) {
@@ -186,14 +187,14 @@ Status MaterialReader::texture(const TextureUse& use, TextureSlot slot, const st
     return {};
   }
   if (static_cast<std::size_t>(texture.source) >= model_.images.size())
-    return Status::failure(place + ": names image " + std::to_string(texture.source) + " of " +
-                           std::to_string(model_.images.size()));
+    return make_error(ErrorId::kGltf, place + ": names image " + std::to_string(texture.source) +
+                                          " of " + std::to_string(model_.images.size()));
   if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) >= model_.samplers.size())
-    return Status::failure(place + ": names sampler " + std::to_string(texture.sampler) + " of " +
-                           std::to_string(model_.samplers.size()));
+    return make_error(ErrorId::kGltf, place + ": names sampler " + std::to_string(texture.sampler) +
+                                          " of " + std::to_string(model_.samplers.size()));
   const bool srgb = slot == kBaseColorTexture || slot == kEmissiveTexture;
   const Result<std::int32_t> id = image(texture.source, srgb, place);
-  if (!id.ok()) return Status::failure(id.error());
+  if (!id.ok()) return id.error();
   to.image[slot] = id.value();
   to.sampler[slot] = texture.sampler < 0 ? 0 : static_cast<std::uint32_t>(texture.sampler) + 1;
   texture_transform(use.extensions, slot, to);
@@ -211,8 +212,8 @@ Status MaterialReader::alpha(const tinygltf::Material& from, const std::string& 
   } else if (from.alphaMode == "BLEND") {
     to.flags |= kMaterialBlend | (alpha_texture ? kMaterialAlphaTested : 0u);
   } else if (from.alphaMode != "OPAQUE" && !from.alphaMode.empty()) {
-    return Status::failure(where + ": alphaMode is \"" + from.alphaMode +
-                           "\", OPAQUE, MASK and BLEND are allowed");
+    return make_error(ErrorId::kGltf, where + ": alphaMode is \"" + from.alphaMode +
+                                          "\", OPAQUE, MASK and BLEND are allowed");
   }
   if ((to.flags & kMaterialAlphaTested) && alpha_texture) cutoffs_.emplace(id, to.alpha_cutoff);
   return {};

@@ -44,9 +44,9 @@ class NodeReader {
   std::vector<std::int32_t> skin_ids_;
 };
 
-Status id_error(const std::string& where, const char* noun, int id, std::size_t count) {
-  return Status::failure(where + ": names " + noun + " " + std::to_string(id) + " of " +
-                         std::to_string(count));
+Error id_error(const std::string& where, const char* noun, int id, std::size_t count) {
+  return make_error(ErrorId::kGltf, where + ": names " + noun + " " + std::to_string(id) + " of " +
+                                        std::to_string(count));
 }
 
 bool in_range(int id, std::size_t count) {
@@ -83,9 +83,10 @@ Status NodeReader::local_transform(const tinygltf::Node& node, const std::string
   const auto allowed = [](std::size_t size, std::size_t full) { return size == 0 || size == full; };
   if (!allowed(node.matrix.size(), 16) || !allowed(node.translation.size(), 3) ||
       !allowed(node.rotation.size(), 4) || !allowed(node.scale.size(), 3))
-    return Status::failure(where +
-                           ": matrix, translation, rotation or scale has the wrong number "
-                           "of elements, 16, 3, 4 and 3 are allowed");
+    return make_error(ErrorId::kGltf,
+                      where +
+                          ": matrix, translation, rotation or scale has the wrong number "
+                          "of elements, 16, 3, 4 and 3 are allowed");
   glm::dmat4 m(1.0);
   if (!node.matrix.empty()) {
     for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<std::size_t>(i)];
@@ -106,7 +107,7 @@ Status NodeReader::local_transform(const tinygltf::Node& node, const std::string
   }
   for (int i = 0; i < 16; ++i)
     if (!std::isfinite(m[i / 4][i % 4]))
-      return Status::failure(where + ": its transform is not finite");
+      return make_error(ErrorId::kGltf, where + ": its transform is not finite");
   out = m;
   return {};
 }
@@ -127,9 +128,10 @@ Status NodeReader::walk(const std::vector<int>& start) {
       return id_error("the node hierarchy", "node", step.id, model_.nodes.size());
     const std::size_t id = static_cast<std::size_t>(step.id);
     if (visited_[id])
-      return Status::failure(where(id) +
-                             ": is reached twice; a node has one parent at most and no "
-                             "cycles are allowed");
+      return make_error(ErrorId::kGltf,
+                        where(id) +
+                            ": is reached twice; a node has one parent at most and no "
+                            "cycles are allowed");
     visited_[id] = true;
     glm::dmat4 local(1.0);
     const Status status = local_transform(model_.nodes[id], where(id), local);
@@ -186,12 +188,12 @@ Status NodeReader::inverse_binds(const tinygltf::Skin& skin, const std::string& 
   if (skin.inverseBindMatrices >= 0) {
     Result<std::vector<float>> read =
         read_floats(model_, skin.inverseBindMatrices, 16, where + ", inverse bind matrices");
-    if (!read.ok()) return Status::failure(read.error());
+    if (!read.ok()) return read.error();
     inverse = std::move(read.value());
     if (inverse.size() < skin.joints.size() * 16)
-      return Status::failure(where + ": has " + std::to_string(skin.joints.size()) +
-                             " joints and " + std::to_string(inverse.size() / 16) +
-                             " inverse bind matrices");
+      return make_error(ErrorId::kGltf, where + ": has " + std::to_string(skin.joints.size()) +
+                                            " joints and " + std::to_string(inverse.size() / 16) +
+                                            " inverse bind matrices");
   }
   for (std::size_t j = 0; j < skin.joints.size(); ++j) {
     if (!in_range(skin.joints[j], model_.nodes.size()))
@@ -282,8 +284,9 @@ Status NodeReader::animated_skin(const tinygltf::Node& node, const std::string& 
   for (const SkinVertex& v : scene.meshes[instance.mesh].skin) {
     for (int k = 0; k < 4; ++k) {
       if (v.joints[k] >= from.joints.size())
-        return Status::failure(where + ", JOINTS_0: names joint " + std::to_string(v.joints[k]) +
-                               " of " + std::to_string(from.joints.size()));
+        return make_error(ErrorId::kGltf, where + ", JOINTS_0: names joint " +
+                                              std::to_string(v.joints[k]) + " of " +
+                                              std::to_string(from.joints.size()));
     }
   }
   scene.instances.push_back(std::move(instance));
@@ -309,7 +312,7 @@ Status NodeReader::skinned(const tinygltf::Node& node, const std::string& where)
   for (std::size_t j = 0; j < joints.size(); ++j)
     joints[j] = world_[static_cast<std::size_t>(skin.joints[j])] * joints[j];
   Result<Mesh> posed = read_skinned_mesh(reader_, node.mesh, joints);
-  if (!posed.ok()) return Status::failure(posed.error());
+  if (!posed.ok()) return posed.error();
   Instance instance;
   instance.name = node.name.empty() ? where : node.name;
   instance.mesh = static_cast<std::uint32_t>(reader_.scene.meshes.size());
@@ -362,8 +365,9 @@ Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
   } else if (from.type == "spot") {
     to.type = LightType::kSpot;
   } else if (from.type != "point") {
-    return Status::failure(where + ", light " + std::to_string(id) + ": type is \"" + from.type +
-                           "\", directional, point and spot are allowed");
+    return make_error(ErrorId::kGltf, where + ", light " + std::to_string(id) + ": type is \"" +
+                                          from.type +
+                                          "\", directional, point and spot are allowed");
   }
   for (int i = 0; i < 3 && static_cast<std::size_t>(i) < from.color.size(); ++i)
     to.color[i] = std::max(0.0f, static_cast<float>(from.color[static_cast<std::size_t>(i)]));

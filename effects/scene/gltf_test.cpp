@@ -12,7 +12,7 @@ namespace {
 
 TEST(GltfLoad, QuadWithoutAnythingElse) {
   const auto loaded = load(QuadFile{}.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& scene = loaded.value().scene;
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].name, "quad");
@@ -32,7 +32,7 @@ TEST(GltfLoad, NonIndexedStripsAndFans) {
     QuadFile file;
     file.primitive = primitive;
     const auto loaded = load(file.bytes());
-    EXPECT_TRUE(loaded.ok()) << loaded.error();
+    EXPECT_TRUE(loaded.ok()) << loaded.error().message;
     return loaded.ok() ? loaded.value().scene : Scene{};
   };
   EXPECT_EQ(unique_triangle_count(triangles(R"({"attributes":{"POSITION":0}})")), 1u)
@@ -54,7 +54,7 @@ TEST(GltfLoad, PointsAreLeftOutWithAWarning) {
   file.primitive =
       R"({"attributes":{"POSITION":0},"mode":0},{"attributes":{"POSITION":0},"mode":4})";
   const auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   EXPECT_EQ(loaded.value().scene.meshes[0].geometries.size(), 1u);
   ASSERT_EQ(loaded.value().warnings.size(), 1u);
   EXPECT_NE(loaded.value().warnings[0].find("points or lines"), std::string::npos);
@@ -78,7 +78,7 @@ glm::vec3 largest_position(int component_type, bool normalized) {
       ",\"byteStride\":" + std::to_string(stride * sizeof(T)) +
       "}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":"
       "0}]"));
-  EXPECT_TRUE(loaded.ok()) << loaded.error();
+  EXPECT_TRUE(loaded.ok()) << loaded.error().message;
   if (!loaded.ok()) return glm::vec3(0.0f);
   const Bounds box = scene_bounds(loaded.value().scene);
   return glm::vec3(box.max);
@@ -113,10 +113,10 @@ TEST(GltfLoad, SparseAccessorReplacesElements) {
         "\"mode\":5}]}],\"nodes\":[{\"mesh\":0}]");
   };
   const auto replaced = load(file("\"bufferView\":0,", "2"));
-  ASSERT_TRUE(replaced.ok()) << replaced.error();
+  ASSERT_TRUE(replaced.ok()) << replaced.error().message;
   EXPECT_EQ(scene_bounds(replaced.value().scene).max, glm::dvec3(9, 9, 0));
   const auto zeros = load(file("", "2"));
-  ASSERT_TRUE(zeros.ok()) << zeros.error();
+  ASSERT_TRUE(zeros.ok()) << zeros.error().message;
   EXPECT_EQ(scene_bounds(zeros.value().scene).min, glm::dvec3(0, 0, 0));
   expect_error(load(file("\"bufferView\":0,", "3")), "sparse indices: needs 6 bytes");
   expect_error(load(file("\"bufferView\":0,", "5")), "sparse: count is 5, 0..4");
@@ -128,7 +128,7 @@ TEST(GltfLoad, NodeTransformsMultiply) {
                R"({"mesh":0,"scale":[2,-3,1],"translation":[1,0,0]},)"
                R"({"mesh":0,"matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}])";
   const auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   ASSERT_EQ(loaded.value().scene.instances.size(), 2u);
   const Instance& first = loaded.value().scene.instances[0];
   // (1,1,0) -> scale (2,-3,0) -> move (3,-3,0) -> quarter turn (3,3,0) -> move (13,3,0).
@@ -143,7 +143,7 @@ TEST(GltfLoad, SingularInstancesAreLeftOut) {
   QuadFile file;
   file.nodes = R"([{"mesh":0,"scale":[0,1,1],"name":"flat"},{"mesh":0}])";
   const auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   EXPECT_EQ(loaded.value().scene.instances.size(), 1u);
   ASSERT_EQ(loaded.value().warnings.size(), 1u);
   EXPECT_NE(loaded.value().warnings[0].find("flat"), std::string::npos);
@@ -160,7 +160,7 @@ TEST(GltfLoad, MaterialsAndTextures) {
       R"("baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":0.25,)"
       R"("baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{)"
       R"("offset":[0.25,0.5],"rotation":1.5707963267948966,"scale":[2,3]}}}}})"));
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const MaterialConstants& m = material_of(loaded);
   EXPECT_EQ(m.base_color, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
   EXPECT_EQ(m.emissive, glm::vec3(2, 4, 0));
@@ -188,25 +188,25 @@ TEST(GltfLoad, MaterialsAndTextures) {
 TEST(GltfLoad, AlphaModes) {
   const std::string texture = R"("pbrMetallicRoughness":{"baseColorTexture":{"index":0}})";
   const auto mask = load(textured(R"({"alphaMode":"MASK","alphaCutoff":0.3,)" + texture + "}"));
-  ASSERT_TRUE(mask.ok()) << mask.error();
+  ASSERT_TRUE(mask.ok()) << mask.error().message;
   EXPECT_EQ(material_of(mask).flags, kMaterialMask | kMaterialAlphaTested);
   EXPECT_EQ(material_of(mask).alpha_cutoff, 0.3f);
   EXPECT_TRUE(mask.value().scene.meshes[0].geometries[0].alpha_tested);
 
   const auto blend = load(textured(R"({"alphaMode":"BLEND",)" + texture + "}"));
-  ASSERT_TRUE(blend.ok()) << blend.error();
+  ASSERT_TRUE(blend.ok()) << blend.error().message;
   EXPECT_EQ(material_of(blend).flags, kMaterialBlend | kMaterialAlphaTested);
   EXPECT_EQ(material_of(blend).alpha_cutoff, 0.5f) << "shadow rays know open or closed";
   EXPECT_EQ(blend.value().scene.instances[0].mask, kMaskOpaque);
 
   const auto glass = load(textured(R"({"alphaMode":"BLEND"})"));
-  ASSERT_TRUE(glass.ok()) << glass.error();
+  ASSERT_TRUE(glass.ok()) << glass.error().message;
   EXPECT_EQ(material_of(glass).flags, kMaterialBlend);
   EXPECT_FALSE(glass.value().scene.meshes[0].geometries[0].alpha_tested);
   EXPECT_EQ(glass.value().scene.instances[0].mask, kMaskTransparent);
 
   const auto opaque = load(textured("{" + texture + "}"));
-  ASSERT_TRUE(opaque.ok()) << opaque.error();
+  ASSERT_TRUE(opaque.ok()) << opaque.error().message;
   EXPECT_FALSE(opaque.value().scene.meshes[0].geometries[0].alpha_tested);
   expect_error(load(textured(R"({"alphaMode":"HOLES"})")), "OPAQUE, MASK and BLEND are allowed");
 }
@@ -223,7 +223,7 @@ TEST(GltfLoad, CamerasAndLights) {
       R"({"type":"directional","intensity":5,"color":[1,0.5,0.25]},)"
       R"({"type":"spot","intensity":7,"range":4,"spot":{"innerConeAngle":0.2,"outerConeAngle":0.5}}]}})";
   const auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& scene = loaded.value().scene;
   ASSERT_EQ(scene.cameras.size(), 1u);
   EXPECT_EQ(scene.cameras[0].vertical_fov, 0.7);
@@ -262,7 +262,7 @@ TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
         R"({"translation":[0,4,0]}])");
   };
   const auto loaded = load(file("[1,2]"));
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Bounds box = scene_bounds(loaded.value().scene);
   // The node's own transform does not apply. The upper vertices are the mean of (y+0, 1) and (y+4,
   // 0).
@@ -311,7 +311,7 @@ TEST(GltfLoad, SkinsAndAnimationsAreKept) {
     return load_gltf_memory(bytes, "test.glb", ".", {.animated = true});
   };
   const auto loaded = load_animated(file(R"({"input":3,"output":4})"));
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& scene = loaded.value().scene;
   ASSERT_EQ(scene.instances.size(), 2u);
   EXPECT_EQ(scene.skins.at(0).joints.size(), 2u);
@@ -334,7 +334,7 @@ TEST(GltfLoad, SkinsAndAnimationsAreKept) {
   expect_error(load_animated(file(R"({"input":3,"output":4,"interpolation":"CUBICSPLINE"})")),
                "2 times");
   const auto stepped = load_animated(file(R"({"input":3,"output":4,"interpolation":"STEP"})"));
-  ASSERT_TRUE(stepped.ok()) << stepped.error();
+  ASSERT_TRUE(stepped.ok()) << stepped.error().message;
   EXPECT_EQ(evaluate_instances(stepped.value().scene, 0.9)[1].transform[3].y, 4.0);
 
   // Truncated or altered files are either refused or valid.

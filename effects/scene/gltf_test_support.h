@@ -66,8 +66,8 @@ inline Result<LoadedScene> load_text(const std::string& text) {
 
 inline void expect_error(const Result<LoadedScene>& result, const std::string& part) {
   ASSERT_FALSE(result.ok()) << "wanted: " << part;
-  EXPECT_NE(result.error().find(part), std::string::npos) << result.error();
-  EXPECT_NE(result.error().find("test."), std::string::npos) << "names the file";
+  EXPECT_NE(result.error().message.find(part), std::string::npos) << result.error().message;
+  EXPECT_NE(result.error().message.find("test."), std::string::npos) << "names the file";
 }
 
 inline const std::vector<float> kQuad = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};

@@ -138,7 +138,7 @@ Status Writer::add_image(const TextureImage& image) {
   picture.channels = 4;
   picture.values = image.mips[0];
   const Result<std::vector<std::uint8_t>> png = encode_png(picture);
-  if (!png.ok()) return Status::failure("image \"" + image.name + "\": " + png.error());
+  if (!png.ok()) return within("image \"" + image.name + "\"", png.error(), ErrorId::kGltfWrite);
   tinygltf::Image out;
   out.name = image.name;
   out.mimeType = "image/png";
@@ -291,7 +291,7 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   }
   for (const TextureImage& image : scene_.images) {
     const Status status = add_image(image);
-    if (!status.ok()) return status;
+    if (!status.ok()) return status.error();
   }
   for (const Material& material : scene_.materials) add_material(material);
   for (const Mesh& mesh : scene_.meshes) add_mesh(mesh);
@@ -316,14 +316,14 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   }
   for (const Light& light : scene_.lights) add_light(light);
   if (data_.size() > 0xF0000000u)
-    return Status::failure("needs " + std::to_string(data_.size()) +
-                           " bytes, a .glb holds less than 4 GB");
+    return make_error(ErrorId::kGltfWrite, "needs " + std::to_string(data_.size()) +
+                                               " bytes, a .glb holds less than 4 GB");
   model_.buffers.emplace_back();
   model_.buffers[0].data = std::move(data_);
   std::ostringstream stream;
   tinygltf::TinyGLTF writer;
   if (!writer.WriteGltfSceneToStream(&model_, stream, false, true))
-    return Status::failure("the glTF writer failed");
+    return make_error(ErrorId::kGltfWrite, "the glTF writer failed");
   const std::string text = std::move(stream).str();
   return std::vector<std::uint8_t>(text.begin(), text.end());
 }
@@ -331,8 +331,8 @@ Result<std::vector<std::uint8_t>> Writer::run() {
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene) {
-  const auto failed = [&](const std::string& text) {
-    return Status::failure("cannot write scene \"" + scene.name + "\" as glTF: " + text);
+  const auto failed = [&](const Error& error) {
+    return within("scene \"" + scene.name + "\"", error, ErrorId::kGltfWrite);
   };
   const Status status = validate(scene);
   if (!status.ok()) return failed(status.error());
@@ -341,13 +341,13 @@ Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene) {
     if (!bytes.ok()) return failed(bytes.error());
     return bytes;
   } catch (const std::exception& error) {
-    return failed(error.what());
+    return failed(make_error(ErrorId::kGltfWrite, error.what()));
   }
 }
 
 Status write_glb(const std::string& path, const Scene& scene) {
   const Result<std::vector<std::uint8_t>> bytes = encode_glb(scene);
-  if (!bytes.ok()) return Status::failure(bytes.error());
+  if (!bytes.ok()) return bytes.error();
   return write_file_atomically(path, bytes.value());
 }
 

@@ -40,9 +40,9 @@ void expect_same_geometry(const Scene& a, const Scene& b) {
 TEST(GltfWrite, TheLoungeComesBack) {
   const Scene lounge = make_lounge();
   const auto bytes = encode_glb(lounge);
-  ASSERT_TRUE(bytes.ok()) << bytes.error();
+  ASSERT_TRUE(bytes.ok()) << bytes.error().message;
   const auto loaded = load(bytes.value());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& back = loaded.value().scene;
   EXPECT_TRUE(loaded.value().warnings.empty());
   expect_same_geometry(lounge, back);
@@ -79,7 +79,8 @@ TEST(GltfWrite, RefusesABrokenSceneAndKeepsTheEarlierFile) {
   const auto before = read_file(path);
   scene.instances[0].mesh = 5;
   const Status status = write_glb(path, scene);
-  EXPECT_NE(status.error().find("mesh 5 of 1"), std::string::npos) << status.error();
+  EXPECT_NE(status.error().message.find("mesh 5 of 1"), std::string::npos)
+      << status.error().message;
   EXPECT_EQ(read_file(path).value(), before.value());
   std::filesystem::remove(path);
 }
@@ -91,14 +92,14 @@ TEST_P(RealScene, LoadsWithItsTriangles) {
   const std::string path = std::string(KAAMOS_SOURCE_DIR) + "/../shared/scenes/" + GetParam().first;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto loaded = load_gltf(path);
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& scene = loaded.value().scene;
   EXPECT_TRUE(validate(scene).ok());
   EXPECT_EQ(unique_triangle_count(scene), static_cast<std::uint64_t>(GetParam().second));
   const auto bytes = encode_glb(scene);
-  ASSERT_TRUE(bytes.ok()) << bytes.error();
+  ASSERT_TRUE(bytes.ok()) << bytes.error().message;
   const auto again = load(bytes.value());
-  ASSERT_TRUE(again.ok()) << again.error();
+  ASSERT_TRUE(again.ok()) << again.error().message;
   EXPECT_EQ(unique_triangle_count(again.value().scene), unique_triangle_count(scene));
 }
 
@@ -121,7 +122,7 @@ TEST(RealSceneDetails, OakLeavesAreAlphaTested) {
   const std::string path = std::string(KAAMOS_SOURCE_DIR) + "/../shared/scenes/oaktree.gltf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto loaded = load_gltf(path);
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   int tested = 0;
   for (const Mesh& mesh : loaded.value().scene.meshes)
     for (const Geometry& geometry : mesh.geometries) tested += geometry.alpha_tested;

@@ -55,7 +55,7 @@ TEST(Levels, FartherIsCoarser) {
         << "at " << distance << " m";
     show_levels(scene, scene.cameras[0]);
     EXPECT_EQ(scene.instances[0].mesh, level);
-    EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+    EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   }
   // What counts is its present distance, not the original one.
   const Scene scene = boxes(4, 1);
@@ -101,7 +101,7 @@ TEST(Levels, OfFilesAndBack) {
                R"({"mesh":0,"translation":[1,2,3]},{"mesh":0,"translation":[1,2,3]}])";
   file.more = R"(,"scenes":[{"nodes":[0]}],"extensionsUsed":["MSFT_lod"])";
   auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   EXPECT_TRUE(loaded.value().warnings.empty());
   for (int round = 0; round < 2; ++round) {
     const Scene& scene = loaded.value().scene;
@@ -113,7 +113,7 @@ TEST(Levels, OfFilesAndBack) {
     EXPECT_EQ(levels[2].coverage, 0.125f);
     EXPECT_EQ(scene.instances[0].mesh, levels[0].mesh);
     loaded = load(encode_glb(scene).value());
-    ASSERT_TRUE(loaded.ok()) << loaded.error();
+    ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   }
 }
 
@@ -124,7 +124,7 @@ TEST(Levels, BrokenFilesAreUsedAsFarAsTheyGo) {
                R"({"mesh":0},{"mesh":0,"translation":[1,0,0]}])";
   file.more = R"(,"scenes":[{"nodes":[0]}])";
   const auto loaded = load(file.bytes());
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   ASSERT_EQ(loaded.value().warnings.size(), 2u);
   EXPECT_NE(loaded.value().warnings[0].find("another transform"), std::string::npos);
   EXPECT_NE(loaded.value().warnings[1].find("MSFT_screencoverage"), std::string::npos);
@@ -138,7 +138,7 @@ TEST(Levels, SixOfAnExportedHead) {
   const std::string path = std::string(KAAMOS_SOURCE_DIR) + "/../shared/scenes/suzanne_lods.gltf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   auto loaded = load_gltf(path);
-  ASSERT_TRUE(loaded.ok()) << loaded.error();
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   Scene& scene = loaded.value().scene;
   ASSERT_EQ(scene.instances.size(), 1u);
   EXPECT_EQ(scene.instances[0].levels.size(), 6u);

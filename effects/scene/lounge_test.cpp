@@ -24,7 +24,7 @@ const Instance* find_instance(const std::string& name) {
 
 TEST(Lounge, IsValid) {
   const Status status = validate(lounge());
-  EXPECT_TRUE(status.ok()) << status.error();
+  EXPECT_TRUE(status.ok()) << status.error().message;
 }
 
 TEST(Lounge, HasTheTrianglesItPromises) {

@@ -54,8 +54,8 @@ std::string known_keys() {
   return list;
 }
 
-Status bad(const std::string& text, const std::string& what) {
-  return Status::failure("material override \"" + text + "\": " + what);
+Error bad(const std::string& text, const std::string& what) {
+  return make_error(ErrorId::kMaterialOverride, "\"" + text + "\": " + what);
 }
 
 std::string range_of(const Key& key) {
@@ -155,7 +155,7 @@ Result<MaterialOverride> parse_material_override(const std::string& text) {
   while (true) {
     const std::size_t comma = rest.find(',');
     if (const Status parsed = parse_value(text, rest.substr(0, comma), out); !parsed.ok()) {
-      return parsed;
+      return parsed.error();
     }
     if (comma == std::string_view::npos) return out;
     rest = rest.substr(comma + 1);
@@ -176,8 +176,9 @@ Status override_material(Scene& scene, const MaterialOverride& change) {
     }
   }
   if (!found) {
-    return Status::failure("scene \"" + scene.name + "\" has no material \"" + change.name +
-                           "\" to override; its materials are " + names_of(scene));
+    return make_error(ErrorId::kMaterialOverride,
+                      "scene \"" + scene.name + "\" has no material \"" + change.name +
+                          "\" to override; its materials are " + names_of(scene));
   }
   const bool alpha = std::any_of(change.values.begin(), change.values.end(),
                                  [](const auto& value) { return value.first == "alpha"; });

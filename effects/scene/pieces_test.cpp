@@ -45,7 +45,7 @@ TEST(Pieces, AreSmallAndLoseNothing) {
                                    [](const Mesh& mesh) { return mesh.triangle_count() > kMost; });
   ASSERT_GT(large, 0);
   EXPECT_EQ(split_into_pieces(scene, kMost), static_cast<std::size_t>(large));
-  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   for (const Mesh& mesh : scene.meshes) EXPECT_LE(mesh.triangle_count(), kMost) << mesh.name;
   EXPECT_EQ(world_triangles(scene), before);
 }
@@ -72,7 +72,7 @@ TEST(Pieces, SkinsAndLevelsStayWhole) {
     if (instance.motion.skin != kNoIndex) triangles += scene.meshes[instance.mesh].triangle_count();
   }
   split_into_pieces(scene, 8);
-  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   std::uint64_t after = 0;
   for (const Instance& instance : scene.instances) {
     if (instance.motion.skin != kNoIndex) after += scene.meshes[instance.mesh].triangle_count();

@@ -299,7 +299,8 @@ Status Checker::run() {
   for (const Animation& item : scene_.animations) animation(item);
   for (const Instance& item : scene_.instances) instance(item);
   rest();
-  return first_.empty() ? Status() : Status::failure("scene \"" + scene_.name + "\": " + first_);
+  return first_.empty() ? Status()
+                        : make_error(ErrorId::kScene, "scene \"" + scene_.name + "\": " + first_);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/scene/animation.h"
 #include "effects/scene/material.h"
 #include "effects/scene/mesh.h"

@@ -25,7 +25,7 @@ Scene valid_scene() {
 void expect_refused(const Scene& scene, const std::string& part) {
   const Status status = validate(scene);
   EXPECT_FALSE(status.ok()) << part;
-  EXPECT_NE(status.error().find(part), std::string::npos) << status.error();
+  EXPECT_NE(status.error().message.find(part), std::string::npos) << status.error().message;
 }
 
 TEST(Validate, NamesTheFirstBrokenRule) {
@@ -149,7 +149,7 @@ TEST(Staging, GroundIsAddedWhereThereIsNone) {
   EXPECT_TRUE(needs_ground(scene)) << "its lowest face looks down";
   add_ground(scene);
   EXPECT_FALSE(needs_ground(scene));
-  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error();
+  EXPECT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   EXPECT_EQ(scene_bounds(scene).min.y, -3.0);
   EXPECT_FALSE(needs_ground(boxes(true, 3.0))) << "a room has its floor";
 }
@@ -245,7 +245,7 @@ TEST(Oracle, ScenesAreValidAndSeenByTheirCamera) {
   for (const Scene& scene :
        {make_sphere_oracle(0.5, 0.6), make_wall_oracle(2.0), make_penumbra_oracle(1.0, 0.05)}) {
     const Status status = validate(scene);
-    EXPECT_TRUE(status.ok()) << status.error();
+    EXPECT_TRUE(status.ok()) << status.error().message;
     const glm::dvec4 origin =
         glm::inverse(scene.cameras[0].camera_to_world) * glm::dvec4(0, 0, 0, 1);
     EXPECT_LT(origin.z, 0.0) << scene.name;

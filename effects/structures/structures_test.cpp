@@ -414,7 +414,7 @@ TEST(StructureErrors, StatesOfAnotherScene) {
 
 TEST(Runner, IsValidAndWalksInACircle) {
   const Scene scene = make_runner_scene();
-  ASSERT_TRUE(validate(scene).ok()) << validate(scene).error();
+  ASSERT_TRUE(validate(scene).ok()) << validate(scene).error().message;
   EXPECT_EQ(scene.skins[0].joints.size(), kRunnerBones);
   const auto start = evaluate_instances(scene, 0.0);
   const auto end = evaluate_instances(scene, kRunnerSeconds);
@@ -437,13 +437,13 @@ TEST(Runner, IsValidAndWalksInACircle) {
 TEST(Runner, BrokenSkeletonsAreNamed) {
   Scene scene = make_runner_scene();
   scene.nodes[3].parent = 7;
-  EXPECT_NE(validate(scene).error().find("node \"neck\""), std::string::npos);
+  EXPECT_NE(validate(scene).error().message.find("node \"neck\""), std::string::npos);
   scene = make_runner_scene();
   scene.meshes[1].skin[5].joints.x = 20;
-  EXPECT_NE(validate(scene).error().find("joint 20 of 20"), std::string::npos);
+  EXPECT_NE(validate(scene).error().message.find("joint 20 of 20"), std::string::npos);
   scene = make_runner_scene();
   scene.animations[0].channels[2].times[4] = 0.0f;
-  EXPECT_NE(validate(scene).error().find("do not rise"), std::string::npos);
+  EXPECT_NE(validate(scene).error().message.find("do not rise"), std::string::npos);
 }
 
 }  // namespace

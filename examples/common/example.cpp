@@ -127,7 +127,7 @@ int Main(int argc, char** argv, const char* name, Body body,
     std::memcpy(image.values.data(), texels.data(), texels.size());
     if (!pixel.empty()) return PrintPixel(name, setup, pixel, image);
     if (const auto written = kaamos::effects::write_png(out, image); !written.ok()) {
-      std::fprintf(stderr, "%s: %s\n", name, written.error().c_str());
+      std::fprintf(stderr, "%s: %s\n", name, written.error().message.c_str());
       return 1;
     }
     std::printf("%s: %ux%u on %s -> %s\n", name, setup.width, setup.height,

@@ -14,6 +14,7 @@
 #include "effects/denoise/denoise.h"
 #include "effects/indirect_diffuse/indirect_diffuse.h"
 #include "effects/reflections/reflections.h"
+#include "failure.h"
 #include "measure.h"
 
 namespace northlight {
@@ -46,10 +47,6 @@ enum Cost : std::size_t {
 using Round = std::array<double, kCosts>;
 
 constexpr std::uint32_t kManyRays = 4;  // per pixel, where the costs of single rays are compared
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
 
 // SVGF over what a setting's run has summed up.
 class Filter {
@@ -324,7 +321,7 @@ rtapi::Result<Outcome> run_claims(const Options& options, const Scene& scene,
   const std::string text = write_csv(as_csv(table)), path = options.out + "/claims.csv";
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
-    return failure(s.error());
+    return s.error();
   }
   std::printf("%s, median of %u rounds%s\n%s\nwrote %s\n", options.scene.c_str(), options.repeats,
               options.cpu_clock ? ", CPU time over threads" : "", as_text(table).c_str(),

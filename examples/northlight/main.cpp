@@ -51,7 +51,7 @@ bool load_scene(const Options& options, Scene& scene) {
   }
   auto loaded = kaamos::effects::load_gltf(options.scene, {.animated = options.frames > 0});
   if (!loaded.ok()) {
-    say_error(loaded.error());
+    say_error(loaded.error().message);
     return false;
   }
   for (const std::string& warning : loaded.value().warnings) {
@@ -77,12 +77,12 @@ bool override_materials(const Options& options, Scene& scene) {
   for (const std::string& text : options.materials) {
     const auto change = kaamos::effects::parse_material_override(text);
     if (!change.ok()) {
-      say_error(change.error());
+      say_error(change.error().message);
       return false;
     }
     const auto changed = kaamos::effects::override_material(scene, change.value());
     if (!changed.ok()) {
-      say_error(changed.error());
+      say_error(changed.error().message);
       return false;
     }
   }
@@ -226,7 +226,7 @@ int main(int argc, char** argv) {
   if (!load_scene(*options, scene) || !override_materials(*options, scene)) return 1;
   if (!options->write_glb.empty()) {
     if (const auto written = kaamos::effects::write_glb(options->write_glb, scene); !written.ok()) {
-      say_error(written.error());
+      say_error(written.error().message);
       return 1;
     }
   }

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "effects/common/file.h"
+#include "failure.h"
 #include "measure_reference.h"
 
 namespace northlight {
@@ -18,10 +19,6 @@ namespace northlight {
 using namespace kaamos::effects;
 
 namespace {
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
 
 void print_message(const std::string& text) {
   std::fprintf(stderr, "northlight: %s\n", text.c_str());
@@ -90,7 +87,7 @@ std::string clock_text(const Options& options) {
 rtapi::Status write_text(const std::string& path, const std::string& text) {
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
-    return failure(s.error());
+    return s.error();
   }
   return {};
 }

@@ -12,6 +12,7 @@
 #include "effects/denoise/denoise.h"
 #include "effects/frame/picture.h"
 #include "effects/image/metrics.h"
+#include "failure.h"
 #include "measure.h"
 #include "measure_reference.h"
 
@@ -23,10 +24,6 @@ namespace {
 
 // Frames of a camera at rest; the history needs some of them to settle.
 constexpr std::uint32_t kFrames = 8;
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
 
 struct Method {
   const char* group;
@@ -174,7 +171,7 @@ rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double 
   }
   if (!last) return {};
   const auto change = flicker(subject.before, *image, target_.image, target_.image);
-  if (!change.ok()) return failure(change.error());
+  if (!change.ok()) return change.error();
   Place& place = temporal ? subject.last : subject.first;
   place.flicker += change.value();
   ++place.flicker_count;

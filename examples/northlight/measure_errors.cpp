@@ -40,15 +40,15 @@ FloatImage as_seen(const FloatImage& image, float exposure) {
 
 std::string Errors::add(const FloatImage& image, const Target& target) {
   const auto linear = measure(image, target.image, target.mask);
-  if (!linear.ok()) return linear.error();
+  if (!linear.ok()) return linear.error().message;
   const FloatImage seen = as_seen(image, target.exposure);
   const FloatImage wanted = as_seen(target.image, target.exposure);
   const auto shown = measure(seen, wanted, target.mask);
-  if (!shown.ok()) return shown.error();
+  if (!shown.ok()) return shown.error().message;
   const auto structure = ssim(seen, wanted);
-  if (!structure.ok()) return structure.error();
+  if (!structure.ok()) return structure.error().message;
   const auto perceived = flip(seen, wanted);
-  if (!perceived.ok()) return perceived.error();
+  if (!perceived.ok()) return perceived.error().message;
 
   const Metrics& m = linear.value();
   mse_ += m.rmse * m.rmse;

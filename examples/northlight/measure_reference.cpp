@@ -57,7 +57,7 @@ rtapi::Status keep_parts(const std::string& path, const std::vector<FloatImage>&
     file.layers.push_back(std::move(layer));
   }
   if (const auto written = write_exr(path, file); !written.ok()) {
-    return rtapi::Error{{}, rtapi::ErrorCode::kFailed, written.error()};
+    return written.error();
   }
   return {};
 }

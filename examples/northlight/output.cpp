@@ -181,12 +181,12 @@ std::string StagedFiles::add_path(const std::string& name) {
 
 std::string StagedFiles::add(const std::string& name, const std::vector<std::uint8_t>& bytes) {
   const auto written = write_file_atomically(add_path(name), bytes);
-  return written.ok() ? "" : written.error();
+  return written.ok() ? "" : written.error().message;
 }
 
 std::string StagedFiles::add(const std::string& name, const ByteImage& image) {
   const auto bytes = encode_png(image);
-  return bytes.ok() ? add(name, bytes.value()) : bytes.error();
+  return bytes.ok() ? add(name, bytes.value()) : bytes.error().message;
 }
 
 std::string StagedFiles::publish() {
@@ -220,7 +220,7 @@ std::string add_results(const Options& options, const Scene& scene, const FrameR
   exr.layers.push_back({"", result.radiance, false, {}});
   for (const auto& [name, image] : result.layers) exr.layers.push_back({name, image, false, {}});
   const auto written = write_exr(files.add_path("frame.exr"), exr);
-  return written.ok() ? "" : written.error();
+  return written.ok() ? "" : written.error().message;
 }
 
 std::string write_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "sequence.h"
+#include "failure.h"
 
 #include <fmt/format.h>
 
@@ -16,10 +17,6 @@ using namespace kaamos::effects;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
 
 std::string frame_name(std::uint32_t index) {
   return fmt::format("frame_{:04}.png", index);
@@ -92,7 +89,7 @@ class FlickerMeter {
     if (!now) return now.error();
     if (!cut) {
       const auto change = temporal_change(before, *now, previous_view_z_, surfaces);
-      if (!change.ok()) return failure(change.error());
+      if (!change.ok()) return change.error();
       sum.add(change.value());
     }
     before = std::move(*now);
@@ -189,7 +186,7 @@ rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, const Options& o
                                        SequenceResult& out) {
   const Scene& scene = renderer.scene();
   const auto path = choose_path(options, scene);
-  if (!path.ok()) return failure(path.error());
+  if (!path.ok()) return path.error();
   out.path = path.value().name;
   if (const auto s = renderer.prepare(progress); !is_done(s)) return s;
   FlickerMeter flicker;

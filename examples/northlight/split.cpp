@@ -20,10 +20,6 @@ namespace {
 // Rays per pixel where noise is not what is compared.
 constexpr std::uint32_t kQuietSamples = 16;
 
-rtapi::Error failure(const std::string& text) {
-  return {{}, rtapi::ErrorCode::kFailed, text};
-}
-
 // One of the compared settings.
 struct Part {
   std::string name;
@@ -166,7 +162,7 @@ rtapi::Result<Outcome> run_split(const Options& options, const Scene& scene,
   if (given.empty()) std::filesystem::remove(volume, ignored);
   if (!is_done(done)) return done;
   const std::string path = fmt::format("{}/split-{}.png", options.out, options.split);
-  if (const auto s = write_png(path, side_by_side(pictures)); !s.ok()) return failure(s.error());
+  if (const auto s = write_png(path, side_by_side(pictures)); !s.ok()) return s.error();
   std::printf("wrote %s\n", path.c_str());
   std::fflush(stdout);
   return Outcome::kDone;

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const auto file = kaamos::effects::read_exr(argv[i]);
     if (!file.ok()) {
-      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().c_str());
+      std::fprintf(stderr, "kaamos-layer-hashes: %s\n", file.error().message.c_str());
       return 1;
     }
     for (const kaamos::effects::ExrLayer& layer : file.value().layers) {

@@ -39,7 +39,7 @@ int northlight(const std::string& arguments) {
 
 std::string text_of(const std::string& path) {
   const auto bytes = read_file(path);
-  if (!bytes.ok()) return bytes.error();
+  if (!bytes.ok()) return bytes.error().message;
   return std::string(bytes.value().begin(), bytes.value().end());
 }
 
@@ -53,7 +53,7 @@ std::vector<Row> measure(const std::string& effect, const std::string& more = ""
                               " --size 48x27 --measure-reference 512 --repeats 3 " + more);
   EXPECT_EQ(code, 0) << text_of(folder() + "/log");
   const auto table = parse_csv(text_of(folder() + "/measure-" + effect + ".csv"));
-  EXPECT_TRUE(table.ok()) << table.error();
+  EXPECT_TRUE(table.ok()) << table.error().message;
   if (code != 0 || !table.ok()) return out;
   const std::string svg = text_of(folder() + "/measure-" + effect + ".svg");
   EXPECT_EQ(svg.rfind("<?xml", 0), 0u);
@@ -187,7 +187,7 @@ TEST(Split, PutsSettingsSideBySide) {
   for (const std::string name : {"ao", "gi", "near-field", "denoise"}) {
     ASSERT_EQ(northlight("--size 48x27 --split " + name), 0) << text_of(folder() + "/log");
     const auto picture = read_png(folder() + "/split-" + name + ".png");
-    ASSERT_TRUE(picture.ok()) << picture.error();
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
     EXPECT_EQ(picture.value().width, 48u);
     EXPECT_EQ(picture.value().height, 27u);
     // A white line from top to bottom, at a third or in the middle.
@@ -204,7 +204,7 @@ TEST(Reference, IsALayerOfEachEffect) {
   ASSERT_EQ(northlight("--size 48x27 --effects all --reference 32"), 0)
       << text_of(folder() + "/log");
   const auto file = read_exr(folder() + "/frame.exr");
-  ASSERT_TRUE(file.ok()) << file.error();
+  ASSERT_TRUE(file.ok()) << file.error().message;
   for (const std::string name : {"ao", "sun", "contact", "indirect", "reflection"}) {
     const ExrLayer* layers[3] = {find_layer(file.value(), name),
                                  find_layer(file.value(), name + "_denoised"),

@@ -63,7 +63,7 @@ std::string lounge_reference_path() {
 
 Result<LoungeReference> read_lounge_reference(Effect effect) {
   Result<ExrFile> file = read_exr(lounge_reference_path());
-  if (!file.ok()) return Status::failure(file.error());
+  if (!file.ok()) return file.error();
   LoungeReference out;
   const std::string name = name_of(effect);
   const std::pair<std::string, FloatImage*> layers[] = {{name, &out.mean},
@@ -73,7 +73,8 @@ Result<LoungeReference> read_lounge_reference(Effect effect) {
   for (const auto& [layer_name, image] : layers) {
     const ExrLayer* layer = find_layer(file.value(), layer_name);
     if (layer == nullptr) {
-      return Status::failure(lounge_reference_path() + " has no layer " + layer_name);
+      return make_error(ErrorId::kPictures,
+                        lounge_reference_path() + " has no layer " + layer_name);
     }
     *image = layer->image;
   }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "effect_run.h"
-#include "effects/common/result.h"
+#include "effects/common/errors.h"
 #include "effects/scene/scene.h"
 
 namespace kaamos::test {

@@ -72,7 +72,7 @@ class LoungeReferenceTest : public testing::TestWithParam<Effect> {};
 
 TEST_P(LoungeReferenceTest, IsWithinItsEstimatedError) {
   const Result<LoungeReference> reference = read_lounge_reference(GetParam());
-  ASSERT_TRUE(reference.ok()) << reference.error();
+  ASSERT_TRUE(reference.ok()) << reference.error().message;
   const Scene lounge = make_lounge();
   if (is_full_size()) {
     const Estimate estimate =

@@ -14,7 +14,7 @@ int main(int argc, char** argv) try {
   }
   const kaamos::effects::Status status = kaamos::test::write_lounge_reference(argv[1]);
   if (!status.ok()) {
-    std::fprintf(stderr, "kaamos-references: %s\n", status.error().c_str());
+    std::fprintf(stderr, "kaamos-references: %s\n", status.error().message.c_str());
     return 1;
   }
   return 0;

@@ -265,7 +265,7 @@ TEST_P(VulkanExamples, DrawWhatEmbreeDraws) {
         program + " --backend " + kBackends[i] + " --size 320x180 --out " + file + " > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     const auto picture = read_png(file);
-    ASSERT_TRUE(picture.ok()) << picture.error();
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
     pictures[i] = floats(picture.value());
   }
   const PictureDifference difference = compare_pictures(pictures[0], pictures[1]);
@@ -317,7 +317,7 @@ TEST(VulkanNorthlight, DrawsWhatEmbreeDraws) {
                                 kBackends[i] + " --size 320x180 --out " + folder + " > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     const auto picture = read_png(folder + "/frame.png");
-    ASSERT_TRUE(picture.ok()) << picture.error();
+    ASSERT_TRUE(picture.ok()) << picture.error().message;
     pictures[i] = picture.value();
   }
   const PictureDifference difference = compare_pictures(floats(pictures[0]), floats(pictures[1]));

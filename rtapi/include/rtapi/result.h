@@ -95,6 +95,10 @@ class [[nodiscard]] Result {
     if (!ok()) throw ResultError(error());
     return **this;
   }
+  const T& value() const& {
+    if (!ok()) throw ResultError(error());
+    return **this;
+  }
   T value() && {
     if (!ok()) throw ResultError(error());
     return std::move(**this);

@@ -22,7 +22,7 @@ int main() try {
   renderer->render().value();
   const FloatImage radiance = renderer->read("radiance").value();
   const auto written = write_png("lounge.png", tonemap(radiance, lounge.exposure));
-  if (!written.ok()) throw std::runtime_error(written.error());
+  if (!written.ok()) throw std::runtime_error(written.error().message);
   const float middle = radiance.at(radiance.width / 2, radiance.height / 2, 1);
   std::printf("wrote lounge.png; radiance in its middle: %.3g\n", middle);
   return middle > 0 ? 0 : 1;
