@@ -70,7 +70,7 @@ class FrameRenderer {
   /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
   /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
   /// registry.
-  /// @errors those of the device; a name among settings.effects that is none; an effect with
+  /// @errors those of the device; an unknown name in settings.effects; an effect with
   /// pictures of its own without settings.whole_frame.
   static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
       const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
@@ -78,7 +78,8 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer&) = delete;  // its passes point into it
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  /// Takes these shaders from the next frame on, instead of those that are built in.
+  /// Takes these shaders from the next frame on, instead of those that are built in: all that
+  /// frame_libraries names.
   void set_libraries(ShaderLibraries libraries);
   /// Executes the bands of rows of every pass by this, to look at them.
   void set_band_executor(BandExecutor executor) { execute_band_ = std::move(executor); }
@@ -115,7 +116,7 @@ class FrameRenderer {
 
   /// A layer by its name, as layers() lists them: sums as the mean of their samples. As many
   /// channels as its picture has.
-  /// @errors those of the device; a name that is none.
+  /// @errors those of the device; an unknown name.
   rtapi::Result<FloatImage> read(const std::string& layer);
   /// Any picture of the frame. [read_picture]
   /// @errors those of the device.
