@@ -56,7 +56,7 @@ struct FrameMoment {
   std::uint32_t index = 0;  ///< from 0 on
   double seconds = 0;       ///< on the scene's clock
   Camera camera;            ///< where it is seen from
-  bool cut = false;         ///< the frame before has nothing to do with this one
+  bool cut = false;         ///< the frame is unrelated to the previous one
 };
 
 /// Executes a band of rows of a pass; replaces CommandQueue::ExecuteAndWait, to look at it.
@@ -91,7 +91,7 @@ class FrameRenderer {
   /// @errors those of the device; more than 4,096 local lights; a volume file that cannot be read
   /// or written.
   rtapi::Result<Outcome> prepare(const Progress& progress = {});
-  /// Goes on to another frame of a sequence: poses, structures, camera.
+  /// Moves on to another frame of a sequence: poses, structures, camera.
   /// @errors those of the device.
   rtapi::Status begin_frame(const FrameMoment& moment);
   /// Renders the frame.
@@ -179,9 +179,9 @@ class FrameRenderer {
   const SignalFilters& filters() const { return filters_; }
   /// Null: no local lights.
   const DirectLighting* main_lighting() const { return direct_ ? &*direct_ : nullptr; }
-  /// Null: no antialiasing over frames.
+  /// Null without antialiasing over frames.
   const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
-  /// Null: nothing moves.
+  /// Null if nothing moves.
   const StructureStatistics* structures() const {
     return structures_ ? &structures_->statistics() : nullptr;
   }
@@ -197,7 +197,7 @@ class FrameRenderer {
     EffectSettings settings;
     std::string title;  // of its pass
     RayPass pass, trace;
-    std::optional<RayPass> keys;  // its rays are sorted
+    std::optional<RayPass> keys;  // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
     std::vector<rtapi::Texture> pictures;  // by signal
@@ -269,7 +269,7 @@ class FrameRenderer {
   std::vector<std::string> left_out_;
   bool has_begun_ = false;     // begin_frame was called since the last frame
   bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there
-  // What prepare makes.
+  // Made by prepare.
   bool is_prepared_ = false;
   bool has_own_libraries_ = false;
   ShaderLibraries libraries_;
