@@ -33,7 +33,7 @@ struct Options {
   double frames_per_second = 30;
   bool watch = false;
   bool list_devices = false;
-  std::string split;                        // settings side by side in one picture; empty: nonene
+  std::string split;                        // settings side by side in one picture; empty: none
   std::uint32_t reference = 0;              // samples for the layers NAME_reference; 0: none
   bool claims = false;                      // measure what the sources say about costs
   std::string measure;                      // effect whose error to measure; empty: none
