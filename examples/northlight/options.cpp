@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include <rtapi/version.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -259,6 +261,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       "the whole frame with --effects all.\n"
       "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
       "northlight");
+  app.set_version_flag("--version", std::string("northlight ") + rtapi::GetVersion());
   app.add_option("--scene", options.scene,
                  "built in: " + built_in_scene_names() + "; or a .gltf or .glb file")
       ->capture_default_str();

@@ -49,7 +49,7 @@ class Target final : public runtime::CommandTarget {
  private:
   runtime::DispatchOutcome counted(DispatchResult result) {
     device_.add_counters(result.counters);
-    return std::move(result);
+    return result;
   }
 
   Device& device_;

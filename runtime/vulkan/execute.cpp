@@ -55,7 +55,7 @@ class Target final : public runtime::CommandTarget {
  private:
   runtime::DispatchOutcome counted(DispatchResult result) {
     device_.add(result.statistics);
-    return std::move(result);
+    return result;
   }
 
   Device& device_;

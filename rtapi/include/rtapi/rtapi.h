@@ -21,3 +21,4 @@
 #include <rtapi/state_object.h>       // IWYU pragma: export
 #include <rtapi/types.h>              // IWYU pragma: export
 #include <rtapi/upload.h>             // IWYU pragma: export
+#include <rtapi/version.h>            // IWYU pragma: export

@@ -131,6 +131,7 @@ const std::vector<Option>& options() {
       {"-help", false, flag(&Arguments::help), ""},
       {"--help", false, flag(&Arguments::help), ""},
       {"-h", false, flag(&Arguments::help), ""},
+      {"--version", false, flag(&Arguments::version), ""},
   };
   return table;
 }
@@ -183,7 +184,7 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
       return std::nullopt;
     }
   }
-  if (out.help) return out;
+  if (out.help || out.version) return out;
   if (out.source.empty()) {
     error = "no source file given; -help lists the options";
     return std::nullopt;
@@ -218,6 +219,7 @@ As in DXC:
   -WX, -no-warnings         warnings are errors, or are not shown
   -Zi                       with -emit object: for a debugger
   -Fo FILE, -o FILE         where to write (default: standard output)
+  -help, --version          prints this text, or which Kaamos this is
 Of its own:
   -check                    only checks the source, writes nothing
   -emit cpp|ir|reflection|object|glsl|spirv

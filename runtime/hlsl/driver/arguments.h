@@ -39,6 +39,7 @@ struct Arguments {
   std::string dependency_file;  // -MF: a makefile rule for ninja and make
   std::string entry_function = "kaamos_shader_library";
   bool help = false;
+  bool version = false;
 };
 
 // The text in `error` says which argument is wrong and what is allowed, and points to -help.

@@ -193,5 +193,9 @@ int main(int argc, char** argv) {
     std::fputs(help_text(), stdout);
     return 0;
   }
+  if (arguments->version) {
+    std::puts("kaamos-hlsl " KAAMOS_VERSION);
+    return 0;
+  }
   return compile(*arguments);
 }
