@@ -12,7 +12,7 @@ namespace kaamos::effects {
 
 namespace {
 
-// Samples that a pixel takes in one dispatch at most.
+// The most samples that a pixel takes in one dispatch.
 constexpr std::uint32_t kSamplesPerDispatch = 64;
 // A dispatch should not take longer, so that progress moves and the frame can be stopped.
 constexpr double kDispatchMs = 250;
@@ -93,8 +93,8 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
   const PassArguments words =
       effect != nullptr ? arguments(*effect, effect->settings) : PassArguments{};
   const bool is_sorted = effect != nullptr && effect->keys;
-  // Each frame of a sequence goes on in each pixel's sequence of samples: over frames it covers
-  // what it samples as evenly as over the samples of one frame.
+  // Each frame of a sequence continues each pixel's sample sequence, so that samples are spread as
+  // evenly over several frames as within one.
   const std::uint32_t first = moment_.index * samples;
   auto list = device_.CreateCommandList();
   if (!list) return list.error();
@@ -110,7 +110,7 @@ rtapi::Result<Outcome> FrameRenderer::run_pass(const std::string& title, const R
     constants.radius = effect != nullptr ? effect->settings.radius : 0;
     constants.pixel_step = step;
     constants.accumulate = sample > 0 ? 1 : 0;
-    // The order is one of all pixels.
+    // Sorting orders all pixels, so it does not apply at half resolution.
     if (is_sorted && step == 1) {
       if (const auto s = sort_rays(*effect, constants, order_ms); !s) return s.error();
       constants.sorted = 1;

@@ -56,7 +56,7 @@ struct FrameMoment {
   std::uint32_t index = 0;  ///< from 0 on
   double seconds = 0;       ///< on the scene's clock
   Camera camera;            ///< where it is seen from
-  bool cut = false;         ///< the frame before has nothing to do with this one
+  bool cut = false;         ///< the frame is unrelated to the previous one
 };
 
 /// Executes a band of rows of a pass; replaces CommandQueue::ExecuteAndWait, to look at it.
@@ -70,7 +70,7 @@ class FrameRenderer {
   /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
   /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
   /// registry.
-  /// @errors those of the device; a name among settings.effects that is none; an effect with
+  /// @errors those of the device; an unknown name in settings.effects; an effect with
   /// pictures of its own without settings.whole_frame.
   static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
       const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
@@ -78,7 +78,8 @@ class FrameRenderer {
   FrameRenderer(const FrameRenderer&) = delete;  // its passes point into it
   FrameRenderer& operator=(const FrameRenderer&) = delete;
 
-  /// Takes these shaders from the next frame on, instead of those that are built in.
+  /// Takes these shaders from the next frame on, instead of those that are built in: all that
+  /// frame_libraries names.
   void set_libraries(ShaderLibraries libraries);
   /// Executes the bands of rows of every pass by this, to look at them.
   void set_band_executor(BandExecutor executor) { execute_band_ = std::move(executor); }
@@ -90,7 +91,7 @@ class FrameRenderer {
   /// @errors those of the device; more than 4,096 local lights; a volume file that cannot be read
   /// or written.
   rtapi::Result<Outcome> prepare(const Progress& progress = {});
-  /// Goes on to another frame of a sequence: poses, structures, camera.
+  /// Moves on to another frame of a sequence: poses, structures, camera.
   /// @errors those of the device.
   rtapi::Status begin_frame(const FrameMoment& moment);
   /// Renders the frame.
@@ -115,7 +116,7 @@ class FrameRenderer {
 
   /// A layer by its name, as layers() lists them: sums as the mean of their samples. As many
   /// channels as its picture has.
-  /// @errors those of the device; a name that is none.
+  /// @errors those of the device; an unknown name.
   rtapi::Result<FloatImage> read(const std::string& layer);
   /// Any picture of the frame. [read_picture]
   /// @errors those of the device.
@@ -178,9 +179,9 @@ class FrameRenderer {
   const SignalFilters& filters() const { return filters_; }
   /// Null: no local lights.
   const DirectLighting* main_lighting() const { return direct_ ? &*direct_ : nullptr; }
-  /// Null: no antialiasing over frames.
+  /// Null without antialiasing over frames.
   const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
-  /// Null: nothing moves.
+  /// Null if nothing moves.
   const StructureStatistics* structures() const {
     return structures_ ? &structures_->statistics() : nullptr;
   }
@@ -196,7 +197,7 @@ class FrameRenderer {
     EffectSettings settings;
     std::string title;  // of its pass
     RayPass pass, trace;
-    std::optional<RayPass> keys;  // its rays are sorted
+    std::optional<RayPass> keys;  // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
     std::vector<rtapi::Texture> pictures;  // by signal
@@ -268,7 +269,7 @@ class FrameRenderer {
   std::vector<std::string> left_out_;
   bool has_begun_ = false;     // begin_frame was called since the last frame
   bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there
-  // What prepare makes.
+  // Made by prepare.
   bool is_prepared_ = false;
   bool has_own_libraries_ = false;
   ShaderLibraries libraries_;

@@ -187,10 +187,16 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   left_out_.clear();
   set_up_.reset();
   has_surfaces_ = false;
+  const std::vector<EffectLibrary> wanted = frame_libraries(settings_, effects_);
   if (!has_own_libraries_) {
-    auto loaded = load_libraries(frame_libraries(settings_, effects_));
+    auto loaded = load_libraries(wanted);
     if (!loaded) return loaded.error();
     libraries_ = std::move(*loaded);
+  }
+  for (const EffectLibrary& library : wanted) {
+    if (libraries_.count(library.file) != 0) continue;
+    return failure("the frame needs the shader library \"" + library.file +
+                   "\": hand all of frame_libraries() to set_libraries");
   }
   if (settings_.order != RayOrder::kPixels) {
     auto sorter = RaySorter::create(device_, frame_, libraries_.at("ray_order/ray_order"));

@@ -49,8 +49,8 @@ struct FrameSettings {
   std::uint32_t rows = 0;
 };
 
-/// These effects with their defaults, and those that they include. "all": every one. A name that is
-/// none is kept; FrameRenderer::create says so.
+/// These effects with their defaults, and those that they include. "all": every one. An
+/// unknown name is kept, and FrameRenderer::create refuses it.
 std::map<std::string, EffectSettings> choose_effects(
     const std::vector<std::string>& names,
     const std::vector<Effect>& effects = northlight_effects());

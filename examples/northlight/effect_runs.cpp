@@ -20,7 +20,8 @@ namespace {
 constexpr std::uint32_t kBackgroundSamples = 16;
 constexpr std::uint32_t kMostDenoiserViews = 2048;  // many denoisers side by side
 
-// What the volume follows from; the program's own time, since its shaders are part of it.
+// Everything that the volume depends on, including the program's own timestamp, since its shaders
+// are part of it.
 std::string volume_key(const Options& options) {
   std::error_code ignored;
   const VolumeSettings& volume = options.frame.volume;

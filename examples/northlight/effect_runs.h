@@ -53,7 +53,7 @@ class EffectRuns {
   // The mean of the samples of the last run, without channels that say something else. `lit`
   // shadows: the radiance of the local lights. Glass: the frame's radiance behind and with it.
   rtapi::Result<kaamos::effects::FloatImage> read(const Setting& setting);
-  // What a run adds to.
+  // The picture to which a run adds.
   rtapi::Texture sum(const Setting& setting) const;
   rtapi::Status set_seed(std::uint32_t seed) { return renderer_->set_seed(seed); }
 

@@ -26,7 +26,7 @@ struct FrameResult {
   std::map<std::string, kaamos::effects::FloatImage> layers;  // "ao", "normal", ...
   kaamos::effects::FloatImage radiance;                       // RGBA, linear
   std::vector<kaamos::effects::PassStatistics> passes;
-  std::vector<std::string> left_out;  // effects and parts, and why
+  std::vector<std::string> left_out;  // effects and parts left out, and why
 };
 
 rtapi::Result<rtapi::Device> create_device(const Options& options, const Say& message);

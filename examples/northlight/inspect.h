@@ -14,10 +14,10 @@
 
 namespace northlight {
 
-// One dispatch in which the pixel of --explain lies.
+// A dispatch that contains the pixel of --explain.
 struct ExplainedDispatch {
   std::string pass;
-  std::uint32_t first_row = 0;  // of the band; the dispatch's y counts from there
+  std::uint32_t first_row = 0;  // of the band; the dispatch's y starts there
   rtapi::PixelExplanation pixel;
 };
 
@@ -31,7 +31,7 @@ struct Inspection {
 void inspect(const Options& options, kaamos::effects::FrameRenderer& renderer, Inspection& seen);
 
 using PassTables = std::vector<std::pair<std::string, rtapi::TableDescription>>;
-// The tables of each pass, by its name.
+// The shader tables of each pass, with its name.
 rtapi::Result<PassTables> describe_tables(const kaamos::effects::FrameRenderer& renderer);
 // Each pass with its name, as text or as one JSON object.
 std::string print_tables(const PassTables& passes, bool json);

@@ -48,7 +48,7 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
   settings.height = height;
   settings.effects = effects::choose_effects({"all"});
   for (auto& [name, effect] : settings.effects) effect.samples = 1;
-  settings.volume.samples = 4;  // what the volume holds costs nothing
+  settings.volume.samples = 4;  // the time does not depend on what the volume holds
   renderer_ =
       effects::FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
   renderer_->prepare().value();

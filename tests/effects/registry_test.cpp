@@ -101,6 +101,10 @@ TEST(Registry, NamesAreKnownOrRefused) {
   const auto renderer = FrameRenderer::create(make_device(), scene, small_settings({"ao"})).value();
   EXPECT_FALSE(renderer->run("sun", 1)) << "it was not chosen";
   EXPECT_FALSE(renderer->read("nothing"));
+  renderer->set_libraries({});
+  const auto without = renderer->render();
+  ASSERT_FALSE(without);
+  EXPECT_NE(without.error().message.find("\"gbuffer/gbuffer\""), std::string::npos);
 }
 
 TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {
