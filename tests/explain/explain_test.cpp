@@ -204,5 +204,6 @@ TEST_P(Explain, ErrorsNameWhatIsWrong) {
             "KA0916 cannot explain the pixel: index (4, 0, 0) is outside the dispatch (4 x 1 x 1)");
   CommandList again = record();
   EXPECT_EQ(ExplainPixel(queue_, again, {.Dispatch = 1}).error().message,
-            "KA0916 cannot explain the pixel: Dispatch is 1, but the list has only 1 calls of DispatchRays");
+            "KA0916 cannot explain the pixel: Dispatch is 1, but the list has only 1 calls of "
+            "DispatchRays");
 }
