@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rtapi/upload.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>

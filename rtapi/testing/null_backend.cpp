@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "rtapi/src/backends.h"
+
 namespace rtapi::testing {
 
 namespace runtime = kaamos::runtime;

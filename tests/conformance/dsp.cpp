@@ -3,6 +3,7 @@
 // DispatchRays and ExecuteIndirect.
 #include <shaders/dispatch.h>
 
+#include <algorithm>
 #include <array>
 
 #include "tests/conformance/program.h"

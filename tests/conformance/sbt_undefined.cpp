@@ -5,6 +5,8 @@
 #include <shaders/calls.h>
 #include <shaders/standard.h>
 
+#include <algorithm>
+
 #include "tests/conformance/program.h"
 
 namespace kaamos::conformance {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // When any-hit shaders run and what they may do; what a trace does for its caller.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

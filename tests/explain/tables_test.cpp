@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include <cstring>
+
 #include "tests/explain/scene.h"
 
 using namespace rtapi;

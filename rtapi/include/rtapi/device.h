@@ -34,8 +34,9 @@ struct DeviceInfo {
   uint32_t HardwareThreads = 0;  ///< of this machine
 };
 
-/// Speed against exactness of ray-primitive tests on the CPU. Measured in tests/numerics/PRECISION.md.
-/// [DXR: Watertightness; Fixed function ray-triangle intersection specification]
+/// Speed against exactness of ray-primitive tests on the CPU. Measured in
+/// tests/numerics/PRECISION.md. [DXR: Watertightness; Fixed function ray-triangle intersection
+/// specification]
 enum class TraversalPrecision : uint32_t {
   kFast,    ///< Embree's default; a rare ray slips through an edge that two triangles share
   kRobust,  ///< no gaps between triangles in practice

@@ -7,6 +7,7 @@
 #include <rtapi/shader_table.h>
 #include <rtapi/upload.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "rtapi/testing/library_builder.h"
