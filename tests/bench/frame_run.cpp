@@ -2,41 +2,16 @@
 #include "frame_run.h"
 
 #include <atomic>
-#include <mutex>
 #include <stdexcept>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/scene/lounge.h"
 #include "effects/sun_shadow/sun_shadow.h"
-#include "runtime/embree/ray_state.h"
-#include "runtime/embree/services.h"
+#include "listening_library.h"
 
 namespace kaamos::bench {
 namespace {
-
-// What RayListener writes to: a list for each thread.
-std::mutex heard_mutex;
-std::vector<std::unique_ptr<std::vector<FrameRay>>> heard;
-std::atomic<uint32_t> recording = 0;  // numbers the recordings
-
-void hear(const shader::TraceRayArguments& arguments, shader::RayLanes origin,
-          shader::RayLanes direction) {
-  thread_local std::vector<FrameRay>* list = nullptr;
-  thread_local uint32_t list_of = 0;
-  if (list == nullptr || list_of != recording) {
-    const std::lock_guard lock(heard_mutex);
-    list = heard.emplace_back(std::make_unique<std::vector<FrameRay>>()).get();
-    list_of = recording;
-  }
-  constexpr uint32_t kVisibility =
-      embree::kRaySkipClosestHitShader | embree::kRayAcceptFirstHitAndEndSearch;
-  const Ray ray = {{origin[0], origin[1], origin[2]},
-                   origin[3],
-                   {direction[0], direction[1], direction[2]},
-                   direction[3]};
-  list->push_back({ray, (arguments.ray_flags & kVisibility) == kVisibility});
-}
 
 northlight::Options frame_options(uint32_t width, uint32_t height) {
   northlight::Options options;
@@ -46,6 +21,17 @@ northlight::Options frame_options(uint32_t width, uint32_t height) {
   options.ao_samples = options.sun_samples = 1;
   options.gi_bake_samples = 4;  // the time does not depend on what the volume holds
   return options;
+}
+
+northlight::ShaderLibraries listening_libraries() {
+  northlight::ShaderLibraries libraries = northlight::built_in_libraries().value();
+  for (rtapi::ShaderLibrary* tracing :
+       {&libraries.gbuffer, &libraries.lighting, &libraries.ambient_occlusion,
+        &libraries.sun_shadow, &libraries.contact_shadow, &libraries.indirect_diffuse,
+        &libraries.reflections}) {
+    *tracing = listening_library(*tracing);
+  }
+  return libraries;
 }
 
 }  // namespace
@@ -64,7 +50,7 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
   frame_desc.width = width;
   frame_desc.height = height;
   frame_ = effects::Frame::create(device_, queue_, scene_, gpu_, camera, frame_desc).value();
-  libraries_ = northlight::built_in_libraries().value();
+  libraries_ = listening_libraries();
   const std::atomic<bool> never = false;
   effects_
       .create(
@@ -117,19 +103,14 @@ void FrameRun::denoise_and_compose() {
 }
 
 std::vector<FrameRay> FrameRun::record(uint64_t& hits, const std::string& part) {
-  heard.clear();
-  ++recording;
   device_.ResetStatistics();
-  embree::set_ray_listener(hear);
+  const RayRecording recording;
   trace_and_shade(part);
-  embree::set_ray_listener(nullptr);
-  std::vector<FrameRay> rays;
-  for (const auto& list : heard) rays.insert(rays.end(), list->begin(), list->end());
-  heard.clear();
+  std::vector<FrameRay> rays = recording.rays();
   const rtapi::RaytracingStatistics statistics = device_.GetStatistics();
   if (statistics.TraceRayCalls != rays.size()) {
     throw std::runtime_error("the frame traced " + std::to_string(statistics.TraceRayCalls) +
-                             " rays, " + std::to_string(rays.size()) + " were heard of");
+                             " rays, of which " + std::to_string(rays.size()) + " were recorded");
   }
   hits = statistics.Hits;
   return rays;
