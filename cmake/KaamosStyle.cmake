@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Targets that check the form of the sources: format-check (fails where clang-format would change a
-# line), format (makes those changes), tidy-check (clang-tidy over all C++ sources; takes minutes).
-# No build or test includes them.
+# line, as the test style.SourcesAreFormatted does), format (makes those changes), tidy-check
+# (clang-tidy over all C++ sources; takes minutes). No build includes them.
 include_guard()
 
-find_program(KAAMOS_CLANG_FORMAT NAMES clang-format clang-format-14)
-find_program(KAAMOS_RUN_CLANG_TIDY NAMES run-clang-tidy run-clang-tidy-14)
+find_program(KAAMOS_CLANG_FORMAT NAMES clang-format-14 clang-format)
+find_program(KAAMOS_RUN_CLANG_TIDY NAMES run-clang-tidy-14 run-clang-tidy)
 
 # kaamos_add_source_check(name program command...): if the program is missing, building the target
 # says so.
@@ -21,9 +21,9 @@ endfunction()
 
 set(format_sources "${PROJECT_SOURCE_DIR}/cmake/format_sources.sh")
 kaamos_add_source_check(format-check "${KAAMOS_CLANG_FORMAT}" clang-format
-  COMMAND bash "${format_sources}" "${KAAMOS_CLANG_FORMAT}" --dry-run --Werror)
+  COMMAND bash "${format_sources}" "${PROJECT_SOURCE_DIR}" "${KAAMOS_CLANG_FORMAT}" --dry-run --Werror)
 kaamos_add_source_check(format "${KAAMOS_CLANG_FORMAT}" clang-format
-  COMMAND bash "${format_sources}" "${KAAMOS_CLANG_FORMAT}" -i)
+  COMMAND bash "${format_sources}" "${PROJECT_SOURCE_DIR}" "${KAAMOS_CLANG_FORMAT}" -i)
 kaamos_add_source_check(tidy-check "${KAAMOS_RUN_CLANG_TIDY}" clang-tidy
   COMMAND "${KAAMOS_RUN_CLANG_TIDY}" -quiet -p "${PROJECT_BINARY_DIR}"
           "^${PROJECT_SOURCE_DIR}/(rtapi|runtime|effects|examples|tests)/.*[.]cpp$")

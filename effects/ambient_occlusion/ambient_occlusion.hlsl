@@ -15,10 +15,9 @@ float3 OcclusionDirection(float2 tile, uint index, float3 shading_normal) {
 void AmbientOcclusionRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
-  const float before = SumBefore(ambient_occlusion_sum, pixel);
   // The sky is open, and with a radius of zero nothing can be in the way. [effects-spec E.2]
   if (g_ids[pixel].x == 0 || !(pass_constants.radius > 0.0)) {
-    ambient_occlusion_sum[pixel] = before + float(count);
+    ambient_occlusion_sum[pixel] = SumBefore(ambient_occlusion_sum, pixel) + float(count);
     return;
   }
   const float4 position = g_position[pixel];
@@ -36,7 +35,7 @@ void AmbientOcclusionRayGen() {
       open += TraceVisibility(origin, direction, pass_constants.radius);
     }
   }
-  ambient_occlusion_sum[pixel] = before + open;
+  ambient_occlusion_sum[pixel] = SumBefore(ambient_occlusion_sum, pixel) + open;
 }
 
 [shader("raygeneration")]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Blue-noise tiles: neighbouring pixels get very different values, so that the error of few samples
-// appears as fine grain. They are made at run time by void and cluster. [Ulichney 1993]
+/// @file
+/// Blue-noise tiles: neighbouring pixels get very different values, so that the error of few
+/// samples appears as fine grain. They are made at run time by void and cluster. [Ulichney 1993]
 #pragma once
 
 #include <cstdint>
@@ -9,6 +10,7 @@
 
 namespace kaamos::effects {
 
+/// Cells along each side of the tile that shaders read.
 inline constexpr std::uint32_t kBlueNoiseSize = 128;
 
 /// A dither array of size * size: every rank 0..size*size-1 once, such that for every n the cells

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Where a ray that leaves a triangle must start, so that it neither hits that triangle again nor
-// misses what is close by. Instead of a fixed epsilon it uses a bound of the point's own rounding
-// error. The same as effects/shaders/geometry.hlsli, value for value. [effects-spec B0.5, method 1:
-// error bound of Waechter, van Antwerpen and Klehm 2023]
+/// @file
+/// Where a ray that leaves a triangle must start, so that it neither hits that triangle again nor
+/// misses what is close by. Instead of a fixed epsilon it uses a bound of the point's own rounding
+/// error. The same as effects/shaders/geometry.hlsli, value for value. [effects-spec B0.5, method
+/// 1: error bound of Waechter, van Antwerpen and Klehm 2023]
 #pragma once
 
 #include <algorithm>
@@ -15,9 +16,9 @@ namespace kaamos::effects {
 
 /// A point of a triangle in world space and how far it may be off.
 struct SpawnPoint {
-  glm::vec3 position{0.0f};
-  glm::vec3 normal{0.0f};  ///< unit, of the triangle; zero where the triangle has no area
-  float offset = 0.0f;     ///< along the normal, metres
+  glm::vec3 position{0.0f};  ///< world space, metres
+  glm::vec3 normal{0.0f};    ///< unit, of the triangle; zero where the triangle has no area
+  float offset = 0.0f;       ///< along the normal, metres
 };
 
 namespace detail {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Success, a value, or an error text. The effects library lets no exception out and never prints;
-// the caller decides what to do with the text.
+/// @file
+/// Success, a value, or an error text. The effects library lets no exception out and never prints;
+/// the caller decides what to do with the text.
 #pragma once
 
 #include <cassert>
@@ -8,11 +9,13 @@
 #include <string>
 #include <utility>
 
+/// Northlight's effects on rtapi: scenes, pictures, passes. Start at Scene and Frame.
 namespace kaamos::effects {
 
 /// Outcome of an operation without a value. An empty text is success.
 class [[nodiscard]] Status {
  public:
+  /// Success.
   Status() = default;
   /// `text` says what failed, where, actual against allowed, and what to do. Never empty.
   static Status failure(std::string text) {
@@ -21,7 +24,9 @@ class [[nodiscard]] Status {
     status.error_ = std::move(text);
     return status;
   }
+  /// True on success.
   bool ok() const { return error_.empty(); }
+  /// The text; empty on success.
   const std::string& error() const { return error_; }
 
  private:
@@ -32,12 +37,17 @@ class [[nodiscard]] Status {
 template <class T>
 class [[nodiscard]] Result {
  public:
+  /// Success with a value. Implicit, so that functions return either.
   Result(T value) : value_(std::move(value)) {}
+  /// Failure with the text of `failed`, which must be one.
   Result(Status failed) : status_(std::move(failed)) { assert(!status_.ok()); }
 
+  /// True if there is a value.
   bool ok() const { return value_.has_value(); }
+  /// The text; empty if there is a value.
   const std::string& error() const { return status_.error(); }
-  /// Only when ok().
+  /// The value. Precondition: ok(), which is asserted.
+  ///@{
   T& value() {
     assert(ok());
     return *value_;
@@ -46,6 +56,7 @@ class [[nodiscard]] Result {
     assert(ok());
     return *value_;
   }
+  ///@}
 
  private:
   std::optional<T> value_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The random numbers and sampling routines of effects/shaders/sampling.hlsli for the host, so that
-// tests can compare a shader with them. The values are equal except for sine and cosine, which
-// differ between backends.
+/// @file
+/// The random numbers and sampling routines of effects/shaders/sampling.hlsli for the host, so that
+/// tests can compare a shader with them. The values are equal except for sine and cosine, which
+/// differ between backends.
 #pragma once
 
 #include <cmath>
@@ -17,6 +18,7 @@ inline std::uint32_t pcg_hash(std::uint32_t v) {
   return (word >> 22) ^ word;
 }
 
+/// A hash of two numbers, in this order.
 inline std::uint32_t hash_combine(std::uint32_t seed, std::uint32_t v) {
   return pcg_hash(seed ^ pcg_hash(v));
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Owen-scrambled Sobol points, two dimensions at a time. An effect that needs more dimensions takes
-// further pairs with other seeds ("padding"): each pair is well distributed, and pairs are
-// independent.
+/// @file
+/// Owen-scrambled Sobol points, two dimensions at a time. An effect that needs more dimensions
+/// takes further pairs with other seeds ("padding"): each pair is well distributed, and pairs are
+/// independent.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,10 @@ namespace kaamos::effects {
 std::uint32_t reverse_bits(std::uint32_t x);
 
 /// First and second dimension of the Sobol sequence as 32-bit fractions. `index` is any number.
+///@{
 std::uint32_t sobol_0(std::uint32_t index);
 std::uint32_t sobol_1(std::uint32_t index);
+///@}
 
 /// Nested uniform (Owen) scrambling of a 32-bit fraction by a hash. [Laine & Karras 2011, with the
 /// constants of Vegdahl 2021]

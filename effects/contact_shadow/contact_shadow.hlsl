@@ -40,9 +40,8 @@ float ContactVisibility(LightConstants light, float3 position, float3 normal, fl
 void ContactShadowRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
-  const float4 before = SumBefore(contact, pixel);
   if (g_ids[pixel].x == 0) {
-    contact[pixel] = before + float4(float(count), float(count), 0, 0);
+    contact[pixel] = SumBefore(contact, pixel) + float4(float(count), float(count), 0, 0);
     return;
   }
   const float4 position = g_position[pixel];
@@ -64,5 +63,5 @@ void ContactShadowRayGen() {
                                          end_fraction);
     }
   }
-  contact[pixel] = before + float4(visible, 0, 0);
+  contact[pixel] = SumBefore(contact, pixel) + float4(visible, 0, 0);
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
-// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
-// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
+/// @file
+/// Denoises the signals of a frame: spatial filters, accumulation over time, and SVGF, which is
+/// both. A signal is a picture of the frame's size (R32G32B32A32_FLOAT) of light without the
+/// surface's own colour; a scalar signal has three equal channels. [effects-spec B6]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -18,36 +19,38 @@
 
 namespace kaamos::effects {
 
-/// Mirrors DenoiseConstants of denoise_common.hlsli, which says what each is. The defaults are
-/// SVGF's. [Schied et al. 2017]
+/// Constants b0, space3, of every kernel: mirrors DenoiseConstants of denoise_common.hlsli. The
+/// defaults are SVGF's. [Schied et al. 2017]
 struct DenoiseConstants {
-  float alpha = 0.2f;
-  float moments_alpha = 0.2f;
-  float sigma_z = 1.0f;
-  float sigma_n = 128.0f;
-  float sigma_l = 4.0f;
-  float sigma_pixels = 2.0f;
+  float alpha = 0.2f;          ///< least weight of the new frame, 0 to 1
+  float moments_alpha = 0.2f;  ///< the same for its moments
+  float sigma_z = 1.0f;        ///< of depth, in slopes of the surface
+  float sigma_n = 128.0f;      ///< exponent of the cosine between normals
+  float sigma_l = 4.0f;        ///< of luminance, in standard deviations
+  float sigma_pixels = 2.0f;   ///< of the Gaussian, pixels
+  /// Clips history to the mean of 3 x 3 pixels plus or minus so many deviations; 0: no clipping.
   float clip_gamma = 0.0f;
-  std::uint32_t max_history = 32;
-  std::uint32_t history_valid = 0;
-  std::int32_t step = 1;
-  std::int32_t radius = 4;
-  std::uint32_t vertical = 0;
-  float scale = 1.0f;
-  std::int32_t normal_squarings = 7;  ///< of sigma_n; set by Denoiser
-  float lobe_scale = 0.0f;
-  float sigma_hit = 0.5f;
-  float sigma_roughness = 0.05f;
-  std::int32_t signals = 1;  ///< set by Denoiser
-  std::uint32_t lobes = 0;   ///< set by Denoiser
+  std::uint32_t max_history = 32;     ///< frames
+  std::uint32_t history_valid = 0;    ///< set by Denoiser; 0: there is no frame before
+  std::int32_t step = 1;              ///< set by Denoiser: texels between taps
+  std::int32_t radius = 4;            ///< taps to each side
+  std::uint32_t vertical = 0;         ///< set by Denoiser: separable filters, 0 rows, 1 columns
+  float scale = 1.0f;                 ///< set by Denoiser: factor on the signal as it is loaded
+  std::int32_t normal_squarings = 7;  ///< set by Denoiser: of sigma_n
+  float lobe_scale = 0.0f;        ///< of the radius of a lobe's footprint; 0: the radius is fixed
+  float sigma_hit = 0.5f;         ///< of hit distances, relative to the farther one
+  float sigma_roughness = 0.05f;  ///< of roughness
+  std::int32_t signals = 1;       ///< set by Denoiser
+  std::uint32_t lobes = 0;        ///< set by Denoiser
 };
 static_assert(sizeof(DenoiseConstants) == 76);
 
 /// Signals that one Denoiser takes: kMostSignals of svgf.hlsl.
 inline constexpr std::size_t kMostSignals = 5;
 
+/// How a signal is denoised. [effects-spec B6]
 enum class DenoiseMethod {
-  kNone,
+  kNone,            ///< the signal as it is
   kGaussian,        ///< N1: blurs over edges
   kBilateral,       ///< N2: rows, then columns
   kBilateralExact,  ///< N2 in two dimensions: slow
@@ -56,28 +59,34 @@ enum class DenoiseMethod {
   kControl,         ///< N8: fireflies, accumulation, a filter as wide as the lobe
 };
 
+/// What Denoiser does.
 struct DenoiseDesc {
-  DenoiseMethod method = DenoiseMethod::kSvgf;
-  DenoiseConstants constants;
-  /// Of SVGF's wavelet filter, 0 to 8: while fewer than kFramesOfHistory frames stand behind this
-  /// one, and then. What many frames have smoothed already needs no filter that wide: with fewer
-  /// passes it is nearer to the truth. [README.md]
+  DenoiseMethod method = DenoiseMethod::kSvgf;  ///< how
+  DenoiseConstants constants;                   ///< with which numbers
+  /// Passes of SVGF's wavelet filter, 0 to 8: in the first frames, and once kFramesOfHistory frames
+  /// stand behind a frame. What many frames have smoothed needs no filter that wide: with fewer
+  /// passes the result is nearer to the truth, as effects/denoise/README.md shows.
+  ///@{
   std::uint32_t iterations = 5;
   std::uint32_t iterations_with_history = 3;
+  ///@}
 };
 
-/// From here on the variance is one over time. [svgf.hlsl: kEnoughFrames]
+/// From so many frames on the variance is taken over time instead of over neighbours: kEnoughFrames
+/// of svgf.hlsl. [Schied et al. 2017]
 inline constexpr std::uint32_t kFramesOfHistory = 4;
 
-/// What a method takes by default: B6.1 for the bilateral filters, alpha 0.05 for accumulation.
-/// kControl: a filter of fixed radius; with constants.lobe_scale 1 it is that of reflections, whose
-/// signal has the mean distance of its hits, in metres, in w.
+/// The settings of a method: those of B6.1 for the bilateral filters, alpha 0.05 for accumulation.
+/// kControl gets a filter of fixed radius; with constants.lobe_scale = 1 it becomes that of
+/// reflections, whose signal holds the mean distance of its hits, metres, in w. [effects-spec B6]
 DenoiseDesc default_denoise(DenoiseMethod method);
 
 /// Pipelines of kernels by name, made when the first denoiser asks; all signals of a frame share
 /// them. Not for several threads at once.
 class DenoisePipelines {
  public:
+  /// The kernel `name` of a library for a frame, made at the first call.
+  /// @errors KA0537 no such kernel; those of rtapi::Device::CreateComputePipelineState.
   rtapi::Result<std::shared_ptr<ComputePass>> get(const rtapi::Device& device, const Frame& frame,
                                                   const rtapi::ShaderLibrary& library,
                                                   const std::string& name);
@@ -92,33 +101,42 @@ class DenoisePipelines {
   std::vector<Entry> entries_;
 };
 
+/// The shaders of every method, and the pipelines made of them.
 struct DenoiseLibraries {
-  rtapi::ShaderLibrary spatial;
-  rtapi::ShaderLibrary svgf;
-  rtapi::ShaderLibrary control;
-  rtapi::ShaderLibrary upscale;
+  rtapi::ShaderLibrary spatial;  ///< spatial.hlsl
+  rtapi::ShaderLibrary svgf;     ///< svgf.hlsl
+  rtapi::ShaderLibrary control;  ///< control.hlsl
+  rtapi::ShaderLibrary upscale;  ///< upscale.hlsl
+  /// Shared by all denoisers that are made of these libraries.
   std::shared_ptr<DenoisePipelines> pipelines = std::make_shared<DenoisePipelines>();
 };
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<DenoiseLibraries> denoise_libraries();
 
 /// Denoises up to kMostSignals signals of one frame in the same way, frame after frame; they share
 /// what is to be known of the surfaces. Each comes out as it would alone.
 class Denoiser {
  public:
+  /// A signal to denoise.
   struct Signal {
-    std::string name;
-    rtapi::Texture picture;
-    /// Of rays in the reflection lobe of the surface: SVGF leaves mirrors as they are, whose lobe
-    /// is one direction and has no noise.
+    std::string name;        ///< for messages
+    rtapi::Texture picture;  ///< of the frame's size, R32G32B32A32_FLOAT
+    /// The signal comes from rays in the reflection lobe of the surface: SVGF leaves mirrors as
+    /// they are, because their lobe is one direction and has no noise.
     bool of_lobe = false;
   };
 
-  /// Errors: those of the device; more signals than there may be, or none.
+  /// Makes the pictures and the passes for 1 to kMostSignals signals. The signals' pictures must
+  /// outlive it; `frame` must be that of every later call.
+  /// @errors no signal, or more than kMostSignals; those of the device, among them KA0990 no memory
+  /// and KA0537 a library without a kernel.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries,
                                         const std::vector<Signal>& signals,
                                         const DenoiseDesc& desc);
-  /// Of one.
+  /// Makes them for one signal.
+  /// @errors as of the overload for several.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries, std::string name,
                                         const rtapi::Texture& signal, const DenoiseDesc& desc) {
@@ -127,9 +145,11 @@ class Denoiser {
   /// Makes signal `index` = scale * sum at each load; `sum` is a picture of one float or of four.
   /// `step` 2: only even pixels of it were written (PassConstants::pixel_step), the others are
   /// worked out from them by joint bilateral upscaling. [effects-spec B7.2]
+  /// @errors those of the device.
   rtapi::Status create_load(const rtapi::Device& device, const Frame& frame,
                             const DenoiseLibraries& libraries, const rtapi::Texture& sum,
                             std::uint32_t step = 1, std::size_t index = 0);
+  /// Records what create_load made, behind the passes that wrote the sum: signal = `scale` * sum.
   void load(rtapi::CommandList& list, const Frame& frame, float scale, std::size_t index = 0) const;
 
   /// Records the passes of one frame, behind those that wrote the signals.
@@ -137,10 +157,12 @@ class Denoiser {
   /// The next frame starts without history, as after a cut.
   void reset() { frames_ = 0; }
 
+  /// The denoised signal, R32G32B32A32_FLOAT.
   const rtapi::Texture& result(std::size_t index = 0) const { return channels_[index].result; }
-  /// Of the sums, the signals and the denoiser's own pictures.
+  /// Bytes of the sums, the signals and the denoiser's own pictures.
   std::uint64_t bytes() const;
-  /// Frames that stand behind each pixel, in z; kTemporal and kSvgf.
+  /// R32G32B32A32_FLOAT: moments of the luminance in x and y, and in z the frames that stand behind
+  /// each pixel. For kTemporal and kSvgf.
   const rtapi::Texture& moments(std::size_t index = 0) const {
     return channels_[index].moments[(frames_ + 1) % 2];
   }

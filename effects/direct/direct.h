@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
+/// @file
+/// Main lighting: the light of the local lights at each pixel. [effects-spec A22, B2.12]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -10,29 +11,39 @@
 
 namespace kaamos::effects {
 
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> direct_library();
 
+/// The two passes of the local lights: all of them, or the two strongest of each pixel later, when
+/// their contact shadows are known.
 class DirectLighting {
  public:
-  /// Errors: those of the device.
+  /// Makes the two passes and their pictures of the frame's size. `lighting` is that of the frame.
+  /// @errors those of the device, among them KA0990 no memory; KA0537 a library without the passes.
   static rtapi::Result<DirectLighting> create(const rtapi::Device& device, const Frame& frame,
                                               const Lighting& lighting,
                                               const rtapi::ShaderLibrary& library);
-  /// All lights with their shadow maps; or all but the two strongest of each pixel, which are named
-  /// in strongest() and wait for add_strongest.
+  /// Records the first pass: all lights with their shadow maps; or all but the two strongest of
+  /// each pixel, which are named in strongest() and wait for add_strongest.
   void dispatch(rtapi::CommandList& list, const Frame& frame, bool leave_out_strongest) const;
-  /// total() = direct() + the two lights, times their contact shadow.
+  /// Records the second pass: total() = direct() + the two lights, times their contact shadow.
   void add_strongest(rtapi::CommandList& list, const Frame& frame) const;
-  /// The contact shadow that add_strongest reads: visibility, r point light, g spot light.
+  /// Sets the contact shadow that add_strongest reads: visibility from 0 to 1, r of the point
+  /// light, g of the spot light. It must outlive the dispatches.
+  /// @errors those of PassViews::set_unordered_access.
   rtapi::Status set_contact(const rtapi::Texture& contact);
 
-  /// Of all that the two passes read and write besides the G-buffer, the lights' lists and maps
-  /// too.
+  /// Bytes of all that the two passes read and write besides the G-buffer, the lights' lists and
+  /// maps too.
   std::uint64_t bytes() const { return views_.bytes(); }
 
-  const rtapi::Texture& direct() const { return direct_; }        ///< R32G32B32A32_FLOAT
-  const rtapi::Texture& strongest() const { return strongest_; }  ///< R32G32_UINT
-  const rtapi::Texture& total() const { return total_; }          ///< R32G32B32A32_FLOAT
+  /// R32G32B32A32_FLOAT: radiance of the lights that dispatch took.
+  const rtapi::Texture& direct() const { return direct_; }
+  /// R32G32_UINT: the strongest point light and the strongest spot light of each pixel.
+  const rtapi::Texture& strongest() const { return strongest_; }
+  /// R32G32B32A32_FLOAT: radiance of all local lights.
+  const rtapi::Texture& total() const { return total_; }
 
  private:
   rtapi::Texture direct_, strongest_, total_;

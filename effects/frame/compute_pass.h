@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A compute pipeline over a frame, one thread per pixel of a picture.
+/// @file
+/// A compute pipeline over a frame, one thread per pixel of a picture.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -11,9 +12,13 @@
 
 namespace kaamos::effects {
 
+/// One compute pipeline over a frame, with the frame's root signature.
 class ComputePass {
  public:
-  /// `entry_point`: [numthreads(8, 8, 1)].
+  /// Makes a pass of a compute shader with [numthreads(8, 8, 1)]. It keeps nothing of the frame but
+  /// its root signature.
+  /// @errors KA0537 no such shader in the library; those of
+  /// rtapi::Device::CreateComputePipelineState.
   static rtapi::Result<ComputePass> create(const rtapi::Device& device, const Frame& frame,
                                            const rtapi::ShaderLibrary& library,
                                            std::string entry_point);

@@ -171,8 +171,7 @@ rtapi::Result<Texture> Frame::create_picture(const Device& device, std::string n
 
 rtapi::Result<PassViews> Frame::create_pass_views(const Device& device) const {
   if (*pass_views_ == desc_.max_pass_views) {
-    return Error{{},
-                 ErrorCode::kFailed,
+    return Error{{}, ErrorCode::kFailed,
                  "the frame has room for " + std::to_string(desc_.max_pass_views) +
                      " passes with views of their own and one more was asked for; raise "
                      "FrameDesc::max_pass_views"};

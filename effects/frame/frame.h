@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The pictures and the global root table that all effects of a frame share.
+/// @file
+/// The pictures and the global root table that all effects of a frame share.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -19,61 +20,64 @@ namespace kaamos::effects {
 
 /// Mirrors FrameConstants of effects/shaders/frame.hlsli.
 struct FrameConstants {
-  glm::vec3 camera_right;
-  float near_plane;
-  glm::vec3 camera_up;
-  float pixel_angle;
-  glm::vec3 camera_forward;
-  std::uint32_t seed;
-  glm::vec3 direction_to_sun;
-  float tan_sun_radius;
-  glm::vec3 sun_irradiance;
-  std::uint32_t light_count;
-  glm::vec3 sky_zenith;
-  std::uint32_t frame_index;
-  glm::vec3 sky_horizon;
-  float over_right;
-  glm::vec3 sky_ground;
-  float over_up;
+  glm::vec3 camera_right;      ///< half the picture's width at distance 1
+  float near_plane;            ///< metres, for the reversed-Z depth
+  glm::vec3 camera_up;         ///< half the picture's height at distance 1
+  float pixel_angle;           ///< radians that a pixel's side covers; 0: no ray cones
+  glm::vec3 camera_forward;    ///< unit
+  std::uint32_t seed;          ///< of random numbers
+  glm::vec3 direction_to_sun;  ///< unit
+  float tan_sun_radius;        ///< tangent of its angular radius
+  glm::vec3 sun_irradiance;    ///< on a surface that faces the sun; black without one
+  std::uint32_t light_count;   ///< local lights
+  glm::vec3 sky_zenith;        ///< radiance
+  std::uint32_t frame_index;   ///< in its sequence
+  glm::vec3 sky_horizon;       ///< radiance
+  float over_right;            ///< 1 / length(camera_right)
+  glm::vec3 sky_ground;        ///< radiance
+  float over_up;               ///< 1 / length(camera_up)
+  /// The camera of the frame before, as above; in the first frame the current one.
+  ///@{
   glm::vec3 previous_right;
   float over_previous_right;
   glm::vec3 previous_up;
   float over_previous_up;
   glm::vec3 previous_forward;
   float padding4;
-  glm::vec3 camera_motion;
-  float padding5;
-  glm::vec2 jitter;
-  glm::vec2 previous_jitter;
+  ///@}
+  glm::vec3 camera_motion;    ///< metres, from the camera before to this one
+  float padding5;             ///< 0
+  glm::vec2 jitter;           ///< pixels, added to the primary rays
+  glm::vec2 previous_jitter;  ///< that of the frame before
 };
 static_assert(sizeof(FrameConstants) == 208);
 
 /// Mirrors PassConstants of frame.hlsli.
 struct PassConstants {
-  std::uint32_t first_sample = 0;
-  std::uint32_t sample_count = 0;
-  float radius = 0;
-  std::uint32_t first_row = 0;
-  std::uint32_t sorted = 0;      ///< 1: in the order that a RaySorter made
-  std::uint32_t pixel_step = 1;  ///< 2: rays at even pixels of even rows only
-  std::uint32_t accumulate = 1;  ///< 0: pictures of sums begin anew, whatever stands in them
+  std::uint32_t first_sample = 0;  ///< of each pixel that the dispatch takes
+  std::uint32_t sample_count = 0;  ///< samples of each pixel, from first_sample on
+  float radius = 0;                ///< metres, how far rays of ambient occlusion reach
+  std::uint32_t first_row = 0;     ///< of the band of the picture that is dispatched
+  std::uint32_t sorted = 0;        ///< 1: in the order that a RaySorter made
+  std::uint32_t pixel_step = 1;    ///< 2: rays at even pixels of even rows only
+  std::uint32_t accumulate = 1;    ///< 0: pictures of sums begin anew, whatever stands in them
 };
 
-/// Pictures of a frame in the order of their registers u0, u1, ...
+/// Pictures of a frame in the order of their registers u0, u1, ... [effects-spec B0.2]
 enum FrameTexture : std::uint32_t {
-  kDepth,
-  kViewZ,
-  kNormal,
-  kShadingNormal,
-  kBaseColor,
-  kEmissive,
-  kMaterial,
-  kIds,
-  kPosition,
-  kAmbientOcclusionSum,
-  kSunVisibilitySum,
-  kRadiance,
-  kMotion,
+  kDepth,                ///< R32_FLOAT: near plane over view depth; 0: a miss
+  kViewZ,                ///< R32_FLOAT: metres along the camera's axis; 0: a miss
+  kNormal,               ///< R16G16_SNORM: geometric normal, octahedral, towards the camera
+  kShadingNormal,        ///< R16G16_SNORM: as kNormal, with normal maps
+  kBaseColor,            ///< R8G8B8A8_UNORM: EncodeColor of encoding.hlsli
+  kEmissive,             ///< R16G16B16A16_FLOAT: radiance
+  kMaterial,             ///< R8G8B8A8_UNORM: roughness, metallic, 0, 0
+  kIds,                  ///< R32G32_UINT: instance + 1, primitive; 0: a miss
+  kPosition,             ///< R32G32B32A32_FLOAT: relative to the camera; w: offset of ray origins
+  kAmbientOcclusionSum,  ///< R32_FLOAT: open samples
+  kSunVisibilitySum,     ///< R32_FLOAT: samples that see the sun
+  kRadiance,             ///< R32G32B32A32_FLOAT: what the camera sees
+  kMotion,               ///< R32G32B32A32_FLOAT: to where the surface was a frame ago
   kFrameTextureCount
 };
 
@@ -89,9 +93,9 @@ enum FrameRootParameter : std::uint32_t {
 
 /// What a frame looks like besides the scene.
 struct FrameDesc {
-  std::uint32_t width = 1280;
-  std::uint32_t height = 720;
-  std::uint32_t seed = 0;
+  std::uint32_t width = 1280;  ///< pixels
+  std::uint32_t height = 720;  ///< pixels
+  std::uint32_t seed = 0;      ///< of random numbers
   /// Radians; replaces the scene's. Negative: the scene's own.
   float sun_angular_radius = -1.0f;
   /// Rays are cones that choose the level of detail of textures; false: level 0 is read
@@ -103,53 +107,70 @@ struct FrameDesc {
 
 /// What a frame of a sequence has that the first does not.
 struct FrameTime {
-  std::uint32_t index = 0;
-  Camera previous_camera;
-  glm::vec2 jitter{0.0f};  ///< pixels, of the primary rays
-  glm::vec2 previous_jitter{0.0f};
+  std::uint32_t index = 0;          ///< in its sequence, from 0
+  Camera previous_camera;           ///< of the frame before
+  glm::vec2 jitter{0.0f};           ///< pixels, of the primary rays
+  glm::vec2 previous_jitter{0.0f};  ///< that of the frame before
 };
 
 /// Resources of one frame. Shared by its passes; a copy refers to the same pictures.
 class Frame {
  public:
+  /// Makes the pictures, buffers and descriptors of a frame of a valid scene. `gpu` is the same
+  /// scene on the device, relative to the camera; the frame keeps its textures alive.
+  /// @errors those of the device, among them KA0990 no memory and KA0908 a picture that is too
+  /// large.
   static rtapi::Result<Frame> create(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                      const Scene& scene, const GpuScene& gpu, const Camera& camera,
                                      const FrameDesc& desc);
 
+  /// The global one, see FrameRootParameter.
   const rtapi::RootSignature& root_signature() const { return root_signature_; }
-  /// Of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
+  /// The one of hit group records: vertices t0, indices t1, HitConstants b0, all in space2.
   const rtapi::RootSignature& local_root_signature() const { return local_root_signature_; }
+  /// Size of its pictures, pixels.
+  ///@{
   std::uint32_t width() const { return desc_.width; }
   std::uint32_t height() const { return desc_.height; }
+  ///@}
 
   /// Goes on to the next frame of a sequence, which the next dispatches render: another camera, and
   /// so other constants and lights. The top level must be relative to that camera by then.
+  /// @errors those of rtapi::Device::CreateBuffer.
   rtapi::Status set_camera(const rtapi::Device& device, const Scene& scene, const Camera& camera,
                            const FrameTime& time);
-  /// What random numbers follow from, behind the next set_camera.
+  /// Sets the seed of random numbers, from the next set_camera on.
   void set_seed(std::uint32_t seed) { desc_.seed = seed; }
   /// Puts the top level and the previous instances of `gpu` in place of those before (t0, t4). Its
   /// textures and materials must be those that the frame was made with. No dispatch of this frame
   /// may run meanwhile.
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
-  /// A word per pixel each: what rays are sorted by (u13), and the pixels in that order (t5).
-  /// [effects/ray_order]
+  /// Sets what RaySorter made, a word for each pixel: the keys of rays (u13), and the pixels in
+  /// their order (t5).
+  /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;
-  /// Descriptors for one pass. Error: FrameDesc::max_pass_views are in use.
+  /// Descriptors for one pass, in the heap of the frame. They are never given back.
+  /// @errors FrameDesc::max_pass_views of them are in use already.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
-  /// A picture of the frame's size.
+  /// Gives the descriptors of all passes back: none of those passes may run again.
+  void release_pass_views() { *pass_views_ = 0; }
+  /// Makes a picture of zeros of the frame's size, see effects::create_picture.
+  /// @errors those of rtapi::Device::CreateTexture.
   rtapi::Result<rtapi::Texture> create_picture(const rtapi::Device& device, std::string name,
                                                rtapi::Format format) const;
 
-  /// Sets heaps, root signature and root arguments of a dispatch.
+  /// Records what a dispatch needs besides its pipeline: heaps, root signature and root arguments.
   void bind(rtapi::CommandList& list, const PassConstants& constants,
             const PassArguments& arguments = {}) const;
-  /// Writes zero to a picture of floats.
+  /// Records that zero is written to a picture of floats.
   void clear(rtapi::CommandList& list, FrameTexture texture) const;
+  /// One of its pictures, in unordered-access state.
   const rtapi::Texture& texture(FrameTexture texture) const { return textures_[texture]; }
 
-  /// [read_picture]
+  /// One of its pictures as floats, see read_picture.
+  /// @errors those of rtapi::ReadbackTexture.
   rtapi::Result<FloatImage> read(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                  FrameTexture texture) const;
 
@@ -173,7 +194,8 @@ class Frame {
   std::vector<rtapi::Texture> textures_;
 };
 
-/// The constants of a camera, sun and sky.
+/// The constants of a camera, sun and sky. Colours that are not finite become black, so that they
+/// cannot spoil anything else.
 FrameConstants frame_constants(const Scene& scene, const Camera& camera, const FrameDesc& desc,
                                const FrameTime& time);
 

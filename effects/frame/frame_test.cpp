@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "effects/gbuffer/gbuffer.h"
+#include "effects/northlight/frame_renderer.h"
 #include "effects/scene/checkers_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 
@@ -33,20 +33,14 @@ Scene checkered_plane() {
 }
 
 FloatImage base_colors(const Scene& scene, bool ray_cones) {
-  const rtapi::Device device = rtapi::CreateDevice().value();
-  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
-  const Camera& camera = scene.cameras.front();
-  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-  FrameDesc desc;
-  desc.width = desc.height = 32;
-  desc.ray_cones = ray_cones;
-  const Frame frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
-  const RayPass gbuffer =
-      RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-  rtapi::CommandList list = device.CreateCommandList().value();
-  gbuffer.dispatch(list, frame, {}, desc.height);
-  queue.ExecuteAndWait(list).value();
-  return frame.read(device, queue, kBaseColor).value();
+  FrameSettings settings;
+  settings.width = settings.height = 32;
+  settings.ray_cones = ray_cones;
+  settings.whole_frame = false;
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  renderer->render().value();
+  return renderer->read(renderer->frame().texture(kBaseColor)).value();
 }
 
 // Mean and standard deviation of the base colour as stored.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Compares two pictures: how far they are apart. [effects-spec B0.6]
+/// @file
+/// Compares two pictures: how far they are apart. [effects-spec B0.6]
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,22 @@
 
 namespace kaamos::effects {
 
+/// What compare found, over all values of all pixels.
 struct ImageDifference {
-  double mse = 0.0;
+  double mse = 0.0;           ///< mean of (a - b)^2
   double psnr = 0.0;          ///< decibels against `peak`; +inf for equal pictures
   double bias = 0.0;          ///< mean of a - b
   double max_abs = 0.0;       ///< +inf where a value is finite in one picture only
   std::uint64_t unequal = 0;  ///< values that differ at all
-  std::uint32_t worst_x = 0, worst_y = 0, worst_channel = 0;  ///< where max_abs is
+  /// Where max_abs is.
+  ///@{
+  std::uint32_t worst_x = 0, worst_y = 0, worst_channel = 0;
+  ///@}
 };
 
 /// Compares all channels. A NaN equals a NaN and an infinity itself; where only one of the two is
-/// finite, max_abs is infinite and the value is left out of mse and bias. Errors: different sizes.
+/// finite, max_abs is infinite and the value is left out of mse and bias.
+/// @errors different sizes.
 Result<ImageDifference> compare(const FloatImage& a, const FloatImage& b, double peak = 1.0);
 
 /// One line for a failed test: the numbers and the worst pixel.

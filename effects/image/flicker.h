@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Measures how much the pictures of a sequence change beyond what motion explains: boiling noise,
-// crawling edges. [effects-spec B0.6: temporal]
+/// @file
+/// Measures how much the pictures of a sequence change beyond what motion explains: boiling noise,
+/// crawling edges. [effects-spec B0.6: temporal]
 #pragma once
 
 #include <cstdint>
@@ -20,12 +21,13 @@ struct FrameSurfaces {
 
 /// Sums over any number of pairs of frames.
 struct TemporalChange {
-  double difference = 0;     ///< sum of |now - then|
-  double value = 0;          ///< sum of |now|
-  std::uint64_t count = 0;   ///< values: pixels times channels
-  std::uint64_t hidden = 0;  ///< pixels left out: no surface, or not seen a frame ago
-  std::uint64_t not_finite = 0;
+  double difference = 0;         ///< sum of |now - then|
+  double value = 0;              ///< sum of |now|
+  std::uint64_t count = 0;       ///< values: pixels times channels
+  std::uint64_t hidden = 0;      ///< pixels left out: no surface, or not seen a frame ago
+  std::uint64_t not_finite = 0;  ///< values left out, NaN or infinite
 
+  /// Adds the sums of another pair of frames.
   void add(const TemporalChange& other);
   /// Mean change of a value from one frame to the next.
   double mean() const { return count > 0 ? difference / static_cast<double>(count) : 0.0; }
@@ -35,7 +37,8 @@ struct TemporalChange {
 
 /// Compares `now` with `then`, carried along with the surfaces (bilinear): 3 channels of 3 or 4, or
 /// 1. Pixels without a surface, and those whose surface was outside of the picture or hidden a
-/// frame ago, do not count. Errors: different sizes.
+/// frame ago, do not count.
+/// @errors different sizes.
 Result<TemporalChange> temporal_change(const FloatImage& then, const FloatImage& now,
                                        const FloatImage& previous_view_z,
                                        const FrameSurfaces& surfaces);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Counts per pixel as colours: black, blue, red, yellow, white.
+/// @file
+/// Counts per pixel as colours: black, blue, red, yellow, white.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +10,12 @@
 
 namespace kaamos::effects {
 
+/// A picture of counts, and what its colors stand for.
 struct HeatMap {
   ByteImage image;          ///< 3 channels
   std::uint32_t white = 1;  ///< count that is white: 999 of 1000 pixels have no more
-  std::uint32_t most = 0;
-  double mean = 0;
+  std::uint32_t most = 0;   ///< the largest count
+  double mean = 0;          ///< over all pixels
 };
 
 /// `counts`: width * height, row 0 on top; missing ones are 0.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plots with logarithmic axes, as self-contained SVG.
+/// @file
+/// Plots with logarithmic axes, as self-contained SVG.
 #pragma once
 
 #include <string>
@@ -7,31 +8,37 @@
 
 namespace kaamos::effects {
 
+/// A measurement.
 struct PlotPoint {
+  /// On the axes; drawn if both are greater than 0 and finite.
+  ///@{
   double x = 0;
   double y = 0;
+  ///@}
   std::string label;  ///< beside the point; may be empty
 };
 
+/// Points of one colour.
 struct PlotSeries {
-  std::string name;  ///< in the legend
-  std::vector<PlotPoint> points;
+  std::string name;               ///< in the legend
+  std::vector<PlotPoint> points;  ///< in the order in which the line joins them
   bool line = true;  ///< false: points only, for settings that are no steps of one scale
 };
 
 /// A level that is drawn across, such as the error of the reference.
 struct PlotLevel {
-  std::string name;
-  double y = 0;
+  std::string name;  ///< beside the line
+  double y = 0;      ///< greater than 0
 };
 
+/// A diagram.
 struct Plot {
-  std::string title;
-  std::string subtitle;
-  std::string x_label;  ///< with its unit
-  std::string y_label;
-  std::vector<PlotSeries> series;
-  std::vector<PlotLevel> levels;
+  std::string title;               ///< in the first line
+  std::string subtitle;            ///< below it, smaller
+  std::string x_label;             ///< with its unit
+  std::string y_label;             ///< with its unit
+  std::vector<PlotSeries> series;  ///< in the order of the legend
+  std::vector<PlotLevel> levels;   ///< drawn below the series
 };
 
 /// An SVG document, 900 x 600. Both axes are logarithmic: points that are not greater than 0 and

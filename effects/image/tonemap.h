@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts linear values to the bytes that a screen shows.
+/// @file
+/// Converts linear values to the bytes that a screen shows.
 #pragma once
 
 #include "effects/image/image.h"

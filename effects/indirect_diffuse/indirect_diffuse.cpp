@@ -19,7 +19,7 @@ RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library) {
   desc.miss[kRayTypeVisibility] = "VisibilityMiss";
   desc.hit[kRayTypeSurface] = {"IndirectAnyHit", "IndirectClosestHit"};
   desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
-  desc.payload_bytes = 16;
+  desc.payload_bytes = 28;
   desc.max_recursion_depth = 2;  // a hit traces a shadow ray to the sun
   return desc;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
+/// @file
+/// Indirect diffuse light of each pixel. [effects-spec B5.2 to B5.4]
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -7,11 +8,14 @@
 
 namespace kaamos::effects {
 
-/// Register u0 of space3: R32G32B32A32_FLOAT, to which the samples are added: irradiance over pi,
-/// and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
+/// The pass. Register u0 of space3 is R32G32B32A32_FLOAT, to which the samples are added:
+/// irradiance over pi, and the rays' length. Lighting::bind and GpuVolume::bind are needed too.
 RayPassDesc indirect_diffuse_pass(rtapi::ShaderLibrary library);
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> indirect_diffuse_library();
 
+/// Where the light of a pixel comes from. [effects-spec B5.2 to B5.4]
 enum class IndirectMode : std::uint32_t {
   kDirect,           ///< the volume, sampled at the surface; times ambient occlusion if one likes
   kHitBlack,         ///< rays sample it where they end, what they hit is black
@@ -21,9 +25,9 @@ enum class IndirectMode : std::uint32_t {
 
 /// Constants b0, space3.
 struct IndirectConstants {
-  IndirectMode mode = IndirectMode::kNearField;
-  float length = 3.0f;  ///< of the rays, metres; at least two cells
-  std::uint32_t sun_at_hits = 1;
+  IndirectMode mode = IndirectMode::kNearField;  ///< where light comes from
+  float length = 3.0f;                           ///< of the rays, metres; at least two cells
+  std::uint32_t sun_at_hits = 1;  ///< 1: what rays hit is lit by the sun, by a ray; 0: it is not
 };
 
 }  // namespace kaamos::effects

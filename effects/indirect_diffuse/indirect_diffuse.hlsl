@@ -25,8 +25,9 @@ static const uint kModeNearFieldGlossy = 3;
 static const uint kIndirectPair = 4;    // and 5, for the jitter of the ray's end
 
 struct IndirectPayload {
-  float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;   // of the hit, metres; negative: a miss
+  float3 radiance;
+  float distance;        // of the hit, metres; negative: a miss
+  float3 volume_jitter;  // of the ray's reads of the volume [VolumeTowards]
 };
 
 float RayLength() { return Contain(constants.length, kLongestRay); }
@@ -40,7 +41,7 @@ float3 RadianceFromEnd(float3 jitter) {
 
 [shader("miss")]
 void IndirectMiss(inout IndirectPayload payload) {
-  payload.radiance = RadianceFromEnd(payload.radiance);
+  payload.radiance = RadianceFromEnd(payload.volume_jitter);
   payload.distance = -1.0;
 }
 
@@ -53,7 +54,7 @@ void IndirectAnyHit(inout IndirectPayload payload, in BuiltInTriangleIntersectio
 
 [shader("closesthit")]
 void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  const float3 jitter = payload.radiance;
+  const float3 jitter = payload.volume_jitter;
   payload.radiance = float3(0, 0, 0);
   payload.distance = RayTCurrent();
   if (constants.mode == kModeHitBlack) return;
@@ -80,8 +81,9 @@ float4 Gather(float3 origin, float3 direction, float3 jitter) {
   ray.Direction = direction;
   ray.TMax = RayLength();
   IndirectPayload payload;
-  payload.radiance = jitter;
+  payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
+  payload.volume_jitter = jitter;
   TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
   return float4(payload.radiance, payload.distance < 0.0 ? ray.TMax : payload.distance);
@@ -95,9 +97,8 @@ float3 IndirectDirection(float2 tile, uint index, float3 shading_normal) {
 [shader("raygeneration")]
 void IndirectRayGen() {
   const uint2 pixel = FramePixel();
-  const float4 before = SumBefore(indirect, pixel);
   if (g_ids[pixel].x == 0) {
-    indirect[pixel] = before;
+    indirect[pixel] = SumBefore(indirect, pixel);
     return;
   }
   const float4 position = g_position[pixel];
@@ -106,7 +107,8 @@ void IndirectRayGen() {
   if (constants.mode == kModeDirect) {
     const float count = float(pass_constants.sample_count);
     indirect[pixel] =
-        before + count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
+        SumBefore(indirect, pixel) +
+        count * float4(VolumeIrradianceAt(position.xyz, kEveryCell, shading_normal), 0.0);
     return;
   }
   const float3 origin = position.xyz + normal * position.w;
@@ -119,7 +121,7 @@ void IndirectRayGen() {
     // A jitter of half a cell to each side hides the steps between cells.
     sum += Gather(origin, direction, PixelJitter(pixel, index, kIndirectPair + 1, frame.seed));
   }
-  indirect[pixel] = before + sum;
+  indirect[pixel] = SumBefore(indirect, pixel) + sum;
 }
 
 [shader("raygeneration")]

@@ -2,7 +2,6 @@
 // Shared by the tests of indirect light.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <utility>
 
@@ -42,13 +41,11 @@ struct Stage {
 
   IndirectVolume bake(float cell, std::uint32_t samples, std::uint32_t bounces = 3) {
     IndirectVolume volume = layout_volume(scene, cell).value();
-    const std::atomic<bool> stop = false;
     BakeDesc desc;
     desc.samples = samples;
     desc.bounces = bounces;
-    bake_volume(
-        device, queue, frame, gpu, lighting, scene.cameras.front().position(),
-        volume_bake_library().value(), desc, volume, [](double) {}, stop)
+    bake_volume(device, queue, frame, gpu, lighting, scene.cameras.front().position(),
+                volume_bake_library().value(), desc, volume)
         .value();
     return volume;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A cell of the volume as shaders read it, in half the size of VolumeCell.
+/// @file
+/// A cell of the volume as shaders read it, in half the size of VolumeCell.
 #pragma once
 
 #include <array>
@@ -12,8 +13,11 @@ namespace kaamos::effects {
 /// Mirrors VolumeCell of indirect_volume.hlsli, which says what stands where. Each word: mean,
 /// slope along x, y, z.
 struct PackedCell {
+  /// Words of the channels; blue lies in the bits that these leave.
+  ///@{
   std::array<std::uint32_t, 4> red{};
   std::array<std::uint32_t, 4> green{};
+  ///@}
 };
 static_assert(sizeof(PackedCell) == 32);
 

@@ -56,30 +56,28 @@ RayPassDesc bake_pass(const rtapi::ShaderLibrary& library) {
 }
 
 // Traces all samples of all cells. A step takes more samples as long as steps are short.
-rtapi::Status trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                          const Frame& frame, const RayPass& pass, const PassViews& views,
-                          std::uint32_t cell_count, const BakeDesc& desc,
-                          const std::function<void(double)>& progress,
-                          const std::atomic<bool>& stop) {
+rtapi::Result<Outcome> trace_cells(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                   const Frame& frame, const RayPass& pass, const PassViews& views,
+                                   std::uint32_t cell_count, const BakeDesc& desc,
+                                   const StepCallback& progress) {
   auto list = device.CreateCommandList();
   if (!list) return list.error();
   const std::uint32_t rows = (cell_count + kGridWidth - 1) / kGridWidth;
   std::uint32_t step = 1;
   for (std::uint32_t first = 0; first < desc.samples;) {
-    if (stop) return rtapi::Error{{}, rtapi::ErrorCode::kFailed, "interrupted"};
     const std::uint32_t count = std::min(step, desc.samples - first);
     const BakeConstants constants = {cell_count, first, count, desc.bounces, kGridWidth, desc.seed};
-    if (const auto reset = list->Reset(); !reset) return reset;
+    if (const auto reset = list->Reset(); !reset) return reset.error();
     pass.dispatch_grid(*list, frame, {}, kGridWidth, rows, PassArguments(views, constants));
     const auto start = Clock::now();
-    if (const auto done = queue.ExecuteAndWait(*list); !done) return done;
+    if (const auto done = queue.ExecuteAndWait(*list); !done) return done.error();
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     step = static_cast<std::uint32_t>(
         std::clamp(step * kStepSeconds / std::max(seconds, 1e-4), 1.0, 2.0 * step));
     first += count;
-    progress(static_cast<double>(first) / desc.samples);
+    if (progress && !progress(static_cast<double>(first) / desc.samples)) return Outcome::kStopped;
   }
-  return {};
+  return Outcome::kDone;
 }
 
 // Turns sums into means and marks cells in solids.
@@ -99,13 +97,12 @@ rtapi::Result<rtapi::ShaderLibrary> volume_bake_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_volume_bake());
 }
 
-rtapi::Status bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                          const Frame& frame, const GpuScene& gpu, const Lighting& lighting,
-                          const glm::dvec3& origin, const rtapi::ShaderLibrary& library,
-                          const BakeDesc& desc, IndirectVolume& volume,
-                          const std::function<void(double)>& progress,
-                          const std::atomic<bool>& stop) {
-  if (volume.cells.empty()) return {};
+rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queue,
+                                   const Frame& frame, const GpuScene& gpu,
+                                   const Lighting& lighting, const glm::dvec3& origin,
+                                   const rtapi::ShaderLibrary& library, const BakeDesc& desc,
+                                   IndirectVolume& volume, const StepCallback& progress) {
+  if (volume.cells.empty()) return Outcome::kDone;
   std::vector<glm::vec4> centers;
   for (const glm::dvec3& center : volume.cell_centers()) {
     centers.emplace_back(glm::vec3(center - origin), 0.0f);
@@ -121,22 +118,23 @@ rtapi::Status bake_volume(const rtapi::Device& device, rtapi::CommandQueue& queu
   if (!sums) return sums.error();
   auto views = frame.create_pass_views(device);
   if (!views) return views.error();
-  if (const auto s = views->set_shader_resource(3, *center_buffer, sizeof(glm::vec4)); !s) return s;
-  if (const auto s = views->set_unordered_access(0, *sums, sizeof(VolumeCell)); !s) return s;
-  if (const auto s = lighting.bind(*views); !s) return s;
+  if (const auto s = views->set_shader_resource(3, *center_buffer, sizeof(glm::vec4)); !s) {
+    return s.error();
+  }
+  if (const auto s = views->set_unordered_access(0, *sums, sizeof(VolumeCell)); !s) {
+    return s.error();
+  }
+  if (const auto s = lighting.bind(*views); !s) return s.error();
   const auto pass = RayPass::create(device, frame, gpu, bake_pass(library));
   if (!pass) return pass.error();
   const auto cell_count = static_cast<std::uint32_t>(volume.cells.size());
-  if (const auto s =
-          trace_cells(device, queue, frame, *pass, *views, cell_count, desc, progress, stop);
-      !s) {
-    return s;
-  }
+  const auto traced = trace_cells(device, queue, frame, *pass, *views, cell_count, desc, progress);
+  if (!is_done(traced)) return traced;
   const auto bytes = rtapi::ReadbackBuffer(device, queue, *sums);
   if (!bytes) return bytes.error();
   std::memcpy(volume.cells.data(), bytes->data(), bytes->size());
   normalise(volume.cells, std::max(desc.samples, 1u));
-  return {};
+  return Outcome::kDone;
 }
 
 rtapi::Result<GpuVolume> GpuVolume::create(const rtapi::Device& device,

@@ -45,8 +45,7 @@ rtapi::Result<Lighting> Lighting::create(const rtapi::Device& device, const Fram
                                          const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                          std::uint32_t light_count) {
   if (light_count > kMaxLights) {
-    return rtapi::Error{{},
-                        rtapi::ErrorCode::kInvalidArgument,
+    return rtapi::Error{{}, rtapi::ErrorCode::kInvalidArgument,
                         "the scene has " + std::to_string(light_count) +
                             " local lights and the atlas of shadow maps has room for " +
                             std::to_string(kMaxLights) + "; leave some out"};

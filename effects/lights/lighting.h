@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The local lights of a frame: light lists per cluster and an atlas of shadow maps. Both are made
-// anew each frame and bound to every pass whose shaders include hit_lighting.hlsli.
+/// @file
+/// The local lights of a frame: light lists per cluster and an atlas of shadow maps. Both are made
+/// anew each frame and bound to every pass whose shaders include hit_lighting.hlsli.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -14,32 +15,43 @@
 
 namespace kaamos::effects {
 
-// Mirrors hit_lighting.hlsli, as kShadowTile does.
+/// Mirrors of hit_lighting.hlsli: cells of clusters along each axis and in all, lights that a
+/// cluster holds, the count of one that has more, and shadow maps in a row of the atlas.
+///@{
 inline constexpr std::uint32_t kClusterCells = 32;
 inline constexpr std::uint32_t kClusterCount = kClusterCells * kClusterCells * kClusterCells;
 inline constexpr std::uint32_t kClusterCapacity = 64;
 inline constexpr std::uint32_t kClusterOverflow = 0xFFFFFFFFu;
 inline constexpr std::uint32_t kShadowTilesPerRow = 32;
+///@}
 
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> lighting_library();
 
+/// The local lights of a frame, for passes that shade: what update() records.
 class Lighting {
  public:
-  /// Room for the lights that the scene has now. Errors: those of the device; more lights than an
-  /// atlas has tiles for (4,096).
+  /// Makes the atlas and the lists for so many lights: those that light_constants makes of the
+  /// scene.
+  /// @errors those of the device; more lights than an atlas has tiles for (4,096).
   static rtapi::Result<Lighting> create(const rtapi::Device& device, const Frame& frame,
                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                         std::uint32_t light_count);
 
-  /// Records the lists and the maps for the frame's camera.
+  /// Records what makes the lists and the maps for the frame's camera, with the barriers behind it.
   void update(rtapi::CommandList& list, const Frame& frame) const;
-  /// Binds them to a pass: registers u16 to u18 of space3.
+  /// Binds them to a pass whose shaders include hit_lighting.hlsli: registers u16 to u18 of space3.
+  /// @errors those of PassViews::set_unordered_access.
   rtapi::Status bind(PassViews& views) const;
 
-  /// Of the atlas and the lists.
+  /// Bytes of the atlas and the lists.
   std::uint64_t bytes() const { return views_.bytes(); }
+  /// Shadow maps of all lights, kShadowTile texels on a side, kShadowTilesPerRow in a row.
   const rtapi::Texture& atlas() const { return atlas_; }
+  /// Lights of each cluster, a word each, x fastest; kClusterOverflow: more than fit, all count.
   const rtapi::Buffer& cluster_counts() const { return counts_; }
+  /// kClusterCapacity indices of lights for each cluster, a word each.
   const rtapi::Buffer& cluster_lights() const { return indices_; }
 
  private:

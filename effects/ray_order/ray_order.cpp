@@ -57,8 +57,7 @@ rtapi::Result<ShaderLibrary> ray_order_library() {
 rtapi::Result<RaySorter> RaySorter::create(const Device& device, const Frame& frame,
                                            const ShaderLibrary& library) {
   if (frame.width() > kLargestSide || frame.height() > kLargestSide) {
-    return Error{{},
-                 ErrorCode::kInvalidArgument,
+    return Error{{}, ErrorCode::kInvalidArgument,
                  "rays of a picture of " + std::to_string(frame.width()) + " x " +
                      std::to_string(frame.height()) + " pixels cannot be sorted: " +
                      std::to_string(kLargestSide) + " are allowed on a side"};

@@ -25,15 +25,16 @@ static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
 static const float kNoisyRoughness = 0.21;
 
 struct ReflectionPayload {
-  float3 radiance;  // at first the jitter that chooses a cell of the volume
-  float distance;  // of the hit, metres; negative: a miss
+  float3 radiance;
+  float distance;        // of the hit, metres; negative: a miss
+  float3 volume_jitter;  // of the ray's reads of the volume [VolumeTowards]
 };
 
 [shader("miss")]
 void ReflectionMiss(inout ReflectionPayload payload) {
   // At the end of the ray: the volume holds the light that arrives from beyond.
   const float3 end = WorldRayOrigin() + WorldRayDirection() * RayTCurrent();
-  payload.radiance = VolumeRadiance(end, payload.radiance, WorldRayDirection());
+  payload.radiance = VolumeRadiance(end, payload.volume_jitter, WorldRayDirection());
   payload.distance = -1.0;
 }
 
@@ -47,9 +48,8 @@ void ReflectionAnyHit(inout ReflectionPayload payload, in BuiltInTriangleInterse
 [shader("closesthit")]
 void ReflectionClosestHit(inout ReflectionPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
   const Surface surface = LoadSurface(hit.barycentrics, ConeWidth());
-  const float3 jitter = payload.radiance;
   payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
-                     IndirectAtHit(surface, jitter, -WorldRayDirection());
+                     IndirectAtHit(surface, payload.volume_jitter, -WorldRayDirection());
   payload.distance = RayTCurrent();
 }
 
@@ -108,9 +108,8 @@ float3 SampleHalfVector(ReflectionPoint point, float2 u) {
 [shader("raygeneration")]
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
-  const float4 before = SumBefore(reflection, pixel);
   if (g_ids[pixel].x == 0) {
-    reflection[pixel] = before;
+    reflection[pixel] = SumBefore(reflection, pixel);
     return;
   }
   const ReflectionPoint point = LoadReflectionPoint(pixel);
@@ -136,11 +135,12 @@ void ReflectionRayGen() {
     ray.Direction = direction;
     ray.TMax = ReflectionLength(point.roughness, v.x);
     ReflectionPayload payload;
-    payload.radiance = kEveryCell;
-    if (point.roughness > kNoisyRoughness) {
-      payload.radiance = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
-    }
+    payload.radiance = float3(0, 0, 0);
     payload.distance = -1.0;
+    payload.volume_jitter = kEveryCell;
+    if (point.roughness > kNoisyRoughness) {
+      payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
+    }
     TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
              payload);
     float3 sample = payload.radiance * weight / albedo;
@@ -150,7 +150,7 @@ void ReflectionRayGen() {
     }
     sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
   }
-  reflection[pixel] = before + sum;
+  reflection[pixel] = SumBefore(reflection, pixel) + sum;
 }
 
 [shader("raygeneration")]

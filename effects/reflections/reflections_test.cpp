@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/lights/lighting.h"
+#include "effects/northlight/frame_renderer.h"
 #include "effects/scene/checkers_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 
@@ -44,39 +42,17 @@ struct Reflected {
 };
 
 Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionConstants& constants) {
-  const rtapi::Device device = rtapi::CreateDevice().value();
-  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
-  const Camera& camera = scene.cameras.front();
-  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-  FrameDesc desc;
-  desc.width = kSize;
-  desc.height = kSize;
-  const Frame frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
-  const Lighting lighting =
-      Lighting::create(device, frame, gpu, lighting_library().value(), 0).value();
-  const rtapi::Texture picture =
-      frame.create_picture(device, "reflection", rtapi::Format::kR32G32B32A32Float).value();
-  PassViews views = frame.create_pass_views(device).value();
-  views.set_unordered_access(0, picture).value();
-  lighting.bind(views).value();
-  const GpuVolume no_volume = GpuVolume::create(device, {}, camera.position()).value();
-  no_volume.bind(views).value();
-  const RayPass gbuffer =
-      RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-  const RayPass pass =
-      RayPass::create(device, frame, gpu, reflections_pass(reflections_library().value())).value();
-  rtapi::CommandList list = device.CreateCommandList().value();
-  gbuffer.dispatch(list, frame, {}, kSize);
-  lighting.update(list, frame);
-  PassConstants pass_constants;
-  pass_constants.sample_count = samples;
-  pass.dispatch(list, frame, pass_constants, kSize, PassArguments(views, constants));
-  queue.ExecuteAndWait(list).value();
-  Reflected out;
-  out.sum = read_picture(device, queue, picture).value();
-  out.position = frame.read(device, queue, kPosition).value();
-  out.ids = frame.read(device, queue, kIds).value();
-  return out;
+  FrameSettings settings;
+  settings.width = kSize;
+  settings.height = kSize;
+  settings.effects = choose_effects({"reflections"});
+  settings.effects.at("reflections").set_constants(constants);
+  settings.volume.given = std::make_shared<IndirectVolume>();
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  renderer->run("reflections", samples).value();
+  return {renderer->read(renderer->sum("reflection")).value(), renderer->read("position").value(),
+          renderer->read("ids").value()};
 }
 
 // SpecularAlbedo of brdf.hlsli for f0 = 1, by which the picture was divided.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What moves in a scene: a hierarchy of nodes, skins whose joints are nodes, and animations of the
-// nodes' translation, rotation and scale. The host evaluates poses; the device deforms the
-// vertices. [glTF 2.0: Skins, Animations]
+/// @file
+/// What moves in a scene: a hierarchy of nodes, skins whose joints are nodes, and animations of the
+/// nodes' translation, rotation and scale. The host evaluates poses; the device deforms the
+/// vertices. [glTF 2.0: Skins, Animations]
 #pragma once
 
 #include <cstdint>
@@ -18,42 +19,51 @@ namespace kaamos::effects {
 
 struct Scene;
 
+/// An index that names nothing.
 inline constexpr std::int32_t kNoIndex = -1;
 
+/// A transform in the hierarchy; joints of skins are nodes.
 struct Node {
-  std::string name;
+  std::string name;                ///< for people
   std::int32_t parent = kNoIndex;  ///< in Scene::nodes, before this one
+  /// Relative to the parent: scale first, then rotation, then translation.
+  ///@{
   glm::dvec3 translation{0.0};
   glm::dquat rotation{1, 0, 0, 0};  ///< unit
   glm::dvec3 scale{1.0};
+  ///@}
   /// In place of the three above; such a node is not animated.
   std::optional<glm::dmat4> matrix;
 };
 
+/// The skeleton of skinned meshes.
 struct Skin {
-  std::string name;
+  std::string name;                       ///< for people
   std::vector<std::uint32_t> joints;      ///< nodes
   std::vector<glm::dmat4> inverse_binds;  ///< as many
 };
 
+/// Which property of a node a channel moves.
 enum class ChannelPath : std::uint8_t { kTranslation, kRotation, kScale };
+/// How values between two times are found. [glTF 2.0: Animations]
 enum class Interpolation : std::uint8_t { kStep, kLinear, kCubicSpline };
 
 /// One property of one node over time.
 struct Channel {
-  std::uint32_t node = 0;
-  ChannelPath path = ChannelPath::kRotation;
-  Interpolation interpolation = Interpolation::kLinear;
-  std::vector<float> times;  ///< seconds, rising
+  std::uint32_t node = 0;                                ///< in Scene::nodes
+  ChannelPath path = ChannelPath::kRotation;             ///< which property
+  Interpolation interpolation = Interpolation::kLinear;  ///< rotations along the arc
+  std::vector<float> times;                              ///< seconds, rising
   /// One per time; rotations are x, y, z, w. With kCubicSpline three: in-tangent, value,
   /// out-tangent.
   std::vector<glm::vec4> values;
 };
 
+/// Channels that play together, over and over.
 struct Animation {
-  std::string name;
-  std::vector<Channel> channels;
-  double duration = 0.0;  ///< seconds; then it begins anew
+  std::string name;               ///< for people
+  std::vector<Channel> channels;  ///< at most one for each property of a node
+  double duration = 0.0;          ///< seconds; then it begins anew
 };
 
 /// How an instance moves.
@@ -63,6 +73,7 @@ struct Motion {
   double start = 0.0;                 ///< seconds, added to the scene's time
   /// The instance is fixed to this node: object to world = transform * node's.
   std::int32_t node = kNoIndex;
+  /// True if all members are equal: the same pose at every time.
   bool operator==(const Motion&) const = default;
 };
 
@@ -78,7 +89,7 @@ struct InstanceState {
 
 /// Node to scene transforms at `seconds`, which wraps at the animation's end.
 std::vector<glm::dmat4> evaluate_nodes(const Scene& scene, std::int32_t animation, double seconds);
-/// Of a valid scene: one per instance.
+/// Where the instances of a valid scene are at `seconds`, one state for each. [glTF 2.0: Skins]
 std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds);
 
 /// What the skinning shader computes, on the host: blended matrices move positions, their cofactors

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scenes made by code, by the names that programs accept.
+/// @file
+/// The scenes made by code, by the names that programs accept.
 #pragma once
 
 #include <span>
@@ -10,11 +11,13 @@
 
 namespace kaamos::effects {
 
+/// A scene made by code.
 struct BuiltInScene {
-  const char* name;
-  Scene (*make)();
+  const char* name;  ///< what programs take: "lounge"
+  Scene (*make)();   ///< makes it; the result passes validate()
 };
 
+/// All of them, in the order of their names in help. Valid for the whole run.
 std::span<const BuiltInScene> built_in_scenes();
 /// Null where no scene has the name.
 const BuiltInScene* find_built_in_scene(std::string_view name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Camera paths: positions at certain times, joined by smooth curves.
+/// @file
+/// Camera paths: positions at certain times, joined by smooth curves.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,38 +13,46 @@
 
 namespace kaamos::effects {
 
+/// Where the camera is at one moment.
 struct CameraKey {
-  double seconds = 0.0;
-  glm::dvec3 eye{0.0};
-  glm::dvec3 target{0.0};
+  double seconds = 0.0;       ///< from the start of the sequence
+  glm::dvec3 eye{0.0};        ///< world space, metres
+  glm::dvec3 target{0.0};     ///< what it looks at: world space, not the eye
   double vertical_fov = 0.0;  ///< radians; 0: the scene's
   bool cut = false;           ///< the camera jumps here instead of moving
 };
 
 /// Before the first key and behind the last the camera stands still.
 struct CameraPath {
-  std::string name;
+  std::string name;             ///< for people
   std::vector<CameraKey> keys;  ///< at least one, times rising
 };
 
 /// Names of the built-in paths.
 inline constexpr const char* kCameraPaths = "still, dolly, orbit";
 
-/// `still`, `dolly` (towards what the camera looks at, a little aside) or `orbit` (about it) from
-/// the scene's first camera on, 2 seconds long; in the lounge they stay inside the room. Empty: the
-/// scene's own, `still` where something moves, else `dolly`. Error: another name.
+/// A built-in path of 2 seconds from the scene's first camera on: `still`, `dolly` (towards what
+/// the camera looks at, a little aside) or `orbit` (about it); in the lounge they stay inside the
+/// room. An empty name: the scene's own, `still` where something moves, else `dolly`.
+/// @errors another name; the text lists those that there are.
 Result<CameraPath> make_camera_path(const Scene& scene, const std::string& name);
 
-/// Lines of "seconds eye.x eye.y eye.z target.x target.y target.z [fov=DEGREES] [cut]"; # starts a
-/// comment. Errors, with file and line: what is not a number, times that do not rise, an eye in its
-/// target, no line at all.
+/// Reads lines of "seconds eye.x eye.y eye.z target.x target.y target.z [fov=DEGREES] [cut]",
+/// metres in world space; what follows a number sign is a comment. `name` stands for the file in
+/// messages.
+/// @errors with file and line: what is not a number, times that do not rise, an eye in its target,
+/// no line at all.
 Result<CameraPath> parse_camera_path(std::string_view text, const std::string& name);
+/// The same from a file.
+/// @errors those of read_file and of parse_camera_path.
 Result<CameraPath> load_camera_path(const std::string& file);
 
-/// The camera at a moment: the scene's first camera, moved.
+/// The scene's first camera, moved to where the path is at `seconds`: a smooth curve through the
+/// keys.
 Camera evaluate_camera(const CameraPath& path, const Camera& scene_camera, double seconds);
 
-/// Whether the path cuts after `before` and until `now`: pictures of then say nothing of now.
+/// Whether the path cuts after `before` and until `now`, seconds: then what earlier frames saw does
+/// not help.
 bool has_cut(const CameraPath& path, double before, double now);
 
 }  // namespace kaamos::effects

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes of glass. [effects-spec D.2: SC6]
+/// @file
+/// Scenes of glass. [effects-spec D.2: SC6]
 #pragma once
 
 #include <cstdint>
@@ -12,13 +13,13 @@ namespace kaamos::effects {
 
 /// A pane across the view.
 struct Pane {
-  double distance = 1.0;     ///< metres before the camera, of the side that faces it
-  float alpha = 0.5f;        ///< coverage, 0..1
-  glm::vec3 emissive{0.0f};  ///< radiance of the glass itself
-  double thickness = 0.0;    ///< metres; 0: a sheet, else a closed box
-  bool double_sided = true;  ///< false: backs do not count as layers
-  double turned = 0.0;       ///< radians about the vertical
-  glm::vec3 base_color{0.0f};
+  double distance = 1.0;       ///< metres before the camera, of the side that faces it
+  float alpha = 0.5f;          ///< coverage, 0..1
+  glm::vec3 emissive{0.0f};    ///< radiance of the glass itself
+  double thickness = 0.0;      ///< metres; 0: a sheet, else a closed box
+  bool double_sided = true;    ///< false: backs do not count as layers
+  double turned = 0.0;         ///< radians about the vertical
+  glm::vec3 base_color{0.0f};  ///< linear, of what light it lets through and reflects
 };
 
 /// Panes that shine by themselves before a wall that shines with `background`, 50 m away, under a
@@ -27,6 +28,7 @@ struct Pane {
 /// pane i.
 Scene make_pane_oracle(std::span<const Pane> panes, const glm::vec3& background);
 
+/// What make_glass_stack makes.
 struct GlassStackDesc {
   std::uint32_t panes = 5;  ///< 1..8; other numbers are taken for the nearest of these
   bool crossed = false;     ///< every second one turned by a right angle, all through one axis

@@ -102,6 +102,9 @@ TEST(GltfBroken, NotAGltfFile) {
   const auto buffer =
       load_text(R"({"asset":{"version":"2.0"},"buffers":[{"uri":"gone.bin","byteLength":4}]})");
   expect_error(buffer, "gone.bin");
+  // What the size of a folder is taken for must not be asked of memory.
+  expect_error(load_text(R"({"asset":{"version":"2.0"},"buffers":[{"uri":"/","byteLength":9}]})"),
+               "cannot read");
 }
 
 TEST(GltfBroken, CutAndChangedFilesNeverCrash) {

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <string_view>
+#include <utility>
 
 #include "effects/common/file.h"
 #include "effects/scene/gltf_reader.h"
@@ -34,6 +36,39 @@ bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::st
   if (image->bufferView < 0 && size > 0)
     kept[static_cast<std::size_t>(index)].assign(bytes, bytes + size);
   return true;
+}
+
+/// Reads a file that a scene names as any other file is read: the parser's own reader asks a folder
+/// for its size and then for that much memory.
+bool read_named_file(std::vector<unsigned char>* out, std::string* error, const std::string& path,
+                     void*) {
+  Result<std::vector<std::uint8_t>> bytes = read_file(path);
+  if (bytes.ok()) {
+    *out = std::move(bytes.value());
+  } else {
+    *error += bytes.error();
+  }
+  return bytes.ok();
+}
+
+/// The parser's files, read by read_named_file. Later versions of it have one more callback.
+template <class Callbacks>
+Callbacks file_callbacks() {
+  Callbacks files = {};
+  files.FileExists = &tinygltf::FileExists;
+  files.ExpandFilePath = &tinygltf::ExpandFilePath;
+  files.ReadWholeFile = &read_named_file;
+  files.WriteWholeFile = &tinygltf::WriteWholeFile;
+  if constexpr (requires { files.GetFileSizeInBytes; }) {
+    files.GetFileSizeInBytes = [](std::size_t* size, std::string* error, const std::string& path,
+                                  void* user) {
+      std::vector<unsigned char> bytes;
+      const bool is_read = read_named_file(&bytes, error, path, user);
+      *size = bytes.size();
+      return is_read;
+    };
+  }
+  return files;
 }
 
 bool is_glb(std::span<const std::uint8_t> bytes) {
@@ -99,6 +134,7 @@ Status parse(std::span<const std::uint8_t> bytes, const std::string& folder, tin
                            " levels");
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(keep_encoded, &images);
+  loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>());
   std::string error, warning;
   bool parsed = false;
   if (is_glb(bytes)) {
@@ -224,6 +260,8 @@ Result<LoadedScene> load_gltf_memory(std::span<const std::uint8_t> bytes, const 
     Result<LoadedScene> loaded = load(bytes, name, folder, options);
     if (!loaded.ok()) return failed(loaded.error());
     return loaded;
+  } catch (const std::bad_alloc&) {
+    return failed("takes more memory than there is: its counts and sizes may be wrong");
   } catch (const std::exception& error) {
     return failed(one_line(error.what()));
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes scenes as .glb files that any glTF viewer reads.
+/// @file
+/// Writes scenes as .glb files that any glTF viewer reads.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +15,11 @@ namespace kaamos::effects {
 /// The bytes of a .glb: meshes, materials with their pictures as PNG, instances, cameras, lights,
 /// the sun as the first directional light. glTF has no place for the sky, the sun's angular radius,
 /// exposure and instance masks; they do not come back when the file is loaded.
+/// @errors a scene that validate() refuses; more than 4 GB.
 Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene);
 
 /// Writes the file; an earlier one at `path` stays as it was on any error.
+/// @errors those of encode_glb and write_file_atomically.
 Status write_glb(const std::string& path, const Scene& scene);
 
 }  // namespace kaamos::effects

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene on a device: its buffers and textures, one bottom level per mesh, one top level, and the
-// contents of the hit group table's records.
+/// @file
+/// A scene on a device: its buffers and textures, one bottom level per mesh, one top level, and the
+/// contents of the hit group table's records.
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -23,57 +24,64 @@ enum RayType : std::uint32_t {
 
 /// One geometry of one mesh: the arguments of its records.
 struct GpuGeometry {
-  rtapi::GpuVirtualAddress vertices = 0;
-  rtapi::GpuVirtualAddress indices = 0;
-  HitConstants constants;
-  bool alpha_tested = false;  ///< any-hit shaders run: also of glass
-  bool glass = false;
+  rtapi::GpuVirtualAddress vertices = 0;  ///< of its first vertex: root SRV t0, space2
+  rtapi::GpuVirtualAddress indices = 0;   ///< of its first index: root SRV t1, space2
+  HitConstants constants;                 ///< root constants b0, space2
+  bool alpha_tested = false;              ///< any-hit shaders run: also of glass
+  bool glass = false;                     ///< its material is see-through
 };
 
 /// Where an instance was one frame ago; t4 of the frame, mirrored in effects/shaders/frame.hlsli.
 struct PreviousInstance {
   glm::mat3x4 object_to_world{0.0f};  ///< then, relative to the camera of then
   std::uint32_t flags = 0;            ///< PreviousInstanceFlags; 0: nothing moved
-  std::uint32_t padding[3] = {};
+  std::uint32_t padding[3] = {};      ///< to 64 bytes
 };
 static_assert(sizeof(PreviousInstance) == 64);
 
+/// Bits of PreviousInstance::flags.
 enum PreviousInstanceFlags : std::uint32_t {
   kPreviousMoved = 1,     ///< its transform or its shape changed
   kPreviousDeformed = 2,  ///< its shape did: vertices hold their previous positions
 };
 
+/// What making a scene took.
 struct GpuSceneStatistics {
-  double bottom_level_ms = 0;
-  double top_level_ms = 0;
-  std::uint64_t bottom_level_bytes = 0;
-  std::uint64_t top_level_bytes = 0;
-  std::uint64_t unique_triangles = 0;
-  std::uint64_t instanced_triangles = 0;
+  double bottom_level_ms = 0;             ///< builds of all bottom levels
+  double top_level_ms = 0;                ///< build of the top level
+  std::uint64_t bottom_level_bytes = 0;   ///< of all bottom levels
+  std::uint64_t top_level_bytes = 0;      ///< of the top level
+  std::uint64_t unique_triangles = 0;     ///< of the meshes
+  std::uint64_t instanced_triangles = 0;  ///< of the instances
 };
 
+/// A scene on a device. It keeps all of it alive; a copy names the same objects.
 struct GpuScene {
   std::vector<rtapi::Buffer> vertices;       ///< one per mesh
   std::vector<rtapi::Buffer> indices;        ///< one per mesh
   std::vector<rtapi::Buffer> bottom_levels;  ///< one per mesh
-  rtapi::Buffer instances;
-  rtapi::Buffer top_level;
-  rtapi::Buffer previous_instances;      ///< PreviousInstance, one per instance, at least one
-  rtapi::Buffer materials;               ///< MaterialConstants, one per material
-  std::vector<rtapi::Texture> textures;  ///< one per image
-  std::vector<GpuGeometry> geometries;   ///< of all meshes, in the order of their records
-  GpuSceneStatistics statistics;
+  rtapi::Buffer instances;                   ///< RaytracingInstanceDesc, one per instance
+  rtapi::Buffer top_level;                   ///< what rays are traced against
+  rtapi::Buffer previous_instances;          ///< PreviousInstance, one per instance, at least one
+  rtapi::Buffer materials;                   ///< MaterialConstants, one per material
+  std::vector<rtapi::Texture> textures;      ///< one per image
+  std::vector<GpuGeometry> geometries;       ///< of all meshes, in the order of their records
+  GpuSceneStatistics statistics;             ///< of create_gpu_scene
 };
 
 /// Buffers and textures of a valid scene, and the arguments of its meshes' records; no acceleration
 /// structures, nor what depends on them.
+/// @errors those of the device, among them KA0990 no memory.
 rtapi::Result<GpuScene> upload_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                      const Scene& scene);
 /// Input of a bottom level build. `gpu`: the record of `geometry`.
 rtapi::RaytracingGeometryDesc geometry_desc(const Geometry& geometry, const GpuGeometry& gpu);
 /// A buffer that an acceleration structure of at most `bytes` may be built in.
+/// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> create_structure_buffer(const rtapi::Device& device,
                                                      std::uint64_t bytes, std::string name);
+/// A buffer for the scratch memory of builds, `bytes` long.
+/// @errors those of rtapi::Device::CreateBuffer.
 rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, std::uint64_t bytes,
                                                    std::string name);
 
@@ -81,6 +89,7 @@ rtapi::Result<rtapi::Buffer> create_scratch_buffer(const rtapi::Device& device, 
 /// `origin` (the camera) before they are rounded to float: far from the world's origin a float has
 /// too few digits left. [effects-spec B0.1] Skinned meshes stay in their bind pose: scenes that
 /// move take a StructureManager. [effects/structures]
+/// @errors those of the device, among them KA0990 no memory and KA0709 too many triangles.
 rtapi::Result<GpuScene> create_gpu_scene(const rtapi::Device& device, rtapi::CommandQueue& queue,
                                          const Scene& scene, const glm::dvec3& origin);
 

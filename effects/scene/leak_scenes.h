@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Scenes whose walls are thinner than the cells of a volume of indirect light. [effects-spec D.2:
-// SC2, SC8]
+/// @file
+/// Scenes whose walls are thinner than the cells of a volume of indirect light. [effects-spec D.2:
+/// SC2, SC8]
 #pragma once
 
 #include "effects/scene/scene.h"
@@ -11,6 +12,7 @@ inline constexpr double kDomeRadius = 5.0;      ///< metres, of the inside
 inline constexpr double kOculusRadius = 1.0;    ///< metres, of the opening at the top
 inline constexpr double kSealedRoomSize = 2.0;  ///< metres inside, of each room, along each axis
 
+/// What make_thin_dome makes.
 struct ThinDomeDesc {
   double thickness = 0.005;  ///< metres, of the shell; 0.0005 to 0.05 is what shows failures
   bool sealed = false;       ///< without the opening: what is inside is black in truth
@@ -22,6 +24,7 @@ struct ThinDomeDesc {
 /// column lies along a meridian.
 Scene make_thin_dome(const ThinDomeDesc& desc);
 
+/// What make_sealed_cells makes.
 struct SealedCellsDesc {
   double thickness = 0.005;  ///< metres, of all walls
 };

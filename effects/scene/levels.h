@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Levels of detail: which mesh of an instance a frame shows. All effects' rays and the G-buffer see
-// the same level, because they share one top level. [Northlight deck: one bottom level per LOD, the
-// LOD of the G-buffer; effects-spec A6]
+/// @file
+/// Levels of detail: which mesh of an instance a frame shows. All effects' rays and the G-buffer
+/// see the same level, because they share one top level. [Northlight deck: one bottom level per
+/// LOD, the LOD of the G-buffer; effects-spec A6]
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The built-in scene, after the moody lounge of Remedy's GDC 2018 talk: four small chairs that
-// share one mesh of five materials, small sofas, large round sofas, a table with a magazine, a dome
-// of thin geometry, plants with alpha-tested leaves, and sun through the dome and a window. It is
-// made by code and is the same at every call.
+/// @file
+/// The built-in scene, after the moody lounge of Remedy's GDC 2018 talk: four small chairs that
+/// share one mesh of five materials, small sofas, large round sofas, a table with a magazine, a
+/// dome of thin geometry, plants with alpha-tested leaves, and sun through the dome and a window.
+/// It is made by code and is the same at every call.
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Materials, textures and samplers as the effects' shaders read them. They are bindless: one
-// element of a structured buffer per material, and an unbounded array of textures. [Northlight
-// deck: Bindless Access to Materials]
+/// @file
+/// Materials, textures and samplers as the effects' shaders read them. They are bindless: one
+/// element of a structured buffer per material, and an unbounded array of textures. [Northlight
+/// deck: Bindless Access to Materials]
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@ enum TextureSlot : std::uint32_t {
   kTextureSlotCount
 };
 
+/// Bits of MaterialConstants::flags. [glTF 2.0: material]
 enum MaterialFlags : std::uint32_t {
   kMaterialMask = 1u << 0,         ///< alphaMode MASK: fully open below alpha_cutoff
   kMaterialBlend = 1u << 1,        ///< alphaMode BLEND
@@ -31,6 +33,7 @@ enum MaterialFlags : std::uint32_t {
   kMaterialAlphaTested = 1u << 3,
 };
 
+/// A texture slot without an image.
 inline constexpr std::int32_t kNoTexture = -1;
 
 /// One element of the materials' StructuredBuffer; HLSL packs it without gaps, as C++ does.
@@ -51,7 +54,7 @@ struct MaterialConstants {
   /// offset.y.
   std::array<glm::vec4, kTextureSlotCount> uv_matrix{glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1),
                                                      glm::vec4(1, 0, 0, 1), glm::vec4(1, 0, 0, 1)};
-  std::array<glm::vec2, kTextureSlotCount> uv_offset{};
+  std::array<glm::vec2, kTextureSlotCount> uv_offset{};  ///< see uv_matrix
   /// Level of detail at which the image is one texel, log2(width * height) / 2, per TextureSlot.
   /// upload_scene sets it.
   std::array<float, kTextureSlotCount> one_texel_level{};
@@ -64,22 +67,28 @@ static_assert(offsetof(MaterialConstants, one_texel_level) == 176);
 
 /// A material with its name, which the GPU does not see.
 struct Material {
-  std::string name;
-  MaterialConstants constants;
+  std::string name;             ///< for people and for overrides
+  MaterialConstants constants;  ///< what shaders read
 };
 
+/// What lies outside of an image. [glTF 2.0: sampler]
 enum class Wrap : std::uint8_t { kRepeat, kMirror, kClamp };
+/// How texels, or mip levels, are mixed. [glTF 2.0: sampler]
 enum class Filter : std::uint8_t { kNearest, kLinear };
 
 /// glTF's sampler words; the defaults are glTF's.
 struct Sampler {
+  /// Along u and v.
+  ///@{
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
-  Filter min_filter = Filter::kLinear;
-  Filter mag_filter = Filter::kLinear;
-  Filter mip_filter = Filter::kLinear;
-  bool mipmapped = true;  ///< false: only level 0 is read
+  ///@}
+  Filter min_filter = Filter::kLinear;  ///< where the image is reduced
+  Filter mag_filter = Filter::kLinear;  ///< where it is enlarged
+  Filter mip_filter = Filter::kLinear;  ///< between levels
+  bool mipmapped = true;                ///< false: only level 0 is read
 
+  /// True if all members are equal.
   friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A mesh, which becomes one bottom-level acceleration structure. Each of its geometries is a piece
-// of one material, like the five of the chairs in the Northlight demo.
+/// @file
+/// A mesh, which becomes one bottom-level acceleration structure. Each of its geometries is a piece
+/// of one material, like the five of the chairs in the Northlight demo.
 #pragma once
 
 #include <cstddef>
@@ -24,30 +25,35 @@ struct Vertex {
 static_assert(sizeof(Vertex) == 48);
 
 /// Byte offsets of the attributes in a vertex, as hit constants pass them to shaders.
+///@{
 inline constexpr std::uint32_t kVertexStride = sizeof(Vertex);
 inline constexpr std::uint32_t kPositionOffset = offsetof(Vertex, position);
 inline constexpr std::uint32_t kNormalOffset = offsetof(Vertex, normal);
 inline constexpr std::uint32_t kTangentOffset = offsetof(Vertex, tangent);
 inline constexpr std::uint32_t kUvOffset = offsetof(Vertex, uv);
+///@}
 
 /// Root constants of a hit group's local root signature: how to read the two root SRVs of a
 /// geometry, and its material. 32 bytes.
 struct HitConstants {
-  std::uint32_t vertex_stride = kVertexStride;
+  std::uint32_t vertex_stride = kVertexStride;  ///< bytes
+  /// Bytes from the start of a vertex.
+  ///@{
   std::uint32_t normal_offset = kNormalOffset;
   std::uint32_t tangent_offset = kTangentOffset;
   std::uint32_t uv_offset = kUvOffset;
+  ///@}
   std::uint32_t index_size_bytes = 4;  ///< 2 or 4
-  std::uint32_t material_id = 0;
-  std::uint32_t mesh_id = 0;
-  std::uint32_t geometry_id = 0;
+  std::uint32_t material_id = 0;       ///< in Scene::materials
+  std::uint32_t mesh_id = 0;           ///< in Scene::meshes
+  std::uint32_t geometry_id = 0;       ///< in Mesh::geometries
 };
 static_assert(sizeof(HitConstants) == 32);
 
 /// A range of a mesh with one material: one geometry of the bottom level.
 struct Geometry {
   std::uint32_t first_vertex = 0;  ///< in Mesh::vertices; indices count from here
-  std::uint32_t vertex_count = 0;
+  std::uint32_t vertex_count = 0;  ///< from first_vertex on
   /// Where the indices start in Mesh::indices: a multiple of 4. A shader may read 4-byte words up
   /// to the next multiple of 4 after the last index.
   std::uint32_t index_offset_bytes = 0;
@@ -57,28 +63,37 @@ struct Geometry {
   bool alpha_tested = false;           ///< any-hit shaders must run: not opaque
 };
 
+/// A box along the axes; empty at first.
 struct Bounds {
+  /// The corners; min above max on any axis: empty.
+  ///@{
   glm::dvec3 min{1e300};
   glm::dvec3 max{-1e300};
+  ///@}
+  /// True where no point was added.
   bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+  /// Grows the box so that it holds the point.
   void add(const glm::dvec3& point);
+  /// The middle. Precondition: not empty.
   glm::dvec3 center() const { return 0.5 * (min + max); }
+  /// The sides; zero where the box is empty.
   glm::dvec3 size() const { return empty() ? glm::dvec3(0.0) : max - min; }
 };
 
 /// Which joints of its instance's skin move a vertex. Weights sum to 1; unused ones are 0.
 struct SkinVertex {
-  glm::u16vec4 joints{0};
-  glm::vec4 weights{1, 0, 0, 0};
+  glm::u16vec4 joints{0};         ///< in Skin::joints
+  glm::vec4 weights{1, 0, 0, 0};  ///< of these joints, 0 to 1
 };
 static_assert(sizeof(SkinVertex) == 24);
 
+/// Vertices and indices of several geometries: what becomes one bottom level.
 struct Mesh {
-  std::string name;
-  std::vector<Vertex> vertices;
+  std::string name;                   ///< for people and messages
+  std::vector<Vertex> vertices;       ///< of all geometries
   std::vector<SkinVertex> skin;       ///< one per vertex where the mesh is skinned, else empty
   std::vector<std::uint8_t> indices;  ///< 16- or 32-bit per geometry, little endian
-  std::vector<Geometry> geometries;
+  std::vector<Geometry> geometries;   ///< in the order of GeometryIndex
 
   /// Appends a piece. Indices count from 0 = vertices[0] of the piece and must lie in it; they are
   /// stored with 16 bits where the piece has at most 65,536 vertices.
@@ -89,8 +104,9 @@ struct Mesh {
   /// Corner 0..2 of a triangle of a geometry.
   const Vertex& corner(const Geometry& geometry, std::uint32_t triangle,
                        std::uint32_t corner) const;
+  /// Triangles of all geometries.
   std::uint64_t triangle_count() const;
-  /// Of the finite positions.
+  /// The box of all finite positions, object space.
   Bounds bounds() const;
 };
 

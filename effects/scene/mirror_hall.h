@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A hall of mirrors. [effects-spec D.2: SC4]
+/// @file
+/// A hall of mirrors. [effects-spec D.2: SC4]
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes with a known answer in closed form, to test effects against. [effects-spec B0.7]
+/// @file
+/// Scenes with a known answer in closed form, to test effects against. [effects-spec B0.7]
 #pragma once
 
 #include "effects/scene/scene.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Splits large meshes into pieces with a bottom level each, so that a room made of one mesh is not
-// a single box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
+/// @file
+/// Splits large meshes into pieces with a bottom level each, so that a room made of one mesh is not
+/// a single box to every ray. [Northlight deck: large meshes in pieces; effects-spec A7, B1.1]
 #pragma once
 
 #include <cstddef>

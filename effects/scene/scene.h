@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. It is plain data
-// on the host, from which acceleration structures and buffers are made. Right-handed, +Y up,
-// metres, linear colours. World positions and transforms are doubles, because they are made
-// relative to the camera before they are rounded to float.
+/// @file
+/// What is rendered: meshes, instances, materials, pictures, lights, cameras, sky. It is plain data
+/// on the host, from which acceleration structures and buffers are made. Right-handed, +Y up,
+/// metres, linear colours. World positions and transforms are doubles, because they are made
+/// relative to the camera before they are rounded to float.
 #pragma once
 
 #include <cstdint>
@@ -39,21 +40,23 @@ enum class BuildClass : std::uint8_t {
 /// A mesh that stands for an instance while that covers at least `coverage` of the picture's
 /// height. [effects/scene/levels.h]
 struct Level {
-  std::uint32_t mesh = 0;
-  float coverage = 0;
+  std::uint32_t mesh = 0;  ///< in Scene::meshes
+  float coverage = 0;      ///< part of the picture's height, 0 to 1
 };
 
+/// A mesh somewhere in the scene. Its place in Scene::instances is InstanceIndex and InstanceID.
 struct Instance {
-  std::string name;
+  std::string name;                 ///< for people and messages
   std::uint32_t mesh = 0;           ///< in Scene::meshes
   std::vector<Level> levels = {};   ///< from fine to coarse, `mesh` one of them; empty: only `mesh`
   glm::dmat4 transform{1.0};        ///< object to world, affine
   std::uint8_t mask = kMaskOpaque;  ///< InstanceMask bits
-  Motion motion = {};
-  /// Of skinned instances; kStatic counts as kDeformable there.
+  Motion motion = {};               ///< none by default: it stands still
+  /// How the structure of a skinned instance is kept; kStatic counts as kDeformable there.
   BuildClass build_class = BuildClass::kStatic;
 };
 
+/// How a light shines. [KHR_lights_punctual]
 enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
 
 /// The upper three rows of the transform, as a DXR instance record and HLSL's ObjectToWorld3x4()
@@ -68,32 +71,36 @@ bool is_mirrored(const Instance& instance);
 
 /// A local light, or a directional one besides the sun. [KHR_lights_punctual]
 struct Light {
-  std::string name;
-  LightType type = LightType::kPoint;
-  glm::vec3 color{1.0f};
-  float intensity = 1.0f;  ///< lux for directional, candela for point and spot
-  glm::dvec3 position{0.0};
-  glm::vec3 direction{0, -1, 0};  ///< the way the light travels, unit
-  float range = 0.0f;             ///< metres; 0 = unlimited
-  float inner_cone_angle = 0.0f;  ///< half angles of a spot
+  std::string name;                    ///< for people
+  LightType type = LightType::kPoint;  ///< which of the members count
+  glm::vec3 color{1.0f};               ///< linear
+  float intensity = 1.0f;              ///< lux for directional, candela for point and spot
+  glm::dvec3 position{0.0};            ///< world space, metres; not of directional ones
+  glm::vec3 direction{0, -1, 0};       ///< the way the light travels, unit
+  float range = 0.0f;                  ///< metres; 0 = unlimited
+  /// Half angles of a spot, radians: full light inside of the first, none outside of the second.
+  ///@{
+  float inner_cone_angle = 0.0f;
   float outer_cone_angle = 0.785398f;
+  ///@}
   float radius = 0.02f;  ///< of the sphere that soft shadows sample, metres
 };
 
 /// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]
 inline constexpr float kSunAngularRadius = 0.2655f * 3.14159265f / 180.0f;
 
+/// A light infinitely far away, with an area.
 struct Sun {
-  glm::vec3 direction_to_sun{0, 1, 0};  ///< unit
-  glm::vec3 irradiance{3.0f};           ///< on a surface that faces the sun, relative units
-  float angular_radius = kSunAngularRadius;
+  glm::vec3 direction_to_sun{0, 1, 0};       ///< unit
+  glm::vec3 irradiance{3.0f};                ///< on a surface that faces the sun, relative units
+  float angular_radius = kSunAngularRadius;  ///< radians; 0: hard shadows
 };
 
 /// Radiance of the sky: from horizon to zenith above, ground below.
 struct Sky {
-  glm::vec3 zenith{0.0f};
-  glm::vec3 horizon{0.0f};
-  glm::vec3 ground{0.0f};
+  glm::vec3 zenith{0.0f};   ///< straight up
+  glm::vec3 horizon{0.0f};  ///< level
+  glm::vec3 ground{0.0f};   ///< everywhere below the horizon
 };
 
 /// Radiance of the sky towards a unit direction.
@@ -101,12 +108,14 @@ glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction);
 
 /// A perspective camera.
 struct Camera {
-  std::string name;
+  std::string name;                 ///< for people
   glm::dmat4 camera_to_world{1.0};  ///< rigid; looks along -Z, +Y is up in the picture
   double vertical_fov = 0.9;        ///< full angle, 0..pi exclusive
-  double near_plane = 0.05;
+  double near_plane = 0.05;         ///< metres; scales stored depths, cuts nothing off
 
+  /// Where it stands, world space.
   glm::dvec3 position() const { return glm::dvec3(camera_to_world[3]); }
+  /// Where it looks, unit.
   glm::dvec3 forward() const { return -glm::dvec3(camera_to_world[2]); }
 };
 
@@ -115,21 +124,22 @@ struct Camera {
 glm::dmat4 look_at(const glm::dvec3& eye, const glm::dvec3& target,
                    const glm::dvec3& up = glm::dvec3(0, 1, 0));
 
+/// Everything that is rendered. Indices between its parts are places in its vectors.
 struct Scene {
-  std::string name;
-  std::vector<Mesh> meshes;
-  std::vector<Instance> instances;
-  std::vector<Material> materials;  ///< at least one
-  std::vector<TextureImage> images;
-  std::vector<Sampler> samplers;  ///< at least one
-  std::vector<Camera> cameras;    ///< at least one; the first is the default
-  std::optional<Sun> sun;
-  std::vector<Light> lights;
-  std::vector<Node> nodes;  ///< parents first; only what skins and animations need
-  std::vector<Skin> skins;
-  std::vector<Animation> animations;
-  Sky sky;
-  float exposure = 1.0f;  ///< radiance times this goes to the tone curve
+  std::string name;                   ///< for people and files
+  std::vector<Mesh> meshes;           ///< each becomes a bottom level
+  std::vector<Instance> instances;    ///< the top level
+  std::vector<Material> materials;    ///< at least one
+  std::vector<TextureImage> images;   ///< of the materials
+  std::vector<Sampler> samplers;      ///< at least one
+  std::vector<Camera> cameras;        ///< at least one; the first is the default
+  std::optional<Sun> sun;             ///< none: no sun shines
+  std::vector<Light> lights;          ///< all but the sun
+  std::vector<Node> nodes;            ///< parents first; only what skins and animations need
+  std::vector<Skin> skins;            ///< of skinned instances
+  std::vector<Animation> animations;  ///< of nodes
+  Sky sky;                            ///< what rays see that miss
+  float exposure = 1.0f;              ///< radiance times this goes to the tone curve
 };
 
 /// Triangles after instancing.
@@ -140,8 +150,9 @@ std::uint64_t unique_triangle_count(const Scene& scene);
 /// too small.
 Bounds scene_bounds(const Scene& scene);
 
-/// First broken rule of the data, named by place and value: ids in range, index ranges inside their
-/// buffers, finite transforms, mip sizes, unit directions. A valid scene can be uploaded unchecked.
+/// Checks the data: ids in range, index ranges inside their buffers, finite transforms, mip sizes,
+/// unit directions. A valid scene can be uploaded unchecked.
+/// @errors the first broken rule, named by place and value.
 Status validate(const Scene& scene);
 
 }  // namespace kaamos::effects

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Building blocks for scenes made by code. Front faces are counter-clockwise seen from outside,
-// normals are unit vectors pointing outside, and uv are in metres along the surface unless a shape
-// says otherwise.
+/// @file
+/// Building blocks for scenes made by code. Front faces are counter-clockwise seen from outside,
+/// normals are unit vectors pointing outside, and uv are in metres along the surface unless a shape
+/// says otherwise.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ namespace kaamos::effects {
 
 /// Triangles of one material before they become a geometry.
 struct Shape {
-  std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices;
+  std::vector<Vertex> vertices;        ///< object space, metres
+  std::vector<std::uint32_t> indices;  ///< three for each triangle
 };
 
 /// Adds `part`, transformed. A mirroring transform turns the triangles, so fronts stay outside.
@@ -58,10 +59,12 @@ Shape bar(std::span<const glm::dvec3> path, double width, double height,
 /// Makes tangents and adds the shape as a geometry.
 void add_shape(Mesh& mesh, Shape shape, std::uint32_t material, bool alpha_tested = false);
 
-/// Transforms for placing things.
+/// Transforms for placing things: metres, radians.
+///@{
 glm::dmat4 translate(const glm::dvec3& offset);
 glm::dmat4 rotate_y(double angle);
 glm::dmat4 rotate_x(double angle);
 glm::dmat4 rotate_z(double angle);
+///@}
 
 }  // namespace kaamos::effects

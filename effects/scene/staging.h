@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scene files often lack: camera, sun, sky, ground.
+/// @file
+/// What scene files often lack: camera, sun, sky, ground.
 #pragma once
 
 #include "effects/scene/scene.h"
@@ -16,7 +17,9 @@ bool is_interior(const Scene& scene);
 /// Inside a room a camera before one of its corners that looks across; else the framing camera.
 Camera default_camera(const Scene& scene);
 
+/// A warm sun, high and from the side.
 Sun default_sun();
+/// A blue sky over grey ground.
 Sky default_sky();
 
 /// True where little lies under the scene that a shadow could fall on: less than a third of its

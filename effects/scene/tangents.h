@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes normals and tangents for vertices that lack them.
+/// @file
+/// Computes normals and tangents for vertices that lack them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures of materials: 8-bit RGBA with a mip chain.
+/// @file
+/// Pictures of materials: 8-bit RGBA with a mip chain.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +14,10 @@ namespace kaamos::effects {
 /// RGBA, 8 bits each, row 0 on top (glTF's v = 0). `srgb`: colour is stored sRGB-encoded and is
 /// decoded when sampled (alpha never is).
 struct TextureImage {
-  std::string name;
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-  bool srgb = false;
+  std::string name;          ///< for messages
+  std::uint32_t width = 0;   ///< texels of level 0
+  std::uint32_t height = 0;  ///< texels of level 0
+  bool srgb = false;         ///< colour is sRGB-encoded
   /// mips[0] has width * height * 4 bytes; each level halves both sides (rounded down, at least 1).
   std::vector<std::vector<std::uint8_t>> mips;
 };
@@ -38,7 +39,9 @@ float alpha_coverage(const TextureImage& image, std::uint32_t level, float cutof
 void generate_mips(TextureImage& image, std::optional<float> alpha_cutoff = std::nullopt);
 
 /// sRGB transfer function and its inverse (IEC 61966-2-1), for values in 0..1.
+///@{
 float srgb_from_linear(float linear);
 float linear_from_srgb(float encoded);
+///@}
 
 }  // namespace kaamos::effects

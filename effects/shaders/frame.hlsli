@@ -148,8 +148,7 @@ uint2 FramePixel() {
   return uint2(pixel & 0xFFFFu, pixel >> 16);
 }
 
-// The sum that a pass adds its samples to. Load it before tracing, so that the rays hide the
-// latency.
+// The sum that a pass adds its samples to.
 float SumBefore(RWTexture2D<float> sums, uint2 pixel) {
   if (pass_constants.accumulate == 0) return 0.0;
   return sums[pixel];

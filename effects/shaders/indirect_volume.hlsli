@@ -47,31 +47,35 @@ StructuredBuffer<VolumeConstants> volume_constants : register(t2, space3);
 static const uint kBrickCells = 8;  // along each axis
 static const uint kNoBrick = 0xFFFFFFFF;
 
-// Two neighbouring cells along an axis: their terms of the brick's index and of the place within
-// the brick, and their weights. The weight is 0 outside the grid; negative coordinates wrap to
-// large ones and are outside too.
-struct CellPair {
-  uint2 brick;
-  uint2 place;
-  float2 share;
-};
+// Reads a cell by its place in the grid. False: it lies outside, is not stored or lies in a solid.
+bool LoadVolumeCell(uint3 cell, uint3 bricks, out VolumeCell stored) {
+  stored.red = stored.green = uint4(0, 0, 0, 0);
+  if (any(cell >= bricks * kBrickCells)) return false;
+  const uint3 brick = cell / kBrickCells;
+  const uint3 place = cell % kBrickCells;
+  const uint start = volume_bricks[brick.x + bricks.x * (brick.y + bricks.y * brick.z)];
+  if (start == kNoBrick) return false;
+  stored = volume_cells[start + place.x + kBrickCells * (place.y + kBrickCells * place.z)];
+  return int(stored.red.x) >= 0;
+}
 
-CellPair CellsAlong(int low, float part, uint bricks, uint brick_step, uint cell_step) {
-  const uint2 cell = uint2(low, low + 1);
-  const uint end = bricks * kBrickCells;
-  const uint2 inside = min(cell, end - 1);
-  CellPair pair;
-  pair.brick = inside / kBrickCells * brick_step;
-  pair.place = inside % kBrickCells * cell_step;
-  pair.share = float2(cell.x < end ? 1.0 - part : 0.0, cell.y < end ? part : 0.0);
-  return pair;
+void AddVolumeCell(inout VolumeLight sum, VolumeCell cell, float weight) {
+  sum.red += weight * CellRed(cell);
+  sum.green += weight * CellGreen(cell);
+  sum.blue += weight * CellBlue(cell);
+  sum.weight += weight;
+}
+
+VolumeLight NoVolumeLight() {
+  VolumeLight light;
+  light.red = light.green = light.blue = float4(0, 0, 0, 0);
+  light.weight = 0.0;
+  return light;
 }
 
 // Trilinear interpolation of the eight cells about a point, without those in solids or not stored.
 VolumeLight SampleVolume(float3 position) {
-  VolumeLight sum;
-  sum.red = sum.green = sum.blue = float4(0, 0, 0, 0);
-  sum.weight = 0.0;
+  VolumeLight sum = NoVolumeLight();
   const VolumeConstants volume = volume_constants[0];
   if (volume.enabled == 0) return sum;
   const float3 at = (position - volume.origin) * volume.over_cell - 0.5;
@@ -79,28 +83,13 @@ VolumeLight SampleVolume(float3 position) {
   if (any(abs(at) > 1e6)) return sum;
   const float3 corner = floor(at);
   const float3 part = at - corner;
-  const uint3 bricks = volume.bricks;
-  const CellPair x = CellsAlong(int(corner.x), part.x, bricks.x, 1, 1);
-  const CellPair y = CellsAlong(int(corner.y), part.y, bricks.y, bricks.x, kBrickCells);
-  const CellPair z = CellsAlong(int(corner.z), part.z, bricks.z, bricks.x * bricks.y,
-                                kBrickCells * kBrickCells);
-  [unroll] for (uint i = 0; i < 8; ++i) {
-    const bool right = (i & 1) != 0;
-    const bool upper = (i & 2) != 0;
-    const bool far = (i & 4) != 0;
-    const uint start = volume_bricks[(right ? x.brick.y : x.brick.x) +
-                                     (upper ? y.brick.y : y.brick.x) + (far ? z.brick.y : z.brick.x)];
-    if (start == kNoBrick) continue;
-    const VolumeCell cell = volume_cells[start + (right ? x.place.y : x.place.x) +
-                                         (upper ? y.place.y : y.place.x) +
-                                         (far ? z.place.y : z.place.x)];
-    if (int(cell.red.x) < 0) continue;
-    const float w = (right ? x.share.y : x.share.x) * (upper ? y.share.y : y.share.x) *
-                    (far ? z.share.y : z.share.x);
-    sum.red += w * CellRed(cell);
-    sum.green += w * CellGreen(cell);
-    sum.blue += w * CellBlue(cell);
-    sum.weight += w;
+  for (uint i = 0; i < 8; ++i) {
+    const uint3 offset = uint3(i & 1, (i >> 1) & 1, i >> 2);
+    VolumeCell cell;
+    // Negative coordinates wrap to large ones, which are outside.
+    if (!LoadVolumeCell(uint3(int3(corner)) + offset, volume.bricks, cell)) continue;
+    const float3 share = select(offset != 0, part, 1.0 - part);
+    AddVolumeCell(sum, cell, share.x * share.y * share.z);
   }
   // A weight that is mere rounding error must not become a divisor.
   if (sum.weight < 1e-3) sum.weight = 0.0;
@@ -109,27 +98,13 @@ VolumeLight SampleVolume(float3 position) {
 
 // Only the cell that contains the point; weight 0 if it is in a solid, not stored or outside.
 VolumeLight SampleVolumeCell(float3 position) {
-  VolumeLight light;
-  light.red = light.green = light.blue = float4(0, 0, 0, 0);
-  light.weight = 0.0;
+  VolumeLight light = NoVolumeLight();
   const VolumeConstants volume = volume_constants[0];
   if (volume.enabled == 0) return light;
   const float3 at = floor((position - volume.origin) * volume.over_cell);
   if (any(abs(at) > 1e6)) return light;
-  const uint3 cell = uint3(int3(at));  // negative ones wrap to large ones
-  if (any(cell >= volume.bricks * kBrickCells)) return light;
-  const uint3 brick = cell / kBrickCells;
-  const uint3 place = cell % kBrickCells;
-  const uint start =
-      volume_bricks[brick.x + volume.bricks.x * (brick.y + volume.bricks.y * brick.z)];
-  if (start == kNoBrick) return light;
-  const VolumeCell stored =
-      volume_cells[start + place.x + kBrickCells * (place.y + kBrickCells * place.z)];
-  if (int(stored.red.x) < 0) return light;
-  light.red = CellRed(stored);
-  light.green = CellGreen(stored);
-  light.blue = CellBlue(stored);
-  light.weight = 1.0;
+  VolumeCell cell;
+  if (LoadVolumeCell(uint3(int3(at)), volume.bricks, cell)) AddVolumeCell(light, cell, 1.0);
   return light;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
-// level. [effects-spec B1.1, Northlight deck: Build Flags]
+/// @file
+/// The acceleration structures of a scene that moves, frame by frame: skinning, bottom levels, top
+/// level. [effects-spec B1.1, Northlight deck: Build Flags]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -18,47 +19,53 @@
 
 namespace kaamos::effects {
 
+/// How structures that move are kept.
 struct StructureOptions {
-  /// A structure that is updated is built anew once in so many frames, because updates make it
-  /// slower to trace; never two of a class in one frame while there are fewer than frames. 1: never
-  /// updated. 0: only updated.
+  /// Structures of a class are built anew once in so many frames and updated in between, because
+  /// updates make them slower to trace; they take turns, so that no frame rebuilds two while there
+  /// are fewer of them than frames. 1: always built. 0: only updated.
+  ///@{
   std::uint32_t deformable_period = 8;
   std::uint32_t hero_period = 30;
-  bool compact = true;  ///< static structures
+  ///@}
+  bool compact = true;  ///< static structures are compacted
 };
 
-/// Of the last frame unless it says otherwise.
+/// What the scene and its last frame took.
 struct StructureStatistics {
-  // Of the scene.
-  std::uint32_t static_structures = 0;
-  std::uint32_t skinned_structures = 0;  ///< instances in the same pose share one
-  std::uint64_t static_bytes = 0;
-  std::uint64_t static_bytes_before_compaction = 0;
-  std::uint64_t skinned_bytes = 0;  ///< structures
-  std::uint64_t vertex_bytes = 0;   ///< deformed vertices
-  std::uint64_t scratch_bytes = 0;
-  std::uint64_t top_level_bytes = 0;
-  double create_ms = 0;
-  // Of the frame.
-  std::uint32_t frame = 0;    ///< frames recorded before this one
-  std::uint32_t skinned = 0;  ///< dispatches
-  std::uint64_t skinned_vertices = 0;
-  std::uint32_t updated = 0;
-  std::uint32_t rebuilt = 0;  ///< the first build counts too
-  std::uint32_t skipped = 0;  ///< no joint moved
-  std::uint32_t moved_instances = 0;
-  std::uint32_t changed_levels = 0;  ///< instances that show another level of detail than before
-  std::uint32_t barriers = 0;        ///< batches
-  // Only by execute().
+  std::uint32_t static_structures = 0;               ///< bottom levels that never change
+  std::uint32_t skinned_structures = 0;              ///< instances in the same pose share one
+  std::uint64_t static_bytes = 0;                    ///< of them
+  std::uint64_t static_bytes_before_compaction = 0;  ///< the same as they were built
+  std::uint64_t skinned_bytes = 0;                   ///< of the skinned structures
+  std::uint64_t vertex_bytes = 0;                    ///< of deformed vertices
+  std::uint64_t scratch_bytes = 0;                   ///< of all builds and updates
+  std::uint64_t top_level_bytes = 0;                 ///< of the top level
+  double create_ms = 0;                              ///< that create() took
+  std::uint32_t frame = 0;                           ///< frames recorded before this one
+  std::uint32_t skinned = 0;           ///< dispatches of this frame, as all that follows
+  std::uint64_t skinned_vertices = 0;  ///< of these dispatches
+  std::uint32_t updated = 0;           ///< structures that were refitted
+  std::uint32_t rebuilt = 0;           ///< structures that were built; the first build counts too
+  std::uint32_t skipped = 0;           ///< structures of which no joint moved
+  std::uint32_t moved_instances = 0;   ///< with another transform or shape than before
+  std::uint32_t changed_levels = 0;    ///< instances that show another level of detail than before
+  std::uint32_t barriers = 0;          ///< batches of them
+  /// Time of the frame's stages, each with its barrier; only by execute().
+  ///@{
   double skinning_ms = 0;
   double bottom_level_ms = 0;
   double top_level_ms = 0;
+  ///@}
 };
 
+/// Keeps the acceleration structures of a scene that moves, and what its hit records and passes
+/// read. One frame at a time.
 class StructureManager {
  public:
   /// Uploads a valid scene and builds the static structures. There is no top level before the first
   /// frame.
+  /// @errors those of the device, among them KA0990 no memory.
   static rtapi::Result<StructureManager> create(const rtapi::Device& device,
                                                 rtapi::CommandQueue& queue, const Scene& scene,
                                                 const StructureOptions& options = {});
@@ -67,18 +74,21 @@ class StructureManager {
   /// levels, one barrier, top level, one barrier; what has nothing to do is left out together with
   /// its barrier. Positions become relative to `origin`, the camera. The list of the frame before
   /// must have finished: what the device reads is written now.
-  /// Error: not one state per instance, not one matrix per joint, or a mesh that is no level of its
-  /// instance.
+  /// @errors another number of states than instances, or of matrices than joints; a mesh that is no
+  /// level of its instance.
   rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
                        const glm::dvec3& origin);
   /// The same, executed stage by stage and measured.
+  /// @errors those of record, and of rtapi::CommandQueue::ExecuteAndWait.
   rtapi::Status execute(const rtapi::Device& device, rtapi::CommandQueue& queue,
                         std::span<const InstanceState> states, const glm::dvec3& origin);
 
-  /// For passes and Frame; its resources stay the same over all frames.
+  /// The scene for passes and Frame; its resources stay the same over all frames.
   const GpuScene& scene() const { return gpu_; }
+  /// What the scene and its last frame took.
   const StructureStatistics& statistics() const { return statistics_; }
-  /// What an instance's vertices became, kSkinnedVertexStride apart. Empty where it has no skin.
+  /// The deformed vertices of an instance, kSkinnedVertexStride bytes apart. Empty where it has no
+  /// skin.
   rtapi::Buffer skinned_vertices(std::uint32_t instance) const;
 
  private:

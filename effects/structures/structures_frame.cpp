@@ -21,8 +21,7 @@ bool same(const std::vector<JointMatrix>& a, const std::vector<JointMatrix>& b) 
 }
 
 Error mismatch(const std::string& what, std::size_t actual, std::size_t wanted) {
-  return Error{{},
-               ErrorCode::kInvalidArgument,
+  return Error{{}, ErrorCode::kInvalidArgument,
                what + ": " + std::to_string(actual) + " given, " + std::to_string(wanted) +
                    " expected; take the states of evaluate_instances for the same scene"};
 }
@@ -73,8 +72,7 @@ rtapi::Status StructureManager::begin_frame(std::span<const InstanceState> state
     const std::uint32_t mesh = mesh_of(i, states[i]);
     if (placements_[i].body == kNoIndex &&
         (mesh >= gpu_.bottom_levels.size() || !gpu_.bottom_levels[mesh])) {
-      return Error{{},
-                   ErrorCode::kInvalidArgument,
+      return Error{{}, ErrorCode::kInvalidArgument,
                    "instance \"" + instances_[i].name + "\": mesh " + std::to_string(mesh) +
                        " is to be shown, and is none of its levels of detail; take what "
                        "select_levels says"};

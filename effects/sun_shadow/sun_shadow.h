@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shadow of a sun with an area. The pass adds the number of samples that see it to
-// kSunVisibilitySum.
+/// @file
+/// Shadow of a sun with an area. The pass adds the number of samples that see it to
+/// kSunVisibilitySum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -10,7 +11,11 @@ namespace kaamos::effects {
 /// Samples per pixel of the deck's timings. [effects-spec B2.11]
 inline constexpr std::uint32_t kDefaultSunSamples = 2;
 
+/// The pass. Each dispatch adds those of its samples that see the sun to kSunVisibilitySum.
+/// [effects-spec B2]
 RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library);
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> sun_shadow_library();
 
 }  // namespace kaamos::effects

@@ -13,9 +13,8 @@ float3 SunDirection(float2 tile, uint index) {
 void SunShadowRayGen() {
   const uint2 pixel = FramePixel();
   const uint count = pass_constants.sample_count;
-  const float before = SumBefore(sun_visibility_sum, pixel);
   if (g_ids[pixel].x == 0) {
-    sun_visibility_sum[pixel] = before + float(count);
+    sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + float(count);
     return;
   }
   const float4 position = g_position[pixel];
@@ -31,7 +30,7 @@ void SunShadowRayGen() {
       visible += TraceVisibility(origin, direction, kSunDistance);
     }
   }
-  sun_visibility_sum[pixel] = before + visible;
+  sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + visible;
 }
 
 [shader("raygeneration")]

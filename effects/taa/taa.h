@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
-// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
+/// @file
+/// Temporal antialiasing of the frame's radiance. Each frame looks through another point of its
+/// pixels, and what earlier frames saw is carried along with the surfaces. [effects-spec B7.1]
 #pragma once
 
 #include <rtapi/rtapi.h>
@@ -14,26 +15,31 @@
 
 namespace kaamos::effects {
 
-/// Mirrors TaaConstants of taa.hlsl.
+/// Constants b0, space3: mirrors TaaConstants of taa.hlsl. [effects-spec B7.1]
 struct TaaConstants {
   float alpha = 0.1f;             ///< least weight of the new frame; the Nth has at least 1 / N
   float clip_gamma = 1.0f;        ///< deviations of 3 x 3 pixels; 0: history is not clipped
   float depth_tolerance = 0.02f;  ///< relative; what was nearer by more may have hidden the surface
-  std::uint32_t history_valid = 0;
+  std::uint32_t history_valid = 0;  ///< set by TemporalAntialiasing
 };
 static_assert(sizeof(TaaConstants) == 16);
 
+/// Frames after which taa_jitter begins anew.
 inline constexpr std::uint32_t kTaaJitterPeriod = 16;
 
 /// Where in its pixels frame `index` looks through: pixels from their middle, within half a pixel.
 /// Points of the Halton sequence to bases 2 and 3. [Halton 1960]
 glm::vec2 taa_jitter(std::uint32_t index);
 
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> taa_library();
 
 /// Resolves the radiance of one frame after the other.
 class TemporalAntialiasing {
  public:
+  /// Makes the pass and its pictures of the frame's size.
+  /// @errors those of the device, among them KA0990 no memory; KA0537 a library without the pass.
   static rtapi::Result<TemporalAntialiasing> create(const rtapi::Device& device, const Frame& frame,
                                                     const rtapi::ShaderLibrary& library,
                                                     const TaaConstants& constants = {});
@@ -42,7 +48,7 @@ class TemporalAntialiasing {
   void dispatch(rtapi::CommandList& list, const Frame& frame);
   /// The next frame starts without history, as after a cut: its result is its radiance.
   void reset() { frames_ = 0; }
-  /// Of what a frame's pass reads and writes besides the G-buffer.
+  /// Bytes of what a frame's pass reads and writes besides the G-buffer.
   std::uint64_t bytes() const { return views_[written_].bytes(); }
 
   /// R32G32B32A32_FLOAT: radiance of the frame dispatched last, and in w the frames behind it.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12, B4.13]
+/// @file
+/// Glass: the light it sends, what it mirrors, and what it lets through. [effects-spec B4.12,
+/// B4.13]
 #pragma once
 
 #include <cstdint>
@@ -9,13 +11,17 @@
 
 namespace kaamos::effects {
 
-/// Registers of space3: u0 R32G32B32A32_FLOAT, radiance of the glass and view depth of its first
-/// layer (metres, 0: no glass); u1 R32G32B32A32_FLOAT, transmittance by colour and the number of
-/// layers traced one by one. Lighting::bind and GpuVolume::bind are needed too. What lies behind is
-/// multiplied with u1 and u0 added.
+/// The pass that traces glass. Registers of space3: u0 R32G32B32A32_FLOAT, radiance of the glass
+/// and view depth of its first layer (metres, 0: no glass); u1 R32G32B32A32_FLOAT, transmittance by
+/// colour and the number of layers traced one by one. Lighting::bind and GpuVolume::bind are needed
+/// too. What lies behind is multiplied with u1 and u0 added.
 RayPassDesc transparent_pass(rtapi::ShaderLibrary library);
+/// The shaders that are built into the program.
+/// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> transparent_library();
-/// That composition onto the frame's kRadiance; takes the same views and constants.
+/// The pass behind it, which does that to the frame's kRadiance; it takes the same views and
+/// constants.
+/// @errors KA0537 a library without the pass; those of rtapi::Device::CreateComputePipelineState.
 rtapi::Result<ComputePass> transparent_compose_pass(const rtapi::Device& device, const Frame& frame,
                                                     const rtapi::ShaderLibrary& library);
 
@@ -28,6 +34,7 @@ enum class BlendWeight : std::uint32_t {
   kDepth,   ///< alpha max(3000 (near / z)^3, 0.01)
 };
 
+/// Most layers that are traced one by one.
 inline constexpr std::uint32_t kMaxSortedLayers = 8;
 
 /// Constants b0, space3. The defaults are Control's: the first layer reflects.
@@ -36,7 +43,7 @@ struct TransparentConstants {
   /// Nearest layers traced one by one, in their exact order, at most kMaxSortedLayers; those that
   /// do not reflect are lit only. What lies behind is blended without an order.
   std::uint32_t sorted_layers = 1;
-  BlendWeight weight = BlendWeight::kSquare;
+  BlendWeight weight = BlendWeight::kSquare;  ///< of layers that are blended without an order
   std::uint32_t sun = 1;  ///< 1: shadow rays to the sun; 0: the sun does not shine on glass
   float reflection_length = 60.0f;  ///< metres; beyond it the sky or the volume is mirrored
   float fade = 0.2f;                ///< last part of that length, over which the sky takes over
@@ -47,9 +54,9 @@ struct TransparentConstants {
 };
 static_assert(sizeof(TransparentConstants) == 32);
 
-/// The deck's: `layers` with reflections, the rest blended. 0..kMaxSortedLayers.
+/// The deck's settings: `layers` with reflections, 0 to kMaxSortedLayers, the rest blended.
 TransparentConstants deck_layers(std::uint32_t layers);
-/// The reference: every layer in its order and with its reflection.
+/// The settings of a reference: every layer in its order and with its reflection.
 TransparentConstants sorted_reference();
 
 }  // namespace kaamos::effects

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "effects/composite/composite.h"
-#include "effects/frame/picture.h"
-#include "effects/gbuffer/gbuffer.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/lights/lighting.h"
+#include "effects/northlight/frame_renderer.h"
 #include "effects/scene/glass_scenes.h"
 #include "effects/scene/shapes.h"
 
@@ -30,50 +28,35 @@ std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstant
                        std::uint32_t size = 8, std::uint32_t threads = 0) {
   rtapi::DeviceDesc device_desc;
   device_desc.Threads = threads;
-  const rtapi::Device device = rtapi::CreateDevice(device_desc).value();
-  rtapi::CommandQueue queue = device.CreateCommandQueue().value();
-  const Camera& camera = scene.cameras.front();
-  const GpuScene gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
-  FrameDesc desc;
-  desc.width = size;
-  desc.height = size;
-  const Frame frame = Frame::create(device, queue, scene, gpu, camera, desc).value();
-  const Lighting lighting = Lighting::create(device, frame, gpu, lighting_library().value(),
-                                             static_cast<std::uint32_t>(scene.lights.size()))
-                                .value();
-  const auto format = rtapi::Format::kR32G32B32A32Float;
-  const rtapi::Texture glass = frame.create_picture(device, "glass", format).value();
-  const rtapi::Texture through = frame.create_picture(device, "transmittance", format).value();
-  PassViews views = frame.create_pass_views(device).value();
-  views.set_unordered_access(0, glass).value();
-  views.set_unordered_access(1, through).value();
-  lighting.bind(views).value();
-  const GpuVolume no_volume = GpuVolume::create(device, {}, camera.position()).value();
-  no_volume.bind(views).value();
-  const rtapi::ShaderLibrary library = transparent_library().value();
-  const RayPass gbuffer =
-      RayPass::create(device, frame, gpu, gbuffer_pass(gbuffer_library().value())).value();
-  const RayPass pass = RayPass::create(device, frame, gpu, transparent_pass(library)).value();
+  FrameSettings frame_settings;
+  frame_settings.width = size;
+  frame_settings.height = size;
+  frame_settings.effects = choose_effects({"transparent"});
+  frame_settings.volume.given = std::make_shared<IndirectVolume>();
+  EffectSettings& glass = frame_settings.effects.at("transparent");
+  glass.keep = true;  // scenes without glass are looked at too
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice(device_desc).value(), scene, frame_settings)
+          .value();
+  renderer->run("transparent", glass).value();
   const CompositePass composite =
-      CompositePass::create(device, frame, composite_library().value()).value();
-  const ComputePass compose = transparent_compose_pass(device, frame, library).value();
-  rtapi::CommandList list = device.CreateCommandList().value();
-  gbuffer.dispatch(list, frame, {}, size);
-  lighting.update(list, frame);
-  composite.dispatch(list, frame, {});
-  queue.ExecuteAndWait(list).value();
-  const FloatImage behind = frame.read(device, queue, kRadiance).value();
+      CompositePass::create(renderer->device(), renderer->frame(), composite_library().value())
+          .value();
+  const auto draw_behind = [&] {
+    renderer
+        ->execute(
+            [&](rtapi::CommandList& list) { composite.dispatch(list, renderer->frame(), {}); })
+        .value();
+  };
+  draw_behind();
+  const FloatImage behind = renderer->read("radiance").value();
   std::vector<Seen> out;
   for (const TransparentConstants& constants : settings) {
-    const PassArguments arguments(views, constants);
-    rtapi::CommandList draw = device.CreateCommandList().value();
-    composite.dispatch(draw, frame, {});
-    pass.dispatch(draw, frame, {}, size, arguments);
-    compose.dispatch(draw, frame, {}, arguments, size, size);
-    queue.ExecuteAndWait(draw).value();
-    out.push_back({read_picture(device, queue, glass).value(),
-                   read_picture(device, queue, through).value(), behind,
-                   frame.read(device, queue, kRadiance).value()});
+    draw_behind();
+    glass.set_constants(constants);
+    renderer->run("transparent", glass).value();
+    out.push_back({renderer->read("glass").value(), renderer->read("glass_transmittance").value(),
+                   behind, renderer->read("radiance").value()});
   }
   return out;
 }

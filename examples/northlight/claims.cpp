@@ -12,6 +12,8 @@
 
 #include "effects/common/file.h"
 #include "effects/denoise/denoise.h"
+#include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/reflections/reflections.h"
 #include "measure.h"
 
 namespace northlight {
@@ -46,30 +48,30 @@ using Round = std::array<double, kCosts>;
 constexpr std::uint32_t kManyRays = 4;  // per pixel, where the costs of single rays are compared
 
 rtapi::Error failure(const std::string& text) {
-  return {"claims", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 // SVGF over what a setting's run has summed up.
 class Filter {
  public:
-  rtapi::Status create(Stage& stage, const ShaderLibraries& libraries, const Setting& setting,
+  rtapi::Status create(EffectRuns& runs, const DenoiseLibraries& libraries, const Setting& setting,
                        const std::string& name) {
-    const auto sum = stage.sum(setting);
-    if (!sum) return sum.error();
-    const auto mean = stage.frame().create_picture(stage.device(), name + " mean",
-                                                   rtapi::Format::kR32G32B32A32Float);
+    const rtapi::Device& device = runs.renderer().device();
+    const Frame& frame = runs.renderer().frame();
+    const auto mean =
+        frame.create_picture(device, name + " mean", rtapi::Format::kR32G32B32A32Float);
     if (!mean) return mean.error();
     mean_ = *mean;
-    auto denoiser = Denoiser::create(stage.device(), stage.frame(), libraries.denoise, name, mean_,
+    auto denoiser = Denoiser::create(device, frame, libraries, name, mean_,
                                      default_denoise(DenoiseMethod::kSvgf));
     if (!denoiser) return denoiser.error();
     denoiser_ = std::move(*denoiser);
-    return denoiser_.create_load(stage.device(), stage.frame(), libraries.denoise, *sum);
+    return denoiser_.create_load(device, frame, libraries, runs.sum(setting));
   }
-  rtapi::Result<double> run(Stage& stage) {
-    return stage.execute([&](rtapi::CommandList& list) {
-      denoiser_.load(list, stage.frame(), 1);
-      denoiser_.dispatch(list, stage.frame());
+  rtapi::Result<double> run(EffectRuns& runs) {
+    return runs.renderer().execute([&](rtapi::CommandList& list) {
+      denoiser_.load(list, runs.renderer().frame(), 1);
+      denoiser_.dispatch(list, runs.renderer().frame());
     });
   }
 
@@ -95,52 +97,49 @@ struct Plan {
   std::vector<Filtered> filters;
 };
 
-Setting of(Effect effect, std::uint32_t samples) {
-  Setting out{.effect = effect};
-  out.samples = samples;
-  return out;
-}
-
-rtapi::Result<Plan> make_plan(Stage& stage, const Options& options,
-                              const ShaderLibraries& libraries) {
+rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
   Plan plan;
-  Setting ao = of(Effect::kAo, 1);
-  ao.ao_radius = options.ao_radius;
+  const Scene& scene = runs.renderer().scene();
+  Setting ao = setting_of("ao");
+  ao.settings.radius = options.effects.at("ao").radius;
   constexpr std::pair<Cost, std::uint32_t> kAoRuns[] = {
       {kAo16, 16}, {kAoRay, kManyRays}, {kAo1, 1}};
   for (const auto& [cost, rays] : kAoRuns) {
-    ao.samples = rays;
+    ao.settings.samples = rays;
     plan.runs.push_back({cost, ao, cost == kAoRay});
   }
   plan.filters.push_back({kAoFilter, ao, nullptr});
-  if (stage.scene().sun) plan.runs.push_back({kSunRay, of(Effect::kSun, kManyRays), true});
-  if (!stage.scene().lights.empty()) {
-    const Setting contact = of(Effect::kContact, 1);
+  if (scene.sun) plan.runs.push_back({kSunRay, setting_of("sun", kManyRays), true});
+  if (!scene.lights.empty()) {
+    const Setting contact = setting_of("contact");
     plan.runs.push_back({kContactTrace, contact});
     plan.filters.push_back({kContactFilter, contact, nullptr});
   }
-  const Setting reflection = of(Effect::kReflections, 1);
+  const Setting reflection = setting_of("reflections");
   Setting without_sun = reflection;
-  without_sun.reflection.sun_at_hits = 0;
+  without_sun.change<ReflectionConstants>([](auto& constants) { constants.sun_at_hits = 0; });
   Setting trace = reflection;
-  trace.trace_only = true;
+  trace.settings.trace_only = true;
   plan.runs.push_back({kReflectionTrace, trace});
-  if (stage.scene().sun) plan.runs.push_back({kReflectionNoSun, without_sun});
+  if (scene.sun) plan.runs.push_back({kReflectionNoSun, without_sun});
   plan.runs.push_back({kReflection, reflection});
   plan.filters.push_back({kReflectionFilter, reflection, nullptr});
-  const Setting indirect = of(Effect::kGi, 1);
+  const Setting indirect = setting_of("gi");
   Setting black = indirect;
-  black.indirect.mode = IndirectMode::kHitBlack;
+  black.change<IndirectConstants>(
+      [](auto& constants) { constants.mode = IndirectMode::kHitBlack; });
   trace = black;
-  trace.trace_only = true;
+  trace.settings.trace_only = true;
   plan.runs.push_back({kIndirectTrace, trace});
   plan.runs.push_back({kIndirectBlack, black});
   plan.runs.push_back({kIndirect, indirect});
   plan.filters.push_back({kIndirectFilter, indirect, nullptr});
+  const auto libraries = denoise_libraries();
+  if (!libraries) return libraries.error();
   for (Filtered& filtered : plan.filters) {
     filtered.filter = std::make_unique<Filter>();
     if (const auto s =
-            filtered.filter->create(stage, libraries, filtered.setting,
+            filtered.filter->create(runs, *libraries, filtered.setting,
                                     fmt::format("claim {}", static_cast<int>(filtered.cost)));
         !s) {
       return s.error();
@@ -149,17 +148,17 @@ rtapi::Result<Plan> make_plan(Stage& stage, const Options& options,
   return plan;
 }
 
-rtapi::Result<Round> run_round(Stage& stage, Plan& plan) {
+rtapi::Result<Round> run_round(EffectRuns& runs, Plan& plan) {
   Round round;
   round.fill(-1);
   for (const Timed& timed : plan.runs) {
-    const auto ran = stage.run(timed.setting);
+    const auto ran = runs.run(timed.setting);
     if (!ran) return ran.error();
     const double rays = static_cast<double>(std::max<std::uint64_t>(ran->rays, 1));
     round[timed.cost] = timed.per_ray ? ran->ms / rays : ran->ms;
   }
   for (Filtered& filtered : plan.filters) {
-    const auto ms = filtered.filter->run(stage);
+    const auto ms = filtered.filter->run(runs);
     if (!ms) return ms.error();
     round[filtered.cost] = *ms;
   }
@@ -231,28 +230,28 @@ constexpr std::pair<const char*, const char*> kTexts[] = {
     {"contact shadows: trace, %", "53, 36"},
     {"contact shadows: denoise, %", "47, 64"}};
 
-rtapi::Result<std::vector<Round>> run_rounds(const Options& options, const Scene& scene,
-                                             const ShaderLibraries& libraries,
-                                             const std::string& cache,
-                                             const StageProgress& progress,
-                                             const std::atomic<bool>& stop) {
+rtapi::Result<Outcome> run_rounds(const Options& options, const Scene& scene,
+                                  const std::string& cache, const Progress& progress,
+                                  std::vector<Round>& rounds) {
   const auto print = [](const std::string& text) {
     std::fprintf(stderr, "northlight: %s\n", text.c_str());
   };
-  auto stage = Stage::create(options, scene, libraries, {.lights = true, .volume = true}, cache,
-                             progress, stop, print);
-  if (!stage) return stage.error();
-  auto plan = make_plan(**stage, options, libraries);
+  std::unique_ptr<EffectRuns> runs;
+  const auto created =
+      EffectRuns::create(options, scene, {"ao", "sun", "local", "contact", "gi", "reflections"},
+                         cache, progress, print, runs);
+  if (!is_done(created)) return created;
+  auto plan = make_plan(*runs, options);
   if (!plan) return plan.error();
-  std::vector<Round> rounds;
   // One uncounted round first, so that pipelines, caches and histories exist.
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
-    const auto round = run_round(**stage, *plan);
+    const auto round = run_round(*runs, *plan);
     if (!round) return round.error();
     if (repeat > 0) rounds.push_back(*round);
-    progress(options.backend, (repeat + 1.0) / (options.repeats + 1.0));
+    const double done = (repeat + 1.0) / (options.repeats + 1.0);
+    if (!progress(options.backend, done)) return Outcome::kStopped;
   }
-  return rounds;
+  return Outcome::kDone;
 }
 
 bool has_vulkan() {
@@ -267,15 +266,12 @@ std::string number(const std::optional<double>& value) {
 
 }  // namespace
 
-rtapi::Result<ClaimTable> measure_claims(const Options& options, const Scene& scene,
-                                         const ShaderLibraries& libraries,
-                                         const StageProgress& progress,
-                                         const std::atomic<bool>& stop) {
+rtapi::Result<Outcome> measure_claims(const Options& options, const Scene& scene,
+                                      const Progress& progress, ClaimTable& table) {
   const std::string cache = options.out + "/measure-cache";
   std::error_code failed;
   std::filesystem::create_directories(cache, failed);
   if (failed) return failure("cannot make the folder " + cache + ": " + failed.message());
-  ClaimTable table;
   for (const auto& [text, seed] : kTexts) table.claims.push_back({text, seed, {}});
   // In this order, so that the second run finds the volume that the first one bakes.
   for (const std::string& backend : {std::string("embree"), std::string("vulkan")}) {
@@ -283,16 +279,17 @@ rtapi::Result<ClaimTable> measure_claims(const Options& options, const Scene& sc
     Options own = options;
     own.backend = backend;
     if (backend == "vulkan") {
-      own.width = std::max(options.width / 4, 1u);
-      own.height = std::max(options.height / 4, 1u);
+      own.frame.width = std::max(options.frame.width / 4, 1u);
+      own.frame.height = std::max(options.frame.height / 4, 1u);
     }
-    const auto rounds = run_rounds(own, scene, libraries, cache, progress, stop);
-    if (!rounds) return rounds.error();
-    table.backends.push_back(fmt::format("{} {} x {}", backend, own.width, own.height));
-    const auto values = numbers(*rounds);
+    std::vector<Round> rounds;
+    const auto ran = run_rounds(own, scene, cache, progress, rounds);
+    if (!is_done(ran)) return ran;
+    table.backends.push_back(fmt::format("{} {} x {}", backend, own.frame.width, own.frame.height));
+    const auto values = numbers(rounds);
     for (std::size_t i = 0; i < values.size(); ++i) table.claims[i].here.push_back(values[i]);
   }
-  return table;
+  return Outcome::kDone;
 }
 
 std::string as_text(const ClaimTable& table) {
@@ -320,21 +317,20 @@ Table as_csv(const ClaimTable& table) {
   return out;
 }
 
-rtapi::Status run_claims(const Options& options, const Scene& scene,
-                         const ShaderLibraries& libraries, const StageProgress& progress,
-                         const std::atomic<bool>& stop) {
-  const auto table = measure_claims(options, scene, libraries, progress, stop);
-  if (!table) return table.error();
-  const std::string text = write_csv(as_csv(*table)), path = options.out + "/claims.csv";
+rtapi::Result<Outcome> run_claims(const Options& options, const Scene& scene,
+                                  const Progress& progress) {
+  ClaimTable table;
+  if (const auto s = measure_claims(options, scene, progress, table); !is_done(s)) return s;
+  const std::string text = write_csv(as_csv(table)), path = options.out + "/claims.csv";
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
   if (const auto s = write_file_atomically(path, {bytes, text.size()}); !s.ok()) {
     return failure(s.error());
   }
   std::printf("%s, median of %u rounds%s\n%s\nwrote %s\n", options.scene.c_str(), options.repeats,
-              options.cpu_clock ? ", CPU time over threads" : "", as_text(*table).c_str(),
+              options.cpu_clock ? ", CPU time over threads" : "", as_text(table).c_str(),
               path.c_str());
   std::fflush(stdout);
-  return {};
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

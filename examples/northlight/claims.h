@@ -3,14 +3,13 @@
 // measured here on each backend.
 #pragma once
 
-#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/image/csv.h"
+#include "frame_result.h"
 #include "options.h"
-#include "stage.h"
 
 namespace northlight {
 
@@ -32,17 +31,12 @@ kaamos::effects::Table as_csv(const ClaimTable& table);
 
 // Measures on Embree and, if the machine has it, on Vulkan at a quarter of the width and height.
 // The numbers are medians over options.repeats rounds of ratios within a round; a claim about
-// something that the scene lacks has no number. An error with an empty id means that `stop` was
-// set.
-rtapi::Result<ClaimTable> measure_claims(const Options& options,
-                                         const kaamos::effects::Scene& scene,
-                                         const ShaderLibraries& libraries,
-                                         const StageProgress& progress,
-                                         const std::atomic<bool>& stop);
+// something that the scene lacks has no number.
+rtapi::Result<Outcome> measure_claims(const Options& options, const kaamos::effects::Scene& scene,
+                                      const Progress& progress, ClaimTable& table);
 
 // Measures, prints, and writes claims.csv into options.out.
-rtapi::Status run_claims(const Options& options, const kaamos::effects::Scene& scene,
-                         const ShaderLibraries& libraries, const StageProgress& progress,
-                         const std::atomic<bool>& stop);
+rtapi::Result<Outcome> run_claims(const Options& options, const kaamos::effects::Scene& scene,
+                                  const Progress& progress);
 
 }  // namespace northlight

@@ -5,52 +5,40 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "effects/image/heat_map.h"
 #include "effects/image/png.h"
 
 namespace northlight {
 
-using kaamos::effects::RayPass;
+using namespace kaamos::effects;
 
-rtapi::Result<std::vector<std::pair<std::string, rtapi::TableDescription>>>
-Renderer::describe_tables(const ShaderLibraries& libraries) {
-  std::vector<std::pair<std::string, rtapi::TableDescription>> out;
-  for (const RayStep& step : steps(libraries)) {
-    const auto pass = RayPass::create(device_, frame_, gpu_, step.desc);
-    if (!pass) return pass.error();
-    rtapi::TableDescriptionDesc desc;
-    desc.Dispatch = pass->tables();
-    desc.TopLevel = gpu_.top_level.GetGPUVirtualAddress();
-    for (std::uint32_t type = 0; type < kaamos::effects::kRayTypeCount; ++type) {
-      desc.RayTypes.push_back({type == kaamos::effects::kRayTypeSurface ? "surface" : "visibility",
-                               type, kaamos::effects::kRayTypeCount, type});
-    }
-    auto described = rtapi::DescribeShaderTables(device_, pass->pipeline(), desc);
-    if (!described) return described.error();
-    out.emplace_back(step.desc.name, std::move(*described));
+namespace {
+
+rtapi::Status explain_band(const Options& options, Inspection& seen, rtapi::CommandQueue& queue,
+                           rtapi::CommandList& list, const std::string& pass,
+                           std::uint32_t first_row, std::uint32_t row_count) {
+  const auto& chosen = *options.explain;
+  if (chosen.second < first_row || chosen.second >= first_row + row_count) {
+    return queue.ExecuteAndWait(list);
   }
-  return out;
+  auto pixel =
+      rtapi::ExplainPixel(queue, list, {.X = chosen.first, .Y = chosen.second - first_row});
+  if (!pixel) return pixel.error();
+  seen.explained.push_back({pass, first_row, std::move(*pixel)});
+  return {};
 }
 
-rtapi::Status Renderer::execute_band(rtapi::CommandList& list, const std::string& pass,
-                                     std::uint32_t first_row, std::uint32_t row_count,
-                                     FrameResult& result) {
-  const auto& chosen = options_.explain;
-  if (chosen && chosen->second >= first_row && chosen->second < first_row + row_count) {
-    auto pixel =
-        rtapi::ExplainPixel(queue_, list, {.X = chosen->first, .Y = chosen->second - first_row});
-    if (!pixel) return pixel.error();
-    result.explained.push_back({pass, first_row, std::move(*pixel)});
-    return device_.GetDeviceRemovedReason();
-  }
-  if (options_.heatmap.empty()) return queue_.ExecuteAndWait(list);
-  const auto counts = rtapi::CollectPixelStatistics(queue_, list);
+rtapi::Status count_band(const Options& options, Inspection& seen, rtapi::CommandQueue& queue,
+                         rtapi::CommandList& list, std::uint32_t first_row) {
+  const auto counts = rtapi::CollectPixelStatistics(queue, list);
   if (!counts) return counts.error();
-  result.pixel_counts.resize(std::size_t{options_.width} * options_.height);
+  const std::size_t width = options.frame.width;
+  seen.pixel_counts.resize(width * options.frame.height);
   for (std::size_t i = 0; i < counts->Pixels.size(); ++i) {
     const rtapi::PixelStatistics& from = counts->Pixels[i];
-    rtapi::PixelStatistics& to = result.pixel_counts[std::size_t{first_row} * options_.width + i];
+    rtapi::PixelStatistics& to = seen.pixel_counts[first_row * width + i];
     to.TraceRayCalls += from.TraceRayCalls;
     to.AnyHitCalls += from.AnyHitCalls;
     to.Candidates += from.Candidates;
@@ -59,8 +47,44 @@ rtapi::Status Renderer::execute_band(rtapi::CommandList& list, const std::string
   return {};
 }
 
-std::string print_tables(const std::vector<std::pair<std::string, rtapi::TableDescription>>& passes,
-                         bool json) {
+}  // namespace
+
+void inspect(const Options& options, FrameRenderer& renderer, Inspection& seen) {
+  const rtapi::Device device = renderer.device();
+  if (options.explain) {
+    renderer.set_band_executor([&options, &seen, device](auto& queue, auto& list, const auto& pass,
+                                                         auto first_row, auto row_count) {
+      const auto done = explain_band(options, seen, queue, list, pass, first_row, row_count);
+      return done ? device.GetDeviceRemovedReason() : done;
+    });
+  } else if (!options.heatmap.empty()) {
+    renderer.set_band_executor(
+        [&options, &seen](auto& queue, auto& list, const auto&, auto first_row, auto) {
+          return count_band(options, seen, queue, list, first_row);
+        });
+  }
+}
+
+rtapi::Result<PassTables> describe_tables(const FrameRenderer& renderer) {
+  const auto passes = renderer.ray_passes();
+  if (!passes) return passes.error();
+  PassTables out;
+  for (const auto& [name, pass] : *passes) {
+    rtapi::TableDescriptionDesc desc;
+    desc.Dispatch = pass.tables();
+    desc.TopLevel = renderer.gpu_scene().top_level.GetGPUVirtualAddress();
+    for (std::uint32_t type = 0; type < kRayTypeCount; ++type) {
+      desc.RayTypes.push_back(
+          {type == kRayTypeSurface ? "surface" : "visibility", type, kRayTypeCount, type});
+    }
+    auto described = rtapi::DescribeShaderTables(renderer.device(), pass.pipeline(), desc);
+    if (!described) return described.error();
+    out.emplace_back(name, std::move(*described));
+  }
+  return out;
+}
+
+std::string print_tables(const PassTables& passes, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::object();
     for (const auto& [name, tables] : passes) {
@@ -93,18 +117,18 @@ std::string print_explanations(const std::vector<ExplainedDispatch>& dispatches,
   return out;
 }
 
-std::string write_heatmap(const Options& options, const FrameResult& frame, std::string& said) {
+std::string write_heatmap(const Options& options, const Inspection& seen, std::string& said) {
   std::vector<std::uint32_t> counts;
-  counts.reserve(frame.pixel_counts.size());
-  for (const rtapi::PixelStatistics& pixel : frame.pixel_counts) {
+  counts.reserve(seen.pixel_counts.size());
+  for (const rtapi::PixelStatistics& pixel : seen.pixel_counts) {
     counts.push_back(options.heatmap == "anyhit"       ? pixel.AnyHitCalls
                      : options.heatmap == "candidates" ? pixel.Candidates
                      : options.heatmap == "depth"      ? pixel.MaxDepth
                                                        : pixel.TraceRayCalls);
   }
-  const auto picture = kaamos::effects::heat_map(options.width, options.height, counts);
+  const auto picture = heat_map(options.frame.width, options.frame.height, counts);
   const std::string path = options.out + "/heatmap-" + options.heatmap + ".png";
-  if (const auto written = kaamos::effects::write_png(path, picture.image); !written.ok()) {
+  if (const auto written = write_png(path, picture.image); !written.ok()) {
     return written.error();
   }
   said = fmt::format("wrote {}: black is 0, white {} or more; the most is {}, the mean {:.2f}\n",

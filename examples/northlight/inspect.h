@@ -1,19 +1,42 @@
 // SPDX-License-Identifier: MIT
-// What --tables, --explain and --heatmap print and write.
+// What --tables, --explain and --heatmap look at, print and write.
 #pragma once
 
-#include <string>
+#include <rtapi/explain.h>
+#include <rtapi/table_description.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "effects/northlight/frame_renderer.h"
 #include "options.h"
-#include "renderer.h"
 
 namespace northlight {
 
+// One dispatch in which the pixel of --explain lies.
+struct ExplainedDispatch {
+  std::string pass;
+  std::uint32_t first_row = 0;  // of the band; the dispatch's y counts from there
+  rtapi::PixelExplanation pixel;
+};
+
+// What was seen of a frame.
+struct Inspection {
+  std::vector<ExplainedDispatch> explained;          // with --explain
+  std::vector<rtapi::PixelStatistics> pixel_counts;  // with --heatmap: width * height
+};
+
+// Makes the renderer's next frames fill `seen`, which must stay, as the options ask for.
+void inspect(const Options& options, kaamos::effects::FrameRenderer& renderer, Inspection& seen);
+
+using PassTables = std::vector<std::pair<std::string, rtapi::TableDescription>>;
+// The tables of each pass, by its name.
+rtapi::Result<PassTables> describe_tables(const kaamos::effects::FrameRenderer& renderer);
 // Each pass with its name, as text or as one JSON object.
-std::string print_tables(const std::vector<std::pair<std::string, rtapi::TableDescription>>& passes,
-                         bool json);
+std::string print_tables(const PassTables& passes, bool json);
 std::string print_explanations(const std::vector<ExplainedDispatch>& dispatches, bool json);
 // Writes <out>/heatmap-<kind>.png and describes its colors in `said`. Returns what went wrong.
-std::string write_heatmap(const Options& options, const FrameResult& frame, std::string& said);
+std::string write_heatmap(const Options& options, const Inspection& seen, std::string& said);
 
 }  // namespace northlight

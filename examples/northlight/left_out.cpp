@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace northlight {
@@ -43,43 +44,38 @@ std::vector<Part> parts_left_out(const Options& options, const Scene& scene) {
     }
     out.push_back(std::move(part));
   }
-  const bool glass = std::any_of(scene.instances.begin(), scene.instances.end(),
-                                 [](const Instance& i) { return i.mask & kMaskTransparent; });
-  if (options.transparent && !glass) {
-    out.push_back({"glass", scene, options});
-    out.back().options.keep_glass = true;
-  }
-  if (options.local && scene.lights.empty()) {
-    out.push_back({"local lights and contact shadows", scene, options});
-    out.back().options.keep_local = true;
+  for (const Effect& effect : northlight_effects()) {
+    const bool is_chosen = options.frame.effects.count(effect.name) != 0;
+    if (!is_chosen || !effect.includes.empty() || scene_offers(scene, effect.needs)) continue;
+    out.push_back({effect.about, scene, options});
+    for (auto& [name, settings] : out.back().options.frame.effects) {
+      const Effect& other = *find_effect(northlight_effects(), name);
+      if (&other != &effect && other.includes != effect.name) continue;
+      settings.keep = true;
+      if (&other != &effect) out.back().name += " and " + other.about;
+    }
   }
   return out;
 }
 
 // One scene on a device of its own that can be rendered again and again.
 struct Run {
-  std::unique_ptr<Renderer> renderer;
+  std::unique_ptr<FrameRenderer> renderer;
   std::vector<double> ms;
 
-  static rtapi::Result<Run> create(const Options& options, const Scene& scene,
-                                   const ShaderLibraries& libraries, const Progress& progress,
-                                   const std::atomic<bool>& stop) {
-    auto renderer = Renderer::create(options, scene, [](const std::string&) {});
-    if (!renderer) return renderer.error();
-    FrameResult ignored;
-    if (const auto s = (*renderer)->prepare(libraries, progress, stop, ignored); !s) {
-      return s.error();
-    }
-    return Run{std::move(*renderer), {}};
+  rtapi::Result<Outcome> create(const Options& options, const Scene& scene,
+                                const Progress& progress) {
+    auto created = create_renderer(options, scene, [](const std::string&) {});
+    if (!created) return created.error();
+    renderer = std::move(*created);
+    return renderer->prepare(progress);
   }
-  rtapi::Status render(const std::atomic<bool>& stop) {
-    FrameResult result;
-    const auto quiet = [](const std::string&, double) {};
-    if (const auto s = renderer->render_frame(quiet, stop, result); !s) return s;
+  rtapi::Result<Outcome> render(const Progress& progress) {
+    if (const auto s = renderer->render(progress); !is_done(s)) return s;
     double sum = 0;
-    for (const PassStatistics& pass : result.passes) sum += pass.ms;
+    for (const PassStatistics& pass : renderer->passes()) sum += pass.ms;
     ms.push_back(sum);
-    return {};
+    return Outcome::kDone;
   }
   double median() {
     std::sort(ms.begin(), ms.end());
@@ -89,29 +85,30 @@ struct Run {
 
 }  // namespace
 
-rtapi::Result<std::string> measure_left_out(const Options& options, const Scene& scene,
-                                            const ShaderLibraries& libraries,
-                                            const Progress& progress,
-                                            const std::atomic<bool>& stop) {
-  std::string out =
+rtapi::Result<Outcome> measure_left_out(const Options& options, const Scene& scene,
+                                        const Progress& progress, std::string& table) {
+  table =
       fmt::format("{:<46}{:>12}{:>12}{:>12}\n", "left out", "ms without", "ms with", "saved ms");
   for (const Part& part : parts_left_out(options, scene)) {
-    auto without = Run::create(options, scene, libraries, progress, stop);
-    if (!without) return without.error();
-    auto with = Run::create(part.options, part.scene, libraries, progress, stop);
-    if (!with) return with.error();
+    Run without, with;
+    if (const auto s = without.create(options, scene, progress); !is_done(s)) return s;
+    if (const auto s = with.create(part.options, part.scene, progress); !is_done(s)) return s;
     for (int round = 0; round < kRounds; ++round) {
-      for (Run* run : {&*without, &*with}) {
-        if (const auto s = run->render(stop); !s) return s.error();
+      const auto show = [&](const std::string&, double) {
+        return progress(part.name, static_cast<double>(round) / kRounds);
+      };
+      for (Run* run : {&without, &with}) {
+        if (const auto s = run->render(show); !is_done(s)) return s;
       }
-      progress(part.name, (round + 1.0) / kRounds);
+      if (!progress(part.name, (round + 1.0) / kRounds)) return Outcome::kStopped;
     }
-    const double less = without->median();
-    const double more = with->median();
-    out += fmt::format("{:<46}{:>12.1f}{:>12.1f}{:>12.1f}\n", part.name, less, more, more - less);
+    const double less = without.median();
+    const double more = with.median();
+    table += fmt::format("{:<46}{:>12.1f}{:>12.1f}{:>12.1f}\n", part.name, less, more, more - less);
   }
-  return out + fmt::format("medians of {} frames each, in turn, at {}x{}\n", kRounds, options.width,
-                           options.height);
+  table += fmt::format("medians of {} frames each, in turn, at {}x{}\n", kRounds,
+                       options.frame.width, options.frame.height);
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "claims.h"
 #include "effects/scene/built_in.h"
@@ -15,13 +16,13 @@
 #include "effects/scene/material_override.h"
 #include "effects/scene/pieces.h"
 #include "effects/scene/staging.h"
+#include "frame_result.h"
 #include "inspect.h"
 #include "left_out.h"
 #include "measure.h"
 #include "options.h"
 #include "output.h"
 #include "reference.h"
-#include "renderer.h"
 #include "sequence.h"
 #include "split.h"
 #include "watch.h"
@@ -29,6 +30,7 @@
 namespace {
 
 using namespace northlight;
+using kaamos::effects::FrameRenderer;
 using kaamos::effects::Scene;
 
 constexpr int kInterrupted = 130;  // 128 + SIGINT, as shells report it
@@ -87,79 +89,88 @@ bool override_materials(const Options& options, Scene& scene) {
   return true;
 }
 
-// A progress bar on a terminal, nothing in a log.
-void show_progress(const std::string& pass, double done) {
+// A progress bar on a terminal, nothing in a log. False after Ctrl-C.
+bool show_progress(const std::string& pass, double done) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (!terminal) return;
+  if (!terminal) return !stop_requested;
   constexpr int kWidth = 40;
   const int filled = static_cast<int>(done * kWidth);
   std::fprintf(stderr, "\r%-20s [%.*s%*s] %3.0f %%%s", pass.c_str(), filled,
                "########################################", kWidth - filled, "", done * 100,
                done >= 1 ? "\n" : "");
   std::fflush(stderr);
+  return !stop_requested;
 }
 
-int report(const rtapi::Error& error, const Options& options) {
-  if (error.id.number == 0) {
-    std::fprintf(stderr, "\n");
-    say_error("interrupted: nothing was written, earlier results in " + options.out +
-              " are unchanged");
-    return kInterrupted;
-  }
+int report(const rtapi::Error& error) {
   say_error(error.message);
   return 1;
 }
 
-int render_once(Renderer& renderer, const ShaderLibraries& libraries, const Options& options,
-                const Scene& scene) {
-  auto frame = renderer.render(libraries, show_progress, stop_requested);
-  if (!frame) return report(frame.error(), options);
-  if (options.reference > 0) {
-    const auto added =
-        add_reference(options, scene, libraries, show_progress, stop_requested, say_error, *frame);
-    if (!added) return report(added.error(), options);
-  }
+// The exit code of work that may be stopped.
+int report(const rtapi::Result<Outcome>& result, const Options& options) {
+  if (!result) return report(result.error());
+  if (*result == Outcome::kDone) return 0;
+  std::fprintf(stderr, "\n");
+  say_error("interrupted: nothing was written, earlier results in " + options.out +
+            " are unchanged");
+  return kInterrupted;
+}
+
+int write_frame(FrameRenderer& renderer, const Options& options, const FrameResult& frame,
+                const Inspection& seen) {
   if (options.pixel) {
-    std::fputs(describe_pixel(*frame, options.pixel->first, options.pixel->second).c_str(), stdout);
+    std::fputs(describe_pixel(frame, options.pixel->first, options.pixel->second).c_str(), stdout);
     return 0;
   }
   if (options.explain) {
-    std::fputs(print_explanations(frame->explained, options.json).c_str(), stdout);
+    std::fputs(print_explanations(seen.explained, options.json).c_str(), stdout);
     return 0;
   }
   if (!options.heatmap.empty()) {
     std::string said;
-    const std::string error = write_heatmap(options, *frame, said);
+    const std::string error = write_heatmap(options, seen, said);
     if (!error.empty()) say_error(error);
     std::fputs(said.c_str(), stdout);
     return error.empty() ? 0 : 1;
   }
-  if (const std::string error = write_results(options, scene, renderer, *frame); !error.empty()) {
+  if (const std::string error = write_results(options, renderer.scene(), renderer, frame);
+      !error.empty()) {
     say_error(error);
     return 1;
   }
   std::printf("%s\nwrote %s/frame.png, frame.exr, stats.json and a PNG for each layer\n",
-              describe(renderer, *frame).c_str(), options.out.c_str());
+              describe(renderer, frame).c_str(), options.out.c_str());
   std::fflush(stdout);
   return 0;
 }
 
-int render_frames(Renderer& renderer, const ShaderLibraries& libraries, const Options& options,
-                  const Scene& scene) {
+int render_once(FrameRenderer& renderer, const Options& options) {
+  Inspection seen;
+  inspect(options, renderer, seen);
+  FrameResult frame;
+  auto done = render_frame(renderer, show_progress, frame);
+  if (is_done(done) && options.reference > 0) {
+    done = add_reference(options, renderer.scene(), show_progress, say_error, frame);
+  }
+  return is_done(done) ? write_frame(renderer, options, frame, seen) : report(done, options);
+}
+
+int render_frames(FrameRenderer& renderer, const Options& options) {
   StagedFiles files(options.out);
   std::string error = files.create();
   if (error.empty()) {
-    const auto sequence =
-        render_sequence(renderer, libraries, options, scene, show_progress, stop_requested, files);
-    if (!sequence) return report(sequence.error(), options);
-    error = add_results(options, scene, renderer, *sequence, files);
+    SequenceResult sequence;
+    const auto done = render_sequence(renderer, options, show_progress, files, sequence);
+    if (!is_done(done)) return report(done, options);
+    error = add_results(options, renderer.scene(), renderer, sequence, files);
     if (error.empty()) error = files.publish();
     if (error.empty()) {
       remove_later_frames(options.out, options.frames);
       std::printf(
           "%s\nwrote %s/frame_0000.png to frame_%04u.png, the last one's layers, "
           "stats.json\n",
-          describe(renderer, *sequence).c_str(), options.out.c_str(), options.frames - 1);
+          describe(renderer, sequence).c_str(), options.out.c_str(), options.frames - 1);
       return 0;
     }
   }
@@ -167,44 +178,30 @@ int render_frames(Renderer& renderer, const ShaderLibraries& libraries, const Op
   return 1;
 }
 
-int measure(const Options& options, const Scene& scene) {
-  const auto libraries = built_in_libraries();
-  if (!libraries) return report(libraries.error(), options);
-  const auto done = run_measure(options, scene, *libraries, show_progress, stop_requested);
-  return done ? 0 : report(done.error(), options);
-}
-
-int claims(const Options& options, const Scene& scene) {
-  const auto libraries = built_in_libraries();
-  if (!libraries) return report(libraries.error(), options);
-  const auto done = run_claims(options, scene, *libraries, show_progress, stop_requested);
-  return done ? 0 : report(done.error(), options);
-}
-
-int split(const Options& options, const Scene& scene) {
-  const auto libraries = built_in_libraries();
-  if (!libraries) return report(libraries.error(), options);
-  const auto done = run_split(options, scene, *libraries, show_progress, stop_requested, say_error);
-  return done ? 0 : report(done.error(), options);
+int print_left_out(const Options& options, const Scene& scene) {
+  std::string table;
+  const auto done = measure_left_out(options, scene, show_progress, table);
+  if (is_done(done)) std::fputs(table.c_str(), stdout);
+  return report(done, options);
 }
 
 // Runs until Ctrl-C: shows errors in shaders and waits for the next change.
-int watch(Renderer& renderer, const Options& options, const Scene& scene) {
+int watch(FrameRenderer& renderer, const Options& options) {
   const auto folder = find_effects_folder();
   if (folder.empty()) {
     say_error("--watch needs the effects' shader files: name their folder in $KAAMOS_EFFECTS");
     return 1;
   }
-  ShaderWatcher watcher(folder, options.whole_frame(), !options.sort_rays.empty());
+  ShaderWatcher watcher(folder, kaamos::effects::frame_libraries(renderer.settings()));
   std::printf("watching %s; Ctrl-C ends\n", folder.c_str());
   do {
-    const auto libraries = watcher.compile();
+    auto libraries = watcher.compile();
     if (!libraries) {
       std::fprintf(stderr, "%s\n", libraries.error().message.c_str());
-    } else if (const int code = render_once(renderer, *libraries, options, scene);
-               code == kInterrupted) {
-      return code;
+      continue;
     }
+    renderer.set_libraries(std::move(*libraries));
+    if (render_once(renderer, options) == kInterrupted) return kInterrupted;
   } while (watcher.wait(stop_requested));
   return 0;
 }
@@ -236,26 +233,23 @@ int main(int argc, char** argv) {
   prepare_geometry(*options, scene);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  if (!options->measure.empty()) return measure(*options, scene);
-  if (options->claims) return claims(*options, scene);
-  if (!options->split.empty()) return split(*options, scene);
-  auto renderer = Renderer::create(*options, scene, say_error);
-  if (!renderer) return report(renderer.error(), *options);
-  if (options->watch) return watch(**renderer, *options, scene);
-  const auto libraries = built_in_libraries();
-  if (!libraries) return report(libraries.error(), *options);
-  if (options->measure_left_out) {
-    const auto table = measure_left_out(*options, scene, *libraries, show_progress, stop_requested);
-    if (!table) return report(table.error(), *options);
-    std::fputs(table->c_str(), stdout);
-    return 0;
+  if (!options->measure.empty()) {
+    return report(run_measure(*options, scene, show_progress), *options);
   }
+  if (options->claims) return report(run_claims(*options, scene, show_progress), *options);
+  if (!options->split.empty()) {
+    return report(run_split(*options, scene, show_progress, say_error), *options);
+  }
+  if (options->measure_left_out) return print_left_out(*options, scene);
+  const auto renderer = create_renderer(*options, scene, say_error);
+  if (!renderer) return report(renderer.error());
+  if (options->watch) return watch(**renderer, *options);
   if (!options->tables.empty()) {
-    const auto tables = (*renderer)->describe_tables(*libraries);
-    if (!tables) return report(tables.error(), *options);
+    const auto tables = describe_tables(**renderer);
+    if (!tables) return report(tables.error());
     std::fputs(print_tables(*tables, options->tables == "json").c_str(), stdout);
     return 0;
   }
-  if (options->frames > 0) return render_frames(**renderer, *libraries, *options, scene);
-  return render_once(**renderer, *libraries, *options, scene);
+  if (options->frames > 0) return render_frames(**renderer, *options);
+  return render_once(**renderer, *options);
 }

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 
 #include "effects/common/file.h"
@@ -19,7 +20,7 @@ using namespace kaamos::effects;
 namespace {
 
 rtapi::Error failure(const std::string& text) {
-  return {"measure", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 void print_message(const std::string& text) {
@@ -37,47 +38,47 @@ struct Record {
   Errors errors;
 };
 
-rtapi::Status run_setting(Stage& stage, const Setting& setting, const Target& target,
+rtapi::Status run_setting(EffectRuns& runs, const Setting& setting, const Target& target,
                           Record& record) {
-  const auto ran = stage.run(setting);
+  const auto ran = runs.run(setting);
   if (!ran) return ran.error();
   record.ms.push_back(ran->ms);
-  record.traced = static_cast<double>(ran->rays) / stage.frame().width() / stage.frame().height();
-  const auto image = stage.read(setting);
+  const Frame& frame = runs.renderer().frame();
+  record.traced = static_cast<double>(ran->rays) / frame.width() / frame.height();
+  const auto image = runs.read(setting);
   if (!image) return image.error();
   if (const auto error = record.errors.add(*image, target); !error.empty()) return failure(error);
   return {};
 }
 
-rtapi::Result<Target> make_target(Stage& stage, const MeasurePlan& plan,
-                                  const MeasurePlan::Reference& reference, const Options& options,
-                                  const StageProgress& progress) {
-  rtapi::Result<Target> target = Target{};
+rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
+                                   const MeasurePlan::Reference& reference, const Options& options,
+                                   const Progress& progress, Target& target) {
   if (reference.exact) {
-    if (const auto ran = stage.run(reference.setting); !ran) return ran.error();
-    const auto image = stage.read(reference.setting);
+    if (const auto ran = runs.run(reference.setting); !ran) return ran.error();
+    const auto image = runs.read(reference.setting);
     if (!image) return image.error();
-    const auto mask = stage.mask(plan.needs.glass);
+    const auto mask = runs.mask(plan.glass);
     if (!mask) return mask.error();
-    target->image = *image;
-    target->mask = *mask;
+    target.image = *image;
+    target.mask = *mask;
     if (std::find(mask->begin(), mask->end(), 1) == mask->end()) {
       return failure(
           "no pixel shows glass: choose another scene, such as glass-stack, or turn a "
           "material into glass, as in --material NAME:alpha=0.3,roughness=0");
     }
   } else {
-    target = make_reference(stage, reference.setting, options.measure_reference, reference.name,
-                            cache_folder(options), progress);
-    if (!target) return target.error();
+    const auto made = make_reference(runs, reference.setting, options.measure_reference,
+                                     reference.name, cache_folder(options), progress, target);
+    if (!is_done(made)) return made;
   }
-  if (reference.light) target->exposure = stage.scene().exposure;
-  return target;
+  if (reference.light) target.exposure = runs.renderer().scene().exposure;
+  return Outcome::kDone;
 }
 
 std::string scene_text(const Options& options) {
-  std::string text =
-      fmt::format("{}, {} x {}, {}", options.scene, options.width, options.height, options.backend);
+  std::string text = fmt::format("{}, {} x {}, {}", options.scene, options.frame.width,
+                                 options.frame.height, options.backend);
   if (options.threads > 0) text += fmt::format(", {} threads", options.threads);
   return text;
 }
@@ -103,53 +104,52 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene& scene,
-                                            const ShaderLibraries& libraries,
-                                            const StageProgress& progress,
-                                            const std::atomic<bool>& stop) {
+rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene,
+                                      const Progress& progress, MeasuredTable& table) {
   const MeasurePlan plan = measure_plan(options);
   if (options.measure == "sun" && !scene.sun) return failure("the scene has no sun to measure");
-  auto created = Stage::create(options, scene, libraries, plan.needs, cache_folder(options),
-                               progress, stop, print_message);
-  if (!created) return created.error();
-  Stage& stage = **created;
-  MeasuredTable table;
+  std::unique_ptr<EffectRuns> runs;
+  const auto created = EffectRuns::create(options, scene, plan.effects, cache_folder(options),
+                                          progress, print_message, runs);
+  if (!is_done(created)) return created;
   table.title = plan.title + ": time against error";
   table.subtitle = fmt::format("{}; {}; median of {} interleaved runs{}", scene_text(options),
                                plan.signal, options.repeats, clock_text(options));
   std::map<std::string, Target> targets;
   for (const auto& reference : plan.references) {
-    auto target = make_target(stage, plan, reference, options, progress);
-    if (!target) return target.error();
+    Target target;
+    const auto made = make_target(*runs, plan, reference, options, progress, target);
+    if (!is_done(made)) return made;
     table.about.push_back(
         fmt::format("reference {}: {}, {}", reference.name, reference.about,
                     reference.exact ? std::string("exact")
                                     : fmt::format("{} samples, its own RMSE {:.2g}",
-                                                  options.measure_reference, target->own_rmse)));
-    targets.emplace(reference.name, std::move(*target));
+                                                  options.measure_reference, target.own_rmse)));
+    targets.emplace(reference.name, std::move(target));
   }
   // One uncounted run of everything first, which warms up pipelines and caches.
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
-    if (const auto s = stage.set_seed(options.seed + repeat); !s) return s.error();
+    if (const auto s = runs->set_seed(options.frame.seed + repeat); !s) return s.error();
     if (repeat == 1) records.assign(plan.settings.size(), {});
     for (std::size_t i = 0; i < records.size(); ++i) {
       const MeasuredSetting& measured = plan.settings[i];
       if (const auto s =
-              run_setting(stage, measured.setting, targets.at(measured.reference), records[i]);
+              run_setting(*runs, measured.setting, targets.at(measured.reference), records[i]);
           !s) {
         return s.error();
       }
-      progress("measuring", (repeat + (i + 1.0) / static_cast<double>(records.size())) /
-                                (options.repeats + 1.0));
+      const double done =
+          (repeat + (i + 1.0) / static_cast<double>(records.size())) / (options.repeats + 1.0);
+      if (!progress("measuring", done)) return Outcome::kStopped;
     }
   }
   for (std::size_t i = 0; i < records.size(); ++i) {
     const MeasuredSetting& measured = plan.settings[i];
     const Target& target = targets.at(measured.reference);
     MeasuredRow row{measured.group, measured.label, measured.reference};
-    row.rays = std::max(measured.setting.samples, measured.setting.times_ao);
-    if (plan.needs.glass) row.rays = 1;
+    row.rays = std::max(measured.setting.settings.samples, measured.setting.times_ao);
+    if (plan.glass) row.rays = 1;
     row.traced = records[i].traced;
     row.ms = median(records[i].ms);
     row.ms_min = *std::min_element(records[i].ms.begin(), records[i].ms.end());
@@ -158,7 +158,7 @@ rtapi::Result<MeasuredTable> measure_effect(const Options& options, const Scene&
     row.steps = measured.steps;
     table.rows.push_back(row);
   }
-  return table;
+  return Outcome::kDone;
 }
 
 Table as_csv(const MeasuredTable& table) {
@@ -237,26 +237,26 @@ Plot as_plot(const MeasuredTable& table) {
   return plot;
 }
 
-rtapi::Status run_measure(const Options& options, const Scene& scene,
-                          const ShaderLibraries& libraries, const StageProgress& progress,
-                          const std::atomic<bool>& stop) {
+rtapi::Result<Outcome> run_measure(const Options& options, const Scene& scene,
+                                   const Progress& progress) {
   std::error_code failed;
   std::filesystem::create_directories(cache_folder(options), failed);
   if (failed) {
     return failure(
         fmt::format("cannot make the folder {}: {}", cache_folder(options), failed.message()));
   }
-  const auto table = options.measure == "svgf"
-                         ? measure_denoisers(options, scene, libraries, progress, stop)
-                         : measure_effect(options, scene, libraries, progress, stop);
-  if (!table) return table.error();
+  MeasuredTable table;
+  const auto measured = options.measure == "svgf"
+                            ? measure_denoisers(options, scene, progress, table)
+                            : measure_effect(options, scene, progress, table);
+  if (!is_done(measured)) return measured;
   const std::string path = options.out + "/measure-" + options.measure;
-  if (const auto s = write_text(path + ".csv", write_csv(as_csv(*table))); !s) return s;
-  if (const auto s = write_text(path + ".svg", plot_svg(as_plot(*table))); !s) return s;
-  std::fputs(as_text(*table).c_str(), stdout);
+  if (const auto s = write_text(path + ".csv", write_csv(as_csv(table))); !s) return s.error();
+  if (const auto s = write_text(path + ".svg", plot_svg(as_plot(table))); !s) return s.error();
+  std::fputs(as_text(table).c_str(), stdout);
   std::printf("\nwrote %s.csv and .svg\n", path.c_str());
   std::fflush(stdout);
-  return {};
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

@@ -2,16 +2,14 @@
 // northlight --measure EFFECT: time against error over an effect's quality settings.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "effect_runs.h"
 #include "effects/image/csv.h"
 #include "effects/image/plot.h"
 #include "measure_errors.h"
 #include "options.h"
-#include "stage.h"
 
 namespace northlight {
 
@@ -36,11 +34,13 @@ struct MeasurePlan {
   };
   std::vector<Reference> references;
   std::vector<MeasuredSetting> settings;
-  Stage::Needs needs;
+  std::vector<std::string> effects;  // that run
+  bool glass = false;                // only pixels that show glass count
 };
 
-// The names of effects for --measure, in the order of --help.
-const std::vector<std::string>& measured_effects();
+// What --measure takes, in the order of --help: every effect of the registry that traces rays, and
+// svgf.
+std::vector<std::string> measured_effects();
 // The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
 // Not for svgf.
@@ -71,23 +71,16 @@ kaamos::effects::Table as_csv(const MeasuredTable& table);
 std::string as_text(const MeasuredTable& table);
 kaamos::effects::Plot as_plot(const MeasuredTable& table);
 
-// An error with an empty id means that `stop` was set.
-rtapi::Result<MeasuredTable> measure_effect(const Options& options,
-                                            const kaamos::effects::Scene& scene,
-                                            const ShaderLibraries& libraries,
-                                            const StageProgress& progress,
-                                            const std::atomic<bool>& stop);
-rtapi::Result<MeasuredTable> measure_denoisers(const Options& options,
-                                               const kaamos::effects::Scene& scene,
-                                               const ShaderLibraries& libraries,
-                                               const StageProgress& progress,
-                                               const std::atomic<bool>& stop);
+rtapi::Result<Outcome> measure_effect(const Options& options, const kaamos::effects::Scene& scene,
+                                      const Progress& progress, MeasuredTable& table);
+rtapi::Result<Outcome> measure_denoisers(const Options& options,
+                                         const kaamos::effects::Scene& scene,
+                                         const Progress& progress, MeasuredTable& table);
 
 // Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References are kept in
 // its folder measure-cache.
-rtapi::Status run_measure(const Options& options, const kaamos::effects::Scene& scene,
-                          const ShaderLibraries& libraries, const StageProgress& progress,
-                          const std::atomic<bool>& stop);
+rtapi::Result<Outcome> run_measure(const Options& options, const kaamos::effects::Scene& scene,
+                                   const Progress& progress);
 
 // The middle value; for an even number of values, the lower of the middle two.
 double median(std::vector<double> values);

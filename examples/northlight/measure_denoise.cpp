@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <optional>
 
 #include "effects/common/sampling.h"
@@ -24,7 +25,7 @@ namespace {
 constexpr std::uint32_t kFrames = 8;
 
 rtapi::Error failure(const std::string& text) {
-  return {"measure", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 struct Method {
@@ -63,15 +64,16 @@ struct Subject {
 // A signal and its denoisers, which all see the same frames.
 class Signal {
  public:
-  Signal(Stage& stage, const Options& options, const ShaderLibraries& libraries)
-      : stage_(stage), options_(options), libraries_(libraries) {}
+  Signal(EffectRuns& runs, const Options& options)
+      : runs_(runs), renderer_(runs.renderer()), options_(options) {}
 
-  rtapi::Status create(const std::string& name, const Setting& setting, float exposure,
-                       const StageProgress& progress);
-  rtapi::Status measure(const StageProgress& progress);
+  rtapi::Result<Outcome> create(const std::string& name, const Setting& setting, float exposure,
+                                const Progress& progress);
+  rtapi::Result<Outcome> measure(const Progress& progress);
   void add_rows(MeasuredTable& table) const;
 
  private:
+  rtapi::Status create_subject(const Method& method, const DenoiseLibraries& libraries);
   rtapi::Result<FloatImage> read(const rtapi::Texture& picture) const;
   rtapi::Status add(const FloatImage& image, Place& place);
   rtapi::Status run_frame(std::uint32_t frame);
@@ -80,9 +82,9 @@ class Signal {
   void add_row(const std::string& group, const std::string& label, const Place& place,
                std::uint32_t rays, double trace_ms, MeasuredTable& table) const;
 
-  Stage& stage_;
+  EffectRuns& runs_;
+  FrameRenderer& renderer_;
   const Options& options_;
-  const ShaderLibraries& libraries_;
   std::string name_;
   Setting setting_;
   Target target_;
@@ -92,44 +94,47 @@ class Signal {
   std::vector<double> trace_ms_;
 };
 
-rtapi::Status Signal::create(const std::string& name, const Setting& setting, float exposure,
-                             const StageProgress& progress) {
+rtapi::Result<Outcome> Signal::create(const std::string& name, const Setting& setting,
+                                      float exposure, const Progress& progress) {
   name_ = name;
   setting_ = setting;
-  auto target = make_reference(stage_, setting, options_.measure_reference, name,
-                               options_.out + "/measure-cache", progress);
-  if (!target) return target.error();
-  target_ = std::move(*target);
+  const auto made = make_reference(runs_, setting, options_.measure_reference, name,
+                                   options_.out + "/measure-cache", progress, target_);
+  if (!is_done(made)) return made;
   target_.exposure = exposure;
-  const auto sum = stage_.sum(setting);
-  if (!sum) return sum.error();
-  const auto mean = stage_.frame().create_picture(stage_.device(), name + " mean",
-                                                  rtapi::Format::kR32G32B32A32Float);
+  const auto mean = renderer_.frame().create_picture(renderer_.device(), name + " mean",
+                                                     rtapi::Format::kR32G32B32A32Float);
   if (!mean) return mean.error();
   mean_ = *mean;
+  const auto libraries = denoise_libraries();
+  if (!libraries) return libraries.error();
   for (const Method& method : kMethods) {
-    DenoiseDesc desc = default_denoise(method.method);
-    desc.iterations = method.iterations;
-    desc.iterations_with_history = method.iterations_with_history;
-    auto denoiser = Denoiser::create(stage_.device(), stage_.frame(), libraries_.denoise,
-                                     name + " " + method.label, mean_, desc);
-    if (!denoiser) return denoiser.error();
-    if (const auto s =
-            denoiser->create_load(stage_.device(), stage_.frame(), libraries_.denoise, *sum);
-        !s) {
-      return s;
-    }
-    Subject subject;
-    subject.method = &method;
-    subject.denoiser = std::move(*denoiser);
-    subjects_.push_back(std::move(subject));
+    if (const auto s = create_subject(method, *libraries); !s) return s.error();
   }
   for (const std::uint32_t rays : {1u, 4u, 16u, 64u}) raw_.push_back({rays, {}});
+  return Outcome::kDone;
+}
+
+rtapi::Status Signal::create_subject(const Method& method, const DenoiseLibraries& libraries) {
+  const rtapi::Device& device = renderer_.device();
+  const Frame& frame = renderer_.frame();
+  DenoiseDesc desc = default_denoise(method.method);
+  desc.iterations = method.iterations;
+  desc.iterations_with_history = method.iterations_with_history;
+  auto denoiser =
+      Denoiser::create(device, frame, libraries, name_ + " " + method.label, mean_, desc);
+  if (!denoiser) return denoiser.error();
+  const auto loads = denoiser->create_load(device, frame, libraries, runs_.sum(setting_));
+  if (!loads) return loads;
+  Subject subject;
+  subject.method = &method;
+  subject.denoiser = std::move(*denoiser);
+  subjects_.push_back(std::move(subject));
   return {};
 }
 
 rtapi::Result<FloatImage> Signal::read(const rtapi::Texture& picture) const {
-  const auto image = read_picture(stage_.device(), stage_.queue(), picture);
+  const auto image = renderer_.read(picture);
   if (!image) return image.error();
   const std::uint32_t channels = target_.image.channels;
   FloatImage out(image->width, image->height, channels);
@@ -149,11 +154,11 @@ rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double 
   const bool temporal = subject.method->method == DenoiseMethod::kSvgf;
   const bool looked_at = frame == 0 || frame + 2 >= kFrames;
   if (!temporal && !looked_at) return {};
-  const auto loaded = stage_.execute(
-      [&](rtapi::CommandList& list) { subject.denoiser.load(list, stage_.frame(), 1.0f); });
+  const auto loaded = renderer_.execute(
+      [&](rtapi::CommandList& list) { subject.denoiser.load(list, renderer_.frame(), 1.0f); });
   if (!loaded) return loaded.error();
-  const auto ms = stage_.execute(
-      [&](rtapi::CommandList& list) { subject.denoiser.dispatch(list, stage_.frame()); });
+  const auto ms = renderer_.execute(
+      [&](rtapi::CommandList& list) { subject.denoiser.dispatch(list, renderer_.frame()); });
   if (!ms) return ms.error();
   if (!looked_at) return {};
   const bool last = frame + 1 == kFrames;
@@ -179,7 +184,7 @@ rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double 
 rtapi::Status Signal::run_frame(std::uint32_t frame) {
   Setting setting = setting_;
   setting.first_sample = frame;  // each frame continues its pixels' sample sequences
-  const auto ran = stage_.run(setting);
+  const auto ran = runs_.run(setting);
   if (!ran) return ran.error();
   trace_ms_.push_back(ran->ms);
   for (Subject& subject : subjects_) {
@@ -192,10 +197,10 @@ rtapi::Status Signal::run_frame(std::uint32_t frame) {
 rtapi::Status Signal::run_raw() {
   for (auto& [rays, place] : raw_) {
     Setting setting = setting_;
-    setting.samples = rays;
-    const auto ran = stage_.run(setting);
+    setting.settings.samples = rays;
+    const auto ran = runs_.run(setting);
     if (!ran) return ran.error();
-    const auto image = stage_.read(setting);
+    const auto image = runs_.read(setting);
     if (!image) return image.error();
     place.ms.push_back(ran->ms);
     if (const auto s = add(*image, place); !s) return s;
@@ -203,16 +208,18 @@ rtapi::Status Signal::run_raw() {
   return {};
 }
 
-rtapi::Status Signal::measure(const StageProgress& progress) {
+rtapi::Result<Outcome> Signal::measure(const Progress& progress) {
   for (std::uint32_t seed = 0; seed < options_.seeds; ++seed) {
-    if (const auto s = stage_.set_seed(pcg_hash(options_.seed + seed)); !s) return s;
-    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
-      if (const auto s = run_frame(frame); !s) return s;
+    if (const auto s = runs_.set_seed(pcg_hash(options_.frame.seed + seed)); !s) {
+      return s.error();
     }
-    if (const auto s = run_raw(); !s) return s;
-    progress("denoising " + name_, (seed + 1.0) / options_.seeds);
+    for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
+      if (const auto s = run_frame(frame); !s) return s.error();
+    }
+    if (const auto s = run_raw(); !s) return s.error();
+    if (!progress("denoising " + name_, (seed + 1.0) / options_.seeds)) return Outcome::kStopped;
   }
-  return {};
+  return Outcome::kDone;
 }
 
 void Signal::add_row(const std::string& group, const std::string& label, const Place& place,
@@ -248,38 +255,39 @@ void Signal::add_rows(MeasuredTable& table) const {
 
 }  // namespace
 
-rtapi::Result<MeasuredTable> measure_denoisers(const Options& options, const Scene& scene,
-                                               const ShaderLibraries& libraries,
-                                               const StageProgress& progress,
-                                               const std::atomic<bool>& stop) {
-  const Stage::Needs needs{.lights = true, .volume = true};
-  auto created = Stage::create(
-      options, scene, libraries, needs, options.out + "/measure-cache", progress, stop,
-      [](const std::string& text) { std::fprintf(stderr, "northlight: %s\n", text.c_str()); });
-  if (!created) return created.error();
-  MeasuredTable table;
+rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& scene,
+                                         const Progress& progress, MeasuredTable& table) {
+  std::unique_ptr<EffectRuns> runs;
+  const auto created = EffectRuns::create(
+      options, scene, {"ao", "gi"}, options.out + "/measure-cache", progress,
+      [](const std::string& text) { std::fprintf(stderr, "northlight: %s\n", text.c_str()); },
+      runs);
+  if (!is_done(created)) return created;
   table.title = "Denoising 1 ray per pixel: time against error";
-  table.subtitle = fmt::format("{}, {} x {}, {}; {} seeds, {} frames each{}", options.scene,
-                               options.width, options.height, options.backend, options.seeds,
-                               kFrames, options.cpu_clock ? ", CPU time over threads" : "");
-  const Setting occlusion{.effect = Effect::kAo, .ao_radius = options.ao_radius};
-  const Setting indirect{.effect = Effect::kGi};
+  table.subtitle =
+      fmt::format("{}, {} x {}, {}; {} seeds, {} frames each{}", options.scene, options.frame.width,
+                  options.frame.height, options.backend, options.seeds, kFrames,
+                  options.cpu_clock ? ", CPU time over threads" : "");
+  Setting occlusion = setting_of("ao");
+  occlusion.settings.radius = options.effects.at("ao").radius;
+  const Setting indirect = setting_of("gi");
   struct Entry {
     const char* name;
     Setting setting;
     float exposure;
   };
   for (const Entry& entry : {Entry{"ao", occlusion, 0}, Entry{"gi", indirect, scene.exposure}}) {
-    Signal signal(**created, options, libraries);
-    if (const auto s = signal.create(entry.name, entry.setting, entry.exposure, progress); !s) {
-      return s.error();
+    Signal signal(*runs, options);
+    if (const auto s = signal.create(entry.name, entry.setting, entry.exposure, progress);
+        !is_done(s)) {
+      return s;
     }
-    if (const auto s = signal.measure(progress); !s) return s.error();
+    if (const auto s = signal.measure(progress); !is_done(s)) return s;
     signal.add_rows(table);
     table.about.push_back(fmt::format("reference {}: {} samples, its own RMSE {:.2g}", entry.name,
                                       options.measure_reference, table.rows.back().reference_rmse));
   }
-  return table;
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

@@ -27,11 +27,11 @@ std::uint64_t hash_of(const FloatImage& image, std::uint64_t hash) {
   return hash;
 }
 
-rtapi::Result<std::string> probe(Stage& stage, Setting setting, std::uint32_t samples) {
-  setting.samples = 2;
-  if (const auto s = stage.set_seed(kProbeSeed); !s) return s.error();
-  if (const auto ran = stage.run(setting); !ran) return ran.error();
-  const auto image = stage.read(setting);
+rtapi::Result<std::string> probe(EffectRuns& runs, Setting setting, std::uint32_t samples) {
+  setting.settings.samples = 2;
+  if (const auto s = runs.set_seed(kProbeSeed); !s) return s.error();
+  if (const auto ran = runs.run(setting); !ran) return ran.error();
+  const auto image = runs.read(setting);
   if (!image) return image.error();
   return fmt::format("{:016x}", hash_of(*image, 0xCBF29CE484222325u + samples));
 }
@@ -84,31 +84,34 @@ Target mean_of(const std::vector<FloatImage>& parts, const std::vector<std::uint
   return out;
 }
 
-rtapi::Result<Target> make_reference(Stage& stage, const Setting& setting, std::uint32_t samples,
-                                     const std::string& name, const std::string& cache,
-                                     const StageProgress& progress) {
-  const auto key = probe(stage, setting, samples);
+rtapi::Result<Outcome> make_reference(EffectRuns& runs, const Setting& setting,
+                                      std::uint32_t samples, const std::string& name,
+                                      const std::string& cache, const Progress& progress,
+                                      Target& target) {
+  const auto key = probe(runs, setting, samples);
   if (!key) return key.error();
-  const std::string path = fmt::format("{}/{}-{}x{}-{}.exr", cache, name, stage.frame().width(),
-                                       stage.frame().height(), *key);
+  const Frame& frame = runs.renderer().frame();
+  const std::string path =
+      fmt::format("{}/{}-{}x{}-{}.exr", cache, name, frame.width(), frame.height(), *key);
   std::vector<FloatImage> parts = kept_parts(path);
   const std::uint32_t each = (samples + kReferenceParts - 1) / kReferenceParts;
   for (auto part = static_cast<std::uint32_t>(parts.size()); part < kReferenceParts; ++part) {
     Setting run = setting;
-    run.samples = each;
-    if (const auto s = stage.set_seed(kPartSeed + part); !s) return s.error();
-    const auto show = [&](double done) {
-      progress("reference " + name, (part + done) / kReferenceParts);
+    run.settings.samples = each;
+    if (const auto s = runs.set_seed(kPartSeed + part); !s) return s.error();
+    const auto show = [&](const std::string&, double done) {
+      return progress("reference " + name, (part + done) / kReferenceParts);
     };
-    if (const auto s = stage.accumulate(run, show); !s) return s.error();
-    const auto image = stage.read(run);
+    if (const auto s = runs.accumulate(run, show); !is_done(s)) return s;
+    const auto image = runs.read(run);
     if (!image) return image.error();
     parts.push_back(*image);
     if (const auto kept = keep_parts(path, parts); !kept) return kept.error();
   }
-  const auto mask = stage.mask(false);
+  const auto mask = runs.mask(false);
   if (!mask) return mask.error();
-  return mean_of(parts, *mask);
+  target = mean_of(parts, *mask);
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

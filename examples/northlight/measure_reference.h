@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "effect_runs.h"
 #include "measure_errors.h"
-#include "stage.h"
 
 namespace northlight {
 
@@ -18,9 +18,10 @@ inline constexpr std::uint32_t kReferenceParts = 4;
 // it is complete, so an interrupted run continues there. A file is valid as long as a probe with
 // few samples gives the same numbers, which detects changes of the scene, of shaders and of
 // settings. `name` names the file and shows in the progress. The caller fills in the mask.
-rtapi::Result<Target> make_reference(Stage& stage, const Setting& setting, std::uint32_t samples,
-                                     const std::string& name, const std::string& cache,
-                                     const StageProgress& progress);
+rtapi::Result<Outcome> make_reference(EffectRuns& runs, const Setting& setting,
+                                      std::uint32_t samples, const std::string& name,
+                                      const std::string& cache, const Progress& progress,
+                                      Target& target);
 
 // The mean of pictures of equal size, and its standard error over the pixels in the mask.
 Target mean_of(const std::vector<kaamos::effects::FloatImage>& parts,

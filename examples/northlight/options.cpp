@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "options.h"
 
+#include <rtapi/version.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,9 @@
 #include <sstream>
 #include <tuple>
 
+#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/reflections/reflections.h"
 #include "effects/scene/built_in.h"
 #include "effects/scene/camera_path.h"
 #include "effects/transparent/transparent.h"
@@ -15,11 +20,32 @@
 #include "split.h"
 
 namespace northlight {
+
+using namespace kaamos::effects;
+
 namespace {
 
 constexpr std::uint32_t kMaxSamples = 65536;
 constexpr std::uint32_t kMaxFrames = 100000;
 constexpr std::uint32_t kMaxSide = 16384;  // limit of a texture [D3D12: resource limits]
+
+// What options say in words, until all of them have been read.
+struct Words {
+  std::string size = "1280x720";
+  std::vector<std::string> effects = {"ao", "sun"};
+  std::string pixel, explain;
+  std::string clock = "wall";
+  std::string denoise = "svgf";
+  std::optional<std::uint32_t> denoise_passes;
+  std::vector<std::string> half_resolution;
+  std::string gi_mode = "near-field";
+  std::string sort_rays;
+  std::string texture_lod = "cone";
+  float contact_length = ContactShadowConstants().length;
+  float firefly_limit = 0;
+  std::uint32_t glass_layers = 1;
+  float sun_angle = 0;  // the whole disk, degrees
+};
 
 std::string parse_size(const std::string& text, Options& options) {
   unsigned width = 0;
@@ -30,8 +56,8 @@ std::string parse_size(const std::string& text, Options& options) {
       width > kMaxSide || height > kMaxSide) {
     return "\"" + text + "\" is not a size: give width and height from 1 to 16384, as in 1280x720";
   }
-  options.width = width;
-  options.height = height;
+  options.frame.width = width;
+  options.frame.height = height;
   return {};
 }
 
@@ -48,44 +74,49 @@ std::string parse_pixel(const std::string& text,
   return {};
 }
 
-std::string parse_effects(const std::string& text, Options& options) {
-  options.ao = options.sun = options.local = options.contact = options.gi = options.reflections =
-      options.transparent = false;
-  const std::pair<const char*, bool*> effects[] = {{"ao", &options.ao},
-                                                   {"sun", &options.sun},
-                                                   {"local", &options.local},
-                                                   {"contact", &options.contact},
-                                                   {"gi", &options.gi},
-                                                   {"reflections", &options.reflections},
-                                                   {"transparent", &options.transparent}};
-  std::stringstream list(text);
-  for (std::string name; std::getline(list, name, ',');) {
-    bool known = name == "all";
-    for (const auto& [effect, chosen] : effects) {
-      if (name != effect && name != "all") continue;
-      *chosen = known = true;
-    }
-    if (!known) {
-      return "\"" + name +
-             "\" is not an effect: there are ao, sun, local, contact, gi, reflections, transparent "
-             "and all, as in ao,sun";
-    }
-  }
-  options.local = options.local || options.contact;  // contact shadows need local lights
-  return {};
+std::string check_effect(const std::string& name) {
+  if (name == "all" || find_effect(northlight_effects(), name) != nullptr) return {};
+  return "\"" + name + "\" is not an effect: there are " + effect_names(northlight_effects()) +
+         " and all, as in ao,sun";
 }
 
 std::string parse_radius(const std::string& text, Options& options) {
+  float& radius = options.effects.at("ao").radius;
   if (text == "inf") {
-    options.ao_radius = std::numeric_limits<float>::infinity();
+    radius = std::numeric_limits<float>::infinity();
     return {};
   }
   char* end = nullptr;
-  options.ao_radius = std::strtof(text.c_str(), &end);
-  if (end == text.c_str() || *end != '\0' || !(options.ao_radius > 0)) {
+  radius = std::strtof(text.c_str(), &end);
+  if (end == text.c_str() || *end != '\0' || !(radius > 0)) {
     return "\"" + text + "\" is not a radius: give metres greater than 0, or inf";
   }
   return {};
+}
+
+// "ao (ambient occlusion), sun (sun shadow), ...".
+std::string describe_effects() {
+  std::string out;
+  for (const Effect& effect : northlight_effects()) {
+    out += (out.empty() ? "" : ", ") + effect.name + " (" + effect.about + ")";
+  }
+  return out;
+}
+
+// Effects that take samples, and "all".
+std::vector<std::string> sampled_effects() {
+  std::vector<std::string> out;
+  for (const Effect& effect : northlight_effects()) {
+    if (!effect.samples_option.empty()) out.push_back(effect.name);
+  }
+  out.push_back("all");
+  return out;
+}
+
+std::string join(const std::vector<std::string>& names) {
+  std::string out;
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
+  return out;
 }
 
 // A CLI11 validator that stores what it parses.
@@ -94,11 +125,11 @@ CLI::Validator parsed_by(Parse parse, Options& options) {
   return CLI::Validator([parse, &options](std::string& text) { return parse(text, options); }, "");
 }
 
-void add_engine(CLI::App& app, Options& options) {
-  app.add_option("--sort-rays", options.sort_rays,
+void add_engine(CLI::App& app, Options& options, Words& words) {
+  app.add_option("--sort-rays", words.sort_rays,
                  "sort rays by direction or by origin; the picture stays the same")
       ->check(CLI::IsMember({"direction", "origin"}));
-  app.add_option("--texture-lod", options.texture_lod,
+  app.add_option("--texture-lod", words.texture_lod,
                  "level of detail of textures: by ray cones (cone), or always 0 (zero)")
       ->capture_default_str()
       ->check(CLI::IsMember({"cone", "zero"}));
@@ -116,7 +147,7 @@ void add_sequence(CLI::App& app, Options& options) {
                                 "render a sequence: frame_0000.png ..., the last one's layers")
                      ->check(CLI::Range(1u, kMaxFrames));
   app.add_option("--camera-path", options.camera_path,
-                 std::string("camera of a sequence: ") + kaamos::effects::kCameraPaths +
+                 std::string("camera of a sequence: ") + kCameraPaths +
                      "; or a file, lines of seconds, eye x y z, target x y z [fov=DEGREES] [cut]; "
                      "default: still where something moves, else dolly")
       ->needs(frames);
@@ -124,13 +155,14 @@ void add_sequence(CLI::App& app, Options& options) {
       ->needs(frames)
       ->capture_default_str()
       ->check(CLI::Range(0.01, 10000.0));
-  app.add_flag("--taa", options.taa, "antialiasing over the frames of a sequence")->needs(frames);
+  app.add_flag("--taa", options.frame.taa, "antialiasing over the frames of a sequence")
+      ->needs(frames);
 }
 
 // Options that show a single frame or render forever exclude --frames; options that look for a
 // pixel at its place in a dispatch exclude --sort-rays.
 std::string conflict(const Options& options) {
-  if (!options.sort_rays.empty() &&
+  if (options.frame.order != RayOrder::kPixels &&
       (options.explain || options.pixel || !options.heatmap.empty())) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
@@ -162,25 +194,76 @@ std::string conflict(const Options& options) {
   return {};
 }
 
+DenoiseMethod denoise_method(const std::string& name) {
+  if (name == "none") return DenoiseMethod::kNone;
+  if (name == "gaussian") return DenoiseMethod::kGaussian;
+  if (name == "bilateral") return DenoiseMethod::kBilateral;
+  if (name == "temporal") return DenoiseMethod::kTemporal;
+  if (name == "control") return DenoiseMethod::kControl;
+  return DenoiseMethod::kSvgf;
+}
+
+IndirectMode indirect_mode(const std::string& name) {
+  if (name == "direct") return IndirectMode::kDirect;
+  if (name == "hit-black") return IndirectMode::kHitBlack;
+  if (name == "near-field-glossy") return IndirectMode::kNearFieldGlossy;
+  return IndirectMode::kNearField;
+}
+
+// What the words mean for the frame and its effects.
+void apply(const Words& words, Options& options) {
+  FrameSettings& frame = options.frame;
+  options.effects.at("contact").set_constants(ContactShadowConstants{words.contact_length});
+  IndirectConstants indirect;
+  indirect.mode = indirect_mode(words.gi_mode);
+  options.effects.at("gi").set_constants(indirect);
+  ReflectionConstants reflection;
+  reflection.firefly_limit = words.firefly_limit;
+  options.effects.at("reflections").set_constants(reflection);
+  options.effects.at("transparent").set_constants(deck_layers(words.glass_layers));
+  for (const std::string& name : words.half_resolution) {
+    for (auto& [effect, settings] : options.effects) {
+      const bool takes_samples = !find_effect(northlight_effects(), effect)->samples_option.empty();
+      if (takes_samples && (name == effect || name == "all")) settings.pixel_step = 2;
+    }
+  }
+  frame.denoise = default_denoise(denoise_method(words.denoise));
+  if (words.denoise_passes) {
+    frame.denoise.iterations = frame.denoise.iterations_with_history = *words.denoise_passes;
+  }
+  frame.ray_cones = words.texture_lod == "cone";
+  if (!words.sort_rays.empty()) {
+    frame.order = words.sort_rays == "origin" ? RayOrder::kOrigin : RayOrder::kDirection;
+  }
+  frame.moving = options.frames > 0;
+  options.cpu_clock = words.clock == "cpu";
+  choose(options, words.effects);
+}
+
 }  // namespace
+
+void choose(Options& options, const std::vector<std::string>& effects) {
+  FrameSettings& frame = options.frame;
+  frame.effects = choose_effects(effects);
+  for (auto& [name, settings] : frame.effects) settings = options.effects.at(name);
+  frame.whole_frame = need_whole_frame(frame.effects);
+}
 
 std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   Options options;
-  std::string size = "1280x720";
-  std::string effects = "ao,sun";
+  for (const Effect& effect : northlight_effects()) {
+    options.effects[effect.name] = effect.defaults;
+  }
+  Words words;
   std::string radius = "4";
-  std::string pixel;
-  std::string explain;
-  std::string clock = "wall";
-  float sun_angle = 0;
   CLI::App app(
       "Renders a scene with Northlight's ray traced effects: ambient occlusion and sun shadow, or\n"
       "the whole frame with --effects all.\n"
       "Writes frame.png, a layered frame.exr, a PNG for each effect and layer, and stats.json.",
       "northlight");
-  app.add_option(
-         "--scene", options.scene,
-         "built in: " + kaamos::effects::built_in_scene_names() + "; or a .gltf or .glb file")
+  app.set_version_flag("--version", std::string("northlight ") + rtapi::GetVersion());
+  app.add_option("--scene", options.scene,
+                 "built in: " + built_in_scene_names() + "; or a .gltf or .glb file")
       ->capture_default_str();
   app.add_option("--material", options.materials,
                  "change a material, as in Window:alpha=0.3,roughness=0; may be repeated")
@@ -193,86 +276,77 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "precision of ray-triangle tests on embree: fast, robust, exact")
       ->capture_default_str()
       ->check(CLI::IsMember({"fast", "robust", "exact"}));
-  app.add_option("--size", size, "width and height in pixels")
+  app.add_option("--size", words.size, "width and height in pixels")
       ->capture_default_str()
       ->check(parsed_by(parse_size, options));
-  app.add_option("--effects", effects,
-                 "comma-separated: ao, sun, local (lights), contact (shadows), gi, reflections, "
-                 "transparent (glass); or all")
+  app.add_option("--effects", words.effects, "comma-separated: " + describe_effects() + "; or all")
+      ->delimiter(',')
       ->capture_default_str()
-      ->check(parsed_by(parse_effects, options));
-  app.add_option("--ao-samples", options.ao_samples, "ambient occlusion rays per pixel")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, kMaxSamples));
+      ->check(CLI::Validator([](std::string& name) { return check_effect(name); }, ""));
+  for (const Effect& effect : northlight_effects()) {
+    if (effect.samples_option.empty()) continue;
+    app.add_option("--" + effect.samples_option, options.effects.at(effect.name).samples,
+                   "rays per pixel of " + effect.about)
+        ->capture_default_str()
+        ->check(CLI::Range(1u, kMaxSamples));
+  }
   app.add_option("--ao-radius", radius, "how far away something occludes, in metres, or inf")
       ->capture_default_str()
       ->check(parsed_by(parse_radius, options));
-  app.add_option("--sun-samples", options.sun_samples, "sun shadow rays per pixel")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, kMaxSamples));
-  auto* angle = app.add_option("--sun-angle", sun_angle,
+  auto* angle = app.add_option("--sun-angle", words.sun_angle,
                                "angular size of the sun, in degrees "
                                "(the real one: 0.53); default: the scene's")
                     ->check(CLI::Range(0.0f, 90.0f));
-  app.add_option("--denoise", options.denoise,
+  app.add_option("--denoise", words.denoise,
                  "denoiser for the whole frame: none, gaussian, bilateral, temporal, svgf, "
                  "control")
       ->capture_default_str()
       ->check(CLI::IsMember({"none", "gaussian", "bilateral", "temporal", "svgf", "control"}));
-  app.add_option("--denoise-passes", options.denoise_passes,
+  app.add_option("--denoise-passes", words.denoise_passes,
                  "passes of svgf's wavelet filter, each twice as wide as the one before "
                  "(5; 3 once a sequence has four frames of history)")
       ->check(CLI::Range(0u, 8u));
-  app.add_option("--half-resolution", options.half_resolution,
-                 "effects of the whole frame that trace a quarter of the pixels, comma-separated: "
-                 "ao, sun, contact, gi, reflections; or all")
+  app.add_option(
+         "--half-resolution", words.half_resolution,
+         "effects of the whole frame that trace a quarter of the pixels, comma-separated: " +
+             join(sampled_effects()))
       ->delimiter(',')
-      ->check(CLI::IsMember({"ao", "sun", "contact", "gi", "reflections", "all"}));
-  app.add_option("--contact-samples", options.contact_samples,
-                 "contact shadow rays per pixel and light")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--contact-length", options.contact_length, "length of these rays, in metres")
+      ->check(CLI::IsMember(sampled_effects()));
+  app.add_option("--contact-length", words.contact_length, "length of these rays, in metres")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));
-  app.add_option("--gi-mode", options.gi_mode,
+  app.add_option("--gi-mode", words.gi_mode,
                  "indirect light: direct (the volume at the surface), hit-black, near-field, "
                  "near-field-glossy (hits mirror lights, too)")
       ->capture_default_str()
       ->check(CLI::IsMember({"direct", "hit-black", "near-field", "near-field-glossy"}));
-  app.add_option("--gi-samples", options.gi_samples, "indirect rays per pixel")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--gi-cell", options.gi_cell,
+  app.add_option("--gi-cell", options.frame.volume.cell,
                  "cells of the volume of indirect light, in metres (0.25, larger in large scenes)")
       ->check(CLI::Range(1e-3f, 1e3f));
-  app.add_option("--gi-bake-samples", options.gi_bake_samples, "paths per cell")
+  app.add_option("--gi-bake-samples", options.frame.volume.samples, "paths per cell")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--gi-volume", options.gi_volume,
+  app.add_option("--gi-volume", options.frame.volume.file,
                  "file of the volume: read if it exists, otherwise baked and written");
-  app.add_option("--reflection-samples", options.reflection_samples, "reflection rays per pixel")
-      ->capture_default_str()
-      ->check(CLI::Range(1u, kMaxSamples));
-  app.add_option("--firefly-limit", options.firefly_limit,
+  app.add_option("--firefly-limit", words.firefly_limit,
                  "luminance that a reflection's sample is clamped to; 0: none")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e30f));
-  app.add_option("--glass-layers", options.glass_layers,
+  app.add_option("--glass-layers", words.glass_layers,
                  "nearest layers of glass that reflect; those behind are blended without an order")
       ->capture_default_str()
-      ->check(CLI::Range(0u, kaamos::effects::kMaxSortedLayers));
-  app.add_option("--seed", options.seed, "the same seed gives the same picture")
+      ->check(CLI::Range(0u, kMaxSortedLayers));
+  app.add_option("--seed", options.frame.seed, "the same seed gives the same picture")
       ->capture_default_str();
   app.add_option("--threads", options.threads, "0: all; the picture does not depend on it")
       ->capture_default_str()
       ->check(CLI::Range(0u, 1024u));
   app.add_option("--out", options.out, "folder for the results")->capture_default_str();
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
-  add_engine(app, options);
+  add_engine(app, options, words);
   add_sequence(app, options);
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
-  app.add_option("--pixel", pixel,
+  app.add_option("--pixel", words.pixel,
                  "x,y: print what each layer holds there instead of writing files")
       ->check(CLI::Validator([&](std::string& t) { return parse_pixel(t, options.pixel); }, ""));
   app.add_option("--tables", options.tables,
@@ -281,7 +355,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->default_str("text")
       ->check(CLI::IsMember({"text", "json"}));
   auto* explained =
-      app.add_option("--explain", explain,
+      app.add_option("--explain", words.explain,
                      "x,y: print what every ray of that pixel met, and why it was taken or not")
           ->check(
               CLI::Validator([&](std::string& t) { return parse_pixel(t, options.explain); }, ""));
@@ -300,7 +374,8 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::IsMember(split_names()));
   app.add_option("--measure", options.measure,
                  "time against error over an effect's quality settings, as a table, a CSV file and "
-                 "a plot: ao, sun, contact, reflections, transparent, gi, svgf")
+                 "a plot: " +
+                     join(measured_effects()))
       ->check(CLI::IsMember(measured_effects()));
   app.add_flag(
       "--claims", options.claims,
@@ -315,7 +390,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->capture_default_str()
       ->check(CLI::Range(1u, 1000u));
   app.add_option(
-         "--clock", clock,
+         "--clock", words.clock,
          "clock of --measure and --claims: wall, or cpu (CPU time over threads, for a machine "
          "that does other work too)")
       ->capture_default_str()
@@ -329,13 +404,16 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = app.exit(error) == 0 ? 0 : 2;
     return std::nullopt;
   }
-  for (const auto& [name, text, chosen] : {std::tuple("--pixel", &pixel, &options.pixel),
-                                           std::tuple("--explain", &explain, &options.explain)}) {
-    if (!*chosen || ((*chosen)->first < options.width && (*chosen)->second < options.height)) {
+  apply(words, options);
+  FrameSettings& frame = options.frame;
+  for (const auto& [name, text, chosen] :
+       {std::tuple("--pixel", &words.pixel, &options.pixel),
+        std::tuple("--explain", &words.explain, &options.explain)}) {
+    if (!*chosen || ((*chosen)->first < frame.width && (*chosen)->second < frame.height)) {
       continue;
     }
     std::fprintf(stderr, "northlight: %s %s is outside the picture (%ux%u)\n", name, text->c_str(),
-                 options.width, options.height);
+                 frame.width, frame.height);
     exit_code = 2;
     return std::nullopt;
   }
@@ -344,21 +422,20 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     exit_code = 2;
     return std::nullopt;
   }
-  options.cpu_clock = clock == "cpu";
   if (!options.measure.empty()) {
     if (app.count("--size") == 0) {
-      std::tie(options.width, options.height) = default_measure_size(options.measure);
+      std::tie(frame.width, frame.height) = default_measure_size(options.measure);
     }
     if (options.measure == "transparent" && app.count("--scene") == 0) {
       options.scene = "glass-stack";
     }
   }
   if (options.claims) {
-    if (app.count("--size") == 0) std::tie(options.width, options.height) = std::pair(320u, 180u);
+    if (app.count("--size") == 0) std::tie(frame.width, frame.height) = std::pair(320u, 180u);
     // The time does not depend on what the cells hold.
-    if (app.count("--gi-bake-samples") == 0) options.gi_bake_samples = 16;
+    if (app.count("--gi-bake-samples") == 0) frame.volume.samples = 16;
   }
-  if (angle->count() != 0) options.sun_angle_degrees = sun_angle;
+  if (angle->count() != 0) frame.sun_angular_radius = words.sun_angle * 3.14159265f / 360.0f;
   return options;
 }
 

@@ -104,19 +104,22 @@ ByteImage layer_picture(const std::string& name, const FloatImage& image,
 }
 
 nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
-                                  const Renderer& renderer, const FrameResult& result) {
+                                  const FrameRenderer& renderer, const FrameResult& result) {
   nlohmann::ordered_json json;
   json["scene"] = scene.name;
-  json["backend"] = renderer.device_info().Backend;
+  json["backend"] = renderer.device().GetInfo().Backend;
   json["precision"] = options.precision;
-  json["device"] = renderer.device_info().Name;
-  json["width"] = options.width;
-  json["height"] = options.height;
-  json["seed"] = options.seed;
+  json["device"] = renderer.device().GetInfo().Name;
+  json["width"] = options.frame.width;
+  json["height"] = options.frame.height;
+  json["seed"] = options.frame.seed;
   json["threads"] = options.threads;
-  json["ao_samples"] = options.ao ? options.ao_samples : 0;
-  json["sun_samples"] = options.sun ? options.sun_samples : 0;
-  const GpuSceneStatistics& s = renderer.scene_statistics();
+  for (const Effect& effect : renderer.effects()) {
+    const auto chosen = options.frame.effects.find(effect.name);
+    json[effect.name + "_samples"] =
+        chosen == options.frame.effects.end() ? 0 : chosen->second.samples;
+  }
+  const GpuSceneStatistics& s = renderer.gpu_scene().statistics;
   json["build"] = {
       {"bottom_level_ms", s.bottom_level_ms},       {"top_level_ms", s.top_level_ms},
       {"bottom_level_bytes", s.bottom_level_bytes}, {"top_level_bytes", s.top_level_bytes},
@@ -199,7 +202,7 @@ ByteImage frame_picture(const FloatImage& radiance, float exposure) {
   return tonemap(first_channels(radiance, 3), exposure);
 }
 
-std::string add_results(const Options& options, const Scene& scene, const Renderer& renderer,
+std::string add_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
                         const FrameResult& result, const nlohmann::ordered_json& sequence,
                         StagedFiles& files) {
   std::string error = files.add("frame.png", frame_picture(result.radiance, scene.exposure));
@@ -213,14 +216,14 @@ std::string add_results(const Options& options, const Scene& scene, const Render
   const std::string text = json.dump(2) + "\n";
   if (error = files.add("stats.json", {text.begin(), text.end()}); !error.empty()) return error;
   ExrFile exr;
-  exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.seed)}};
+  exr.attributes = {{"scene", scene.name}, {"seed", std::to_string(options.frame.seed)}};
   exr.layers.push_back({"", result.radiance, false, {}});
   for (const auto& [name, image] : result.layers) exr.layers.push_back({name, image, false, {}});
   const auto written = write_exr(files.add_path("frame.exr"), exr);
   return written.ok() ? "" : written.error();
 }
 
-std::string write_results(const Options& options, const Scene& scene, const Renderer& renderer,
+std::string write_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
                           const FrameResult& result) {
   StagedFiles files(options.out);
   if (auto error = files.create(); !error.empty()) return error;
@@ -264,12 +267,12 @@ std::string list_devices() {
   return out;
 }
 
-std::string describe(const Renderer& renderer, const FrameResult& result) {
-  const GpuSceneStatistics& s = renderer.scene_statistics();
+std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
+  const GpuSceneStatistics& s = renderer.gpu_scene().statistics;
   std::string out = fmt::format(
       "{}\nscene: {} triangles ({} unique), built in {:.0f} ms, {:.1f} MiB\n\n"
       "{:<20}{:>10}{:>12}{:>12}{:>12}{:>10}{:>9}\n",
-      renderer.device_info().Name, s.instanced_triangles, s.unique_triangles,
+      renderer.device().GetInfo().Name, s.instanced_triangles, s.unique_triangles,
       s.bottom_level_ms + s.top_level_ms, mebibytes(s.bottom_level_bytes + s.top_level_bytes),
       "pass", "ms", "rays", "hits", "any-hit", "Mrays/s", "MiB");
   for (const PassStatistics& pass : result.passes) {

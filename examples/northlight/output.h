@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "effects/scene/scene.h"
+#include "frame_result.h"
 #include "options.h"
-#include "renderer.h"
 
 namespace northlight {
 
@@ -43,10 +43,11 @@ std::string prepare_folder(const std::string& folder);
 // Writes frame.png, frame.exr, a PNG for each layer and stats.json into options.out. Either writes
 // all of them or touches none; returns an error text, empty on success.
 std::string write_results(const Options& options, const kaamos::effects::Scene& scene,
-                          const Renderer& renderer, const FrameResult& result);
+                          const kaamos::effects::FrameRenderer& renderer,
+                          const FrameResult& result);
 // Adds the same to `files`, which may hold others; `sequence` becomes a part of stats.json.
 std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
-                        const Renderer& renderer, const FrameResult& result,
+                        const kaamos::effects::FrameRenderer& renderer, const FrameResult& result,
                         const nlohmann::ordered_json& sequence, StagedFiles& files);
 // The picture in frame.png.
 kaamos::effects::ByteImage frame_picture(const kaamos::effects::FloatImage& radiance,
@@ -59,6 +60,6 @@ std::string describe_pixel(const FrameResult& result, std::uint32_t x, std::uint
 std::string list_devices();
 
 // The table printed at the end.
-std::string describe(const Renderer& renderer, const FrameResult& result);
+std::string describe(const kaamos::effects::FrameRenderer& renderer, const FrameResult& result);
 
 }  // namespace northlight

@@ -2,14 +2,8 @@
 // northlight --reference N: what each effect converges to, beside what it rendered.
 #pragma once
 
-#include <atomic>
-#include <functional>
-#include <string>
-
-#include "effects/scene/scene.h"
-#include "frame_effects.h"
+#include "frame_result.h"
 #include "options.h"
-#include "renderer.h"
 
 namespace northlight {
 
@@ -19,10 +13,8 @@ Options reference_options(const Options& options);
 
 // Renders that frame and adds its layers to `result` as NAME_reference, one for each effect in
 // `result`, and the whole frame as radiance_reference.
-rtapi::Status add_reference(const Options& options, const kaamos::effects::Scene& scene,
-                            const ShaderLibraries& libraries, const Progress& progress,
-                            const std::atomic<bool>& stop,
-                            const std::function<void(const std::string&)>& message,
-                            FrameResult& result);
+rtapi::Result<Outcome> add_reference(const Options& options, const kaamos::effects::Scene& scene,
+                                     const Progress& progress, const Say& message,
+                                     FrameResult& result);
 
 }  // namespace northlight

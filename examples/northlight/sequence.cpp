@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 rtapi::Error failure(const std::string& text) {
-  return {"sequence", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 std::string frame_name(std::uint32_t index) {
@@ -35,15 +35,16 @@ Result<CameraPath> choose_path(const Options& options, const Scene& scene) {
 class FlickerMeter {
  public:
   // `cut`: do not compare with the previous frame.
-  rtapi::Status measure(Renderer& renderer, bool cut) {
+  rtapi::Status measure(FrameRenderer& renderer, bool cut) {
     struct Pair {
       std::string name;
       rtapi::Texture raw;
       std::optional<rtapi::Texture> filtered;
     };
     std::vector<Pair> pairs;
-    if (renderer.effects() != nullptr) {
-      for (auto& s : renderer.effects()->signals()) pairs.push_back({s.name, s.raw, s.denoised});
+    const SignalFilters& filters = renderer.filters();
+    for (const auto& signal : filters.signals()) {
+      pairs.push_back({signal.name, signal.mean, filters.denoised(signal)});
     }
     pairs.push_back({"frame", renderer.frame().texture(kRadiance), {}});
     if (renderer.taa() != nullptr) pairs.back().filtered = renderer.taa()->result();
@@ -84,7 +85,7 @@ class FlickerMeter {
     FloatImage raw, filtered;  // of the previous frame
   };
 
-  rtapi::Status follow(Renderer& renderer, const rtapi::Texture& picture,
+  rtapi::Status follow(FrameRenderer& renderer, const rtapi::Texture& picture,
                        const FrameSurfaces& surfaces, bool cut, FloatImage& before,
                        TemporalChange& sum) const {
     auto now = renderer.read(picture);
@@ -105,8 +106,8 @@ class FlickerMeter {
 // One progress line for the whole sequence; a pass's progress counts as part of its frame.
 Progress progress_of_frame(const Progress& progress, std::uint32_t index, std::uint32_t count) {
   return [&progress, index, count](const std::string& pass, double) {
-    progress(fmt::format("{:.20}", fmt::format("{}/{} {}", index + 1, count, pass)),
-             static_cast<double>(index) / count);
+    return progress(fmt::format("{:.20}", fmt::format("{}/{} {}", index + 1, count, pass)),
+                    static_cast<double>(index) / count);
   };
 }
 
@@ -135,7 +136,7 @@ nlohmann::ordered_json to_json(const SequenceResult& sequence, const Options& op
   json["frames"] = sequence.frames.size();
   json["frames_per_second"] = options.frames_per_second;
   json["camera_path"] = sequence.path;
-  json["taa"] = options.taa;
+  json["taa"] = options.frame.taa;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
     const SequenceFrame& frame = sequence.frames[i];
     nlohmann::ordered_json line = {{"frame", i}, {"ms", frame.ms}};
@@ -183,65 +184,62 @@ std::string describe_flicker(const std::vector<FlickerLine>& lines) {
 
 }  // namespace
 
-rtapi::Result<SequenceResult> render_sequence(Renderer& renderer, const ShaderLibraries& libraries,
-                                              const Options& options, const Scene& scene,
-                                              const Progress& progress,
-                                              const std::atomic<bool>& stop, StagedFiles& files) {
+rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, const Options& options,
+                                       const Progress& progress, StagedFiles& files,
+                                       SequenceResult& out) {
+  const Scene& scene = renderer.scene();
   const auto path = choose_path(options, scene);
   if (!path.ok()) return failure(path.error());
-  SequenceResult out;
   out.path = path.value().name;
-  if (const auto s = renderer.prepare(libraries, progress, stop, out.last); !s) return s.error();
-  const std::vector<std::string> left_out = out.last.left_out;
+  if (const auto s = renderer.prepare(progress); !is_done(s)) return s;
   FlickerMeter flicker;
   double before = 0;
   for (std::uint32_t i = 0; i < options.frames; ++i) {
-    Moment moment;
+    FrameMoment moment;
     moment.index = i;
     moment.seconds = i / options.frames_per_second;
     moment.camera = evaluate_camera(path.value(), scene.cameras.front(), moment.seconds);
     moment.cut = i > 0 && has_cut(path.value(), before, moment.seconds);
     before = moment.seconds;
-    FrameResult result;
     const auto start = Clock::now();
-    if (const auto s = renderer.begin_frame(moment, result); !s) return s.error();
-    if (const auto s =
-            renderer.render_frame(progress_of_frame(progress, i, options.frames), stop, result);
-        !s) {
-      return s.error();
+    if (const auto s = renderer.begin_frame(moment); !s) return s.error();
+    if (const auto s = renderer.render(progress_of_frame(progress, i, options.frames));
+        !is_done(s)) {
+      return s;
     }
     SequenceFrame frame;
     frame.ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    const bool last = i + 1 == options.frames;
-    const auto read = last ? renderer.read_layers(result) : renderer.read_radiance(result);
-    if (!read) return read.error();
+    const auto radiance = renderer.read("radiance");
+    if (!radiance) return radiance.error();
     if (const auto s = flicker.measure(renderer, i == 0 || moment.cut); !s) return s.error();
-    const auto error = files.add(frame_name(i), frame_picture(result.radiance, scene.exposure));
+    const auto error = files.add(frame_name(i), frame_picture(*radiance, scene.exposure));
     if (!error.empty()) return failure(error);
-    frame.passes = result.passes;
+    frame.passes = renderer.passes();
     if (renderer.structures() != nullptr) frame.structures = *renderer.structures();
     frame.cut = moment.cut;
     out.frames.push_back(std::move(frame));
-    if (last) out.last = std::move(result);
   }
-  out.last.left_out = left_out;
+  auto last = read_frame(renderer);
+  if (!last) return last.error();
+  out.last = std::move(*last);
+  out.last.passes = renderer.passes();
   out.flicker = flicker.lines();
   progress("sequence", 1);
-  return out;
+  return Outcome::kDone;
 }
 
-std::string add_results(const Options& options, const Scene& scene, const Renderer& renderer,
+std::string add_results(const Options& options, const Scene& scene, const FrameRenderer& renderer,
                         const SequenceResult& sequence, StagedFiles& files) {
   return add_results(options, scene, renderer, sequence.last, to_json(sequence, options), files);
 }
 
-std::string describe(const Renderer& renderer, const SequenceResult& sequence) {
+std::string describe(const FrameRenderer& renderer, const SequenceResult& sequence) {
   const auto count = static_cast<double>(sequence.frames.size());
   double ms = 0;
   for (const SequenceFrame& frame : sequence.frames) ms += frame.ms;
   std::string out = fmt::format(
       "{}\n{} frames, camera path {}: {:.1f} ms a frame\n\n{:<20}{:>10}{:>10}{:>10}{:>14}{:>10}\n",
-      renderer.device_info().Name, sequence.frames.size(), sequence.path, ms / count, "pass",
+      renderer.device().GetInfo().Name, sequence.frames.size(), sequence.path, ms / count, "pass",
       "mean ms", "least", "most", "rays a frame", "Mrays/s");
   // Every frame has the same passes.
   for (std::size_t i = 0; i < sequence.last.passes.size(); ++i) {

@@ -3,7 +3,6 @@
 // and antialiasing carried over.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,14 +11,14 @@
 #include "effects/image/flicker.h"
 #include "effects/scene/camera_path.h"
 #include "effects/structures/structures.h"
+#include "frame_result.h"
 #include "output.h"
-#include "renderer.h"
 
 namespace northlight {
 
 struct SequenceFrame {
   double ms = 0;
-  std::vector<PassStatistics> passes;
+  std::vector<kaamos::effects::PassStatistics> passes;
   std::optional<kaamos::effects::StructureStatistics> structures;  // empty if nothing moves
   bool cut = false;
 };
@@ -39,21 +38,20 @@ struct SequenceResult {
 };
 
 // Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
-// Errors: those of the path, of rendering (an empty id means that `stop` was set), and of files.
-rtapi::Result<SequenceResult> render_sequence(Renderer& renderer, const ShaderLibraries& libraries,
-                                              const Options& options,
-                                              const kaamos::effects::Scene& scene,
-                                              const Progress& progress,
-                                              const std::atomic<bool>& stop, StagedFiles& files);
+// yet. Errors: those of the path, of rendering, and of files.
+rtapi::Result<Outcome> render_sequence(kaamos::effects::FrameRenderer& renderer,
+                                       const Options& options, const Progress& progress,
+                                       StagedFiles& files, SequenceResult& out);
 
 // Adds what a still writes, for the last frame; stats.json gets a table with a row for each frame.
 // Returns an error text, empty on success.
 std::string add_results(const Options& options, const kaamos::effects::Scene& scene,
-                        const Renderer& renderer, const SequenceResult& sequence,
-                        StagedFiles& files);
+                        const kaamos::effects::FrameRenderer& renderer,
+                        const SequenceResult& sequence, StagedFiles& files);
 
 // The tables printed at the end: passes, structures, flicker.
-std::string describe(const Renderer& renderer, const SequenceResult& sequence);
+std::string describe(const kaamos::effects::FrameRenderer& renderer,
+                     const SequenceResult& sequence);
 
 // Removes frames that a longer sequence left in the folder after the last frame of this one.
 void remove_later_frames(const std::string& folder, std::uint32_t count);

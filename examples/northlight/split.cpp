@@ -9,6 +9,7 @@
 
 #include "effects/image/png.h"
 #include "effects/image/tonemap.h"
+#include "effects/indirect_diffuse/indirect_diffuse.h"
 
 namespace northlight {
 
@@ -20,7 +21,7 @@ namespace {
 constexpr std::uint32_t kQuietSamples = 16;
 
 rtapi::Error failure(const std::string& text) {
-  return {"split", rtapi::ErrorCode::kFailed, text};
+  return {{}, rtapi::ErrorCode::kFailed, text};
 }
 
 // One of the compared settings.
@@ -30,50 +31,65 @@ struct Part {
   bool times_ao = false;  // multiply the indirect light with ambient occlusion
 };
 
-Options only(const Options& base, std::initializer_list<bool Options::*> effects) {
-  Options out = base;
-  out.ao = out.sun = out.local = out.contact = out.gi = out.reflections = out.transparent = false;
-  for (bool Options::*effect : effects) out.*effect = true;
-  return out;
+Part make_part(const std::string& name, const Options& base,
+               const std::vector<std::string>& effects) {
+  Part part{name, base};
+  choose(part.options, effects);
+  return part;
+}
+
+void set_samples(Part& part, const std::string& effect, std::uint32_t samples) {
+  part.options.frame.effects.at(effect).samples = samples;
 }
 
 std::vector<Part> ambient_occlusion_parts(const Options& options) {
   std::vector<Part> out;
   for (const std::uint32_t rays : {1u, 4u, 16u}) {
-    Part part{fmt::format("ao {}", rays), only(options, {&Options::ao})};
-    part.options.ao_samples = rays;
-    out.push_back(part);
+    out.push_back(make_part(fmt::format("ao {}", rays), options, {"ao"}));
+    set_samples(out.back(), "ao", rays);
   }
   return out;
 }
 
-Part indirect_part(const Options& options, const std::string& mode) {
-  Part part{"gi " + mode, only(options, {&Options::gi})};
-  part.options.gi_mode = mode;
-  part.options.gi_samples = std::max(options.gi_samples, kQuietSamples);
-  part.options.denoise = "svgf";
+// With as many passes as the options want.
+DenoiseDesc svgf_of(const Options& options) {
+  DenoiseDesc desc = default_denoise(DenoiseMethod::kSvgf);
+  desc.iterations = options.frame.denoise.iterations;
+  desc.iterations_with_history = options.frame.denoise.iterations_with_history;
+  return desc;
+}
+
+Part indirect_part(const Options& options, const std::string& name, IndirectMode mode,
+                   bool times_ao = false) {
+  std::vector<std::string> effects = {"gi"};
+  if (times_ao) effects.push_back("ao");
+  Part part = make_part("gi " + name, options, effects);
+  part.times_ao = times_ao;
+  for (auto& [effect, settings] : part.options.frame.effects) {
+    settings.samples = std::max(settings.samples, kQuietSamples);
+  }
+  IndirectConstants constants;
+  constants.mode = mode;
+  part.options.frame.effects.at("gi").set_constants(constants);
+  part.options.frame.denoise = svgf_of(options);
   return part;
 }
 
 std::vector<Part> parts_of(const Options& options) {
   if (options.split == "ao") return ambient_occlusion_parts(options);
+  const Part near_field = indirect_part(options, "near-field", IndirectMode::kNearField);
   if (options.split == "gi") {
-    Part direct = indirect_part(options, "direct");
-    direct.options.ao = direct.times_ao = true;
-    direct.options.ao_samples = std::max(options.ao_samples, kQuietSamples);
-    return {direct, indirect_part(options, "near-field")};
+    return {indirect_part(options, "direct", IndirectMode::kDirect, true), near_field};
   }
   if (options.split == "near-field") {
-    return {indirect_part(options, "hit-black"), indirect_part(options, "near-field")};
+    return {indirect_part(options, "hit-black", IndirectMode::kHitBlack), near_field};
   }
-  Part raw{"raw", only(options, {&Options::ao, &Options::sun, &Options::local, &Options::contact,
-                                 &Options::gi, &Options::reflections, &Options::transparent})};
-  raw.options.ao_samples = raw.options.sun_samples = raw.options.contact_samples =
-      raw.options.gi_samples = raw.options.reflection_samples = 1;
-  raw.options.denoise = "none";
+  Part raw = make_part("raw", options, {"all"});
+  for (auto& [effect, settings] : raw.options.frame.effects) settings.samples = 1;
+  raw.options.frame.denoise = default_denoise(DenoiseMethod::kNone);
   Part denoised = raw;
   denoised.name = "denoised";
-  denoised.options.denoise = "svgf";
+  denoised.options.frame.denoise = svgf_of(options);
   return {raw, denoised};
 }
 
@@ -123,41 +139,37 @@ ByteImage side_by_side(const std::vector<ByteImage>& pictures) {
   return out;
 }
 
-rtapi::Status run_split(const Options& options, const Scene& scene,
-                        const ShaderLibraries& libraries, const Progress& progress,
-                        const std::atomic<bool>& stop,
-                        const std::function<void(const std::string&)>& message) {
+rtapi::Result<Outcome> run_split(const Options& options, const Scene& scene,
+                                 const Progress& progress, const Say& message) {
   std::vector<ByteImage> pictures;
   // Baked once for all parts.
-  const std::string volume = options.gi_volume.empty()
-                                 ? fmt::format("{}/split-volume.tmp", options.out)
-                                 : options.gi_volume;
-  rtapi::Status done;
+  const std::string given = options.frame.volume.file;
+  const std::string volume =
+      given.empty() ? fmt::format("{}/split-volume.tmp", options.out) : given;
+  rtapi::Result<Outcome> done = Outcome::kDone;
   for (Part& part : parts_of(options)) {
-    part.options.gi_volume = volume;
-    auto renderer = Renderer::create(part.options, scene, message);
+    part.options.frame.volume.file = volume;
+    auto renderer = create_renderer(part.options, scene, message);
     if (!renderer) {
       done = renderer.error();
       break;
     }
     const auto show = [&](const std::string& pass, double at) {
-      progress(part.name + ": " + pass, at);
+      return progress(part.name + ": " + pass, at);
     };
-    const auto frame = (*renderer)->render(libraries, show, stop);
-    if (!frame) {
-      done = frame.error();
-      break;
-    }
-    pictures.push_back(picture_of(part, options, *frame, scene.exposure));
+    FrameResult frame;
+    done = render_frame(**renderer, show, frame);
+    if (!is_done(done)) break;
+    pictures.push_back(picture_of(part, options, frame, scene.exposure));
   }
   std::error_code ignored;
-  if (options.gi_volume.empty()) std::filesystem::remove(volume, ignored);
-  if (!done) return done;
+  if (given.empty()) std::filesystem::remove(volume, ignored);
+  if (!is_done(done)) return done;
   const std::string path = fmt::format("{}/split-{}.png", options.out, options.split);
   if (const auto s = write_png(path, side_by_side(pictures)); !s.ok()) return failure(s.error());
   std::printf("wrote %s\n", path.c_str());
   std::fflush(stdout);
-  return {};
+  return Outcome::kDone;
 }
 
 }  // namespace northlight

@@ -2,16 +2,13 @@
 // northlight --split: settings side by side in one picture, as the talk shows them.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "effects/image/image.h"
 #include "effects/scene/scene.h"
-#include "frame_effects.h"
+#include "frame_result.h"
 #include "options.h"
-#include "renderer.h"
 
 namespace northlight {
 
@@ -25,9 +22,7 @@ const std::vector<std::string>& split_names();
 kaamos::effects::ByteImage side_by_side(const std::vector<kaamos::effects::ByteImage>& pictures);
 
 // Renders what options.split names and writes split-NAME.png into options.out.
-rtapi::Status run_split(const Options& options, const kaamos::effects::Scene& scene,
-                        const ShaderLibraries& libraries, const Progress& progress,
-                        const std::atomic<bool>& stop,
-                        const std::function<void(const std::string&)>& message);
+rtapi::Result<Outcome> run_split(const Options& options, const kaamos::effects::Scene& scene,
+                                 const Progress& progress, const Say& message);
 
 }  // namespace northlight

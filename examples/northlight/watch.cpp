@@ -5,13 +5,11 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <iterator>
 #include <thread>
-#include <utility>
-#include <vector>
 
 namespace northlight {
 
+using namespace kaamos::effects;
 namespace fs = std::filesystem;
 
 namespace {
@@ -25,31 +23,12 @@ fs::file_time_type time_of(const std::string& path) {
 }  // namespace
 
 rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
-  ShaderLibraries libraries;
-  std::vector<std::pair<const char*, rtapi::ShaderLibrary*>> parts = {
-      {"gbuffer/gbuffer", &libraries.gbuffer},
-      {"ambient_occlusion/ambient_occlusion", &libraries.ambient_occlusion},
-      {"sun_shadow/sun_shadow", &libraries.sun_shadow},
-      {"composite/composite", &libraries.composite}};
-  const std::pair<const char*, rtapi::ShaderLibrary*> more[] = {
-      {"lights/lighting", &libraries.lighting},
-      {"direct/direct", &libraries.direct},
-      {"contact_shadow/contact_shadow", &libraries.contact_shadow},
-      {"indirect_diffuse/volume_bake", &libraries.volume_bake},
-      {"indirect_diffuse/indirect_diffuse", &libraries.indirect_diffuse},
-      {"reflections/reflections", &libraries.reflections},
-      {"transparent/transparent", &libraries.transparent},
-      {"denoise/spatial", &libraries.denoise.spatial},
-      {"denoise/svgf", &libraries.denoise.svgf},
-      {"denoise/control", &libraries.denoise.control},
-      {"denoise/upscale", &libraries.denoise.upscale}};
-  if (whole_frame_) parts.insert(parts.end(), std::begin(more), std::end(more));
-  if (sorts_) parts.emplace_back("ray_order/ray_order", &libraries.ray_order);
+  ShaderLibraries out;
   files_.clear();
   rtapi::Status status;
-  for (const auto& [name, library] : parts) {
+  for (const EffectLibrary& library : libraries_) {
     rtapi::ShaderCompileOptions options;
-    options.File = (folder_ / (std::string(name) + ".hlsl")).string();
+    options.File = (folder_ / (library.file + ".hlsl")).string();
     options.IncludeDirectories = {(folder_ / "shaders").string()};
     const auto compiled = rtapi::CompileShaderLibrary(options);
     for (const std::string& file : compiled.Dependencies) {
@@ -57,10 +36,10 @@ rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
     }
     files_.try_emplace(options.File, time_of(options.File));
     if (!compiled.Status && status) status = compiled.Status;
-    *library = compiled.Library;
+    out[library.file] = compiled.Library;
   }
   if (!status) return status.error();
-  return libraries;
+  return out;
 }
 
 bool ShaderWatcher::wait(const std::atomic<bool>& stop) const {

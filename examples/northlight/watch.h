@@ -8,26 +8,24 @@
 #include <string>
 #include <vector>
 
-#include "renderer.h"
+#include "effects/northlight/libraries.h"
 
 namespace northlight {
 
 class ShaderWatcher {
  public:
-  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/. `whole_frame`: all effects, not
-  // only ambient occlusion and the sun. `sorts`: also the sorting of rays.
-  ShaderWatcher(std::filesystem::path folder, bool whole_frame, bool sorts)
-      : folder_(std::move(folder)), whole_frame_(whole_frame), sorts_(sorts) {}
+  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/; `libraries` are compiled.
+  ShaderWatcher(std::filesystem::path folder, std::vector<kaamos::effects::EffectLibrary> libraries)
+      : folder_(std::move(folder)), libraries_(std::move(libraries)) {}
 
   // Compiles all shaders; an error's message is the compiler's.
-  rtapi::Result<ShaderLibraries> compile();
+  rtapi::Result<kaamos::effects::ShaderLibraries> compile();
   // Returns true when a file that the last compile() read has changed, false when `stop` is set.
   bool wait(const std::atomic<bool>& stop) const;
 
  private:
   std::filesystem::path folder_;
-  bool whole_frame_;
-  bool sorts_;
+  std::vector<kaamos::effects::EffectLibrary> libraries_;
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 

@@ -22,7 +22,7 @@ namespace {
 namespace hlsl = kaamos::hlsl;
 namespace shader = kaamos::shader;
 
-// The IR of the library's source with checks; null with `error`.
+// The IR of the library's source with checks; null and `error` on failure.
 std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc& library,
                                                        std::string& error) {
   if (library.source == nullptr) {
@@ -64,7 +64,7 @@ ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& 
                     bool debug, std::string& error) {
   hlsl::BuildOptions options;
   options.spirv = spirv;
-  // A Vulkan device runs the SPIR-V; the native code beside it only has to be there.
+  // A Vulkan device runs the SPIR-V; the native code next to it only has to exist.
   options.optimisation = debug   ? hlsl::Optimisation::kDebug
                          : spirv ? hlsl::Optimisation::kNone
                                  : hlsl::Optimisation::kFull;
@@ -107,8 +107,8 @@ CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
   return out;
 }
 
-// Programs load the same library again and again, and each time it would be compiled as far as the
-// key of the cache on the disk. So many variants live on when nobody uses them.
+// Programs load the same library again and again, and each time it would have to be compiled up to
+// the point where the disk cache's key is known. That many variants are kept even when unused.
 constexpr size_t kMostKept = 32;
 
 struct Known {
@@ -126,7 +126,7 @@ struct KnownVariants {
 CheckedLibrary checked_variant(const ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
   if ((desc.flags & shader::kLibraryChecked) != 0) return {library, {}, true};
-  // Never taken down: at exit others may still run what it holds.
+  // Never destroyed: at exit, other threads may still be running what it holds.
   static KnownVariants& known = *new KnownVariants;
   const std::lock_guard lock(known.mutex);
   const std::string_view source(reinterpret_cast<const char*>(desc.source),

@@ -6,8 +6,8 @@
 
 #include "rtapi/src/backends.h"
 #include "rtapi/src/checked_library.h"
-#include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/device_impl.h"
+#include "rtapi/src/root_signature_impl.h"
 #include "runtime/backend/dispatch_checks.h"
 
 namespace rtapi {

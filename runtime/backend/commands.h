@@ -75,8 +75,8 @@ struct IndirectLayout {
   uint32_t stride_bytes = 0;
 };
 
-// Dispatches whose arguments are read when the command executes; runtime/backend/indirect.h turns it into
-// plain dispatches. `arguments` has room for max_count commands, and `count` for a count.
+// Dispatches whose arguments are read when the command executes; runtime/backend/indirect.h turns
+// it into plain dispatches. `arguments` has room for max_count commands, and `count` for a count.
 struct ExecuteIndirectCommand {
   std::shared_ptr<const IndirectLayout> layout;
   uint32_t max_count = 0;

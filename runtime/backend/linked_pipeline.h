@@ -35,7 +35,8 @@ struct LinkedShader {
   rtapi::RootSignature local_root_signature;
 };
 
-enum class RecordKind : uint8_t { kRayGeneration, kMiss, kCallable, kHitGroup };
+// kNone: no identifier of this pipeline.
+enum class RecordKind : uint8_t { kRayGeneration, kMiss, kCallable, kHitGroup, kNone };
 
 // What an identifier stands for. Absent shaders are null.
 struct LinkedRecord {

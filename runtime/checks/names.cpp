@@ -100,6 +100,8 @@ const char* record_kind_name(runtime::RecordKind kind) {
       return "callable";
     case runtime::RecordKind::kHitGroup:
       return "hit group";
+    case runtime::RecordKind::kNone:
+      break;
   }
   return "unknown";
 }

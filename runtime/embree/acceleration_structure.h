@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Builds on Embree. Whatever does not depend on Embree is in runtime/structures/structure_commands.h.
+// Builds on Embree. Whatever does not depend on Embree is in
+// runtime/structures/structure_commands.h.
 #pragma once
 
 #include <rtapi/result.h>

@@ -206,10 +206,6 @@ void Device::reset_statistics() {
   counters_ = {};
 }
 
-void Device::warn(runtime::Id id, const std::string& text) const {
-  context_.message(runtime::make_message(id, text));
-}
-
 const runtime::BackendFactory& backend_factory() {
   static const runtime::BackendFactory factory = {"embree", enumerate, Device::create};
   return factory;

@@ -62,7 +62,6 @@ class Device final : public runtime::BackendDevice {
   DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get(), &context_}; }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);
-  void warn(runtime::Id id, const std::string& text) const;
 
  private:
   Device(const rtapi::DeviceDesc& desc, const runtime::Context& context);

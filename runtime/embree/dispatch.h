@@ -11,7 +11,7 @@
 
 #include <rtapi/result.h>
 
-#include "runtime/backend/errors.h"
+#include "runtime/backend/executor.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/embree/worker.h"
 
@@ -25,17 +25,8 @@ struct DispatchEnvironment {
 };
 
 // The outcome. An error removes the device: KA0890 to KA0893, KA0897.
-struct DispatchResult {
-  rtapi::Status status;
+struct DispatchResult : runtime::DispatchOutcome {
   Counters counters;
-  // Something ran, or did not run, in a way that the application may not have meant: id and text.
-  struct Warning {
-    runtime::Id id;
-    std::string text;
-  };
-  std::vector<Warning> warnings;
-  std::vector<runtime::ReachedFrom> reached = {};  // on checked devices
-  runtime::MissingRecords missing = {};
 };
 
 // Runs every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.

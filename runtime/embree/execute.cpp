@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs the command stream, one command after another. Nothing overlaps, so barriers have nothing to
-// do.
+// What the Embree backend does for each command of a list.
 #include <algorithm>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
-#include "runtime/backend/indirect.h"
+#include "runtime/backend/executor.h"
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/device.h"
 #include "runtime/embree/texture.h"
@@ -17,95 +14,48 @@
 namespace kaamos::embree {
 namespace {
 
-class Executor {
+class Target final : public runtime::CommandTarget {
  public:
-  explicit Executor(Device& device) : device_(device) {}
+  explicit Target(Device& device) : device_(device) {}
 
-  rtapi::Status operator()(const runtime::DispatchRaysCommand& command) {
-    if (auto s = complete_top_levels(device_); !s) return s;
-    return finish(dispatch_rays(device_.dispatch_environment(), command, label("DispatchRays")));
+  runtime::DispatchOutcome dispatch_rays(const runtime::DispatchRaysCommand& command,
+                                         const std::string& label) override {
+    if (auto s = complete_top_levels(device_); !s) return {s};
+    return counted(embree::dispatch_rays(device_.dispatch_environment(), command, label));
   }
-  rtapi::Status operator()(const runtime::DispatchCommand& command) {
-    if (auto s = complete_top_levels(device_); !s) return s;
-    return finish(dispatch_compute(device_.dispatch_environment(), command, label("Dispatch")));
+  runtime::DispatchOutcome dispatch(const runtime::DispatchCommand& command,
+                                    const std::string& label) override {
+    if (auto s = complete_top_levels(device_); !s) return {s};
+    return counted(dispatch_compute(device_.dispatch_environment(), command, label));
   }
-  rtapi::Status operator()(const runtime::ExecuteIndirectCommand& command);
-  rtapi::Status operator()(const runtime::BuildCommand& command) { return build(device_, command); }
-  rtapi::Status operator()(const runtime::EmitPostbuildInfoCommand& command) {
+  rtapi::Status build(const runtime::BuildCommand& command) override {
+    return embree::build(device_, command);
+  }
+  rtapi::Status emit_postbuild_info(const runtime::EmitPostbuildInfoCommand& command) override {
     return runtime::emit_postbuild_info(device_.structure_environment(), command.desc,
                                         command.sources);
   }
-  rtapi::Status operator()(const runtime::CopyAccelerationStructureCommand& command) {
+  rtapi::Status copy_structure(const runtime::CopyAccelerationStructureCommand& command) override {
     return copy(device_, command);
   }
-  rtapi::Status operator()(const runtime::CopyBufferCommand& command);
-  rtapi::Status operator()(const runtime::CopyTextureCommand& command);
-  rtapi::Status operator()(const runtime::ClearUavCommand& command);
-  rtapi::Status operator()(const runtime::BarrierCommand&) { return {}; }
-  rtapi::Status operator()(const runtime::EventCommand& command) {
-    if (command.begin) {
-      events_.push_back(command.name);
-    } else if (!events_.empty()) {
-      events_.pop_back();
-    }
-    return {};
-  }
-
-  // Runs the command with checked mode's layer around it.
-  rtapi::Status run(const runtime::Command& command);
-  void next() { ++index_; }
+  rtapi::Status copy_buffer(const runtime::CopyBufferCommand& command,
+                            const std::string& label) override;
+  rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override;
+  rtapi::Status clear(const runtime::ClearUavCommand& command) override;
+  // Nothing overlaps.
+  void barrier() override {}
+  rtapi::Status finish() override { return {}; }
 
  private:
-  std::string label(const char* what) const {
-    std::string text =
-        std::string(indirect_ ? "ExecuteIndirect" : what) + ", command " + std::to_string(index_);
-    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
-    return indirect_ ? runtime::indirect_label(what, *indirect_, text) : text;
+  runtime::DispatchOutcome counted(DispatchResult result) {
+    device_.add_counters(result.counters);
+    return result;
   }
-  rtapi::Status finish(DispatchResult result);
 
   Device& device_;
-  const runtime::Command* running_ = nullptr;
-  size_t index_ = 0;
-  std::optional<uint32_t> indirect_;  // which dispatch of an ExecuteIndirect is running
-  std::vector<std::string> events_;
-  // Warnings of the running dispatch. They come after what checked mode reports, which knows the
-  // cause.
-  std::vector<DispatchResult::Warning> warnings_;
 };
 
-rtapi::Status Executor::finish(DispatchResult result) {
-  if (auto* observer = device_.context().observer) {
-    if (!result.reached.empty()) observer->reached(*running_, result.reached);
-    observer->missed(*running_, result.missing);
-  }
-  device_.add_counters(result.counters);
-  warnings_ = std::move(result.warnings);
-  return std::move(result.status);
-}
-
-rtapi::Status Executor::run(const runtime::Command& command) {
-  running_ = &command;
-  runtime::CommandObserver* observer = device_.context().observer;
-  if (observer != nullptr) observer->before(command, label(runtime::command_name(command)));
-  auto status = std::visit(*this, command);
-  if (observer != nullptr) observer->after(command, status.ok());
-  for (const auto& warning : std::exchange(warnings_, {})) device_.warn(warning.id, warning.text);
-  return status;
-}
-
-rtapi::Status Executor::operator()(const runtime::ExecuteIndirectCommand& command) {
-  const std::string name = label("ExecuteIndirect");
-  const auto run_one = [&](const runtime::Command& dispatch, uint32_t index) {
-    indirect_ = index;
-    auto status = run(dispatch);
-    indirect_.reset();
-    return status;
-  };
-  return runtime::execute_indirect(*device_.context().addresses, command, name, run_one);
-}
-
-rtapi::Status Executor::operator()(const runtime::CopyBufferCommand& command) {
+rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command, const std::string&) {
   device_.memory().evict(command.dest->address() + command.dest_offset, command.size_bytes);
   std::memmove(command.dest->host() + command.dest_offset,
                command.source->host() + command.source_offset, command.size_bytes);
@@ -135,7 +85,7 @@ Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t texel_bytes) {
   return {first, place.row_pitch, place.slice_pitch};
 }
 
-rtapi::Status Executor::operator()(const runtime::CopyTextureCommand& command) {
+rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
   const uint32_t texel_bytes =
       std::max(texel_bytes_of(command.dest), texel_bytes_of(command.source));
   const Rows dest = rows_of(command.dest, texel_bytes);
@@ -150,7 +100,7 @@ rtapi::Status Executor::operator()(const runtime::CopyTextureCommand& command) {
   return {};
 }
 
-rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
+rtapi::Status Target::clear(const runtime::ClearUavCommand& command) {
   if (command.view.kind != shader::DescriptorKind::kTexture) {
     device_.memory().evict(command.view.address, command.view.size_bytes);
   }
@@ -161,12 +111,8 @@ rtapi::Status Executor::operator()(const runtime::ClearUavCommand& command) {
 }  // namespace
 
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
-  Executor executor(*this);
-  for (const runtime::Command& command : commands) {
-    if (auto s = executor.run(command); !s) return s;
-    executor.next();
-  }
-  return {};
+  Target target(*this);
+  return runtime::execute(commands, target, context_);
 }
 
 }  // namespace kaamos::embree

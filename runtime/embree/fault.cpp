@@ -12,11 +12,12 @@
 #include <memory>
 #include <mutex>
 
+#include "runtime/backend/fault_signals.h"
+
 namespace kaamos::embree {
 namespace {
 
-constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
-struct sigaction previous_actions[std::size(kSignals)];
+constinit runtime::FaultSignals signals(runtime::kShaderFaultSignals);
 
 // The worker whose guarded code this thread runs; null outside of shaders.
 thread_local Worker* guarded_worker = nullptr;
@@ -36,21 +37,6 @@ uintptr_t stack_pointer_of(const void* context) {
 #endif
 }
 
-// Not our fault: pass it to the previous handler.
-void forward(int signal_number, siginfo_t* info, void* context) {
-  const auto* slot = std::find(std::begin(kSignals), std::end(kSignals), signal_number);
-  const struct sigaction& previous = previous_actions[slot - std::begin(kSignals)];
-  if ((previous.sa_flags & SA_SIGINFO) != 0 && previous.sa_sigaction != nullptr) {
-    previous.sa_sigaction(signal_number, info, context);
-  } else if (previous.sa_handler != SIG_DFL && previous.sa_handler != SIG_IGN) {
-    previous.sa_handler(signal_number);
-  } else {
-    // With the default handler back, the faulting instruction runs again and ends the process.
-    sigaction(signal_number, &previous, nullptr);
-    if (info->si_code <= 0) raise(signal_number);
-  }
-}
-
 // Copied, because what `index` points to ends with the guarded run.
 void note_index(Worker& worker) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -60,7 +46,9 @@ void note_index(Worker& worker) {
 
 void on_signal(int signal_number, siginfo_t* info, void* context) {
   Worker* worker = guarded_worker;
-  if (worker == nullptr || info->si_code <= 0) return forward(signal_number, info, context);
+  if (worker == nullptr || info->si_code <= 0) {
+    return signals.forward(signal_number, info, context);
+  }
   worker->fault_signal = signal_number;
   worker->fault_address = reinterpret_cast<uintptr_t>(info->si_addr);
   worker->fault_reason = shader::RemovalReason::kFault;
@@ -72,23 +60,13 @@ void on_signal(int signal_number, siginfo_t* info, void* context) {
     worker->fault_reason = shader::RemovalReason::kStackOverflow;
   }
   note_index(*worker);
-  // The sanitizers' handlers, which run before this one, have blocked every signal.
-  pthread_sigmask(SIG_SETMASK, &static_cast<const ucontext_t*>(context)->uc_sigmask, nullptr);
+  runtime::restore_signal_mask(context);
   siglongjmp(*worker->jump, 1);
 }
 
 void install_handlers() {
   static std::once_flag once;
-  std::call_once(once, [] {
-    struct sigaction action = {};
-    action.sa_sigaction = on_signal;
-    // NODEFER, because the handler leaves by a jump that does not restore the mask.
-    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < std::size(kSignals); ++i) {
-      sigaction(kSignals[i], &action, &previous_actions[i]);
-    }
-  });
+  std::call_once(once, [] { signals.install(on_signal); });
 }
 
 // A stack for the handler, because the shader's may be used up.
@@ -163,7 +141,8 @@ std::string detail_of(const Worker& worker) {
     case shader::RemovalReason::kFault:
       return std::string(name_of(worker.fault_signal)) + " at address " +
              hexadecimal(worker.fault_address) +
-             ". A root descriptor, a table handle or a record argument may name memory that is not "
+             ". A root descriptor, a table handle or a record argument may name memory that is "
+             "not "
              "there";
     case shader::RemovalReason::kStepLimit:
       return "it may loop for ever. Otherwise raise ShaderCompileOptions::InterpretStepLimit";

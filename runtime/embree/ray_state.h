@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "kaamos/shader/abi.h"
+#include "runtime/backend/ray_flags.h"
 #include "runtime/embree/fault.h"
 #include "runtime/embree/instance_node.h"
 #include "runtime/embree/top_level.h"
@@ -17,20 +18,17 @@
 
 namespace kaamos::embree {
 
-// RAY_FLAG [DXR: Ray flags]
-enum RayFlags : uint32_t {
-  kRayForceOpaque = 0x1,
-  kRayForceNonOpaque = 0x2,
-  kRayAcceptFirstHitAndEndSearch = 0x4,
-  kRaySkipClosestHitShader = 0x8,
-  kRayCullBackFacingTriangles = 0x10,
-  kRayCullFrontFacingTriangles = 0x20,
-  kRayCullOpaque = 0x40,
-  kRayCullNonOpaque = 0x80,
-  kRaySkipTriangles = 0x100,
-  kRaySkipProceduralPrimitives = 0x200,
-};
-inline constexpr uint32_t kAllRayFlags = 0x3FF;
+using runtime::kAllRayFlags;
+using runtime::kRayAcceptFirstHitAndEndSearch;
+using runtime::kRayCullBackFacingTriangles;
+using runtime::kRayCullFrontFacingTriangles;
+using runtime::kRayCullNonOpaque;
+using runtime::kRayCullOpaque;
+using runtime::kRayForceNonOpaque;
+using runtime::kRayForceOpaque;
+using runtime::kRaySkipClosestHitShader;
+using runtime::kRaySkipProceduralPrimitives;
+using runtime::kRaySkipTriangles;
 
 inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "kaamos/shader/abi.h"
+#include "runtime/backend/linked_pipeline.h"
 
 namespace kaamos::runtime {
 struct LinkedShader;
@@ -40,7 +41,7 @@ struct alignas(64) Shader {
   }
 };
 
-enum class RecordKind : uint32_t { kNone, kRayGeneration, kMiss, kHitGroup, kCallable };
+using runtime::RecordKind;
 
 // What a shader identifier stands for. Absent shaders run nothing, so kNothing below serves for
 // null identifiers, records out of bounds and identifiers of the wrong kind alike. Shaders are held

@@ -6,20 +6,6 @@
 namespace kaamos::embree {
 namespace {
 
-RecordKind kind_of(runtime::RecordKind kind) {
-  switch (kind) {
-    case runtime::RecordKind::kRayGeneration:
-      return RecordKind::kRayGeneration;
-    case runtime::RecordKind::kMiss:
-      return RecordKind::kMiss;
-    case runtime::RecordKind::kCallable:
-      return RecordKind::kCallable;
-    case runtime::RecordKind::kHitGroup:
-      return RecordKind::kHitGroup;
-  }
-  return RecordKind::kNone;
-}
-
 Shader flatten(const runtime::LinkedShader& shader, uint32_t number) {
   return {shader.name.c_str(),
           shader.code->entry,
@@ -36,7 +22,7 @@ RaytracingPipeline::RaytracingPipeline(std::shared_ptr<const runtime::LinkedPipe
     : linked_(std::move(linked)) {
   for (const auto& record : linked_->records) {
     RecordTarget target;
-    target.kind = kind_of(record->kind);
+    target.kind = record->kind;
     target.procedural = record->hit_group_type == rtapi::HitGroupType::kProceduralPrimitive;
     target.shader = add(record->shader);
     target.any_hit = add(record->any_hit);

@@ -30,6 +30,7 @@ const char* table_name(RecordKind kind) {
     case RecordKind::kCallable:
       return "callable";
     case RecordKind::kHitGroup:
+    case RecordKind::kNone:
       break;
   }
   return "hit group";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/backend/ray_flags.h"
 #include "runtime/explain/guard.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
@@ -14,16 +15,13 @@ namespace kaamos::explain {
 
 using rtapi::CandidateOutcome;
 using rtapi::RayFlags;
+using runtime::has;
 using runtime::LinkedShader;
 using runtime::RecordKind;
 using shader::AnyHitResult;
 using shader::ReportHitResult;
 
 namespace {
-
-bool has(uint32_t flags, RayFlags flag) {
-  return (flags & static_cast<uint32_t>(flag)) != 0;
-}
 
 // Rays that traversals accept; every other ray, with NaN for example, misses.
 bool is_valid(const shader::RayDesc& ray) {

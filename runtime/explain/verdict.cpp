@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/explain/verdict.h"
+#include "runtime/backend/ray_flags.h"
 
 #include <cstdio>
 
@@ -11,10 +12,7 @@ namespace {
 
 using rtapi::CandidateOutcome;
 using rtapi::RayFlags;
-
-bool has(uint32_t flags, RayFlags flag) {
-  return (flags & static_cast<uint32_t>(flag)) != 0;
-}
+using runtime::has;
 
 std::string hex2(uint32_t value) {
   char text[16];

@@ -62,8 +62,6 @@ class Device final : public runtime::BackendDevice {
   }
   void add(const rtapi::RaytracingStatistics& statistics);
   void warn(runtime::Id id, const std::string& text) const;
-  // Tells checked mode's layer about the command, once memory is as the command will find it.
-  rtapi::Status observe(const runtime::Command& command, const std::string& label);
 
  private:
   explicit Device(const runtime::Context& context) : context_(context) {}

@@ -10,7 +10,7 @@
 
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/backend/backend.h"
-#include "runtime/backend/errors.h"
+#include "runtime/backend/executor.h"
 #include "runtime/vulkan/acceleration_structure.h"
 #include "runtime/vulkan/command_stream.h"
 #include "runtime/vulkan/dispatch_split.h"
@@ -46,20 +46,10 @@ struct DispatchEnvironment {
 
 // The outcome. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader, KA0892 a
 // table in no buffer, KA0955 device lost, KA0956 over a limit, KA0990 out of memory.
-struct DispatchResult {
-  rtapi::Status status;
-  // Something ran, or did not run, in a way that the application may not have meant: id and text.
-  struct Warning {
-    runtime::Id id;
-    std::string text;
-  };
-  std::vector<Warning> warnings;
-  // Only on devices that collect them. A miss without a miss shader counts as a hit, because only
-  // shaders can count.
+struct DispatchResult : runtime::DispatchOutcome {
+  // If the device collects them. A miss without a miss shader counts as a hit, because only shaders
+  // can count.
   rtapi::RaytracingStatistics statistics;
-  // Only on checked devices.
-  std::vector<runtime::ReachedFrom> reached = {};
-  runtime::MissingRecords missing = {};
 };
 
 // `label` names the dispatch in messages.

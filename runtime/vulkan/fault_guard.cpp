@@ -10,6 +10,8 @@
 #include <cerrno>
 #include <mutex>
 
+#include "runtime/backend/fault_signals.h"
+
 namespace kaamos::vulkan {
 namespace {
 
@@ -25,7 +27,8 @@ struct Faults {
 };
 Faults faults;
 std::mutex owner;  // held by the active guard
-struct sigaction previous_action;
+constexpr int kSignals[] = {SIGSEGV};
+constinit runtime::FaultSignals signals(kSignals);
 
 void* instruction_of(const void* context) {
   const auto* machine = static_cast<const ucontext_t*>(context);
@@ -66,24 +69,13 @@ void on_fault(int signal_number, siginfo_t* info, void* context) {
       give_page(reinterpret_cast<uintptr_t>(info->si_addr))) {
     return;
   }
-  if ((previous_action.sa_flags & SA_SIGINFO) != 0 && previous_action.sa_sigaction != nullptr) {
-    previous_action.sa_sigaction(signal_number, info, context);
-  } else if (previous_action.sa_handler != SIG_DFL && previous_action.sa_handler != SIG_IGN) {
-    previous_action.sa_handler(signal_number);
-  } else {
-    // With the default handler back, the faulting instruction runs again and ends the process.
-    sigaction(signal_number, &previous_action, nullptr);
-    if (info->si_code <= 0) raise(signal_number);
-  }
+  signals.forward(signal_number, info, context);
 }
 
 void install_handler() {
   static const bool installed = [] {
-    struct sigaction action = {};
-    action.sa_sigaction = on_fault;
-    action.sa_flags = SA_SIGINFO | SA_NODEFER | SA_ONSTACK;
-    sigemptyset(&action.sa_mask);
-    return sigaction(SIGSEGV, &action, &previous_action) == 0;
+    signals.install(on_fault);
+    return true;
   }();
   static_cast<void>(installed);
 }

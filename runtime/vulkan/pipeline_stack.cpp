@@ -46,6 +46,8 @@ uint32_t pipeline_stack_bytes(const Gpu& gpu, VkPipeline pipeline,
             bytes(groups[i].anyHitShader, VK_SHADER_GROUP_SHADER_ANY_HIT_KHR) +
                 bytes(groups[i].intersectionShader, VK_SHADER_GROUP_SHADER_INTERSECTION_KHR));
         break;
+      case runtime::RecordKind::kNone:
+        break;
     }
   }
   // The default as the Vulkan specification computes it, but with more levels of callables.

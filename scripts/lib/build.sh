@@ -13,7 +13,7 @@ require_tools() {
   version=$(cmake --version | awk 'NR == 1 { print $3 }')
   version_at_least "$version" "$cmake_minimum" ||
     die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
-      "Debian 12 brings 3.25 as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
+      "Debian brings 3.25 or newer as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."
   # CXX may hold options after the compiler's name.
   if [[ -n ${CXX:-} ]]; then
     command -v "${CXX%% *}" >/dev/null ||

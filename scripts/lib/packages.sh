@@ -109,7 +109,7 @@ explain_apt() {
       die "apt-get does not know some of these packages on $(system_name):" \
         "$(grep -oE "Unable to locate package .*|Package '.*' has no installation candidate" <<<"$said" |
           sort -u | paste -sd ';')" \
-        "Debian 12 has them all. On another system, install their counterparts by the roles listed above," \
+        "Debian 12 and 13 have them all. On another system, install their counterparts by the roles listed above," \
         "and run $program --no-install." ;;
   esac
   die "apt-get failed. What it said is in \"$log\"; its last lines:" "$(tail -n 3 "$log")"

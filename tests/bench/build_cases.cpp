@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "fixtures.h"
+#include "tests/common/structures.h"
 
 namespace kaamos::bench {
 namespace {
@@ -80,7 +81,7 @@ struct DeviceRock {
     inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
     inputs.NumDescs = 1;
     inputs.pGeometryDescs = &geometry;
-    build_structure(device, queue, inputs, structure);
+    structure = test::build_structure(device, queue, inputs);
   }
 };
 
@@ -215,8 +216,7 @@ Line tlas(const std::string& name, uint32_t count, Fixtures& fixtures, const Mea
       measure,
       [&] {
         for (int i = 0; i < repeats; ++i) {
-          Buffer structure;
-          build_structure(ours.device, ours.queue, inputs, structure);
+          const Buffer structure = test::build_structure(ours.device, ours.queue, inputs);
         }
       },
       [&] {

@@ -11,7 +11,7 @@ constexpr uint32_t kRays = 16;
 // "Linear in rays: 5 ms with one, 80 ms with 16." [GDC 2018 talk] The time of 16 rays against the
 // line through the times of one ray and of four.
 Line ao_linear(Fixtures& fixtures, const Measure& measure) {
-  EffectRun run(kAoEffect, fixtures);
+  EffectRun run("ao", fixtures);
   const auto time_of = [&](uint32_t rays) {
     return seconds(measure, [&] { run.trace(false, rays); });
   };
@@ -28,7 +28,7 @@ Line ao_linear(Fixtures& fixtures, const Measure& measure) {
 // The same against 16 times one ray. The ratio is below 1, because what a pixel needs before its
 // first ray is paid once.
 Line ao_proportional(Fixtures& fixtures, const Measure& measure) {
-  EffectRun run(kAoEffect, fixtures);
+  EffectRun run("ao", fixtures);
   const Pairs times = time_pairs(
       measure, [&] { run.trace(false, kRays); },
       [&] {

@@ -5,18 +5,12 @@
 
 #include <span>
 
+#include "tests/common/structures.h"
+
 namespace kaamos::bench {
 namespace {
 
 using namespace rtapi;
-
-Buffer default_buffer(const Device& device, uint64_t bytes, const char* name) {
-  BufferDesc desc;
-  desc.SizeInBytes = bytes;
-  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  desc.Name = name;
-  return device.CreateBuffer(desc).value();
-}
 
 Device make_device(uint32_t threads, const std::string& backend, TraversalPrecision precision,
                    bool checked) {
@@ -29,26 +23,6 @@ Device make_device(uint32_t threads, const std::string& backend, TraversalPrecis
 }
 
 }  // namespace
-
-void build_structure(const Device& device, CommandQueue& queue,
-                     const BuildRaytracingAccelerationStructureInputs& inputs, Buffer& result) {
-  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  BufferDesc desc;
-  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
-  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
-  desc.Name = "structure";
-  result = device.CreateBuffer(desc).value();
-  const Buffer scratch = default_buffer(
-      device, std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256), "scratch memory");
-  CommandList list = device.CreateCommandList().value();
-  BuildRaytracingAccelerationStructureDesc build;
-  build.Inputs = inputs;
-  build.DestAccelerationStructureData = result.GetGPUVirtualAddress();
-  build.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
-  list.BuildRaytracingAccelerationStructure(build);
-  queue.ExecuteAndWait(list).value();
-}
 
 DxrScene::DxrScene(const SceneData& data, uint32_t threads, bool alpha_tested,
                    const std::string& backend, TraversalPrecision precision, float distance,
@@ -81,11 +55,7 @@ void DxrScene::build_mesh(const MeshData& mesh, bool alpha_tested, MeshBuffers& 
                                        uint64_t{geometry.first_vertex} * effects::kVertexStride,
                                    effects::kVertexStride};
   }
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.NumDescs = static_cast<uint32_t>(geometries.size());
-  inputs.pGeometryDescs = geometries.data();
-  build_structure(device_, queue_, inputs, out.structure);
+  out.structure = kaamos::test::build_bottom_level(device_, queue_, geometries);
 }
 
 void DxrScene::build_instances(float distance) {
@@ -97,11 +67,7 @@ void DxrScene::build_instances(float distance) {
     desc.InstanceContributionToHitGroupIndex = data_.meshes[instance.mesh].first_record;
     desc.AccelerationStructure = meshes_[instance.mesh].structure.GetGPUVirtualAddress();
   }
-  instances_ = CreateUploadBuffer(device_, instances, "instances").value();
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  inputs.InstanceDescs = instances_.GetGPUVirtualAddress();
-  build_structure(device_, queue_, inputs, top_level_);
+  top_level_ = kaamos::test::build_top_level(device_, queue_, instances);
 }
 
 void DxrScene::upload_images() {

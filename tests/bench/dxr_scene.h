@@ -16,11 +16,6 @@
 
 namespace kaamos::bench {
 
-// Builds a structure and waits. `result` receives the result buffer; scratch memory is freed.
-void build_structure(const rtapi::Device& device, rtapi::CommandQueue& queue,
-                     const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
-                     rtapi::Buffer& result);
-
 // The lounge's buffers, textures and structures.
 class DxrScene {
  public:
@@ -56,7 +51,6 @@ class DxrScene {
   rtapi::Device device_;
   rtapi::CommandQueue queue_;
   std::vector<MeshBuffers> meshes_;
-  rtapi::Buffer instances_;
   rtapi::Buffer top_level_;
   rtapi::Buffer materials_;
   rtapi::DescriptorHeap heap_;

@@ -4,27 +4,18 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
+#include <string>
 
-#include "effects/frame/ray_pass.h"
-#include "effects/indirect_diffuse/volume.h"
-#include "effects/lights/lighting.h"
-#include "effects/ray_order/ray_order.h"
+#include "effects/northlight/frame_renderer.h"
 #include "fixtures.h"
 
 namespace kaamos::bench {
 
-struct BenchEffect {
-  const char* name;
-  effects::RayPassDesc (*pass)(rtapi::ShaderLibrary);
-  rtapi::Result<rtapi::ShaderLibrary> (*library)();
-  bool own_picture;  // it adds to a picture of its own, not to one of the frame's
-};
-extern const BenchEffect kAoEffect, kSunEffect, kReflectionsEffect;
-
 class EffectRun {
  public:
-  EffectRun(const BenchEffect& effect, Fixtures& fixtures);
+  // `effect`: its name in the registry.
+  EffectRun(const std::string& effect, Fixtures& fixtures);
 
   // Computes the rays' keys and sorts them.
   void sort();
@@ -32,19 +23,8 @@ class EffectRun {
   void trace(bool sorted, uint32_t samples = 1);
 
  private:
-  void bind_picture();
-
-  rtapi::Device device_;
-  rtapi::CommandQueue queue_;
-  effects::GpuScene gpu_;
-  effects::Frame frame_;
-  std::optional<effects::Lighting> lighting_;
-  effects::GpuVolume volume_;
-  effects::RaySorter sorter_;
-  effects::RayPass pass_, keys_;
-  rtapi::Texture picture_;
-  effects::PassViews views_;
-  effects::PassArguments arguments_;
+  std::string effect_;
+  std::unique_ptr<effects::FrameRenderer> renderer_;
   rtapi::CommandList list_;
 };
 

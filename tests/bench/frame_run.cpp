@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "frame_run.h"
 
-#include <atomic>
+#include <algorithm>
 #include <stdexcept>
 
-#include "effects/ambient_occlusion/ambient_occlusion.h"
-#include "effects/gbuffer/gbuffer.h"
 #include "effects/scene/lounge.h"
-#include "effects/sun_shadow/sun_shadow.h"
 #include "listening_library.h"
 
 namespace kaamos::bench {
 namespace {
 
-northlight::Options frame_options(uint32_t width, uint32_t height) {
-  northlight::Options options;
-  options.width = width;
-  options.height = height;
-  options.local = options.contact = options.gi = options.reflections = options.transparent = true;
-  options.ao_samples = options.sun_samples = 1;
-  options.gi_bake_samples = 4;  // the time does not depend on what the volume holds
-  return options;
-}
-
-northlight::ShaderLibraries listening_libraries() {
-  northlight::ShaderLibraries libraries = northlight::built_in_libraries().value();
-  for (rtapi::ShaderLibrary* tracing :
-       {&libraries.gbuffer, &libraries.lighting, &libraries.ambient_occlusion,
-        &libraries.sun_shadow, &libraries.contact_shadow, &libraries.indirect_diffuse,
-        &libraries.reflections}) {
-    *tracing = listening_library(*tracing);
-  }
+effects::ShaderLibraries listening_libraries(const effects::FrameSettings& settings) {
+  effects::ShaderLibraries libraries =
+      effects::load_libraries(effects::frame_libraries(settings)).value();
+  for (auto& [file, library] : libraries) library = listening_library(library);
   return libraries;
 }
 
@@ -38,76 +21,50 @@ northlight::ShaderLibraries listening_libraries() {
 
 FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
     : scene_(effects::make_lounge()) {
-  const northlight::Options options = frame_options(width, height);
   rtapi::DeviceDesc desc;
   desc.Threads = threads;
   desc.CollectStatistics = true;
-  device_ = rtapi::CreateDevice(desc).value();
-  queue_ = device_.CreateCommandQueue().value();
-  const effects::Camera& camera = scene_.cameras.front();
-  gpu_ = effects::create_gpu_scene(device_, queue_, scene_, camera.position()).value();
-  effects::FrameDesc frame_desc;
-  frame_desc.width = width;
-  frame_desc.height = height;
-  frame_ = effects::Frame::create(device_, queue_, scene_, gpu_, camera, frame_desc).value();
-  libraries_ = listening_libraries();
-  const std::atomic<bool> never = false;
-  effects_
-      .create(
-          device_, queue_, frame_, gpu_, scene_, options, libraries_, [](double) {}, never)
-      .value();
-  parts_.push_back(ray_pass(effects::gbuffer_pass(libraries_.gbuffer), {}));
-  parts_.push_back([this](rtapi::CommandList& list, const effects::PassConstants&) {
-    effects_.light(list, frame_);
-  });
-  parts_.push_back(ray_pass(effects::ambient_occlusion_pass(libraries_.ambient_occlusion), {}));
-  parts_.push_back(ray_pass(effects::sun_shadow_pass(libraries_.sun_shadow), {}));
-  for (const northlight::RayStep& step : effects_.steps()) {
-    parts_.push_back(ray_pass(step.desc, step.arguments));
+  effects::FrameSettings settings;
+  settings.width = width;
+  settings.height = height;
+  settings.effects = effects::choose_effects({"all"});
+  for (auto& [name, effect] : settings.effects) effect.samples = 1;
+  settings.volume.samples = 4;  // what the volume holds costs nothing
+  renderer_ =
+      effects::FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
+  renderer_->set_libraries(listening_libraries(renderer_->settings()));
+  renderer_->prepare().value();
+  const std::vector<std::string> parts = renderer_->parts();
+  if (!std::equal(parts.begin(), parts.end(), kFrameParts.begin(), kFrameParts.end())) {
+    throw std::runtime_error("the lounge's frame has other parts than kFrameParts names");
   }
-  if (parts_.size() != kFrameParts.size()) {
-    throw std::runtime_error("the lounge's frame has " + std::to_string(parts_.size()) +
-                             " parts, kFrameParts names " + std::to_string(kFrameParts.size()));
-  }
-}
-
-FrameRun::Record FrameRun::ray_pass(const effects::RayPassDesc& desc,
-                                    const effects::PassArguments& arguments) {
-  return [this, arguments, pass = effects::RayPass::create(device_, frame_, gpu_, desc).value()](
-             rtapi::CommandList& list, const effects::PassConstants& constants) {
-    pass.dispatch(list, frame_, constants, frame_.height(), arguments);
-  };
 }
 
 void FrameRun::trace_and_shade(const std::string& part) {
-  rtapi::CommandList list = device_.CreateCommandList().value();
-  effects_.begin_frame(scene_.cameras.front().position(), false);
-  effects::PassConstants constants;
+  rtapi::CommandList list = device().CreateCommandList().value();
   // Each frame uses other samples, as in a sequence: to the filters, noise that stands still would
   // not be noise.
-  constants.first_sample = frames_++;
-  constants.sample_count = 1;
-  constants.radius = 4;
-  constants.accumulate = 0;
-  for (size_t i = 0; i < parts_.size(); ++i) {
-    if (part.empty() || part == kFrameParts[i]) parts_[i](list, constants);
+  const effects::FrameRenderer::PartOptions options = {.first_sample = frames_++};
+  for (const char* each : kFrameParts) {
+    if (part.empty() || part == each) renderer_->record(list, each, options);
   }
-  queue_.ExecuteAndWait(list).value();
+  queue().ExecuteAndWait(list).value();
 }
 
 void FrameRun::denoise_and_compose() {
-  rtapi::CommandList list = device_.CreateCommandList().value();
-  for (const auto& filter : effects_.filters(frame_)) filter.record(list);
-  effects_.compose(list, frame_);
-  queue_.ExecuteAndWait(list).value();
+  rtapi::CommandList list = device().CreateCommandList().value();
+  renderer_->record_filters(list);
+  renderer_->record_compose(list);
+  queue().ExecuteAndWait(list).value();
 }
 
 std::vector<FrameRay> FrameRun::record(uint64_t& hits, const std::string& part) {
-  device_.ResetStatistics();
+  rtapi::Device device = renderer_->device();
+  device.ResetStatistics();
   const RayRecording recording;
   trace_and_shade(part);
   std::vector<FrameRay> rays = recording.rays();
-  const rtapi::RaytracingStatistics statistics = device_.GetStatistics();
+  const rtapi::RaytracingStatistics statistics = device.GetStatistics();
   if (statistics.TraceRayCalls != rays.size()) {
     throw std::runtime_error("the frame traced " + std::to_string(statistics.TraceRayCalls) +
                              " rays, of which " + std::to_string(rays.size()) + " were recorded");

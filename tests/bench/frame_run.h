@@ -6,21 +6,19 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "effects/frame/ray_pass.h"
+#include "effects/northlight/frame_renderer.h"
 #include "embree_loops.h"
-#include "examples/northlight/frame_effects.h"
 
 namespace kaamos::bench {
 
 // The parts of tracing and shading, in order. "lights" is their lists and shadow maps, and the
 // light that they send to each pixel.
-inline constexpr std::array kFrameParts = {"gbuffer", "lights", "ao",         "sun",
-                                           "contact", "gi",     "reflections"};
+inline constexpr std::array kFrameParts = {"gbuffer", "ao", "sun",        "lights",
+                                           "contact", "gi", "reflections"};
 
 class FrameRun {
  public:
@@ -36,26 +34,16 @@ class FrameRun {
   // `hits`: how many hit something.
   std::vector<FrameRay> record(uint64_t& hits, const std::string& part = "");
 
-  const rtapi::Device& device() const { return device_; }
-  rtapi::CommandQueue& queue() { return queue_; }
-  const effects::Frame& frame() const { return frame_; }
-  const effects::Scene& scene() const { return scene_; }
+  const rtapi::Device& device() const { return renderer_->device(); }
+  rtapi::CommandQueue& queue() { return renderer_->queue(); }
+  const effects::Frame& frame() const { return renderer_->frame(); }
   // The lounge as in the frame's top level: relative to the camera.
   SceneData scene_at_camera() const;
 
  private:
-  using Record = std::function<void(rtapi::CommandList&, const effects::PassConstants&)>;
-  Record ray_pass(const effects::RayPassDesc& desc, const effects::PassArguments& arguments);
-
   effects::Scene scene_;
-  rtapi::Device device_;
-  rtapi::CommandQueue queue_;
-  effects::GpuScene gpu_;
-  effects::Frame frame_;
-  northlight::ShaderLibraries libraries_;
-  northlight::FrameEffects effects_;
-  std::vector<Record> parts_;  // as kFrameParts
-  uint32_t frames_ = 0;        // traced so far
+  std::unique_ptr<effects::FrameRenderer> renderer_;
+  uint32_t frames_ = 0;  // that were traced
 };
 
 }  // namespace kaamos::bench

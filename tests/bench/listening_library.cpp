@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "rtapi/src/shader_library_impl.h"
-#include "runtime/embree/ray_state.h"
+#include "runtime/backend/ray_flags.h"
 
 namespace kaamos::bench {
 namespace {
@@ -50,7 +50,7 @@ void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArgum
                      void* payload, shader::RayLanes origin, shader::RayLanes direction) {
   const auto& heard = static_cast<const HeardDispatch&>(*invocation.dispatch);
   constexpr uint32_t kVisibility =
-      embree::kRaySkipClosestHitShader | embree::kRayAcceptFirstHitAndEndSearch;
+      runtime::kRaySkipClosestHitShader | runtime::kRayAcceptFirstHitAndEndSearch;
   const Ray ray = {{origin[0], origin[1], origin[2]},
                    origin[3],
                    {direction[0], direction[1], direction[2]},

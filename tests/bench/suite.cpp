@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "suite.h"
 
+#include <rtapi/version.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
@@ -34,6 +36,7 @@ Measures Kaamos against hand-written baselines in the same process, in turn.
   --clock wall|cpu cpu: CPU time over threads, for a machine that is busy (default wall)
   --quick          small inputs and one pair: shows that it works, measures nothing
   --help           this text
+  --version        which Kaamos this is
 )";
 
 bool parse_number(const std::string& text, uint32_t low, uint32_t high, uint32_t& value) {
@@ -168,6 +171,8 @@ bool parse_arguments(const std::vector<std::string>& arguments, Options& options
       options.list = true;
     } else if (argument == "--help" || argument == "-h") {
       options.help = true;
+    } else if (argument == "--version") {
+      options.version = true;
     } else if (argument == "--precision-table") {
       options.precision_table = true;
     } else if (argument == "--quick") {
@@ -204,6 +209,10 @@ int run_program(const std::vector<std::string>& arguments, std::ostream& out, st
   }
   if (options.help) {
     out << kUsage;
+    return 0;
+  }
+  if (options.version) {
+    out << "kaamos-bench " << rtapi::GetVersion() << "\n";
     return 0;
   }
   if (options.threads == 0) options.threads = std::max(1u, std::thread::hardware_concurrency());

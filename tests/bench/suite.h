@@ -19,6 +19,7 @@ struct Options {
   bool summary = false;
   bool list = false;
   bool help = false;
+  bool version = false;
   std::string only;  // prefix of the names; empty: all cases
   int pairs = 9;
   Clock clock = Clock::kWall;

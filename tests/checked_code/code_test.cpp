@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "rtapi/src/checked_library.h"
+#include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::checks {
@@ -79,28 +80,6 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     keep_.push_back(device_.CreateBuffer(desc).value());
     return keep_.back();
   }
-  Buffer build(const BuildRaytracingAccelerationStructureInputs& inputs, const std::string& name) {
-    const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-    const Buffer out = buffer(sizes.ResultDataMaxSizeInBytes, name,
-                              ResourceStates::kRaytracingAccelerationStructure);
-    BuildRaytracingAccelerationStructureDesc desc;
-    desc.Inputs = inputs;
-    desc.DestAccelerationStructureData = out.GetGPUVirtualAddress();
-    desc.ScratchAccelerationStructureData =
-        buffer(std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256), "scratch")
-            .GetGPUVirtualAddress();
-    CommandList list = device_.CreateCommandList().value();
-    list.BuildRaytracingAccelerationStructure(desc);
-    queue_.ExecuteAndWait(list).value();
-    return out;
-  }
-  Buffer bottom_level(const RaytracingGeometryDesc& geometry, const std::string& name) {
-    BuildRaytracingAccelerationStructureInputs inputs;
-    inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-    inputs.NumDescs = 1;
-    inputs.pGeometryDescs = &geometry;
-    return build(inputs, name);
-  }
   // A triangle around (0, 0, 0), with hit record 0; a box around (10, 0, 0), with record 1.
   void build_scene() {
     RaytracingGeometryDesc triangle;
@@ -113,7 +92,10 @@ class CheckedCode : public testing::TestWithParam<const char*> {
     const std::vector<RaytracingAabb> boxes = {{9, -1, 0, 11, 1, 1}};
     box.AABBs.AABBCount = 1;
     box.AABBs.AABBs = {upload(boxes, "boxes").GetGPUVirtualAddress(), sizeof(RaytracingAabb)};
-    const Buffer levels[] = {bottom_level(triangle, "triangle"), bottom_level(box, "box")};
+    const Buffer levels[] = {
+        kaamos::test::build_bottom_level(device_, queue_, {triangle}, "triangle"),
+        kaamos::test::build_bottom_level(device_, queue_, {box}, "box")};
+    keep_.insert(keep_.end(), {levels[0], levels[1]});
     bottom_ = levels[0];
     std::vector<RaytracingInstanceDesc> instances(2);
     for (uint32_t i = 0; i < 2; ++i) {
@@ -123,10 +105,7 @@ class CheckedCode : public testing::TestWithParam<const char*> {
       instances[i].InstanceContributionToHitGroupIndex = i;
       instances[i].AccelerationStructure = levels[i].GetGPUVirtualAddress();
     }
-    BuildRaytracingAccelerationStructureInputs inputs;
-    inputs.NumDescs = 2;
-    inputs.InstanceDescs = upload(instances, "instances").GetGPUVirtualAddress();
-    scene_ = build(inputs, "scene");
+    scene_ = kaamos::test::build_top_level(device_, queue_, instances, "scene");
   }
   // Slot 0: "raw", as it should be. Slot 1: a typed buffer.
   void build_heap() {

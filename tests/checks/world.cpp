@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::checks::test {
@@ -107,11 +108,8 @@ void World::record_build(CommandList& commands, const Buffer& dest,
 
 Buffer World::build(const BuildRaytracingAccelerationStructureInputs& inputs,
                     const std::string& name) {
-  const Buffer dest = structure_for(inputs, name);
-  CommandList commands = list();
-  record_build(commands, dest, inputs);
-  execute(commands).value();
-  return dest;
+  keep_.push_back(kaamos::test::build_structure(device_, queue_, inputs, name));
+  return keep_.back();
 }
 
 void World::build_scene(uint32_t geometries, uint32_t contribution) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // kaamos-conformance: tests a machine and its drivers against DXR's rules.
+#include <rtapi/version.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -86,6 +87,7 @@ int main(int argc, char** argv) {
   std::string backend, filter, json, precision;
   bool list = false, checked = false;
   CLI::App app("Tests this machine's backends against the rules of DirectX Raytracing.");
+  app.set_version_flag("--version", std::string("kaamos-conformance ") + rtapi::GetVersion());
   app.add_option("--backend", backend, "embree or vulkan; default: every backend there is")
       ->check(CLI::IsMember({"embree", "vulkan"}));
   app.add_option("--precision", precision,

@@ -40,7 +40,7 @@ void refusals_say_why(Context& t) {
   if (refused) return;
   t.equal("E_INVALIDARG", refused.error().code == ErrorCode::kInvalidArgument, true);
   const std::string& message = refused.error().message;
-  t.holds("the message begins with its id", message.rfind(refused.error().id, 0) == 0);
+  t.holds("the message begins with its id", message.rfind(refused.error().id.text(), 0) == 0);
   for (const char* part : {"\"group\"", "\"NotThere\""}) {
     t.holds(std::string("the message names ") + part, message.find(part) != std::string::npos);
   }

@@ -70,7 +70,4 @@ Pictures render(const effects::Scene& scene, const RigOptions& options);
 std::vector<Pictures> render_frames(std::span<const effects::Scene> scenes,
                                     const RigOptions& options);
 
-// The volume that render() would bake.
-effects::IndirectVolume bake(const effects::Scene& scene, const RigOptions& options);
-
 }  // namespace kaamos::test

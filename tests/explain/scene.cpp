@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "tests/common/structures.h"
+
 namespace kaamos::explain_test {
 
 using namespace rtapi;
@@ -54,29 +56,6 @@ void Scene::SetUp() {
   build_tables();
 }
 
-Buffer Scene::build(const BuildRaytracingAccelerationStructureInputs& inputs, const char* name) {
-  const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  Buffer result =
-      device_
-          .CreateBuffer({.SizeInBytes = sizes.ResultDataMaxSizeInBytes,
-                         .Flags = ResourceFlags::kAllowUnorderedAccess,
-                         .InitialState = ResourceStates::kRaytracingAccelerationStructure,
-                         .Name = name})
-          .value();
-  const Buffer scratch = device_
-                             .CreateBuffer({.SizeInBytes = sizes.ScratchDataSizeInBytes,
-                                            .Flags = ResourceFlags::kAllowUnorderedAccess,
-                                            .Name = "scratch"})
-                             .value();
-  CommandList list = device_.CreateCommandList().value();
-  list.BuildRaytracingAccelerationStructure(
-      {.DestAccelerationStructureData = result.GetGPUVirtualAddress(),
-       .Inputs = inputs,
-       .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
-  queue_.ExecuteAndWait(list).value();
-  return result;
-}
-
 void Scene::build_structures() {
   // Clockwise as seen along z, so these are front faces.
   vertices_ =
@@ -88,21 +67,14 @@ void Scene::build_structures() {
   triangle.Triangles.VertexFormat = Format::kR32G32B32Float;
   triangle.Triangles.VertexCount = 3;
   triangle.Triangles.VertexBuffer = {vertices_.GetGPUVirtualAddress(), sizeof(Vertex)};
-  const auto bottom_level = [&](const RaytracingGeometryDesc& geometry, const char* name) {
-    BuildRaytracingAccelerationStructureInputs inputs;
-    inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-    inputs.NumDescs = 1;
-    inputs.pGeometryDescs = &geometry;
-    return build(inputs, name);
-  };
-  leaf_ = bottom_level(triangle, "leaf");
+  leaf_ = kaamos::test::build_bottom_level(device_, queue_, {triangle}, "leaf");
   triangle.Flags = RaytracingGeometryFlags::kOpaque;
-  triangle_ = bottom_level(triangle, "triangle");
+  triangle_ = kaamos::test::build_bottom_level(device_, queue_, {triangle}, "triangle");
   RaytracingGeometryDesc box;
   box.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
   box.Flags = RaytracingGeometryFlags::kOpaque;
   box.AABBs = {1, {boxes_.GetGPUVirtualAddress(), sizeof(RaytracingAabb)}};
-  box_ = bottom_level(box, "box");
+  box_ = kaamos::test::build_bottom_level(device_, queue_, {box}, "box");
 
   std::vector<RaytracingInstanceDesc> instances = {
       instance(leaf_, 0, 1, 10, 0),     instance(leaf_, 0, 2, 11, 0),
@@ -112,11 +84,7 @@ void Scene::build_structures() {
   instances[2].InstanceMask = 0x02;
   instances[3].Flags =
       static_cast<uint32_t>(RaytracingInstanceFlags::kTriangleFrontCounterclockwise);
-  const Buffer records = CreateUploadBuffer(device_, instances, "instances").value();
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  inputs.InstanceDescs = records.GetGPUVirtualAddress();
-  top_level_ = build(inputs, "top level");
+  top_level_ = kaamos::test::build_top_level(device_, queue_, instances);
 }
 
 void Scene::build_pipeline() {

@@ -39,8 +39,6 @@ class Scene : public testing::TestWithParam<std::string> {
   void build_structures();
   void build_pipeline();
   void build_tables();
-  rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs,
-                      const char* name);
 };
 
 #define KAAMOS_EXPLAIN_SUITE(suite)                                              \

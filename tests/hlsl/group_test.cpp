@@ -356,7 +356,7 @@ TEST(GroupPlan, SaysWhyABodyCannotBeCut) {
   EXPECT_EQ(reason_of("condition_of_the_thread"),
             "a condition around a barrier may differ between threads (line 12)");
   EXPECT_EQ(reason_of("barrier_in_a_switch"),
-            "a barrier, or a way out of a loop with barriers, stands in a switch");
+            "a barrier, or a way out of a loop with barriers, is in a switch");
   EXPECT_EQ(reason_of("helper_that_returns_early"),
             "a function with barriers returns before its end");
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/common/structures.h"
+
 namespace kaamos::test {
 namespace {
 
@@ -26,41 +28,6 @@ std::vector<std::string> hit_exports(const ShaderLibrary& library, ShaderStage s
   std::vector<std::string> names = exports_of(library, stage);
   std::erase_if(names, [box](const std::string& name) { return name.starts_with("Box") != box; });
   return names;
-}
-
-Buffer structure_memory(const Device& device, uint64_t bytes) {
-  return device
-      .CreateBuffer({.SizeInBytes = bytes,
-                     .Flags = ResourceFlags::kAllowUnorderedAccess,
-                     .InitialState = ResourceStates::kRaytracingAccelerationStructure})
-      .value();
-}
-
-Buffer build(const Device& device, CommandQueue& queue,
-             const BuildRaytracingAccelerationStructureInputs& inputs) {
-  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  const Buffer memory = structure_memory(device, sizes.ResultDataMaxSizeInBytes);
-  const Buffer scratch =
-      device
-          .CreateBuffer({.SizeInBytes = std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256),
-                         .Flags = ResourceFlags::kAllowUnorderedAccess})
-          .value();
-  CommandList list = device.CreateCommandList().value();
-  list.BuildRaytracingAccelerationStructure(
-      {.DestAccelerationStructureData = memory.GetGPUVirtualAddress(),
-       .Inputs = inputs,
-       .ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress()});
-  queue.ExecuteAndWait(list).value();
-  return memory;
-}
-
-Buffer build_bottom_level(const Device& device, CommandQueue& queue,
-                          const std::vector<RaytracingGeometryDesc>& geometries) {
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.NumDescs = static_cast<uint32_t>(geometries.size());
-  inputs.pGeometryDescs = geometries.data();
-  return build(device, queue, inputs);
 }
 
 RaytracingGeometryDesc triangles(Scene& scene, const Device& device,
@@ -161,13 +128,7 @@ Scene build_scene(const Device& device, CommandQueue& queue, const ShaderLibrary
     instances.push_back(triangle_instance(scene, device, queue));
   }
   if (box) instances.push_back(box_instance(scene, device, queue));
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  if (!instances.empty()) {
-    scene.buffers.push_back(CreateUploadBuffer(device, instances).value());
-    inputs.InstanceDescs = scene.buffers.back().GetGPUVirtualAddress();
-  }
-  scene.top_level = build(device, queue, inputs);
+  scene.top_level = build_top_level(device, queue, instances);
   return scene;
 }
 

@@ -51,6 +51,18 @@ expect_error 2 'not in range 1 to 100000' --frames 0
 expect_error 2 'camera-path requires --frames' --camera-path orbit
 expect_error 2 'taa requires --frames' --taa
 expect_error 2 'exclude each other' --frames 2 --watch
+# More local lights than there are shadow maps: that is a failure, not an interruption.
+{
+  printf '{"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},'
+  printf '"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/"}],'
+  printf '"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],'
+  printf '"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}'
+  for _ in $(seq 4097); do printf ',{"extensions":{"KHR_lights_punctual":{"light":0}}}'; done
+  printf ']}'
+} > "$work/lights.gltf"
+expect_error 1 '4097 local lights' --scene "$work/lights.gltf" --effects local --size 16x9
+printf '{"asset":{"version":"2.0"},"buffers":[{"uri":"/","byteLength":9}]}' > "$work/folder.gltf"
+expect_error 1 'folder.gltf.*cannot read' --scene "$work/folder.gltf"
 expect_error 1 'no camera path "roundabout".*still, dolly, orbit' --frames 2 --size 16x9 --camera-path roundabout
 printf '0 0 1 5 0 1 0\n1 0 1 x 0 1 0\n' > "$work/path"
 expect_error 1 'path:2: "x" is not a number' --scene runner --frames 2 --size 16x9 --camera-path "$work/path"

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "tests/common/structures.h"
+
 namespace kaamos::test {
 namespace {
 
@@ -14,27 +16,7 @@ using namespace rtapi;
 
 static_assert(sizeof(ProbeRay) == 32 && sizeof(ProbeHit) == 16, "as in ray_probe.hlsl");
 
-Buffer build(const Device& device, CommandQueue& queue,
-             const BuildRaytracingAccelerationStructureInputs& inputs) {
-  const auto sizes = device.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  BufferDesc desc;
-  desc.Flags = ResourceFlags::kAllowUnorderedAccess;
-  desc.SizeInBytes = std::max<std::uint64_t>(sizes.ScratchDataSizeInBytes, 256);
-  const Buffer scratch = device.CreateBuffer(desc).value();
-  desc.SizeInBytes = sizes.ResultDataMaxSizeInBytes;
-  desc.InitialState = ResourceStates::kRaytracingAccelerationStructure;
-  const Buffer structure = device.CreateBuffer(desc).value();
-  CommandList list = device.CreateCommandList().value();
-  BuildRaytracingAccelerationStructureDesc build;
-  build.Inputs = inputs;
-  build.DestAccelerationStructureData = structure.GetGPUVirtualAddress();
-  build.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
-  list.BuildRaytracingAccelerationStructure(build);
-  queue.ExecuteAndWait(list).value();
-  return structure;
-}
-
-Buffer build_bottom_level(const Device& device, CommandQueue& queue, const ProbeMesh& mesh) {
+Buffer build_mesh(const Device& device, CommandQueue& queue, const ProbeMesh& mesh) {
   const Buffer vertices = CreateUploadBuffer(device, mesh.positions, "vertices").value();
   const Buffer indices = CreateUploadBuffer(device, mesh.triangles, "indices").value();
   RaytracingGeometryDesc geometry;
@@ -45,25 +27,16 @@ Buffer build_bottom_level(const Device& device, CommandQueue& queue, const Probe
   geometry.Triangles.IndexFormat = Format::kR32Uint;
   geometry.Triangles.IndexCount = static_cast<std::uint32_t>(3 * mesh.triangles.size());
   geometry.Triangles.IndexBuffer = indices.GetGPUVirtualAddress();
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.NumDescs = 1;
-  inputs.pGeometryDescs = &geometry;
-  return build(device, queue, inputs);
+  return build_bottom_level(device, queue, {geometry});
 }
 
-Buffer build_top_level(const Device& device, CommandQueue& queue, const ProbeMesh& mesh,
-                       const Buffer& bottom_level) {
+Buffer build_instance(const Device& device, CommandQueue& queue, const ProbeMesh& mesh,
+                      const Buffer& bottom_level) {
   RaytracingInstanceDesc instance;
   std::memcpy(instance.Transform, &mesh.transform, sizeof(instance.Transform));
   instance.InstanceMask = 0xFF;
   instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
-  const Buffer instances =
-      CreateUploadBuffer(device, std::vector<RaytracingInstanceDesc>{instance}, "instance").value();
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.NumDescs = 1;
-  inputs.InstanceDescs = instances.GetGPUVirtualAddress();
-  return build(device, queue, inputs);
+  return build_top_level(device, queue, {instance});
 }
 
 StateObject create_pipeline(const Device& device, const RootSignature& root_signature) {
@@ -97,8 +70,8 @@ RayProbe::RayProbe(const DeviceDesc& desc)
 }
 
 void RayProbe::set_mesh(const ProbeMesh& mesh) {
-  bottom_level_ = build_bottom_level(device_, queue_, mesh);
-  top_level_ = build_top_level(device_, queue_, mesh, bottom_level_);
+  bottom_level_ = build_mesh(device_, queue_, mesh);
+  top_level_ = build_instance(device_, queue_, mesh, bottom_level_);
 }
 
 std::vector<ProbeHit> RayProbe::hits(const std::vector<ProbeRay>& rays) {

@@ -36,4 +36,8 @@ run_step("configuring the consumer" ${CMAKE_COMMAND} -S "${CONSUMER}" -B "${WORK
 run_step("building the consumer" ${CMAKE_COMMAND} --build "${WORK}/build")
 run_step("running the consumer" "${WORK}/build/consumer")
 message(STATUS "${output}")
+if(EXISTS "${WORK}/build/lounge")
+  run_step("rendering the lounge" ${CMAKE_COMMAND} -E chdir "${WORK}/build" "${WORK}/build/lounge")
+  message(STATUS "${output}")
+endif()
 file(REMOVE_RECURSE "${WORK}")

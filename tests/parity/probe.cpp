@@ -8,6 +8,8 @@
 #include <cstring>
 #include <random>
 
+#include "tests/common/structures.h"
+
 namespace kaamos::parity {
 
 using namespace rtapi;
@@ -101,29 +103,6 @@ Buffer Probe::upload(const void* data, size_t bytes) {
   return keep_.back();
 }
 
-Buffer Probe::build(const BuildRaytracingAccelerationStructureInputs& inputs) {
-  const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs).value();
-  const Buffer result =
-      device_
-          .CreateBuffer(unordered(sizes.ResultDataMaxSizeInBytes,
-                                  ResourceStates::kRaytracingAccelerationStructure))
-          .value();
-  const Buffer scratch =
-      device_
-          .CreateBuffer(unordered(std::max<uint64_t>(sizes.ScratchDataSizeInBytes, 256),
-                                  ResourceStates::kUnorderedAccess))
-          .value();
-  CommandList list = device_.CreateCommandList().value();
-  BuildRaytracingAccelerationStructureDesc desc;
-  desc.Inputs = inputs;
-  desc.DestAccelerationStructureData = result.GetGPUVirtualAddress();
-  desc.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
-  list.BuildRaytracingAccelerationStructure(desc);
-  queue_.ExecuteAndWait(list).value();
-  keep_.push_back(result);
-  return result;
-}
-
 void Probe::build_mixed() {
   std::vector<effects::Vertex> vertices;
   std::vector<uint32_t> indices;
@@ -155,14 +134,10 @@ void Probe::build_mixed() {
   geometries_.push_back(
       {vertex_buffer.GetGPUVirtualAddress(), index_buffer.GetGPUVirtualAddress(), 4, "Ball"});
 
-  BuildRaytracingAccelerationStructureInputs inputs;
-  inputs.Type = RaytracingAccelerationStructureType::kBottomLevel;
-  inputs.NumDescs = 2;
-  inputs.pGeometryDescs = halves.data();
-  const Buffer sphere = build(inputs);
-  inputs.NumDescs = 1;
-  inputs.pGeometryDescs = &ball;
-  const Buffer balls = build(inputs);
+  const Buffer sphere =
+      kaamos::test::build_bottom_level(device_, queue_, {std::begin(halves), std::end(halves)});
+  const Buffer balls = kaamos::test::build_bottom_level(device_, queue_, {ball});
+  keep_.insert(keep_.end(), {sphere, balls});
 
   std::mt19937 random(7);
   std::vector<RaytracingInstanceDesc> instances(60);
@@ -178,12 +153,7 @@ void Probe::build_mixed() {
     instance.Flags = is_ball ? 0 : kinds[i / 3 % 6];
     instance.AccelerationStructure = (is_ball ? balls : sphere).GetGPUVirtualAddress();
   }
-  const Buffer records = upload(instances.data(), instances.size() * sizeof(instances[0]));
-  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
-  inputs.NumDescs = static_cast<uint32_t>(instances.size());
-  inputs.pGeometryDescs = nullptr;
-  inputs.InstanceDescs = records.GetGPUVirtualAddress();
-  top_level_ = build(inputs);
+  top_level_ = kaamos::test::build_top_level(device_, queue_, instances);
 }
 
 void Probe::create_pipeline() {

@@ -48,7 +48,6 @@ class Probe {
   };
   void open(const std::string& backend);
   void build_mixed();
-  rtapi::Buffer build(const rtapi::BuildRaytracingAccelerationStructureInputs& inputs);
   rtapi::Buffer upload(const void* data, size_t bytes);
   void create_pipeline();
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, layers, named.
+# listed, used, told, twice, recipes, documented, layers, named.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -193,6 +193,78 @@ check_used() {
   done
 }
 
+# The recipes of CONTRIBUTING.md name files of this tree: `folder/file` and `folder/`, with * as in a shell. What
+# has <...> in it is for the reader to fill in; build/ is made.
+check_recipes() {
+  local file=CONTRIBUTING.md line name
+  [[ -f $file ]] || return 0
+  grep -noE '`[.A-Za-z0-9_*-]+/[.A-Za-z0-9_*/-]*`|`[A-Z]+\.md`' "$file" | tr -d '`' |
+    while IFS=: read -r line name; do
+      [[ $name == build/* || -n $(compgen -G "${name%/}") ]] || echo "$file:$line: there is no $name"
+    done
+}
+
+# The headers that the reference manual is made of, by the project's Doxyfile.
+list_public_headers() {
+  local patterns pattern hidden=()
+  patterns=$(sed -n '/^EXCLUDE_PATTERNS/,/[^\\]$/{s/^[A-Z_]* *=//; s/\\$//; p}' "$here/../../cmake/Doxyfile")
+  while read -r pattern; do
+    hidden+=(! -path "$pattern")
+  done < <(tr -s ' ' '\n' <<<"$patterns" | grep .)
+  list_files \( -path './rtapi/include/*.h' -o -path './effects/*.h' \) "${hidden[@]}"
+}
+
+# What Doxygen says of these headers by the project's own settings: every public type, function and member has
+# a comment, and Doxygen understands it.
+check_comments() {
+  local scratch
+  scratch=$(mktemp -d)
+  {
+    cat "$here/../../cmake/Doxyfile"
+    echo "INPUT = $(list_public_headers | tr '\n' ' ')"
+    echo "USE_MDFILE_AS_MAINPAGE ="
+    echo "GENERATE_HTML = NO"
+    echo "GENERATE_XML = YES"
+    echo "XML_PROGRAMLISTING = NO"
+    echo "WARN_AS_ERROR = NO"
+    echo "WARN_LOGFILE = \"$scratch/warnings\""
+  } >"$scratch/Doxyfile"
+  KAAMOS_MANUAL_DIR=$scratch KAAMOS_VERSION=0 doxygen "$scratch/Doxyfile" >"$scratch/log" 2>&1 ||
+    sed 's/^/cmake\/Doxyfile:1: /' "$scratch/log"
+  sed -n "s|^$PWD/||; s/: warning: /: /p" "$scratch/warnings" | LC_ALL=C sort -u
+  rm -rf "$scratch"
+}
+
+# What Doxygen does not ask for: @file, without which it passes over a header's functions; and the errors of each
+# call that returns a Result or a Status, behind @errors, in rtapi with their ids. @overload points at another.
+check_errors_of_calls() {
+  list_public_headers | xargs -r -d '\n' awk '
+    function close_file() { if (last != "" && !has_file) print last ":1: has no @file" }
+    FNR == 1 { close_file(); last = FILENAME; has_file = 0; comment = ""; hidden = 0 }
+    /^\/\/\/ @file/ { has_file = 1 }
+    /^ *\/\/\// { comment = comment $0; next }
+    /^ *(private|protected):/ { hidden = 1 }
+    /^ *public:|^[}]/ { hidden = 0 }
+    /^ *(template <|\[\[)/ && !/[(]/ { next }
+    !hidden && /^ *(static |inline )?(rtapi::)?(Result<.*>|Status)( [A-Za-z_]+\(|$)/ {
+      errors = FILENAME ~ /^rtapi/ ? "@errors.*KA[0-9][0-9][0-9][0-9]" : "@errors ."
+      if (comment !~ /@overload/ && comment !~ errors && !/Status failure/)
+        print FILENAME ":" FNR ": returns an error, and its comment names none by @errors"
+    }
+    { comment = "" }
+    END { close_file() }'
+}
+
+# Public headers are the contract: what is in them is said there, for the reference manual too.
+check_documented() {
+  if ! command -v doxygen >/dev/null; then
+    echo "cmake/Doxyfile:1: doxygen is missing, which reads the comments: apt-get install doxygen"
+    return
+  fi
+  check_comments
+  check_errors_of_calls
+}
+
 # No arrow upward: includes and CMake's links go only where layers.txt says. Tests include what they like.
 check_layers() {
   {
@@ -215,7 +287,7 @@ check_named() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | layers | named) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | named) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

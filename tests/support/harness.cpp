@@ -3,6 +3,7 @@
 
 #include <shaders/support.h>
 
+#include "tests/common/structures.h"
 #include "tests/vulkan/support.h"
 
 namespace kaamos::support {
@@ -127,23 +128,10 @@ std::vector<uint32_t> Call::compute(const char* entry) {
 
 Result<Buffer> Call::build(const BuildRaytracingAccelerationStructureInputs& inputs,
                            const Buffer* update_of) {
-  const auto sizes = device_.GetRaytracingAccelerationStructurePrebuildInfo(inputs);
-  if (!sizes) return sizes.error();
-  const Buffer result =
-      buffer(sizes->ResultDataMaxSizeInBytes, ResourceStates::kRaytracingAccelerationStructure);
-  const Buffer scratch = buffer(std::max<uint64_t>(
-      {sizes->ScratchDataSizeInBytes, sizes->UpdateScratchDataSizeInBytes, 256}));
-  CommandList list = device_.CreateCommandList().value();
-  BuildRaytracingAccelerationStructureDesc desc;
-  desc.Inputs = inputs;
-  desc.DestAccelerationStructureData = result.GetGPUVirtualAddress();
-  desc.ScratchAccelerationStructureData = scratch.GetGPUVirtualAddress();
-  if (update_of != nullptr) {
-    desc.SourceAccelerationStructureData = update_of->GetGPUVirtualAddress();
-  }
-  list.BuildRaytracingAccelerationStructure(desc);
-  if (const auto done = queue_.ExecuteAndWait(list); !done.ok()) return done.error();
-  return result;
+  auto structure =
+      kaamos::test::try_build_structure(device_, queue_, inputs, "structure", update_of);
+  if (structure) keep_.push_back(*structure);
+  return structure;
 }
 
 Result<Buffer> Call::bottom_level(uint32_t primitives, bool boxes,

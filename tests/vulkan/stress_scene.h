@@ -59,8 +59,8 @@ struct Variant {
   uint32_t constant = 11;
   uint32_t recursion = 31;
   uint32_t payload_rest = kPayloadRest;  // words
-  // Every null_every-th record of each table, beginning with the second, has an identifier of zeros:
-  // hits on it are accepted and nothing runs. 0: none.
+  // Every null_every-th record of each table, beginning with the second, has an identifier of
+  // zeros: hits on it are accepted and nothing runs. 0: none.
   uint32_t null_every = 0;
   bool garbage_rays = false;  // rays of random bits; there is no expected result
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-//
-// Recording commands. Nothing executes while it is recorded; structures in host memory are copied
-// at once, GPU memory is read when the list executes. [DXR: Command list methods]
+/// @file
+/// Recording commands. Nothing executes while it is recorded; structures in host memory are copied
+/// at once, GPU memory is read when the list executes. [DXR: Command list methods]
 #pragma once
 
 #include <cstdint>
@@ -25,90 +25,249 @@ namespace detail {
 struct CommandListImpl;
 }
 
-// A compute command list; open when created. Calls return nothing: a call that breaks a rule is not
-// recorded, its error is kept, and Close() returns the first of them. One thread at a time.
+/// A compute command list; open when created. A copyable handle, for one thread at a time.
+///
+/// Calls that record return nothing, as in D3D12: a call that breaks a rule is not recorded, its
+/// error is kept, and Close() returns the first of them. The errors listed below are those. On a
+/// closed list every call is KA0800; on an empty handle it does nothing, but for Reset and Close.
+///
+/// What only execution can tell removes the device, for all commands with KA0990 (no memory) and on
+/// Vulkan KA0952, KA0955 (device lost), KA0956 (over a limit) and KA0959 (validation layers); each
+/// call says what else. Warnings come through DeviceDesc::OnMessage, and work goes on.
+/// [D3D12: ID3D12GraphicsCommandList4]
 class CommandList {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same list.
+  ///@{
   CommandList() = default;
   explicit CommandList(std::shared_ptr<detail::CommandListImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const CommandList&) const = default;
+  ///@}
 
-  // Drops commands and errors, forgets all state, opens the list.
+  /// Drops commands and errors, forgets all state and opens the list, in whatever state it is. Work
+  /// that was submitted goes on: the queue keeps its commands.
+  /// [D3D12: ID3D12GraphicsCommandList::Reset]
+  /// @errors KA0904 empty handle; what Device::GetDeviceRemovedReason says.
   Status Reset();
-  // Ends recording. The first error of the calls since Reset, if any: the list cannot be executed.
+  /// Ends recording. [D3D12: ID3D12GraphicsCommandList::Close]
+  /// @errors KA0904 empty handle; KA0800 the list is closed already; else the first error of the
+  /// calls since Reset, KA0824 for a BeginEvent without its EndEvent: the list cannot be executed.
   Status Close();
-  // All errors since Reset, in order.
+  /// All errors since Reset, in order. Valid until the next call on the list.
   const std::vector<Error>& GetErrors() const;
+  /// Whether commands can be recorded; false for an empty handle.
   bool is_open() const;
 
+  /// Orders what comes before and after, and says what resources are used for next. Each barrier of
+  /// the span is taken or refused by itself. Builds, and traces of what they built, need UAV
+  /// barriers between them; checked mode reports barriers that are missing (KA0450-0452).
+  /// [D3D12: ResourceBarrier; DXR: Synchronizing acceleration structure memory writes/reads]
+  /// @errors KA0800; KA0802 type, states that are equal, an upload or readback buffer, or a
+  /// subresource that does not exist; KA0803 a transition of an acceleration structure buffer;
+  /// KA0903 a resource of another device; KA0904 an empty resource in a transition.
   void ResourceBarrier(std::span<const rtapi::ResourceBarrier> barriers);
+  /// @overload
   void ResourceBarrier(const rtapi::ResourceBarrier& barrier) {
     ResourceBarrier(std::span<const rtapi::ResourceBarrier>(&barrier, 1));
   }
 
-  // At most one of each type, shader-visible. Replaces both.
+  /// Sets the heaps that descriptor tables and HLSL's descriptor heaps read: at most one of each
+  /// type, shader-visible. Replaces both; a type that is not given has none afterwards.
+  /// [D3D12: SetDescriptorHeaps; DXR: Resource binding]
+  /// @errors KA0800; KA0804 a heap that shaders cannot see, or the second of its type; KA0903 a
+  /// heap of another device; KA0904 an empty handle.
   void SetDescriptorHeaps(std::span<const DescriptorHeap> heaps);
+  /// @overload
   void SetDescriptorHeaps(std::initializer_list<DescriptorHeap> heaps) {
     SetDescriptorHeaps(std::span<const DescriptorHeap>(heaps.begin(), heaps.size()));
   }
 
-  // The compute root signature is the global root signature of DispatchRays. Setting another one
-  // makes all root arguments undefined (here: zero).
+  /// Sets the root signature of Dispatch and the global one of DispatchRays. One of another
+  /// definition makes all root arguments zero (in D3D12 undefined); of the same definition it keeps
+  /// them. [DXR: Local root signatures vs global root signatures]
+  /// @errors KA0800; KA0536 a local root signature; KA0903 of another device; KA0904 empty handle.
   void SetComputeRootSignature(const RootSignature& root_signature);
+  /// Sets one constant of a parameter: 32-bit value number `dest_offset_dwords`, from 0.
+  /// [D3D12: SetComputeRoot32BitConstant]
+  /// @errors as of SetComputeRoot32BitConstants: KA0800, KA0805, KA0807, KA0808.
   void SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value, uint32_t dest_offset_dwords);
+  /// Sets `count` 32-bit constants of a parameter from value number `dest_offset_dwords` on.
+  /// `values` are copied in this call; the other constants stay as they are.
+  /// [D3D12: SetComputeRoot32BitConstants]
+  /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
+  /// type; KA0808 values past the end of the parameter, or a null pointer.
   void SetComputeRoot32BitConstants(uint32_t parameter, uint32_t count, const void* values,
                                     uint32_t dest_offset_dwords);
-  // All of `value`; its size is a multiple of 4.
+  /// Sets the first constants of a parameter to the bytes of `value`; its size is a multiple of 4.
+  /// @errors as of the overload with a pointer: KA0800, KA0805, KA0807, KA0808.
   template <class T>
   void SetComputeRoot32BitConstants(uint32_t parameter, const T& value) {
     static_assert(sizeof(T) % 4 == 0 && std::is_trivially_copyable_v<T>);
     SetComputeRoot32BitConstants(parameter, sizeof(T) / 4, &value, 0);
   }
+  /// Sets a root CBV to an address, a multiple of 256 in a live buffer. 0: a null view, which reads
+  /// zeros. The buffer must live until the work has completed; only its start is checked here, and
+  /// checked mode reports reads past its end (KA0417). [D3D12: SetComputeRootConstantBufferView]
+  /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
+  /// type; KA0809 a misaligned address, or one in no live buffer.
   void SetComputeRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address);
+  /// Sets a root SRV to an address, a multiple of 4 in a live buffer: that of a raw or structured
+  /// buffer's first byte, or of an acceleration structure. 0: a null view, which reads zeros, or a
+  /// structure that every ray misses. Lifetime and checks as of SetComputeRootConstantBufferView.
+  /// [D3D12: SetComputeRootShaderResourceView; DXR: RaytracingAccelerationStructure]
+  /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
+  /// type; KA0809 a misaligned address, or one in no live buffer.
   void SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address);
+  /// Sets a root UAV to an address, a multiple of 4 in a live buffer. 0: a null view, which drops
+  /// writes. Lifetime and checks as of SetComputeRootConstantBufferView.
+  /// [D3D12: SetComputeRootUnorderedAccessView]
+  /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
+  /// type; KA0809 a misaligned address, or one in no live buffer.
   void SetComputeRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address);
+  /// Sets a descriptor table to start at a slot of the heap of its type that is set now. The
+  /// descriptors are read when the list executes. [D3D12: SetComputeRootDescriptorTable]
+  /// @errors KA0800; KA0805 no root signature is set; KA0807 no such parameter, or it has another
+  /// type; KA0810 the handle is in no heap of this type that is set.
   void SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base);
 
+  /// Sets the pipeline of Dispatch, and unsets that of DispatchRays. Root arguments stay.
+  /// [D3D12: SetPipelineState]
+  /// @errors KA0800; KA0903 a pipeline of another device; KA0904 empty handle.
   void SetPipelineState(const PipelineState& pipeline);
+  /// Sets the pipeline of DispatchRays, and unsets that of Dispatch. Root arguments stay.
+  /// [DXR: SetPipelineState1]
+  /// @errors KA0800; KA0811 a collection; KA0903 a state object of another device; KA0904 empty
+  /// handle.
   void SetPipelineState1(const StateObject& pipeline);
+  /// Runs the ray generation shader of one record for each cell of a Width x Height x Depth grid,
+  /// in no particular order; nothing where one of the three is 0. The desc is copied; tables, heaps
+  /// and whatever addresses name are read when the list executes, and must live until then. Root
+  /// arguments and the stack size are those of now. A record that is NULL, past its table or none
+  /// of this pipeline's runs nothing. [DXR: DispatchRays, D3D12_DISPATCH_RAYS_DESC]
+  /// @errors KA0800; KA0811 no ray tracing pipeline is set; KA0812 the root signature that is set
+  /// is that of none of its ray generation shaders; KA0813 a table's or record's alignment, stride
+  /// or size; KA0814 more than 2^30 threads; KA0815 a table that is not all in one live buffer.
+  /// When it executes: KA0890 TraceRay past the recursion limit, KA0891 stack used up, KA0892 a
+  /// fault in shader code, KA0893 a shader asked for it, KA0897 an interpreted shader's limit of
+  /// steps. Warnings: KA0894 no top level at an address that rays were traced against, KA0895 a
+  /// record past its table, KA0896 a record without an identifier of the pipeline. Checked mode:
+  /// KA0400-0499.
   void DispatchRays(const DispatchRaysDesc& desc);
+  /// Runs the compute shader for groups_x x groups_y x groups_z thread groups; nothing where one of
+  /// the three is 0. Heaps and whatever addresses name are read when the list executes, and must
+  /// live until then. Root arguments are those of now. [D3D12: Dispatch]
+  /// @errors KA0800; KA0811 no compute pipeline is set; KA0812 the root signature that is set is
+  /// not the pipeline's; KA0814 more than 65535 groups in a dimension. When it executes: KA0892,
+  /// KA0893, KA0897 as of DispatchRays. Checked mode: KA0400-0499.
   void Dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z);
-  // Up to `max_command_count` dispatches whose arguments stand in `argument_buffer` when the list
-  // executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4;
-  // max_command_count commands lie inside the buffer. The pipeline and all other root arguments are
-  // those of the list; what the signature sets is 0 afterwards. Bad arguments (a table outside
-  // every buffer, more than 2^30 threads) remove the device: KA0898. [D3D12: Indirect drawing]
+  /// Up to `max_command_count` dispatches whose arguments stand in `argument_buffer` when the list
+  /// executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4, and
+  /// the arguments of max_command_count commands lie inside the buffer. The pipeline and all other
+  /// root arguments are those of the list; what the signature sets is 0 afterwards. Commands of a
+  /// zero dimension are skipped whatever else they hold.
+  /// [D3D12: ExecuteIndirect; DXR: ExecuteIndirect, D3D12_INDIRECT_ARGUMENT_TYPE]
+  /// @errors KA0800; KA0811, KA0812 as of DispatchRays or Dispatch; KA0816 an offset, a range
+  /// outside of a buffer, or another root signature than the command signature's; KA0903 an object
+  /// of another device; KA0904 an empty signature or argument buffer. When it executes: KA0898
+  /// arguments that break a rule (a table outside every buffer, more than 2^30 threads), and those
+  /// of the dispatches.
   void ExecuteIndirect(const CommandSignature& signature, uint32_t max_command_count,
                        const Buffer& argument_buffer, uint64_t argument_buffer_offset_bytes,
                        const Buffer& count_buffer = {}, uint64_t count_buffer_offset_bytes = 0);
 
+  /// Builds an acceleration structure, or refits one (kPerformUpdate), and writes postbuild info of
+  /// it, of each type at most once. Desc and geometry descs are copied; vertices, indices,
+  /// transforms, boxes and instance descs are read when the list executes, after which the
+  /// structure does not refer to them. It lasts until something else is written to its bytes. After
+  /// a bottom level has changed, the top levels that hold it must be rebuilt or updated before they
+  /// are traced (KA0463 in checked mode). An update may change vertex positions, the contents of
+  /// transforms, boxes, and everything about instances, and nothing else; inputs may lie elsewhere.
+  /// [DXR: BuildRaytracingAccelerationStructure; Acceleration structure update constraints]
+  /// @errors KA0800; the inputs: KA0700-0705, KA0707-0710; KA0711 an address that is not a multiple
+  /// of 256; KA0712 an address in no live buffer; KA0713 a destination that was not created for
+  /// acceleration structures, or scratch memory without kAllowUnorderedAccess; KA0714 a source
+  /// without kPerformUpdate; KA0715 postbuild info; KA0717 alignment of instance descs; KA0719 a
+  /// buffer is too small. When it executes: KA0790 input outside of its buffer, KA0791 its format,
+  /// KA0792 Embree failed, KA0793 the update breaks a rule, KA0794 too many primitives or
+  /// instances, KA0795 the destination is too small, KA0796 instance descs. Warnings: KA0797 an
+  /// instance is inactive, KA0798 indices past the vertices. Checked mode: KA0450-0476.
   void BuildRaytracingAccelerationStructure(
       const BuildRaytracingAccelerationStructureDesc& desc,
       std::span<const RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos = {});
+  /// Writes postbuild info of built structures: an array without gaps, one element for each source,
+  /// in order; 8 bytes each, of kSerialization 16. The values are those of when the list executes;
+  /// a UAV barrier stands between the builds and this.
+  /// [DXR: EmitRaytracingAccelerationStructurePostbuildInfo]
+  /// @errors KA0800; KA0711-0713 a source; KA0712, KA0719 the destination; KA0715 its type, its
+  /// alignment or its buffer's flags. When it executes: KA0795 it does not fit, KA0796 a source
+  /// that is no acceleration structure.
   void EmitRaytracingAccelerationStructurePostbuildInfo(
       const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
       std::span<const GpuVirtualAddress> sources);
+  /// Copies a structure, or turns one into bytes and back. Both addresses are multiples of 256, and
+  /// the ranges do not overlap. The source stays as it is; bottom levels that a top level refers to
+  /// are not touched. Sizes: kClone as the source, kCompact, kSerialize and
+  /// kVisualizationDecodeForTools by postbuild info, kDeserialize by the header. Structures lie in
+  /// buffers for acceleration structures, serialized and decoded bytes in others.
+  /// [DXR: CopyRaytracingAccelerationStructure, D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
+  /// @errors KA0800; KA0711 alignment; KA0712 an address in no live buffer; KA0713 a buffer of the
+  /// wrong kind, or bytes written to one without kAllowUnorderedAccess; KA0716 the mode, or both
+  /// addresses are the same; KA0719 a buffer is too small. When it executes: KA0789 the serialized
+  /// data is of another driver or version, damaged, or names a bottom level in no buffer; KA0795 it
+  /// does not fit; KA0796 the source is no structure, was built without kAllowCompaction, or
+  /// overlaps the destination. Warning: KA0797 an instance of a deserialized top level is inactive.
   void CopyRaytracingAccelerationStructure(GpuVirtualAddress dest, GpuVirtualAddress source,
                                            RaytracingAccelerationStructureCopyMode mode);
 
+  /// Copies `size_bytes` from a buffer to another, or within one if the ranges do not overlap; 0
+  /// bytes do nothing. The list keeps both alive. [D3D12: CopyBufferRegion]
+  /// @errors KA0800; KA0817 bytes past the end of a buffer; KA0818 ranges that overlap; KA0821 to
+  /// the upload heap, from the readback heap, or a buffer of acceleration structures; KA0903 a
+  /// buffer of another device; KA0904 an empty handle.
   void CopyBufferRegion(const Buffer& dest, uint64_t dest_offset_bytes, const Buffer& source,
                         uint64_t source_offset_bytes, uint64_t size_bytes);
+  /// Copies texels between subresources, or between a subresource and a buffer: those of
+  /// `source_box` (null: all) to (x, y, z) of the destination. Formats are of one family; values
+  /// are not converted. An empty box copies nothing. The list keeps both sides alive.
+  /// [D3D12: CopyTextureRegion]
+  /// @errors KA0800; KA0817 a subresource that does not exist, texels outside of a side, or a
+  /// footprint outside of its buffer; KA0818 source and destination are one subresource; KA0819
+  /// formats of different families, two buffers, or a Type that is not the resource's; KA0820 the
+  /// footprint; KA0903 a resource of another device; KA0904 an empty handle.
   void CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y, uint32_t z,
                          const TextureCopyLocation& source, const Box* source_box = nullptr);
+  /// Copies a whole buffer to one of the same size, or every subresource of a texture to one of the
+  /// same dimension, size and mip levels and of the same format family. [D3D12: CopyResource]
+  /// @errors KA0800; KA0818 source and destination are one resource; KA0819 kinds, sizes or formats
+  /// that differ; KA0821 as of CopyBufferRegion; KA0903 a resource of another device; KA0904 an
+  /// empty resource.
   void CopyResource(const Resource& dest, const Resource& source);
 
-  // The two handles name the same view: one in the shader-visible heap that is set, one in a heap
-  // that the host can read. [D3D12: ClearUnorderedAccessViewUint]
+  /// Fills a view with bits. Both handles name the same view of `resource`: one in the CBV/SRV/UAV
+  /// heap that is set, one in any living heap, from which the view is taken now. Raw and structured
+  /// buffers are filled with values[0]; of normalized formats each channel takes the low bits of
+  /// its value. `values` is copied. [D3D12: ClearUnorderedAccessViewUint]
+  /// @errors KA0800; KA0822 a handle in no such heap, a descriptor that is no unordered access view
+  /// of the resource, or a null pointer; KA0903 a resource of another device; KA0904 an empty one.
   void ClearUnorderedAccessViewUint(GpuDescriptorHandle gpu_handle, CpuDescriptorHandle cpu_handle,
                                     const Resource& resource, const uint32_t values[4]);
+  /// Fills a view with floats, which are converted to its format. Otherwise as
+  /// ClearUnorderedAccessViewUint. [D3D12: ClearUnorderedAccessViewFloat]
+  /// @errors KA0800; KA0822 a handle in no such heap, a descriptor that is no unordered access view
+  /// of the resource, or a null pointer; KA0903 a resource of another device; KA0904 an empty one.
   void ClearUnorderedAccessViewFloat(GpuDescriptorHandle gpu_handle, CpuDescriptorHandle cpu_handle,
                                      const Resource& resource, const float values[4]);
 
-  // Marks a span of commands with a name, for messages.
+  /// Begins a span of commands that messages call by `name`. Spans nest. [D3D12: BeginEvent]
+  /// @errors KA0800.
   void BeginEvent(std::string name);
+  /// Ends the innermost span. [D3D12: EndEvent]
+  /// @errors KA0800; KA0824 there is none.
   void EndEvent();
 
+  /// For the library itself.
   const std::shared_ptr<detail::CommandListImpl>& impl() const { return impl_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//
-// Queues and fences.
+/// @file
+/// Queues and fences.
 #pragma once
 
 #include <cstdint>
@@ -18,45 +18,82 @@ struct CommandQueueImpl;
 struct FenceImpl;
 }  // namespace detail
 
+/// A counter by which queues and the host wait for each other. A copyable handle, thread-safe.
+/// [D3D12: ID3D12Fence]
 class Fence {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same fence.
+  ///@{
   Fence() = default;
   explicit Fence(std::shared_ptr<detail::FenceImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const Fence&) const = default;
+  ///@}
 
-  uint64_t GetCompletedValue() const;  // ~0 once the device is removed, as in D3D12
-  Status Signal(uint64_t value);       // from the host
-  // Blocks until the fence reaches `value`. Error: KA0806 if the device is removed, or if nothing
-  // that is submitted would ever signal it within `timeout_ms` (0: no limit).
+  /// The present value; 2^64 - 1 once the device is removed, 0 for an empty handle.
+  /// [D3D12: ID3D12Fence::GetCompletedValue]
+  uint64_t GetCompletedValue() const;
+  /// Sets the value from the host. Queues that waited for it go on in this call, on this thread.
+  /// [D3D12: ID3D12Fence::Signal]
+  /// @errors KA0904 empty handle.
+  Status Signal(uint64_t value);
+  /// Blocks until the fence reaches `value`, for `timeout_ms` milliseconds at most; 0: without end.
+  /// [D3D12: ID3D12Fence::SetEventOnCompletion]
+  /// @errors KA0904 empty handle; KA0806 the time is up; what Device::GetDeviceRemovedReason says,
+  /// if the device is removed meanwhile.
   Status Wait(uint64_t value, uint32_t timeout_ms = 0) const;
 
+  /// For the library itself.
   const std::shared_ptr<detail::FenceImpl>& impl() const { return impl_; }
 
  private:
   std::shared_ptr<detail::FenceImpl> impl_;
 };
 
-// Executes in the order of submission. Thread-safe.
+/// Executes command lists in the order of submission. A copyable handle, thread-safe. Work runs on
+/// the thread that submits it, before the call returns, unless the queue waits for a fence: then on
+/// the thread that signals it. Only one queue of a device executes at a time.
+/// [D3D12: ID3D12CommandQueue]
 class CommandQueue {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same queue.
+  ///@{
   CommandQueue() = default;
   explicit CommandQueue(std::shared_ptr<detail::CommandQueueImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const CommandQueue&) const = default;
+  ///@}
 
-  // Lists are closed, without error. They may be reset after the work has completed.
+  /// Submits lists, which are closed and without error. A list may be reset, and its handle
+  /// dropped, at once: the queue keeps the commands. Buffers that commands name by address must
+  /// live until the work has completed. [D3D12: ID3D12CommandQueue::ExecuteCommandLists]
+  /// @errors KA0904 an empty handle; KA0903 a list of another device; KA0823 a list that is open or
+  /// that has errors. Nothing is submitted then. Otherwise what Device::GetDeviceRemovedReason
+  /// says: an error met while a list executes removes the device, see CommandList for the ids.
   Status ExecuteCommandLists(std::span<const CommandList> lists);
+  /// @overload
   Status ExecuteCommandLists(std::initializer_list<CommandList> lists) {
     return ExecuteCommandLists(std::span<const CommandList>(lists.begin(), lists.size()));
   }
+  /// Sets the fence to `value` when everything submitted so far has completed.
+  /// [D3D12: ID3D12CommandQueue::Signal]
+  /// @errors KA0904 an empty handle; KA0903 a fence of another device; what
+  /// Device::GetDeviceRemovedReason says.
   Status Signal(const Fence& fence, uint64_t value);
-  Status Wait(const Fence& fence, uint64_t value);  // later work waits for the fence
+  /// Makes what is submitted from now on wait until the fence reaches `value`. The call itself does
+  /// not wait. [D3D12: ID3D12CommandQueue::Wait]
+  /// @errors KA0904 an empty handle; KA0903 a fence of another device; what
+  /// Device::GetDeviceRemovedReason says.
+  Status Wait(const Fence& fence, uint64_t value);
 
-  // Closes the list if it is open, executes it and waits. The error is that of recording, or the
-  // reason why the device was removed.
+  /// Closes the list if it is open, executes it and waits until it has completed.
+  /// @errors KA0904 an empty handle; KA0903 a list of another device; the first error of recording;
+  /// KA0823 the list was closed with errors; what Device::GetDeviceRemovedReason says.
   Status ExecuteAndWait(CommandList& list);
 
+  /// For the library itself.
   const std::shared_ptr<detail::CommandQueueImpl>& impl() const { return impl_; }
 
  private:

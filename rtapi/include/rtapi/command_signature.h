@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-//
-// Command signatures: what the bytes of ExecuteIndirect's argument buffer mean.
-//
-//   // A command: one root constant of parameter 2, then a DispatchRaysDesc. 4 + 104 bytes.
-//   auto signature = device.CreateCommandSignature(
-//       {.ByteStride = 108,
-//        .ArgumentDescs = {{.Type = IndirectArgumentType::kConstant, .Constant = {2, 0, 1}},
-//                          {.Type = IndirectArgumentType::kDispatchRays}}},
-//       root_signature).value();
-//   list.ExecuteIndirect(signature, max_commands, arguments, 0, count, 0);
-//
-// Arguments follow each other without the padding that a C++ structure would have here: write them
-// one by one, or let a shader write them before the command executes.
+/// @file
+/// Command signatures: what the bytes of ExecuteIndirect's argument buffer mean.
+///
+/// @code
+/// // A command: one root constant of parameter 2, then a DispatchRaysDesc. 4 + 104 bytes.
+/// auto signature = device.CreateCommandSignature(
+///     {.ByteStride = 108,
+///      .ArgumentDescs = {{.Type = IndirectArgumentType::kConstant, .Constant = {2, 0, 1}},
+///                        {.Type = IndirectArgumentType::kDispatchRays}}},
+///     root_signature).value();
+/// list.ExecuteIndirect(signature, max_commands, arguments, 0, count, 0);
+/// @endcode
+///
+/// Arguments follow each other without the padding that a C++ structure would have here: write them
+/// one by one, or let a shader write them before the command executes.
 #pragma once
 
 #include <cstdint>
@@ -27,71 +29,89 @@ namespace detail {
 struct CommandSignatureImpl;
 }
 
-// Those of drawing have their numbers here and are refused.
+/// What an argument is. Those of drawing have their numbers here and are refused (KA0540).
+/// [D3D12: D3D12_INDIRECT_ARGUMENT_TYPE]
 enum class IndirectArgumentType : uint32_t {
   kDraw = 0,
   kDrawIndexed = 1,
-  kDispatch = 2,  // DispatchArguments, 12 bytes
+  kDispatch = 2,  ///< DispatchArguments, 12 bytes
   kVertexBufferView = 3,
   kIndexBufferView = 4,
-  kConstant = 5,             // 4 bytes each
-  kConstantBufferView = 6,   // an address, 8 bytes
-  kShaderResourceView = 7,   // an address, 8 bytes
-  kUnorderedAccessView = 8,  // an address, 8 bytes
-  kDispatchRays = 9,         // DispatchRaysDesc, 104 bytes; needs tier 1.1
+  kConstant = 5,             ///< 4 bytes each
+  kConstantBufferView = 6,   ///< an address, 8 bytes
+  kShaderResourceView = 7,   ///< an address, 8 bytes
+  kUnorderedAccessView = 8,  ///< an address, 8 bytes
+  kDispatchRays = 9,         ///< DispatchRaysDesc, 104 bytes; needs tier 1.1 (KA0541)
   kDispatchMesh = 10,
 };
 
+/// The argument of kVertexBufferView, which is refused; here for its layout.
 struct IndirectVertexBuffer {
-  uint32_t Slot;
+  uint32_t Slot;  ///< input slot
 };
+/// Root constants that the argument buffer sets: 4 * Num32BitValuesToSet bytes.
 struct IndirectConstant {
-  uint32_t RootParameterIndex;
-  uint32_t DestOffsetIn32BitValues;
-  uint32_t Num32BitValuesToSet;
+  uint32_t RootParameterIndex;       ///< of type k32BitConstants
+  uint32_t DestOffsetIn32BitValues;  ///< the first constant that is set
+  uint32_t Num32BitValuesToSet;      ///< at least 1, all of them inside the parameter
 };
+/// A root view that the argument buffer sets: an address, 8 bytes.
 struct IndirectRootView {
-  uint32_t RootParameterIndex;
+  uint32_t RootParameterIndex;  ///< of the type that goes with the argument's
 };
 
-// The member of the union that counts is that of Type; the dispatches have none.
+/// One argument of a command. [D3D12: D3D12_INDIRECT_ARGUMENT_DESC]
 struct IndirectArgumentDesc {
+  /// Which member of the union counts; the dispatches have none.
   IndirectArgumentType Type = IndirectArgumentType::kDispatchRays;
   union {
-    IndirectConstant Constant = {0, 0, 0};
-    IndirectVertexBuffer VertexBuffer;
-    IndirectRootView ConstantBufferView;
-    IndirectRootView ShaderResourceView;
-    IndirectRootView UnorderedAccessView;
+    IndirectConstant Constant = {0, 0, 0};  ///< kConstant
+    IndirectVertexBuffer VertexBuffer;      ///< kVertexBufferView
+    IndirectRootView ConstantBufferView;    ///< kConstantBufferView
+    IndirectRootView ShaderResourceView;    ///< kShaderResourceView
+    IndirectRootView UnorderedAccessView;   ///< kUnorderedAccessView
   };
 };
 
+/// What kDispatch reads from the argument buffer. [D3D12: D3D12_DISPATCH_ARGUMENTS]
 struct DispatchArguments {
+  /// Thread groups along an axis: up to 65535; nothing runs where one of the three is 0.
+  ///@{
   uint32_t ThreadGroupCountX = 0;
   uint32_t ThreadGroupCountY = 0;
   uint32_t ThreadGroupCountZ = 0;
+  ///@}
 };
 
-// The arguments of a command follow each other without padding, in this order; the next command
-// starts ByteStride later. [D3D12: Indirect drawing]
+/// Describes a command signature for Device::CreateCommandSignature. The arguments of a command
+/// follow each other without padding, in this order; the next command starts ByteStride later.
+/// [D3D12: D3D12_COMMAND_SIGNATURE_DESC]
 struct CommandSignatureDesc {
-  uint32_t ByteStride = 0;  // bytes, a multiple of 4, at least what the arguments take
-  // Root arguments in ascending order of parameter (constants: and of offset), none set twice; then
-  // one dispatch, the last. [DXR: D3D12_COMMAND_SIGNATURE_DESC]
+  uint32_t ByteStride = 0;  ///< bytes: a multiple of 4, at least what the arguments take
+  /// Root arguments in ascending order of parameter (constants: and of offset), none set twice;
+  /// then one dispatch, the last. [DXR: D3D12_COMMAND_SIGNATURE_DESC]
   std::vector<IndirectArgumentDesc> ArgumentDescs = {};
-  uint32_t NodeMask = 0;  // accepted; there is one node
-  std::string Name = {};
+  uint32_t NodeMask = 0;  ///< ignored: there is one node
+  std::string Name = {};  ///< for messages
 };
 
+/// What the bytes of an argument buffer mean. A copyable handle; a recorded ExecuteIndirect keeps
+/// what it needs. [D3D12: ID3D12CommandSignature]
 class CommandSignature {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same object.
+  ///@{
   CommandSignature() = default;
   explicit CommandSignature(std::shared_ptr<detail::CommandSignatureImpl> impl)
       : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const CommandSignature&) const = default;
+  ///@}
 
+  /// What the signature was created with; a default desc for an empty handle.
   const CommandSignatureDesc& GetDesc() const;
+  /// For the library itself.
   const std::shared_ptr<detail::CommandSignatureImpl>& impl() const { return impl_; }
 
  private:

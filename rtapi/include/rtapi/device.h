@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//
-// Devices: the factory of everything else.
+/// @file
+/// Devices: the factory of everything else.
 #pragma once
 
 #include <cstdint>
@@ -26,136 +26,274 @@ namespace detail {
 struct DeviceImpl;
 }
 
+/// A device that this build can make.
 struct DeviceInfo {
-  std::string Backend;      // "embree"
-  std::string Name = {};    // "Intel Xeon ..., Embree 3.13.5"
-  std::string Description;  // one line for people
-  uint32_t HardwareThreads = 0;
+  std::string Backend;           ///< "embree" or "vulkan", for DeviceDesc::Backend
+  std::string Name = {};         ///< "Intel Xeon ..., Embree 3.13.5"
+  std::string Description;       ///< one line for people
+  uint32_t HardwareThreads = 0;  ///< of this machine
 };
 
-// Speed against exactness of ray-primitive tests on the CPU: fast (Embree's default), robust
-// (no gaps between triangles in practice), exact (DXR's watertightness rules, one hit per shared
-// edge). Measured in the project's README.
-enum class TraversalPrecision : uint32_t { kFast, kRobust, kExact };
+/// Speed against exactness of ray-primitive tests on the CPU. Measured in the project's README.
+/// [DXR: Watertightness; Fixed function ray-triangle intersection specification]
+enum class TraversalPrecision : uint32_t {
+  kFast,    ///< Embree's default; a rare ray slips through an edge that two triangles share
+  kRobust,  ///< no gaps between triangles in practice
+  kExact    ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
+};
 
+/// How grave a message is.
 enum class MessageSeverity : uint32_t { kInfo, kWarning, kError };
 
+/// What DeviceDesc::OnMessage is given.
 struct Message {
-  MessageSeverity Severity = MessageSeverity::kError;
-  ErrorId Id;        // KA0715 is number 715
-  std::string Text;  // begins with the id
+  MessageSeverity Severity = MessageSeverity::kError;  ///< how grave it is
+  ErrorId Id;                                          ///< KA0715 is number 715
+  std::string Text;                                    ///< begins with the id
 };
 
+/// Describes a device for CreateDevice.
 struct DeviceDesc {
-  std::string Backend = "embree";
-  uint32_t Threads = 0;  // 0: all of them; results do not depend on it
-  TraversalPrecision Precision = TraversalPrecision::kRobust;
-  RaytracingTier Tier = RaytracingTier::kTier1_1;  // 1.0 refuses what 1.1 brought
-  bool CollectStatistics = false;                  // counts rays; costs some speed
-  // Checked mode: says through OnMessage (ids KA0400-0499, rtapi/errors.md) what plain DXR leaves
-  // undefined: records outside a table or of another state object, missing barriers, structures
-  // that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
+  std::string Backend = "embree";  ///< one of EnumerateDevices (KA0901)
+  /// 0 to 4096 (KA0914); 0: all threads of the machine. Results do not depend on it. Vulkan ignores
+  /// it.
+  uint32_t Threads = 0;
+  TraversalPrecision Precision = TraversalPrecision::kRobust;  ///< of rays against triangles
+  RaytracingTier Tier = RaytracingTier::kTier1_1;              ///< 1.0 refuses what 1.1 brought
+  bool CollectStatistics = false;  ///< counts rays; costs some speed on Vulkan
+  /// Checked mode: says through OnMessage (ids KA0400-0499) what plain DXR leaves undefined:
+  /// records outside a table or of another state object, missing barriers, structures that were
+  /// overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
   bool Checked = false;
-  // Called on any thread for what cannot be returned to a caller: errors met while a list executes,
-  // why the device was removed. Must not call into the library.
+  /// Called on any thread for what cannot be returned to a caller: errors met while a list
+  /// executes, why the device was removed, warnings. Must not call into the library.
   std::function<void(const Message&)> OnMessage = {};
 };
 
-// What ran since the device was made, with DeviceDesc::CollectStatistics.
+/// What ran since the device was made, see Device::GetStatistics.
 struct RaytracingStatistics {
-  uint64_t TraceRayCalls = 0;
-  uint64_t VisibilityRays = 0;  // of them: first hit ends the search, no closest-hit shader
-  uint64_t Hits = 0;            // committed
-  uint64_t Misses = 0;
+  uint64_t TraceRayCalls = 0;   ///< without RayQuery
+  uint64_t VisibilityRays = 0;  ///< of them: first hit ends the search, no closest-hit shader
+  uint64_t Hits = 0;            ///< rays with a committed hit
+  uint64_t Misses = 0;          ///< rays without one
+  /// How often shaders of a stage ran.
+  ///@{
   uint64_t AnyHitInvocations = 0;
   uint64_t IntersectionInvocations = 0;
   uint64_t ClosestHitInvocations = 0;
   uint64_t MissInvocations = 0;
   uint64_t CallableInvocations = 0;
+  ///@}
 };
 
-// Every device of every backend of this build; the first is the default.
+/// Every device of every backend of this build, the default first; empty if the build has no
+/// backend. Devices that the machine lacks (no Vulkan driver with ray tracing) are not listed.
 std::vector<DeviceInfo> EnumerateDevices();
 
 class Device;
-// Errors: KA0901 unknown backend (the message lists the known ones), the backend's own.
+/// Makes a device. Several may live at once; their objects do not mix (KA0903).
+/// [D3D12: D3D12CreateDevice]
+/// @errors KA0900 the build has no backend; KA0901 unknown backend, and the message lists the known
+/// ones; KA0914 Precision, Tier or Threads out of range. Embree: KA0992 it cannot be started.
+/// Vulkan: KA0950 no device with ray tracing pipelines, KA0951 validation layers absent, KA0952 a
+/// call failed, KA0953 no device of that name, KA0991 precision kExact.
 Result<Device> CreateDevice(const DeviceDesc& desc = {});
 
-// A copyable handle, thread-safe. Objects of one device must not be used with another: KA0903.
+/// The factory of everything else. A copyable handle, thread-safe; whatever it made keeps it alive.
+/// Calls on an empty handle return KA0904, as do calls that are given an empty handle; objects of
+/// one device must not be used with another: KA0903.
+///
+/// An error met while a list executes removes the device, as in D3D12. From then on the calls that
+/// make objects or submit work return the reason (its id, with the code kDeviceRemoved), and so
+/// does GetDeviceRemovedReason. OnMessage is told once. [D3D12: ID3D12Device5]
 class Device {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same device.
+  ///@{
   Device() = default;
   explicit Device(std::shared_ptr<detail::DeviceImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const Device&) const = default;
+  ///@}
 
+  /// What the device is. Valid as long as the device lives; empty for an empty handle.
   const DeviceInfo& GetInfo() const;
+  /// What the device was created with. Valid as long as the device lives; a default desc for an
+  /// empty handle.
   const DeviceDesc& GetDesc() const;
-  // Ok while the device works, else why it was removed. Once removed, every call that needs it
-  // returns that error.
+  /// Ok while the device works, else why it was removed.
+  /// [D3D12: ID3D12Device::GetDeviceRemovedReason]
+  /// @errors KA0904 empty handle; the id of what removed the device, with the code kDeviceRemoved:
+  /// KA0789-0796, KA0890-0898, KA0950-0963, KA0990.
   Status GetDeviceRemovedReason() const;
+  /// Counts since the device was made or ResetStatistics was called, over all queues. Vulkan counts
+  /// only with DeviceDesc::CollectStatistics, Embree always. On Vulkan a miss for which no shader
+  /// ran counts as a hit. All zero for an empty handle.
   RaytracingStatistics GetStatistics() const;
+  /// Sets all counts to zero.
   void ResetStatistics();
 
   // Resources
+
+  /// Makes a buffer of zeros. [D3D12: CreateCommittedResource]
+  /// @errors KA0904 empty handle; KA0905 size; KA0906 heap, flags or state; KA0907 the state
+  /// kRaytracingAccelerationStructure without what it needs; KA0990 no memory; on Vulkan KA0956
+  /// over a limit of the device; the reason if the device is removed.
   Result<Buffer> CreateBuffer(const BufferDesc& desc) const;
+  /// Makes a texture of zeros on the default heap. [D3D12: CreateCommittedResource]
+  /// @errors KA0904 empty handle; KA0907 a state for buffers; KA0908 dimension, size or mip levels;
+  /// KA0909 format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures;
+  /// the reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
-  // Where subresources lie in a buffer that CopyTextureRegion reads or writes. Footprints start at
-  // `base_offset_bytes`; returns the bytes in all. Pointers may be null.
+  /// Where `count` subresources of such a texture, from `first_subresource` on, lie in a buffer
+  /// that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`, rounded up
+  /// to 512, the others behind it. Appends to each vector that is not null one element for each
+  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Returns
+  /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
+  /// [D3D12: GetCopyableFootprints]
+  /// @errors KA0817 more subresources than there are; KA0907-0909 as of CreateTexture.
   Result<uint64_t> GetCopyableFootprints(const TextureDesc& desc, uint32_t first_subresource,
                                          uint32_t count, uint64_t base_offset_bytes,
                                          std::vector<PlacedSubresourceFootprint>* layouts,
                                          std::vector<uint32_t>* row_counts = nullptr,
                                          std::vector<uint64_t>* row_bytes = nullptr) const;
 
-  // Descriptors. The handle names a slot of a living heap of the right type.
+  // Descriptors
+
+  /// Makes a heap of null descriptors. [D3D12: CreateDescriptorHeap]
+  /// @errors KA0904 empty handle; KA0620 number of descriptors; KA0621 type or flags; KA0990 no
+  /// memory; the reason if the device is removed.
   Result<DescriptorHeap> CreateDescriptorHeap(const DescriptorHeapDesc& desc) const;
+  /// Bytes between two descriptors: kDescriptorHandleIncrementSize for every type.
+  /// [D3D12: GetDescriptorHandleIncrementSize]
   uint32_t GetDescriptorHandleIncrementSize(DescriptorHeapType) const {
     return kDescriptorHandleIncrementSize;
   }
-  // An empty resource makes a null descriptor, except for acceleration structures, whose resource
-  // is always empty. [DXR: Additional SRV type]
+  /// Writes a view of a buffer, a texture or an acceleration structure into slot `dest` of a living
+  /// CBV/SRV/UAV heap. An empty resource makes a null descriptor, except for acceleration
+  /// structures, whose resource is always empty and whose address is in the desc. The view does not
+  /// keep the resource alive. [D3D12: CreateShaderResourceView; DXR: Additional SRV type]
+  /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
+  /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride or offset; KA0626
+  /// format or component mapping; KA0629 acceleration structure; KA0630 mips or slices; on Vulkan
+  /// KA0956 too many views, KA0961 no such view.
   Status CreateShaderResourceView(const Resource& resource, const ShaderResourceViewDesc& desc,
                                   CpuDescriptorHandle dest) const;
-  // The whole texture, as it is; 6 elements do not make it a cube.
+  /// A view of the whole texture, with its own format and dimension. Several elements make an array
+  /// view; 6 elements do not make it a cube.
+  /// @errors as of the overload with a desc: KA0622, KA0626 (typeless formats), KA0903, KA0904.
   Status CreateShaderResourceView(const Texture& texture, CpuDescriptorHandle dest) const;
+  /// Writes a view that shaders can write to into slot `dest` of a living CBV/SRV/UAV heap. An
+  /// empty resource makes a null descriptor. The view does not keep the resource alive.
+  /// [D3D12: CreateUnorderedAccessView]
+  /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
+  /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride, offset or counter;
+  /// KA0626 format; KA0627 the resource was created without kAllowUnorderedAccess; KA0630 mips or
+  /// slices; on Vulkan KA0956 too many views, KA0961 no such view.
   Status CreateUnorderedAccessView(const Resource& resource, const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
+  /// A view of mip 0 of the whole texture, with its own format and dimension.
+  /// @errors as of the overload with a desc: KA0622, KA0626, KA0627, KA0903, KA0904.
   Status CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const;
+  /// Writes a view of a constant buffer, or a null view for address 0, into slot `dest` of a living
+  /// CBV/SRV/UAV heap. [D3D12: CreateConstantBufferView]
+  /// @errors KA0904 empty device; KA0622 `dest` is no such slot; KA0628 alignment, size, or bytes
+  /// that are not all in one live buffer.
   Status CreateConstantBufferView(const ConstantBufferViewDesc& desc,
                                   CpuDescriptorHandle dest) const;
+  /// Writes a sampler into slot `dest` of a living sampler heap. [D3D12: CreateSampler]
+  /// @errors KA0904 empty device; KA0622 `dest` is no such slot; KA0631 a member out of its range;
+  /// on Vulkan KA0956 too many samplers, KA0962 the device has no such sampler.
   Status CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) const;
+  /// Copies `count` descriptors from slots at `source` to slots at `dest`; the ranges may overlap.
+  /// Both are in living heaps of this type, and the source is not shader-visible, as D3D12's host
+  /// cannot read such heaps. [D3D12: CopyDescriptorsSimple]
+  /// @errors KA0904 empty device; KA0622 a handle in no living heap; KA0632 another type, a
+  /// shader-visible source, or slots past the end of a heap.
   Status CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest, CpuDescriptorHandle source,
                                DescriptorHeapType type) const;
 
   // Pipelines
+
+  /// Checks a description and makes a root signature of it. [D3D12: CreateRootSignature]
+  /// @errors KA0904 empty handle; KA0600, KA0601 too large; KA0602 flags; KA0603 visibility; KA0604
+  /// a register bound twice; KA0605 a parameter's type or register space; KA0606 samplers among
+  /// views; KA0607 a range; KA0609 no constants; KA0610 a static sampler; on Vulkan KA0956, KA0962.
   Result<RootSignature> CreateRootSignature(const RootSignatureDesc& desc) const;
+  /// The same of HLSL's root signature language, see ParseRootSignature.
+  /// @errors KA0608 the text; else as of the overload with a desc: KA0600-0610, KA0904.
   Result<RootSignature> CreateRootSignature(std::string_view hlsl_text) const;
+  /// Makes a collection or a ray tracing pipeline. All rules that the description alone can break
+  /// are checked here: exports, hit groups, associations, configs, and that root signatures feed
+  /// every resource of every shader. What the description holds is copied; the result keeps its
+  /// libraries and root signatures alive. Backends compile pipelines in this call.
+  /// [DXR: CreateStateObject; Subobject association behavior; Raytracing pipeline state object]
+  /// @errors KA0904 an empty handle, KA0903 an object of another device. Subobjects: KA0500-0502,
+  /// KA0519-0521, KA0536, KA0538, KA0539. Exports: KA0503-0506. Associations: KA0507-0510, KA0515.
+  /// Configs: KA0511-0514. Hit groups: KA0516-0518, KA0524. Sizes: KA0522, KA0523. Collections:
+  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. On Vulkan: KA0952, KA0954
+  /// a library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
+  /// device is removed.
   Result<StateObject> CreateStateObject(const StateObjectDesc& desc) const;
+  /// Makes a pipeline of a parent and more exports. The addition is a pipeline that is valid by
+  /// itself and refers to nothing of the parent; both have kAllowStateObjectAdditions, and their
+  /// configs are equal. Identifiers of the parent stay valid in the result. The parent may be in
+  /// use meanwhile, and may be dropped afterwards; its stack size is taken over. Needs tier 1.1.
+  /// [DXR: AddToStateObject]
+  /// @errors KA0533 not allowed: tier, collection or flags; KA0534 configs differ; KA0535 an export
+  /// of the parent's name; and every error of CreateStateObject, for the addition and for the
+  /// whole.
   Result<StateObject> AddToStateObject(const StateObjectDesc& addition,
                                        const StateObject& parent) const;
+  /// Makes a compute pipeline. [D3D12: CreateComputePipelineState]
+  /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0528, KA0529 the
+  /// root signature does not feed a resource; KA0536 a local root signature; KA0537 no such shader,
+  /// several where EntryPoint is empty, or its thread group (up to 1024 x 1024 x 64, 1024 in all);
+  /// KA0542 RayQuery on a device of tier 1.0; on Vulkan KA0952, KA0954, KA0956, KA0963; the reason
+  /// if the device is removed.
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
-  // `root_signature`: needed if an argument sets a root argument, else ignored. Errors: KA0540 an
-  // argument or the stride, KA0541 kDispatchRays on a device of tier 1.0.
+  /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
+  /// if an argument sets a root argument, and ignored otherwise.
+  /// [D3D12: CreateCommandSignature; DXR: D3D12_COMMAND_SIGNATURE_DESC]
+  /// @errors KA0904 empty handle; KA0903 a root signature of another device; KA0536 a local one;
+  /// KA0540 an argument or the stride; KA0541 kDispatchRays on a device of tier 1.0; the reason if
+  /// the device is removed.
   Result<CommandSignature> CreateCommandSignature(const CommandSignatureDesc& desc,
                                                   const RootSignature& root_signature = {}) const;
 
-  // Sizes that suffice for this build and for every smaller one alike. Geometry descs are read,
-  // GPU memory is not: addresses are only tested for 0.
+  // Acceleration structures
+
+  /// Bytes that suffice for this build and for every one with the same flags and formats and with
+  /// equal or smaller counts. Geometry descs are read, GPU memory is not: addresses are only tested
+  /// for 0 and for alignment, so that any address does while buffers do not exist yet.
+  /// [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
+  /// @errors KA0904 empty handle; KA0700 types, layout or flags; KA0701 build flags; KA0702 mixed
+  /// geometry; KA0703 vertex format; KA0704 index buffer; KA0705, KA0707, KA0708 alignment; KA0709
+  /// more than 2^24 geometries or instances, or 2^29 primitives; KA0710 null pointers.
   Result<RaytracingAccelerationStructurePrebuildInfo>
   GetRaytracingAccelerationStructurePrebuildInfo(
       const BuildRaytracingAccelerationStructureInputs& inputs) const;
 
-  // Whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this identifier,
-  // which its header begins with. An empty handle recognizes none.
+  /// Whether CopyRaytracingAccelerationStructure(kDeserialize) takes data with this identifier,
+  /// which is the start of its header. An empty handle recognizes none. Never fails.
+  /// [DXR: CheckDriverMatchingIdentifier]
   DriverMatchingIdentifierStatus CheckDriverMatchingIdentifier(
       SerializedDataType type, const SerializedDataDriverMatchingIdentifier& identifier) const;
 
   // Work
+
+  /// Makes a command list, which is open. [D3D12: CreateCommandList]
+  /// @errors KA0904 empty handle; the reason if the device is removed.
   Result<CommandList> CreateCommandList() const;
+  /// Makes a queue. [D3D12: CreateCommandQueue]
+  /// @errors KA0904 empty handle; the reason if the device is removed.
   Result<CommandQueue> CreateCommandQueue() const;
+  /// Makes a fence. [D3D12: CreateFence]
+  /// @errors KA0904 empty handle.
   Result<Fence> CreateFence(uint64_t initial_value = 0) const;
 
+  /// For the library itself.
   const std::shared_ptr<detail::DeviceImpl>& impl() const { return impl_; }
 
  private:

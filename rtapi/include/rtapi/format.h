@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-//
-// Element formats: the names and numbers of DXGI_FORMAT, and what is known about each.
+/// @file
+/// Element formats: the names and numbers of DXGI_FORMAT, and what is known about each.
 #pragma once
 
 #include <cstdint>
 
 namespace rtapi {
 
+/// How one element of a texture, typed buffer or vertex is stored. Names and numbers are those of
+/// DXGI_FORMAT; GetFormatInfo tells which of them can be used, and backends may lack some as views
+/// (KA0626, KA0961). [DXGI_FORMAT]
 enum class Format : uint32_t {
   kUnknown = 0,
   kR32G32B32A32Typeless = 1,
@@ -111,19 +114,24 @@ enum class Format : uint32_t {
   kB4G4R4A4Unorm = 115,
 };
 
+/// How the channels of a format are read. Typeless formats can be stored and copied, and are viewed
+/// as a typed format of their family.
 enum class FormatClass : uint8_t { kUnsupported, kTypeless, kFloat, kUnorm, kSnorm, kUint, kSint };
 
-// Channel order in memory is first named first, except B8G8R8A8/B8G8R8X8 (blue first).
+/// What a format looks like in memory. The channel that a name names first lies first, in
+/// B8G8R8A8 and B8G8R8X8 too (blue first).
 struct FormatInfo {
-  FormatClass type = FormatClass::kUnsupported;
-  uint8_t bytes = 0;         // of one element
-  uint8_t channels = 0;      // X counts as one
-  uint8_t channel_bits = 0;  // 0: the channels differ (R10G10B10A2, R11G11B10, R9G9B9E5, B5G6R5...)
-  bool srgb = false;
+  FormatClass type = FormatClass::kUnsupported;  ///< kUnsupported: all other members are 0
+  uint8_t bytes = 0;                             ///< of one element
+  uint8_t channels = 0;                          ///< X counts as one
+  /// Bits of each channel; 0 where channels differ (R10G10B10A2, R11G11B10, R9G9B9E5, B5G6R5, ...).
+  uint8_t channel_bits = 0;
+  bool srgb = false;  ///< red, green and blue are stored by the sRGB curve
 };
 
-// What the formats that textures, typed buffers and vertices can have look like. kUnsupported for
-// depth, block-compressed, video and packed YUV formats. [DXGI_FORMAT]
+/// What a format looks like, for every format that textures, typed buffers and vertices can have.
+/// The type is kUnsupported for all others (depth, block-compressed, video and packed YUV formats,
+/// and numbers that are none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
 constexpr FormatInfo GetFormatInfo(Format format) {
   using F = Format;
   using C = FormatClass;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//
-// Acceleration structures and dispatch descriptions, byte for byte as in d3d12.h.
+/// @file
+/// Acceleration structures and dispatch descriptions, byte for byte as in d3d12.h.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,15 @@
 
 namespace rtapi {
 
+/// What ray tracing a device has; DeviceDesc::Tier chooses. Tier 1.1 adds RayQuery, the two skip
+/// flags of rays and pipelines, AddToStateObject, GeometryIndex, indirect DispatchRays and seven
+/// vertex formats. [DXR: D3D12_RAYTRACING_TIER]
 enum class RaytracingTier : uint32_t { kNotSupported = 0, kTier1_0 = 10, kTier1_1 = 11 };
 
-// [DXR: Ray flags]
+/// HLSL's RAY_FLAG values, for code that shares them with shaders. At most one of kForceOpaque,
+/// kForceNonOpaque, kCullOpaque and kCullNonOpaque; at most one of the two facing culls and
+/// kSkipTriangles; not both skips. The skips need tier 1.1 (KA0542). Checked mode reports illegal
+/// flags (KA0403, KA0404). [DXR: Ray flags]
 enum class RayFlags : uint32_t {
   kNone = 0,
   kForceOpaque = 0x1,
@@ -29,204 +35,297 @@ enum class RayFlags : uint32_t {
 template <>
 inline constexpr bool kIsFlags<RayFlags> = true;
 
+/// HitKind() of a triangle met at its front face. [DXR: HitKind]
 inline constexpr uint32_t kHitKindTriangleFrontFace = 254;
+/// HitKind() of a triangle met at its back face. [DXR: HitKind]
 inline constexpr uint32_t kHitKindTriangleBackFace = 255;
 
+/// What a geometry is made of; all geometries of a bottom level are of one type (KA0702).
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_TYPE]
 enum class RaytracingGeometryType : uint32_t { kTriangles = 0, kProceduralPrimitiveAabbs = 1 };
 
+/// What any-hit shaders see of a geometry's primitives. [DXR: D3D12_RAYTRACING_GEOMETRY_FLAGS]
 enum class RaytracingGeometryFlags : uint32_t {
   kNone = 0,
-  kOpaque = 0x1,
-  kNoDuplicateAnyHitInvocation = 0x2,
+  kOpaque = 0x1,                       ///< no any-hit shader runs, unless instance or ray say so
+  kNoDuplicateAnyHitInvocation = 0x2,  ///< at most one any-hit shader per intersection and ray
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingGeometryFlags> = true;
 
+/// Culling, facing and opacity of an instance: RaytracingInstanceDesc::Flags.
+/// [DXR: D3D12_RAYTRACING_INSTANCE_FLAGS]
 enum class RaytracingInstanceFlags : uint32_t {
   kNone = 0,
-  kTriangleCullDisable = 0x1,
-  kTriangleFrontCounterclockwise = 0x2,
-  kForceOpaque = 0x4,
-  kForceNonOpaque = 0x8,
+  kTriangleCullDisable = 0x1,            ///< facing culls of the ray have no effect
+  kTriangleFrontCounterclockwise = 0x2,  ///< else fronts are clockwise, seen from the ray's origin
+  kForceOpaque = 0x4,                    ///< replaces the geometries' opacity; not with the next
+  kForceNonOpaque = 0x8,                 ///< replaces the geometries' opacity; KA0474 with both
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingInstanceFlags> = true;
 
-// The two geometry kinds have no default member values: a union holds them. Name VertexFormat.
+/// A triangle list, indexed or not. A build reads its memory when the command executes, and keeps
+/// nothing of it. Every three indices (or vertices) are a triangle; a rest of one or two is
+/// ignored. A triangle with NaN as the x of any vertex is inactive: it is never hit, but counts in
+/// PrimitiveIndex. The members have no default values because a union holds this struct; set
+/// VertexFormat in any case. [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
 struct RaytracingGeometryTrianglesDesc {
-  GpuVirtualAddress Transform3x4;  // 12 floats, row-major, 16-byte aligned; 0: none
-  Format IndexFormat;              // kR16Uint, kR32Uint; kUnknown: not indexed
-  Format VertexFormat;             // [DXR: D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC]
-  uint32_t IndexCount;
+  /// 3 x 4 floats, row-major, applied to the vertices by the build: a multiple of 16 (KA0707).
+  /// 0: none.
+  GpuVirtualAddress Transform3x4;
+  Format IndexFormat;  ///< kR16Uint or kR32Uint; kUnknown: not indexed (KA0704)
+  /// kR32G32(B32)Float, kR16G16(B16A16)Float or Snorm; with tier 1.1 also kR16G16(B16A16)Unorm,
+  /// kR10G10B10A2Unorm, kR8G8(B8A8)Unorm or Snorm (KA0703). Two components: z is 0. A is ignored.
+  Format VertexFormat;
+  uint32_t IndexCount;  ///< 0 if IndexFormat is kUnknown
+  /// Vertices of the buffer. With indices, more than the largest of them: triangles with a larger
+  /// index are never hit, which is a warning (KA0798).
   uint32_t VertexCount;
-  GpuVirtualAddress IndexBuffer;  // 0 exactly when IndexFormat is kUnknown
+  /// A multiple of the index size; 0 exactly when IndexFormat is kUnknown (KA0704).
+  GpuVirtualAddress IndexBuffer;
+  /// Address and stride are multiples of the size of a component: 4, 2 or 1 bytes; of
+  /// kR10G10B10A2Unorm the stride is 4 (KA0705). Only the low 32 bits of the stride count.
   GpuVirtualAddressAndStride VertexBuffer;
 };
 
+/// A box of procedural geometry as it lies in GPU memory, 24 bytes, in object space. NaN as MinX
+/// makes it inactive; Min larger than Max makes it a point. [DXR: D3D12_RAYTRACING_AABB]
 struct RaytracingAabb {
-  float MinX = 0;  // NaN: inactive
+  /// A face of the box.
+  ///@{
+  float MinX = 0;
   float MinY = 0;
   float MinZ = 0;
   float MaxX = 0;
   float MaxY = 0;
   float MaxZ = 0;
+  ///@}
 };
 
+/// Boxes in GPU memory, each a RaytracingAabb; read when the build executes.
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_AABBS_DESC]
 struct RaytracingGeometryAabbsDesc {
-  uint64_t AABBCount;
-  GpuVirtualAddressAndStride AABBs;  // multiples of 8; stride 0: the same box for all
+  uint64_t AABBCount;                ///< boxes; at most 2^29 in a bottom level (KA0709)
+  GpuVirtualAddressAndStride AABBs;  ///< multiples of 8 (KA0708); stride 0: one box for all
 };
 
+/// One geometry of a bottom level, in host memory. Its index in the inputs is GeometryIndex.
+/// [DXR: D3D12_RAYTRACING_GEOMETRY_DESC]
 struct RaytracingGeometryDesc {
-  RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;
-  RaytracingGeometryFlags Flags = RaytracingGeometryFlags::kNone;
+  RaytracingGeometryType Type = RaytracingGeometryType::kTriangles;  ///< which of the two counts
+  RaytracingGeometryFlags Flags = RaytracingGeometryFlags::kNone;    ///< for every primitive of it
   union {
-    RaytracingGeometryTrianglesDesc Triangles = {};
-    RaytracingGeometryAabbsDesc AABBs;
+    RaytracingGeometryTrianglesDesc Triangles = {};  ///< kTriangles
+    RaytracingGeometryAabbsDesc AABBs;               ///< kProceduralPrimitiveAabbs
   };
 };
 
-// In GPU memory, 16-byte aligned. [DXR: D3D12_RAYTRACING_INSTANCE_DESC]
+/// One instance of a top level, as it lies in GPU memory: 64 bytes, at a multiple of 16. Its index
+/// in the inputs is InstanceIndex. [DXR: D3D12_RAYTRACING_INSTANCE_DESC]
 struct RaytracingInstanceDesc {
-  float Transform[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};  // instance to world
-  uint32_t InstanceID : 24 = 0;
+  /// From object to world space, 3 x 4 floats, row-major.
+  float Transform[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  uint32_t InstanceID : 24 = 0;  ///< what shaders read as InstanceID()
+  /// A ray meets the instance if this and its InstanceInclusionMask share a bit; 0: no ray does.
   uint32_t InstanceMask : 8 = 0xFF;
+  /// Added to the index of the hit record. [DXR: Hit group table indexing]
   uint32_t InstanceContributionToHitGroupIndex : 24 = 0;
-  uint32_t Flags : 8 = 0;                       // RaytracingInstanceFlags
-  GpuVirtualAddress AccelerationStructure = 0;  // bottom level; 0: inactive
+  uint32_t Flags : 8 = 0;  ///< RaytracingInstanceFlags
+  /// The address of a bottom level, which must be there when the top level is traced; 0: inactive,
+  /// never hit. Anything else than a bottom level makes it inactive with a warning (KA0797).
+  GpuVirtualAddress AccelerationStructure = 0;
 };
 
+/// The level of an acceleration structure. [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_TYPE]
 enum class RaytracingAccelerationStructureType : uint32_t { kTopLevel = 0, kBottomLevel = 1 };
 
+/// How a structure is built and what may be done with it later. All combinations are legal, but for
+/// kPreferFastTrace with kPreferFastBuild (KA0701).
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_BUILD_FLAGS]
 enum class RaytracingAccelerationStructureBuildFlags : uint32_t {
   kNone = 0,
-  kAllowUpdate = 0x1,
-  kAllowCompaction = 0x2,
-  kPreferFastTrace = 0x4,
-  kPreferFastBuild = 0x8,
-  kMinimizeMemory = 0x10,
-  kPerformUpdate = 0x20,
+  kAllowUpdate = 0x1,      ///< may be the source of an update
+  kAllowCompaction = 0x2,  ///< may be copied by kCompact
+  kPreferFastTrace = 0x4,  ///< a better tree, slower to build
+  kPreferFastBuild = 0x8,  ///< a worse tree, faster to build
+  kMinimizeMemory = 0x10,  ///< a smaller tree
+  kPerformUpdate = 0x20,   ///< refit SourceAccelerationStructureData instead of building anew
 };
 template <>
 inline constexpr bool kIsFlags<RaytracingAccelerationStructureBuildFlags> = true;
 
+/// Whether inputs lie in one array or each on its own. [DXR: D3D12_ELEMENTS_LAYOUT]
 enum class ElementsLayout : uint32_t { kArray = 0, kArrayOfPointers = 1 };
 
+/// What a build is made of, for builds and for prebuild info.
+/// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_INPUTS]
 struct BuildRaytracingAccelerationStructureInputs {
+  /// The level to build.
   RaytracingAccelerationStructureType Type = RaytracingAccelerationStructureType::kTopLevel;
+  /// In an update all but kAllowUpdate and kPerformUpdate equal those of the source.
   RaytracingAccelerationStructureBuildFlags Flags =
       RaytracingAccelerationStructureBuildFlags::kNone;
-  uint32_t NumDescs = 0;
-  ElementsLayout DescsLayout = ElementsLayout::kArray;
+  uint32_t NumDescs = 0;  ///< instances or geometries: up to 2^24; 0 is legal
+  ElementsLayout DescsLayout = ElementsLayout::kArray;  ///< of the member of the union
   union {
-    // Top level. kArray: NumDescs instance descs; kArrayOfPointers: NumDescs addresses of them,
-    // 8-byte aligned.
+    /// Top level, GPU memory that is read when the build executes. kArray: NumDescs instance descs,
+    /// at a multiple of 16; kArrayOfPointers: NumDescs addresses of such descs, at a multiple of 8.
     GpuVirtualAddress InstanceDescs = 0;
-    const RaytracingGeometryDesc* pGeometryDescs;          // bottom level, kArray
-    const RaytracingGeometryDesc* const* ppGeometryDescs;  // bottom level, kArrayOfPointers
+    /// Bottom level, kArray: NumDescs descs in host memory, copied when the call is made.
+    const RaytracingGeometryDesc* pGeometryDescs;
+    /// Bottom level, kArrayOfPointers: NumDescs pointers in host memory, none of them null; the
+    /// descs are copied when the call is made.
+    const RaytracingGeometryDesc* const* ppGeometryDescs;
   };
 };
 
+/// A build for CommandList::BuildRaytracingAccelerationStructure. The three addresses are multiples
+/// of 256. [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_DESC]
 struct BuildRaytracingAccelerationStructureDesc {
-  GpuVirtualAddress DestAccelerationStructureData = 0;  // 256-byte aligned, like the other two
-  BuildRaytracingAccelerationStructureInputs Inputs = {};
-  GpuVirtualAddress SourceAccelerationStructureData = 0;  // kPerformUpdate only
+  /// Where the structure goes: ResultDataMaxSizeInBytes in a buffer that was created in state
+  /// kRaytracingAccelerationStructure; of an update as many bytes as the source has.
+  GpuVirtualAddress DestAccelerationStructureData = 0;
+  BuildRaytracingAccelerationStructureInputs Inputs = {};  ///< what is built
+  /// With kPerformUpdate: what is refitted, the destination itself or one that does not overlap it.
+  /// Otherwise 0.
+  GpuVirtualAddress SourceAccelerationStructureData = 0;
+  /// ScratchDataSizeInBytes (of an update UpdateScratchDataSizeInBytes) in a buffer that allows
+  /// unordered access. Its contents do not count before, and are undefined afterwards.
   GpuVirtualAddress ScratchAccelerationStructureData = 0;
 };
 
+/// Bytes that a build needs, see Device::GetRaytracingAccelerationStructurePrebuildInfo.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_PREBUILD_INFO]
 struct RaytracingAccelerationStructurePrebuildInfo {
-  uint64_t ResultDataMaxSizeInBytes = 0;
-  uint64_t ScratchDataSizeInBytes = 0;
-  uint64_t UpdateScratchDataSizeInBytes = 0;
+  uint64_t ResultDataMaxSizeInBytes = 0;      ///< of the structure, before it is compacted
+  uint64_t ScratchDataSizeInBytes = 0;        ///< of scratch memory for the build
+  uint64_t UpdateScratchDataSizeInBytes = 0;  ///< for any later update; 0 without kAllowUpdate
 };
 
+/// Which numbers of a built structure are written to memory.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_TYPE]
 enum class RaytracingAccelerationStructurePostbuildInfoType : uint32_t {
-  kCompactedSize = 0,       // 8 bytes
-  kToolsVisualization = 1,  // 8 bytes
-  kSerialization = 2,       // 16 bytes
-  kCurrentSize = 3,         // 8 bytes
+  kCompactedSize = 0,       ///< RaytracingAccelerationStructurePostbuildInfoCompactedSizeDesc
+  kToolsVisualization = 1,  ///< RaytracingAccelerationStructurePostbuildInfoToolsVisualizationDesc
+  kSerialization = 2,       ///< RaytracingAccelerationStructurePostbuildInfoSerializationDesc
+  kCurrentSize = 3,         ///< RaytracingAccelerationStructurePostbuildInfoCurrentSizeDesc
 };
 
+/// A request for postbuild info, written when the command executes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoDesc {
-  GpuVirtualAddress DestBuffer = 0;  // 8-byte aligned
+  /// A multiple of 8 in a buffer that allows unordered access.
+  GpuVirtualAddress DestBuffer = 0;
+  /// What is written: 8 bytes for each source, kSerialization 16.
   RaytracingAccelerationStructurePostbuildInfoType InfoType =
       RaytracingAccelerationStructurePostbuildInfoType::kCompactedSize;
 };
 
+/// The 8 bytes that kCompactedSize writes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_COMPACTED_SIZE_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoCompactedSizeDesc {
-  uint64_t CompactedSizeInBytes = 0;
+  uint64_t CompactedSizeInBytes = 0;  ///< what a copy by kCompact takes
 };
+/// The 8 bytes that kToolsVisualization writes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_TOOLS_VISUALIZATION_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoToolsVisualizationDesc {
-  uint64_t DecodedSizeInBytes = 0;
+  uint64_t DecodedSizeInBytes = 0;  ///< what kVisualizationDecodeForTools writes
 };
+/// The 16 bytes that kSerialization writes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_SERIALIZATION_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoSerializationDesc {
-  uint64_t SerializedSizeInBytes = 0;
-  uint64_t NumBottomLevelAccelerationStructurePointers = 0;
+  uint64_t SerializedSizeInBytes = 0;  ///< what kSerialize writes, header and pointers included
+  uint64_t NumBottomLevelAccelerationStructurePointers = 0;  ///< of a bottom level 0
 };
+/// The 8 bytes that kCurrentSize writes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_CURRENT_SIZE_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoCurrentSizeDesc {
-  uint64_t CurrentSizeInBytes = 0;
+  uint64_t CurrentSizeInBytes = 0;  ///< the prebuild size, or that of the compacted copy
 };
 
+/// What CommandList::CopyRaytracingAccelerationStructure makes.
+/// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_COPY_MODE]
 enum class RaytracingAccelerationStructureCopyMode : uint32_t {
-  kClone = 0,
-  kCompact = 1,
-  kVisualizationDecodeForTools = 2,
-  kSerialize = 3,
-  kDeserialize = 4,
+  kClone = 0,                        ///< the same structure, as many bytes
+  kCompact = 1,                      ///< the same in fewer bytes; needs kAllowCompaction
+  kVisualizationDecodeForTools = 2,  ///< header and inputs, as a build would take them
+  kSerialize = 3,                    ///< bytes for a file
+  kDeserialize = 4,                  ///< a structure of such bytes
 };
 
+/// What Device::CheckDriverMatchingIdentifier is asked about. [DXR: D3D12_SERIALIZED_DATA_TYPE]
 enum class SerializedDataType : uint32_t { kRaytracingAccelerationStructure = 0 };
 
-// What Device::CheckDriverMatchingIdentifier says of serialized data.
+/// What Device::CheckDriverMatchingIdentifier says of serialized data.
+/// [DXR: D3D12_DRIVER_MATCHING_IDENTIFIER_STATUS]
 enum class DriverMatchingIdentifierStatus : uint32_t {
-  kCompatibleWithDevice = 0,
-  kUnsupportedType = 1,
-  kUnrecognized = 2,         // another driver's
-  kIncompatibleVersion = 3,  // of another version of this library
-  kIncompatibleType = 4,
+  kCompatibleWithDevice = 0,  ///< the device can read it
+  kUnsupportedType = 1,       ///< no acceleration structure
+  kUnrecognized = 2,          ///< another driver wrote it
+  kIncompatibleVersion = 3,   ///< another version of this library wrote it
+  kIncompatibleType = 4,      ///< never returned
 };
 
+/// A GUID, laid out as on Windows.
 struct Guid {
+  /// The parts of the GUID as it is written, Data4 byte by byte.
+  ///@{
   uint32_t Data1 = 0;
   uint16_t Data2 = 0;
   uint16_t Data3 = 0;
   uint8_t Data4[8] = {};
+  ///@}
 
+  /// True if all bits are equal.
   bool operator==(const Guid&) const = default;
 };
 
-// Opaque. Every backend writes the same one: what one wrote the others read.
+/// By what a device recognizes serialized data. Opaque. Every backend writes the same one: what one
+/// wrote the others read. [DXR: D3D12_SERIALIZED_DATA_DRIVER_MATCHING_IDENTIFIER]
 struct SerializedDataDriverMatchingIdentifier {
-  Guid DriverOpaqueGUID = {};
-  uint8_t DriverOpaqueVersioningData[16] = {};
+  Guid DriverOpaqueGUID = {};                   ///< of this library
+  uint8_t DriverOpaqueVersioningData[16] = {};  ///< of the form of the data
 };
 
-// What kSerialize writes begins with it; then come as many 8-byte addresses of bottom levels, which
-// the application replaces by those of their copies before kDeserialize.
-// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
+/// What kSerialize writes begins with it. Then come the 8-byte addresses of the bottom levels,
+/// which the application replaces by those of their copies before kDeserialize, and opaque data.
+/// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
 struct SerializedRaytracingAccelerationStructureHeader {
-  SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};
-  uint64_t SerializedSizeInBytesIncludingHeader = 0;
-  uint64_t DeserializedSizeInBytes = 0;
-  uint64_t NumBottomLevelAccelerationStructurePointersAfterHeader = 0;
+  SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};  ///< who can read it
+  uint64_t SerializedSizeInBytesIncludingHeader = 0;  ///< header, addresses and data
+  uint64_t DeserializedSizeInBytes = 0;               ///< what kDeserialize takes
+  uint64_t NumBottomLevelAccelerationStructurePointersAfterHeader = 0;  ///< bottom levels: 0
 };
 
-// What kVisualizationDecodeForTools writes begins with it; then come NumDescs instance or geometry
-// descs without a gap, then what their addresses name.
+/// What kVisualizationDecodeForTools writes begins with it. Then come NumDescs instance or geometry
+/// descs without a gap, in the order of the inputs, and what their addresses name.
+/// [DXR: D3D12_BUILD_RAYTRACING_ACCELERATION_STRUCTURE_TOOLS_VISUALIZATION_HEADER]
 struct BuildRaytracingAccelerationStructureToolsVisualizationHeader {
+  /// Which of the two kinds of descs follow.
   RaytracingAccelerationStructureType Type = RaytracingAccelerationStructureType::kTopLevel;
-  uint32_t NumDescs = 0;
+  uint32_t NumDescs = 0;  ///< how many of them
 };
 
-// [DXR: D3D12_DISPATCH_RAYS_DESC]. Starts are multiples of 64, strides of 32 up to 4096.
+/// The shader tables and the grid of a dispatch, for CommandList::DispatchRays and, in GPU memory,
+/// for ExecuteIndirect; 104 bytes. Tables start at multiples of 64 and have strides of a multiple
+/// of 32, up to 4096 (KA0813); each lies in one live buffer (KA0815). A table that no ray reaches
+/// may be a zero range. [DXR: D3D12_DISPATCH_RAYS_DESC]
 struct DispatchRaysDesc {
+  /// One record: 32 bytes or more.
   GpuVirtualAddressRange RayGenerationShaderRecord = {};
+  /// Indexed by MissShaderIndex of TraceRay. [DXR: Miss shader table indexing]
   GpuVirtualAddressRangeAndStride MissShaderTable = {};
+  /// Indexed by ray, geometry and instance. [DXR: Hit group table indexing]
   GpuVirtualAddressRangeAndStride HitGroupTable = {};
+  /// Indexed by ShaderIndex of CallShader. [DXR: Callable shader table indexing]
   GpuVirtualAddressRangeAndStride CallableShaderTable = {};
+  /// Threads along an axis; 2^30 in all (KA0814). Nothing runs where one of the three is 0.
+  ///@{
   uint32_t Width = 1;
   uint32_t Height = 1;
   uint32_t Depth = 1;
+  ///@}
 };
 
 static_assert(sizeof(RaytracingInstanceDesc) == 64 && sizeof(RaytracingGeometryDesc) == 56 &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-//
-// Buffers, textures, their states and barriers.
+/// @file
+/// Buffers, textures, their states and barriers.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +20,14 @@ struct BufferImpl;
 struct TextureImpl;
 }  // namespace detail
 
-enum class HeapType : uint32_t { kDefault = 1, kUpload = 2, kReadback = 3 };
+/// Where a buffer lies, and so who can read and write it. [D3D12: D3D12_HEAP_TYPE]
+enum class HeapType : uint32_t {
+  kDefault = 1,  ///< for shaders and commands; the host cannot map it
+  kUpload = 2,   ///< the host writes, shaders and copies read
+  kReadback = 3  ///< copies write, the host reads
+};
 
+/// What a resource is. [D3D12: D3D12_RESOURCE_DIMENSION]
 enum class ResourceDimension : uint32_t {
   kUnknown = 0,
   kBuffer = 1,
@@ -30,67 +36,92 @@ enum class ResourceDimension : uint32_t {
   kTexture3D = 4,
 };
 
+/// What a resource may be used for beyond reading. [D3D12: D3D12_RESOURCE_FLAGS]
 enum class ResourceFlags : uint32_t {
   kNone = 0,
-  kAllowUnorderedAccess = 0x4,
+  kAllowUnorderedAccess = 0x4,  ///< shaders and builds may write it
 };
 template <>
 inline constexpr bool kIsFlags<ResourceFlags> = true;
 
+/// What a resource is used for between two barriers. Checked mode reports uses that do not go with
+/// the state (KA0451), and transitions from another state than the present one (KA0452).
+/// [D3D12: D3D12_RESOURCE_STATES]
 enum class ResourceStates : uint32_t {
   kCommon = 0,
   kVertexAndConstantBuffer = 0x1,
   kUnorderedAccess = 0x8,
-  kNonPixelShaderResource = 0x40,
+  kNonPixelShaderResource = 0x40,  ///< what ray tracing shaders, builds and shader tables read
   kPixelShaderResource = 0x80,
-  kIndirectArgument = 0x200,
+  kIndirectArgument = 0x200,  ///< argument and count buffers of ExecuteIndirect
   kCopyDest = 0x400,
   kCopySource = 0x800,
   kGenericRead = 0xAC3,
   kAllShaderResource = 0xC0,
-  // For the whole life of a resource: no transition into it or out of it.
-  // [DXR: Acceleration structure memory restrictions]
+  /// For the whole life of a buffer: no transition into it or out of it.
+  /// [DXR: Acceleration structure memory restrictions]
   kRaytracingAccelerationStructure = 0x400000,
 };
 template <>
 inline constexpr bool kIsFlags<ResourceStates> = true;
 
+/// Describes a buffer for Device::CreateBuffer. [D3D12: CreateCommittedResource]
 struct BufferDesc {
-  uint64_t SizeInBytes = 0;  // 1 .. 2^40; memory starts at zero
-  HeapType Heap = HeapType::kDefault;
-  ResourceFlags Flags = ResourceFlags::kNone;  // unordered access: default heap only
-  // Upload heaps are always generic read, readback heaps always copy destination: kCommon stands
-  // for either. kRaytracingAccelerationStructure needs the default heap and kAllowUnorderedAccess.
+  uint64_t SizeInBytes = 0;                    ///< 1 to 2^40; the memory starts at zero
+  HeapType Heap = HeapType::kDefault;          ///< who can reach it
+  ResourceFlags Flags = ResourceFlags::kNone;  ///< unordered access: default heap only
+  /// The state before the first barrier. Upload heaps are always in kGenericRead, readback heaps
+  /// always in kCopyDest; kCommon stands for either. A buffer for acceleration structures needs
+  /// kRaytracingAccelerationStructure, the default heap and kAllowUnorderedAccess.
   ResourceStates InitialState = ResourceStates::kCommon;
-  std::string Name = {};  // for messages
+  std::string Name = {};  ///< for messages
 };
 
-// Linear memory with a GPU virtual address, aligned to 64 KiB as D3D12's are. A copyable handle;
-// the memory lives as long as one handle or an unfinished command list refers to it.
+/// Linear memory with a GPU virtual address, which is a multiple of 64 KiB as in D3D12. A copyable
+/// handle. The address is live as long as a handle exists; views, root arguments, shader records
+/// and build inputs hold addresses only and keep nothing alive. [D3D12: ID3D12Resource]
 class Buffer {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same buffer.
+  ///@{
   Buffer() = default;
   explicit Buffer(std::shared_ptr<detail::BufferImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const Buffer&) const = default;
+  ///@}
 
-  const BufferDesc& GetDesc() const;  // of an empty handle: a default BufferDesc
+  /// What the buffer was created with, and its present name. Valid as long as the buffer lives. An
+  /// empty handle has a default BufferDesc.
+  const BufferDesc& GetDesc() const;
+  /// Bytes of the buffer; 0 for an empty handle.
   uint64_t size() const { return GetDesc().SizeInBytes; }
-  GpuVirtualAddress GetGPUVirtualAddress() const;  // of an empty handle: 0
+  /// The address of byte 0, the same for the buffer's whole life; 0 for an empty handle. Address +
+  /// n is byte n. [D3D12: ID3D12Resource::GetGPUVirtualAddress]
+  GpuVirtualAddress GetGPUVirtualAddress() const;
+  /// The name in messages.
   const std::string& name() const { return GetDesc().Name; }
+  /// Changes the name in messages. Not while another thread uses the buffer. Does nothing on an
+  /// empty handle.
   void SetName(std::string name);
 
-  // The memory of an upload or readback buffer; it stays mapped. Default heap: KA0911.
+  /// The memory of an upload or readback buffer, size() bytes. It is mapped from its creation on
+  /// and stays so: the span is valid as long as the buffer lives. Reads see what completed commands
+  /// wrote; commands see what was written before they execute. [D3D12: ID3D12Resource::Map]
+  /// @errors KA0904 empty handle; KA0911 default heap.
   Result<std::span<std::byte>> Map() const;
+  /// Does nothing: mapped memory stays mapped. [D3D12: ID3D12Resource::Unmap]
   void Unmap() const {}
 
-  // The mapped memory as elements; empty if it cannot be mapped.
+  /// The mapped memory as size() / sizeof(T) elements; bytes at the end that make no whole element
+  /// are left out. Empty where Map would fail.
   template <class T>
   std::span<T> data() const {
     auto bytes = mapped_bytes();
     return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
   }
 
+  /// For the library itself.
   const std::shared_ptr<detail::BufferImpl>& impl() const { return impl_; }
 
  private:
@@ -98,60 +129,91 @@ class Buffer {
   std::shared_ptr<detail::BufferImpl> impl_;
 };
 
+/// Describes a texture for Device::CreateTexture. [D3D12: D3D12_RESOURCE_DESC]
 struct TextureDesc {
-  ResourceDimension Dimension = ResourceDimension::kTexture2D;
-  uint32_t Width = 1;
-  uint32_t Height = 1;
-  uint16_t DepthOrArraySize = 1;  // depth of a 3-D texture, else array elements; 6 for a cube
-  uint16_t MipLevels = 1;         // 0: the full chain
-  rtapi::Format Format = rtapi::Format::kUnknown;
-  ResourceFlags Flags = ResourceFlags::kNone;
+  ResourceDimension Dimension = ResourceDimension::kTexture2D;  ///< kTexture1D, 2D or 3D
+  uint32_t Width = 1;   ///< texels: 1 to 16384, of a 3-D texture to 2048
+  uint32_t Height = 1;  ///< texels, as Width; 1 for a 1-D texture
+  /// Depth of a 3-D texture, else array elements: 1 to 2048; 6 for a cube.
+  uint16_t DepthOrArraySize = 1;
+  uint16_t MipLevels = 1;                          ///< at most the full chain; 0: the full chain
+  rtapi::Format Format = rtapi::Format::kUnknown;  ///< any with a FormatInfo; typeless ones too
+  ResourceFlags Flags = ResourceFlags::kNone;      ///< unordered access or none
+  /// The state before the first barrier, of all subresources; not
+  /// kRaytracingAccelerationStructure, which is for buffers.
   ResourceStates InitialState = ResourceStates::kCommon;
-  std::string Name = {};
+  std::string Name = {};  ///< for messages
 };
 
-// A texture on the default heap; contents start at zero. Filled and read through
-// CommandList::CopyTextureRegion, or UploadTexture/ReadbackTexture of upload.h.
+/// A texture on the default heap; its texels start at zero. Filled and read by
+/// CommandList::CopyTextureRegion, or by UploadTexture and ReadbackTexture of upload.h. A copyable
+/// handle; views keep nothing alive. [D3D12: ID3D12Resource]
 class Texture {
  public:
+  /// An empty handle, or one that the library makes. A handle is false when it is empty, and two
+  /// are equal if they name the same texture.
+  ///@{
   Texture() = default;
   explicit Texture(std::shared_ptr<detail::TextureImpl> impl) : impl_(std::move(impl)) {}
   explicit operator bool() const { return impl_ != nullptr; }
   bool operator==(const Texture&) const = default;
+  ///@}
 
-  const TextureDesc& GetDesc() const;  // MipLevels resolved
-  // mip + array_element * MipLevels; 3-D textures have one subresource per mip.
+  /// What the texture was created with, where MipLevels is the number of levels even if 0 was
+  /// given. Valid as long as the texture lives. An empty handle has a default TextureDesc.
+  const TextureDesc& GetDesc() const;
+  /// Subresources: MipLevels * array elements; a 3-D texture has one for each mip. Subresource
+  /// `mip + element * MipLevels` is a mip of an array element. 0 for an empty handle.
+  /// [D3D12: subresources]
   uint32_t subresource_count() const;
+  /// The name in messages.
   const std::string& name() const { return GetDesc().Name; }
+  /// Changes the name in messages. Not while another thread uses the texture. Does nothing on an
+  /// empty handle.
   void SetName(std::string name);
 
+  /// For the library itself.
   const std::shared_ptr<detail::TextureImpl>& impl() const { return impl_; }
 
  private:
   std::shared_ptr<detail::TextureImpl> impl_;
 };
 
+/// A buffer, a texture, or nothing.
 using Resource = std::variant<std::monostate, Buffer, Texture>;
 
 // ---------------------------------------------------------------------------------------------
 // Barriers
 
+/// What a barrier does. kAliasing is refused (KA0802): there are no placed resources.
+/// [D3D12: D3D12_RESOURCE_BARRIER_TYPE]
 enum class ResourceBarrierType : uint32_t { kTransition = 0, kAliasing = 1, kUav = 2 };
 
+/// A barrier for CommandList::ResourceBarrier; make it by Transition or Uav.
+/// [D3D12: D3D12_RESOURCE_BARRIER]
 struct ResourceBarrier {
-  ResourceBarrierType Type = ResourceBarrierType::kUav;
-  // Empty in a UAV barrier: every resource. [DXR: Synchronizing acceleration structure memory
-  // writes/reads]
+  ResourceBarrierType Type = ResourceBarrierType::kUav;  ///< kTransition or kUav
+  /// What the barrier is for. Empty in a UAV barrier: every resource.
+  /// [DXR: Synchronizing acceleration structure memory writes/reads]
   rtapi::Resource Resource = {};
+  /// Transitions of textures: one subresource, or all of them.
   uint32_t Subresource = kResourceBarrierAllSubresources;
+  /// Transitions: the states before and after, which differ.
+  ///@{
   ResourceStates StateBefore = ResourceStates::kCommon;
   ResourceStates StateAfter = ResourceStates::kCommon;
+  ///@}
 
+  /// A transition of `resource`, or of one subresource of a texture, from state `before` to
+  /// `after`. The rules are checked by CommandList::ResourceBarrier.
   static ResourceBarrier Transition(rtapi::Resource resource, ResourceStates before,
                                     ResourceStates after,
                                     uint32_t subresource = kResourceBarrierAllSubresources) {
     return {ResourceBarrierType::kTransition, std::move(resource), subresource, before, after};
   }
+  /// Orders unordered accesses, builds and reads of acceleration structures before the barrier and
+  /// those after it; without a resource for all of them.
+  /// [DXR: Synchronizing acceleration structure memory writes/reads]
   static ResourceBarrier Uav(rtapi::Resource resource = {}) {
     return {ResourceBarrierType::kUav, std::move(resource), kResourceBarrierAllSubresources,
             ResourceStates::kCommon, ResourceStates::kCommon};
@@ -161,45 +223,58 @@ struct ResourceBarrier {
 // ---------------------------------------------------------------------------------------------
 // Copies between buffers and textures
 
+/// How the texels of one subresource lie in a buffer: rows of RowPitch bytes, Height rows to a
+/// slice, Depth slices. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
 struct SubresourceFootprint {
-  rtapi::Format Format = rtapi::Format::kUnknown;
-  uint32_t Width = 0;
-  uint32_t Height = 0;
-  uint32_t Depth = 0;
-  uint32_t RowPitch = 0;  // bytes, a multiple of 256
+  rtapi::Format Format = rtapi::Format::kUnknown;  ///< of the family of the texture's format
+  uint32_t Width = 0;                              ///< texels, at least 1
+  uint32_t Height = 0;                             ///< rows, at least 1
+  uint32_t Depth = 0;                              ///< slices, at least 1
+  uint32_t RowPitch = 0;  ///< bytes from row to row: a multiple of 256, at least those of a row
 };
 
+/// A footprint and where it starts in its buffer. GetCopyableFootprints makes them.
+/// [D3D12: D3D12_PLACED_SUBRESOURCE_FOOTPRINT]
 struct PlacedSubresourceFootprint {
-  uint64_t Offset = 0;  // bytes, a multiple of 512
-  SubresourceFootprint Footprint = {};
+  uint64_t Offset = 0;                  ///< bytes from the start of the buffer, a multiple of 512
+  SubresourceFootprint Footprint = {};  ///< what lies there
 };
 
+/// Which member of a TextureCopyLocation counts. [D3D12: D3D12_TEXTURE_COPY_TYPE]
 enum class TextureCopyType : uint32_t { kSubresourceIndex = 0, kPlacedFootprint = 1 };
 
+/// One side of a CopyTextureRegion: a subresource of a texture, or texels in a buffer.
+/// [D3D12: D3D12_TEXTURE_COPY_LOCATION]
 struct TextureCopyLocation {
+  /// A subresource of a texture, see Texture::subresource_count.
   TextureCopyLocation(Texture texture, uint32_t subresource)
       : pResource(std::move(texture)),
         Type(TextureCopyType::kSubresourceIndex),
         SubresourceIndex(subresource) {}
+  /// Texels in a buffer.
   TextureCopyLocation(Buffer buffer, const PlacedSubresourceFootprint& footprint)
       : pResource(std::move(buffer)),
         Type(TextureCopyType::kPlacedFootprint),
         PlacedFootprint(footprint) {}
 
-  Resource pResource;
-  TextureCopyType Type;
-  PlacedSubresourceFootprint PlacedFootprint;
-  uint32_t SubresourceIndex = 0;
+  Resource pResource;                          ///< the texture or buffer
+  TextureCopyType Type;                        ///< goes with the kind of pResource
+  PlacedSubresourceFootprint PlacedFootprint;  ///< buffers
+  uint32_t SubresourceIndex = 0;               ///< textures
 };
 
-// Texels [left, right) x [top, bottom) x [front, back).
+/// Texels [left, right) x [top, bottom) x [front, back) of a subresource or footprint. Nothing is
+/// copied where one of the three is empty. [D3D12: D3D12_BOX]
 struct Box {
+  /// A border, in texels.
+  ///@{
   uint32_t left = 0;
   uint32_t top = 0;
   uint32_t front = 0;
   uint32_t right = 0;
   uint32_t bottom = 0;
   uint32_t back = 0;
+  ///@}
 };
 
 }  // namespace rtapi

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-//
-// All of the API. Apart stand runtime compilation of HLSL, <rtapi/shader_compiler.h>, and what
-// shows tables and pixels to people, <rtapi/table_description.h> and <rtapi/explain.h>.
+/// @file
+/// All of the API, but for what few programs need: runtime compilation of HLSL,
+/// `<rtapi/shader_compiler.h>`, and what shows tables and pixels to people,
+/// `<rtapi/table_description.h>` and `<rtapi/explain.h>`.
 #pragma once
 
 #include <rtapi/command_list.h>       // IWYU pragma: export
@@ -20,3 +21,4 @@
 #include <rtapi/state_object.h>       // IWYU pragma: export
 #include <rtapi/types.h>              // IWYU pragma: export
 #include <rtapi/upload.h>             // IWYU pragma: export
+#include <rtapi/version.h>            // IWYU pragma: export

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-//
-// Compiling HLSL at run time, with the machine's C++ compiler and a cache by content, or for the
-// interpreter. In a library of its own (kaamos::hlsl), so that programs with built-in shaders need
-// no compiler.
+/// @file
+/// Compiling HLSL at run time, with the machine's C++ compiler and a cache by content, or for the
+/// interpreter. In a library of its own (kaamos::hlsl), so that programs with built-in shaders need
+/// no compiler.
 #pragma once
 
 #include <cstdint>
@@ -15,58 +15,70 @@
 
 namespace rtapi {
 
+/// A macro that is defined before the source is read.
 struct ShaderDefine {
-  std::string Name = {};
-  std::string Value = "1";
+  std::string Name = {};    ///< of the macro
+  std::string Value = "1";  ///< what it stands for
 };
 
-// The members are DXC's options by their meaning.
+/// What to compile and how. The members are DXC's options by their meaning.
 struct ShaderCompileOptions {
-  std::string File = {};                   // the main source file; also names it in messages
-  std::optional<std::string> Source = {};  // the text, instead of reading File
-  std::string Target = "lib_6_6";          // -T
-  std::string EntryPoint = {};             // -E, for cs_6_x
-  std::vector<ShaderDefine> Defines = {};  // -D
-  std::vector<std::string> IncludeDirectories = {};  // -I
-  std::vector<std::string> Exports = {};             // -exports "a;b=c"; empty: everything
-  std::optional<uint32_t> AutoBindingSpace = {};     // -auto-binding-space
-  std::string HlslVersion = "2021";                  // -HV
-  bool RowMajorMatrices = false;                     // -Zpr
-  // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
+  std::string File = {};                   ///< the main source file; also names it in messages
+  std::optional<std::string> Source = {};  ///< the text, instead of reading File
+  std::string Target = "lib_6_6";          ///< -T: lib_6_3 to lib_6_8, cs_6_x
+  std::string EntryPoint = {};             ///< -E, for cs_6_x
+  std::vector<ShaderDefine> Defines = {};  ///< -D
+  std::vector<std::string> IncludeDirectories = {};  ///< -I
+  std::vector<std::string> Exports = {};             ///< -exports "a;b=c"; empty: everything
+  std::optional<uint32_t> AutoBindingSpace = {};     ///< -auto-binding-space
+  std::string HlslVersion = "2021";                  ///< -HV: "2018", or else 2021
+  bool RowMajorMatrices = false;                     ///< -Zpr
+  /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
+  /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};
-  bool Strict = false;              // --strict: refuse what DXC refuses
-  bool WarningsAsErrors = false;    // -WX
-  bool Debug = false;               // -Od -Zi: for gdb
-  std::string CacheDirectory = {};  // empty: $KAAMOS_CACHE_DIR, else the user's cache directory
-  std::string CxxCompiler = {};     // empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
-  bool Spirv = true;                // false: without what Vulkan devices need
-  // Needs no C++ compiler; on the CPU shaders run about a hundred times slower. No cache.
+  bool Strict = false;              ///< --strict: refuse what DXC refuses
+  bool WarningsAsErrors = false;    ///< -WX
+  bool Debug = false;               ///< -Od -Zi: for gdb
+  std::string CacheDirectory = {};  ///< empty: $KAAMOS_CACHE_DIR, else the user's cache directory
+  std::string CxxCompiler = {};     ///< empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
+  bool Spirv = true;                ///< false: without what Vulkan devices need (KA0954)
+  /// Needs no C++ compiler; on the CPU shaders run about a hundred times slower. No cache.
   bool Interpret = false;
-  // Statements that one shader invocation may run when interpreted, before the device is removed
-  // (an endless loop); 0: about a thousand million.
+  /// Statements that one shader invocation may run when interpreted, before the device is removed
+  /// (KA0897: an endless loop); 0: about a thousand million.
   uint64_t InterpretStepLimit = 0;
 };
 
+/// How grave a diagnostic is. Errors stop compilation; warnings do with WarningsAsErrors.
 enum class ShaderDiagnosticSeverity : uint32_t { kNote, kWarning, kError };
 
+/// One thing that the compiler has to say about the source.
 struct ShaderDiagnostic {
-  ShaderDiagnosticSeverity Severity = ShaderDiagnosticSeverity::kError;
-  ErrorId Id;  // KA2104 is number 2104
-  std::string File = {};
-  uint32_t Line = 0;    // from 1; 0 without a place
-  uint32_t Column = 0;  // from 1
-  std::string Message;
-  std::string Text;  // the whole of it as a terminal shows it: place, source line, caret
+  ShaderDiagnosticSeverity Severity = ShaderDiagnosticSeverity::kError;  ///< how grave it is
+  ErrorId Id;             ///< KA2104 is number 2104; all are in KA2000-2799
+  std::string File = {};  ///< as the include that read it found it
+  uint32_t Line = 0;      ///< from 1; 0 without a place
+  uint32_t Column = 0;    ///< from 1
+  std::string Message;    ///< without the place
+  std::string Text;       ///< the whole of it as a terminal shows it: place, source line, caret
 };
 
+/// What came of a compilation.
 struct ShaderCompilation {
-  rtapi::Status Status;   // an error's message holds every error diagnostic's Text
-  ShaderLibrary Library;  // empty on error
-  std::vector<ShaderDiagnostic> Diagnostics;
-  std::vector<std::string> Dependencies;  // every file read, the main one first
-  bool FromCache = false;
+  rtapi::Status Status;   ///< an error's message holds every error diagnostic's Text
+  ShaderLibrary Library;  ///< empty on error
+  std::vector<ShaderDiagnostic> Diagnostics;  ///< in the order in which they were found
+  std::vector<std::string> Dependencies;      ///< every file read, the main one first
+  bool FromCache = false;                     ///< nothing had to be built
 };
 
+/// Compiles HLSL into a library for both backends and loads it. Takes the C++ compiler's time,
+/// often seconds, unless the cache holds what the same source, options and compiler gave; a hit
+/// takes about 1 ms. What works of HLSL is listed in runtime/hlsl/SUPPORT.md.
+/// @errors in ShaderCompilation::Status: KA2752 the source does not compile, which the diagnostics
+/// (KA2000-2799) explain; KA2750 no C++ compiler was found; KA2751 it failed; KA2753 the
+/// interpreter cannot run the code; KA2760, KA2761 no SPIR-V could be made of it; KA0910 the result
+/// cannot be loaded.
 ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options);
 
 }  // namespace rtapi

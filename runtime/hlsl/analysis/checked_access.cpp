@@ -10,7 +10,7 @@ namespace kaamos::hlsl {
 using namespace ir;
 
 Access access_of(const Type* type, Layout layout, bool row_major) {
-  // Natural alignment also in constant buffers: rows of 16 bytes are the compiler's matter.
+  // Natural alignment applies in constant buffers too: the 16-byte rows are up to the compiler.
   const uint32_t natural = extent_of(type, Layout::kStructured, row_major).alignment;
   return {static_cast<uint32_t>(extent_of(type, layout, row_major).size),
           std::min(std::max(natural, 1u), 4u)};
@@ -22,7 +22,8 @@ void mix(uint32_t& hash, uint32_t value) {
   for (int byte = 0; byte < 4; ++byte) hash = (hash ^ (value >> (byte * 8) & 0xFF)) * 16777619u;
 }
 
-// Vectors are their scalars, so that float3 + float and float4 are the same bytes and one type.
+// A vector is hashed as its scalars, so that float3 + float and float4 have the same bytes and
+// type.
 void mix(uint32_t& hash, const Type* type) {
   switch (type->kind) {
     case TypeKind::kScalar:
@@ -96,9 +97,9 @@ QueryNeed need_of(const Expr& value) {
     case QueryValue::kWorldRayOrigin:
     case QueryValue::kWorldRayDirection:
       return {};
-    case QueryValue::kType:  // COMMITTED_NOTHING is an answer
+    case QueryValue::kType:  // COMMITTED_NOTHING is a valid answer
       return {!committed};
-    case QueryValue::kRayT:  // TMax without a hit
+    case QueryValue::kRayT:  // TMax if there is no hit
       return committed ? QueryNeed{} : QueryNeed{true, triangle};
     case QueryValue::kBarycentrics:
     case QueryValue::kFrontFace:

@@ -32,7 +32,7 @@ bool holds_return(const Stmt& stmt) {
   return found;
 }
 
-// A break or continue that leaves the statement.
+// Whether a break or continue leaves the statement.
 bool leaves(const Stmt& stmt, bool in_loop, bool in_switch) {
   if (stmt.kind == StmtKind::kBreak) return !in_loop && !in_switch;
   if (stmt.kind == StmtKind::kContinue) return !in_loop;
@@ -77,7 +77,7 @@ class Planner {
     if (reason_.empty()) reason_ = why;
   }
 
-  // ---- Regions by the structure of the statements
+  // ---- Regions that follow the structure of the statements
 
   void block(const Block& body, std::vector<Region>& out, bool in_entry) {
     for (const Stmt* stmt : body) statement(*stmt, out, in_entry);
@@ -128,7 +128,7 @@ class Planner {
       case StmtKind::kCall:
         return inlined(stmt, out);
       default:
-        return fail("a barrier, or a way out of a loop with barriers, stands in a switch");
+        return fail("a barrier, or a way out of a loop with barriers, is in a switch");
     }
   }
 
@@ -145,7 +145,7 @@ class Planner {
     plan_.may_return = plan_.may_return || returns;
   }
 
-  // ---- Functions in place of their calls
+  // ---- Functions inlined at their calls
 
   Stmt& make(StmtKind kind, const Stmt& at) {
     Stmt& stmt = plan_.statements.emplace_back();
@@ -168,8 +168,8 @@ class Planner {
     for_threads(stmt, out, false);
   }
 
-  // The parameters become variables: nothing else refers to what a reference refers to, so that
-  // copying in and out is the same. A second call declares them again.
+  // The parameters become variables. A reference's target is not accessible in any other way, so
+  // copying in and out has the same effect. A second call declares them again.
   void inlined(const Stmt& call, std::vector<Region>& out) {
     const Function& function = *call.function;
     for (size_t i = 0; i < function.parameters.size(); ++i) {
@@ -225,7 +225,7 @@ class Planner {
            plan_.uniform.count(stmt.place->variable) != 0;
   }
 
-  // Takes what writes the group's variables out of the pieces of the threads.
+  // Moves the statements that write the group's variables out of the threads' pieces.
   std::vector<Region> extract_once(std::vector<Region> regions) {
     std::vector<Region> out;
     for (Region& region : regions) {
@@ -284,7 +284,7 @@ class Planner {
     return false;
   }
 
-  // Parameters that nothing writes are made anew for each piece.
+  // Parameters that nothing writes are set up again for each piece.
   void keep_written_parameters() {
     visit(
         entry_.function->body, [](const Expr&) {},

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute shaders on a CPU: a body whose barriers all threads of a group reach together is cut at
-// them, and each piece runs for one thread after the other. What a variable holds across pieces is
-// kept for each thread. Bodies that cannot be cut run with a fiber for each thread.
+// Compute shaders on a CPU: if all threads of a group reach the body's barriers together, the body
+// is cut at them, and each piece runs for one thread after another. What a variable holds across
+// pieces is kept per thread. Bodies that cannot be cut run with one fiber per thread.
 //
-// Cut are straight lines of statements, and loops and ifs around barriers whose conditions are
-// uniform: the same for all threads of the group. Functions that hold barriers are put in place of
-// their calls.
+// Straight-line code can be cut, and so can loops and ifs around barriers if their conditions are
+// uniform: the same for all threads of the group. Functions that contain barriers are inlined.
 //
-// The result is that of fibers wherever D3D defines one: only statements between which a barrier
-// stands, or none is needed, change their order among threads.
+// The result is the same as with fibers wherever D3D defines one: statements change their order
+// among threads only if a barrier separates them or none is needed.
 #pragma once
 
 #include <deque>
@@ -23,14 +22,14 @@
 namespace kaamos::hlsl {
 
 enum class RegionKind : uint8_t {
-  kThreads,   // statements, run for each thread
-  kOnce,      // stmt declares or assigns a uniform variable: run once for the group
+  kThreads,   // statements that run for each thread
+  kOnce,      // stmt declares or assigns a uniform variable, so it runs once for the group
   kBarrier,   // stmt
   kIf,        // stmt.value; body, orelse
   kLoop,      // stmt.value and test_at_end; prelude, body, step
   kBreak,     // of the innermost kLoop
   kContinue,  // the same
-  kReturn,    // of the whole group
+  kReturn,    // for the whole group
 };
 
 struct Region {
@@ -46,18 +45,18 @@ struct Region {
 
 struct GroupPlan {
   std::vector<Region> regions;
-  // One for the group; SV_GroupID among them.
+  // Held once for the group; SV_GroupID is one of them.
   std::unordered_set<const ir::Variable*> uniform;
-  // One for each thread, across regions; entry parameters if something writes them.
+  // Held per thread across regions; includes entry parameters that something writes.
   std::unordered_set<const ir::Variable*> kept;
-  bool may_return = false;  // some thread may end before the others
-  // Made for functions that were put in place of their calls.
+  bool may_return = false;  // some threads may end before others
+  // Statements made for inlined functions.
   std::deque<ir::Stmt> statements;
   std::deque<ir::Expr> expressions;
 };
 
-// Nothing, with the reason, where the entry point's barriers cannot be cut at. Without barriers
-// there is nothing to cut either.
+// Returns nothing and sets the reason if the entry point cannot be cut at its barriers, or has
+// none.
 std::optional<GroupPlan> plan_group(const ir::EntryPoint& entry, std::string& reason);
 
 }  // namespace kaamos::hlsl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which pieces a body is cut into, which variables the group shares and which its threads keep.
+// Which pieces a body is cut into, which variables the group shares and which each thread keeps.
 // What the pieces compute is compared with fibers in tests/hlsl/group_test.cpp.
 #include "runtime/hlsl/analysis/split_groups.h"
 
@@ -14,7 +14,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// "threads", "once x" and the like, with what is inside in braces.
+// "threads", "once x" and so on, with nested regions in braces.
 std::string text_of(const std::vector<Region>& regions) {
   std::string out;
   for (const Region& region : regions) {
@@ -66,7 +66,7 @@ struct Planned {
   std::string reason;
 };
 
-// `body` is that of a kernel of 8 x 8 threads.
+// `body` is the body of a kernel with 8 x 8 threads.
 Planned plan(const std::string& body, const std::string& before = "") {
   DiskFileLoader loader;
   SourceManager sources(loader);

@@ -13,7 +13,8 @@ namespace {
 using namespace ir;
 using Value = std::optional<uint32_t>;
 
-// Calls are followed with their constants; beyond this many, what is left counts as unknown.
+// Calls are followed with their constant arguments; beyond this many, the remaining ones count as
+// unknown.
 constexpr uint32_t kMostCalls = 4096;
 
 class Walk {
@@ -29,7 +30,7 @@ class Walk {
     visit(function.body, nothing, [&](const Stmt& stmt) {
       switch (stmt.kind) {
         case StmtKind::kDeclare:
-          // Those that are written later are not in the map.
+          // Variables that are written again later are not in the map.
           if (const auto it = known.find(stmt.variable); it != known.end()) {
             it->second = stmt.value != nullptr ? evaluate(*stmt.value, known) : Value(0);
           }
@@ -57,8 +58,8 @@ class Walk {
            (type->scalar == Scalar::kUint32 || type->scalar == Scalar::kInt32);
   }
 
-  // Leaves variables that have one value: parameters that nobody writes, locals that only their
-  // declaration writes.
+  // Keeps only variables with a single value: parameters that are never written, and locals that
+  // only their declaration writes.
   void forget_written(const Function& function, std::map<const Variable*, Value>& known) {
     std::map<const Variable*, uint32_t> writes;
     const auto nothing = [](const Expr&) {};
@@ -192,7 +193,7 @@ bool is_unknown(const Module& module, const Stmt& call) {
   const Expr& scene = *call.operands[0];
   const bool direct = scene.kind == ExprKind::kBinding && !module.bindings[scene.index].is_array;
   if (!direct) return true;
-  // Queries reach no records.
+  // A RayQuery reaches no shader records.
   if (call.kind == StmtKind::kQuery) return false;
   for (size_t i = 1; i <= 5; ++i) {
     if (!is_constant(*call.operands[i])) return true;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Which TraceRay and CallShader an entry point can reach, with what is constant of them: known to
-// checked mode, which then knows what records of the shader tables a dispatch can reach.
+// The TraceRay and CallShader calls that an entry point can reach, with those of their arguments
+// that are constant. Checked mode uses them to know which shader table records a dispatch can
+// reach.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +18,12 @@ struct ReachedCalls {
   std::vector<uint32_t> callables;  // shader indices; shader::kUnknownIndex
 };
 
-// Equal ones stand once. File names point into the module.
+// Duplicates are removed. File names point into the module.
 ReachedCalls collect_calls(const ir::Module& module, const ir::EntryPoint& entry);
 
-// Whether something of a TraceRay, CallShader or TraceRayInline is no constant of the function that
-// holds it: where its structure stands, its flags, mask or indices. Then checked code tells of it
-// when it runs.
+// Whether any part of a TraceRay, CallShader or TraceRayInline (the structure's place, flags, mask
+// or indices) is not a constant in the function that contains it. Checked code then reports it when
+// it runs.
 bool is_unknown(const ir::Module& module, const ir::Stmt& call);
 
 }  // namespace kaamos::hlsl

@@ -47,7 +47,7 @@ TEST(TraceCallsTest, ConstantsAreFollowedThroughParameters) {
   EXPECT_EQ(first.known, 31u);
   EXPECT_EQ(first.binding, 0u);
   EXPECT_EQ(first.ray_flags, 9u);
-  EXPECT_EQ(first.mask, 0xFFu);  // low 8 bits count
+  EXPECT_EQ(first.mask, 0xFFu);  // only the low 8 bits count
   EXPECT_EQ(first.ray_contribution, 1u);
   EXPECT_EQ(first.multiplier, 2u);
   EXPECT_EQ(first.miss_index, 1u);

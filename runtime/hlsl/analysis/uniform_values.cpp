@@ -24,7 +24,8 @@ UniformValues::UniformValues(const EntryPoint& entry, const std::vector<Region>&
       variables_.insert(entry.function->parameters[i]);
     }
   }
-  // All that the group declares together may be; then those go that are written otherwise.
+  // Starts with all variables that the group declares together, then removes those that other code
+  // writes.
   const auto collect_declared = [&](const auto& self, const std::vector<Region>& list) -> void {
     for (const Region& region : list) {
       for (const Stmt* stmt : region.statements) {
@@ -65,7 +66,7 @@ void UniformValues::read_regions(const std::vector<Region>& regions) {
   for (const Region& region : regions) {
     for (const Stmt* stmt : region.statements) {
       read_common(*stmt);
-      // What stands inside a statement runs under conditions of single threads.
+      // Statements nested inside one run under conditions of individual threads.
       const auto on_inner = [&](const Stmt& inner) {
         if (&inner != stmt) visit_written(inner, erase);
       };
@@ -83,7 +84,8 @@ bool UniformValues::holds(const Expr* expr) const {
     case ExprKind::kVariable:
       return expr->variable->storage == Storage::kConstant || variables_.count(expr->variable) != 0;
     case ExprKind::kLoad:
-      // Constant buffers do not change during a dispatch; other memory may, between two threads.
+      // Constant buffers do not change during a dispatch; other memory may change between two
+      // threads.
       if (!is_constant_buffer(expr->operands[0])) return false;
       break;
     case ExprKind::kLoadElement:

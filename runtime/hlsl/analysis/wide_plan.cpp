@@ -20,7 +20,7 @@ bool is_of_dispatch(const Expr& system_value) {
          system_value.system_value == SystemValue::kDispatchRaysDimensions;
 }
 
-// Walks a function again and again, until nothing new is found to be varying.
+// Walks a function repeatedly until no more varying values are found.
 class Analysis {
  public:
   Analysis(WidePlan& plan, WideFunction& out) : plan_(plan), out_(out) {}
@@ -41,13 +41,13 @@ class Analysis {
   }
 
  private:
-  // Masked jumps in a statement, that go out of it.
+  // Masked jumps that leave a statement.
   enum Jumps : uint32_t { kNone = 0, kReturns = 1, kContinues = 2, kBreaks = 4 };
 
-  // What a `break` or `continue` goes to.
+  // The target of a `break` or `continue`.
   struct Target {
     const Stmt* stmt;
-    uint32_t region;  // of the body
+    uint32_t region;  // the body's region
   };
 
   void refuse(const std::string& why) {
@@ -66,7 +66,7 @@ class Analysis {
     changed_ = true;
   }
 
-  // Whether a write needs a mask; marks what becomes varying by it.
+  // Whether a write needs a mask; also marks what it makes varying.
   bool write(const Variable* variable, bool varying, uint32_t region) {
     out_.written.insert(variable);
     if (variable->storage == Storage::kStaticGlobal) return true;
@@ -172,7 +172,7 @@ class Analysis {
     }
   }
 
-  // a[i].x = ... with another i in each thread.
+  // a[i].x = ... with a different i in each thread.
   bool has_varying_index(const Expr* place) {
     for (; place->kind != ExprKind::kVariable; place = place->operands[0]) {
       if (place->kind == ExprKind::kElement && out_.is_varying(place->operands[1])) return true;
@@ -237,7 +237,7 @@ class Analysis {
   uint32_t walk_break(uint32_t region, WideFacts& facts) {
     const Target& target = targets_.back();
     WideFacts& aim = out_.facts[target.stmt];
-    // In a loop that threads continue one by one, some may be gone by now.
+    // In a loop that threads continue one by one, some may already be gone.
     if (region != target.region || aim.masked_continue) flag(aim.masked);
     facts.masked = aim.masked;
     return facts.masked ? kBreaks : kNone;
@@ -306,7 +306,7 @@ const WideFunction* WidePlan::add(const Function& function,
     made->function = &function;
     made->varying_parameters = varying_parameters;
     if (!Analysis(*this, *made).run(reason)) return nullptr;
-    // Analysis may have added others: the reference into the map stays.
+    // Analysis may have added other functions; the reference into the map stays valid.
     known = std::move(made);
   }
   return known.get();

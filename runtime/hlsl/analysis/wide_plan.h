@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
 // Compute and ray generation shaders on a CPU: several threads of a group, or invocations of a row,
-// at once, one in each lane of vector registers (kaamos/shader/wide.h). This finds out whether an
-// entry point can run so, which of its values differ among the threads that run together (varying)
-// and which do not (uniform), and where the threads part. TraceRay runs for one after the other.
+// run at once, one in each lane of vector registers (kaamos/shader/wide.h). The plan finds out
+// whether an entry point can run that way, which of its values differ among the threads that run
+// together (varying) and which do not (uniform), and where threads diverge. TraceRay runs for one
+// thread after another.
 //
-// Threads part at a condition that is varying. What stands under it runs for some of them, under a
-// mask; the others wait. A region is what runs under one mask, but for threads that have returned:
-// those read nothing any more. A variable is uniform if only uniform values are assigned to it, and
-// only in the region that declares it: its readers are then all there when it changes.
+// Threads diverge at a varying condition. The code under it runs for some of them, under a mask,
+// while the others wait. A region is what runs under one mask, except that threads which have
+// returned may still be in it: those no longer read anything. A variable is uniform if only uniform
+// values are assigned to it, and only in the region that declares it, because then all its readers
+// are present when it changes.
 #pragma once
 
 #include <map>
@@ -23,39 +25,39 @@
 
 namespace kaamos::hlsl {
 
-// Of a statement, in one WideFunction.
+// Facts about a statement in one WideFunction.
 struct WideFacts {
-  // kIf, kSwitch: threads part. kLoop: they leave it one by one. kBreak, kContinue, kReturn: only
-  // the threads of a mask go.
+  // kIf, kSwitch: threads diverge. kLoop: threads leave it one by one. kBreak, kContinue, kReturn:
+  // only the threads of a mask jump.
   bool masked = false;
   bool masked_continue = false;  // kLoop: threads begin its step one by one
-  bool narrows = false;          // threads may be gone after it that were there before
-  bool blends = false;           // what it writes is read by threads that are not there
+  bool narrows = false;          // threads that were active before it may be gone after it
+  bool blends = false;           // inactive threads may read what it writes
 };
 
-// A function for one choice of which of its parameters are varying.
+// A function for one choice of varying parameters.
 struct WideFunction {
   const ir::Function* function = nullptr;
   std::vector<bool> varying_parameters;
   std::unordered_set<const ir::Variable*> varying;  // locals and parameters
   std::unordered_set<const ir::Variable*> written;  // after their declaration
   std::unordered_map<const ir::Stmt*, WideFacts> facts;
-  std::unordered_map<const ir::Stmt*, const WideFunction*> callees;  // of kCall
+  std::unordered_map<const ir::Stmt*, const WideFunction*> callees;  // for kCall
   bool varying_result = false;
   bool masked_return = false;  // threads return one by one
 
-  // A parameter that can be read where the caller has it: many registers wide, and nothing changes
-  // it while the function runs.
+  // Whether the parameter can be read from the caller's copy: it takes many registers, and nothing
+  // changes it while the function runs.
   bool only_reads(const ir::Variable* parameter) const;
 
   bool is_varying(const ir::Variable* variable) const;
   bool is_varying(const ir::Expr* expr) const;
 };
 
-// The functions of all entry points of a module that run wide.
+// The functions of all entry points in a module that run wide.
 class WidePlan {
  public:
-  // The entry point's function, or null with the reason why it cannot run so.
+  // The entry point's function, or null with the reason why it cannot run wide.
   const WideFunction* add(const ir::EntryPoint& entry, std::string& reason);
   // For a function's callee; null with the reason.
   const WideFunction* add(const ir::Function& function, const std::vector<bool>& varying_parameters,
@@ -66,7 +68,8 @@ class WidePlan {
       functions_;
 };
 
-// A struct, or array of them, that holds a resource: no lane can have its own.
+// Whether it is a struct, or an array of structs, that holds a resource: lanes cannot each have
+// their own.
 bool holds_resource(const ir::Type* type);
 
 }  // namespace kaamos::hlsl

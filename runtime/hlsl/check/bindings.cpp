@@ -84,7 +84,7 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
   binding->name = decl->name;
   binding->location = decl->location;
   binding->register_class = 2;
-  // Set before the members: the size of an array may name one of them, wrongly.
+  // Set before the members, because the size of an array may (wrongly) name one of them.
   binding->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
   apply_register(binding, decl->annotations);
   uint32_t offset = 0;
@@ -107,7 +107,7 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
       const Type* element = type;
       while (element->is_array()) element = element->element;
       if (element->is_resource()) {
-        // As DXC does, resources are taken out of the block.
+        // DXC takes resources out of the block, too.
         declare_binding(variable, type, scope);
         continue;
       }
@@ -204,8 +204,8 @@ const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* ind
   return node;
 }
 
-// First fit among the registers of its class and space, in the order of declaration; unbounded
-// arrays behind all others. [DXC: resource allocation]
+// First fit among the registers of the binding's class and space, in the order of declaration;
+// unbounded arrays come after all others. [DXC: resource allocation]
 void Checker::assign_automatic(BindingInfo* binding) {
   if (!binding->has_space) binding->space = options_.automatic_space;
   std::vector<const BindingInfo*> taken;
@@ -235,7 +235,7 @@ void Checker::assign_automatic(BindingInfo* binding) {
 
 void Checker::assign_registers() {
   std::set<const BindingInfo*> automatic;
-  // DXC makes $Globals before any other constant buffer.
+  // DXC places $Globals before any other constant buffer.
   if (globals_buffer_ && globals_buffer_->reachable) {
     assign_automatic(globals_buffer_);
     automatic.insert(globals_buffer_);

@@ -27,7 +27,8 @@ void Checker::report_with_notes(CheckId id, SourceLocation location,
   if (is_error) ++error_count_;
   if (muted_ > 0) return;
   has_errors_ = has_errors_ || is_error;
-  // An expression that stands for several (a default argument, an initialiser) says it once.
+  // An expression that is lowered several times (a default argument, an initialiser) is reported
+  // once.
   if (!reported_.insert({static_cast<uint32_t>(id), location.raw, arguments}).second) return;
   std::string_view views[8];
   const size_t count = std::min<size_t>(arguments.size(), 8);

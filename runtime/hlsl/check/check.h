@@ -2,8 +2,8 @@
 //
 // Type-checks a syntax tree and lowers it to the intermediate representation.
 //
-// Signatures, types and globals are checked everywhere; the body of a function only where an entry
-// point or an exported function reaches it.
+// Signatures, types and globals are always checked; the body of a function only if an entry point
+// or an exported function reaches it.
 #pragma once
 
 #include <memory>
@@ -19,30 +19,32 @@ namespace kaamos::hlsl {
 class DiagnosticEngine;
 class SourceManager;
 
-// `Name1,Name2=Internal` of -exports: two exports of one function.
+// `Name1,Name2=Internal` in -exports makes two exports of one function.
 struct ExportRequest {
   std::vector<std::string> names;
   std::string function;  // as written in the source, or mangled
 };
 
 struct CheckOptions {
-  std::string name;                // of the main file, for ir::Module::name
+  std::string name;                // the main file's, for ir::Module::name
   std::string target = "lib_6_6";  // lib_6_3 .. lib_6_8, lib_6_x, cs_6_0 .. cs_6_8
   std::string entry_point;         // cs_6_x: the kernel's name
   std::vector<ExportRequest> exports;
-  // True: every non-static function with a body is an export. [-default-linkage external]
+  // If true, every non-static function with a body is exported. [-default-linkage external]
   bool external_linkage = false;
-  uint32_t automatic_space = 0;  // of bindings without a register. [-auto-binding-space]
+  uint32_t automatic_space = 0;  // for bindings without a register [-auto-binding-space]
   bool native_16bit = false;     // [-enable-16bit-types]
   bool row_major = false;        // [-Zpr]
-  // Before 2021, logic and ?: work on vectors and evaluate both sides always. [-HV]
+  // Before HLSL 2021, logical operators and ?: work on vectors and always evaluate both sides.
+  // [-HV]
   uint32_t hlsl_version = 2021;
-  // Payload access qualifiers count. [-enable-payload-qualifiers, -disable-payload-qualifiers]
+  // Whether payload access qualifiers take effect. [-enable-payload-qualifiers,
+  // -disable-payload-qualifiers]
   bool payload_qualifiers = false;
-  bool strict = false;  // older habits are errors
+  bool strict = false;  // what DXC refuses is an error, not a warning
 };
 
-// Null where there was an error; it stands in the engine.
+// Returns null after an error, which is then in the engine.
 std::unique_ptr<ir::Module> check(const TranslationUnit& unit, const CheckOptions& options,
                                   const SourceManager& sources, DiagnosticEngine& diagnostics);
 

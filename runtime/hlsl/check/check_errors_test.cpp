@@ -12,7 +12,7 @@ using Id = DiagnosticId;
 struct Case {
   const char* name;
   Id id;
-  std::string text;  // with one @ in front of the token that is pointed at; none: anywhere
+  std::string text;  // with an @ before the token that is pointed at; without one, anywhere
   FrontendOptions options = {};
 };
 
@@ -34,7 +34,7 @@ FrontendOptions qualifiers(const char* name, bool enabled) {
   return options;
 }
 
-// A payload struct of these fields and shaders; lib_6_7 has qualifiers on.
+// A payload struct with these fields, plus shaders; lib_6_7 turns qualifiers on.
 std::string payload(const std::string& fields, const std::string& shaders = {}) {
   return "RaytracingAccelerationStructure scene : register(t0);\n"
          "typedef BuiltInTriangleIntersectionAttributes Attributes;\n"
@@ -415,7 +415,7 @@ TEST(CheckPayloads, NoWarningWhereEveryPathHasAValue) {
             "");
 }
 
-// What a closest-hit shader writes into its copy counts where it hands the payload on.
+// What a closest-hit shader writes into its copy matters if it passes the payload on.
 TEST(CheckPayloads, AWriteForANestedTraceIsNotDropped) {
   EXPECT_EQ(payload_messages("int a : read(miss, caller) : write(caller, miss);",
                              "[shader(\"closesthit\")]\n"

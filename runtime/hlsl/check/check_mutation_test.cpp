@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// No input makes the front end crash or hang: texts that are built to hurt, and good texts with
-// pieces removed, doubled and exchanged.
+// No input makes the front end crash or hang: neither texts that are built to hurt it, nor good
+// texts with pieces removed, duplicated and swapped.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -68,12 +68,12 @@ TEST(CheckMutation, TheSampleItselfIsAccepted) {
   EXPECT_NE(compilation.module, nullptr) << compilation.messages();
 }
 
-// The modules of all HLSL files that are tests hold to the rules of ir.h.
+// The modules of all HLSL test files obey the rules of ir.h.
 TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
   namespace fs = std::filesystem;
   size_t count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(KAAMOS_SOURCE_DIR "/tests/hlsl")) {
-    // Those in parse hold what the checker refuses.
+    // The files in parse contain what the checker rejects.
     if (entry.path().extension() != ".hlsl" || entry.path().parent_path().filename() == "parse") {
       continue;
     }
@@ -140,7 +140,7 @@ TEST(CheckMutation, HurtfulTexts) {
   };
   for (const std::string& text : texts) {
     const Compilation compilation(text);
-    // A module comes without errors, and errors without a module.
+    // A module is returned if and only if there are no errors.
     bool failed = false;
     for (const Diagnostic& diagnostic : compilation.diagnostics()) {
       failed = failed || diagnostic.severity == Severity::kError;
@@ -154,7 +154,7 @@ TEST(CheckMutation, HurtfulTexts) {
 
 TEST(CheckMutation, MutatedSample) {
   const std::string sample = kSample;
-  // Pieces at word borders, which get further into the checker than single characters do.
+  // Pieces cut at word boundaries get further into the checker than single characters do.
   std::vector<std::string> words;
   for (size_t at = 0; at < sample.size();) {
     size_t end = at + 1;

@@ -22,7 +22,7 @@ const ir::Binding* binding(const Compilation& compilation, std::string_view name
   return nullptr;
 }
 
-// What a call picks; each overload returns another number.
+// Which overload a call picks; each returns a different number.
 std::string picked(const std::string& functions, const std::string& call) {
   const Compilation compilation(kernel("results.Store(0, " + call + ");", functions));
   if (!compilation.module) return compilation.messages();
@@ -95,7 +95,7 @@ TEST(Lowering, EffectsKeepTheirOrder) {
   const Compilation compilation(
       kernel("uint i = results.Load(0);\nuint x = i + i++ * 2 + i;\nresults.Store(0, x);"));
   const std::string text = compilation.function("main");
-  // The first i is saved before the increment, the last is read after it.
+  // The first i is saved before the increment; the last one is read after it.
   const size_t saved = text.find("uint t$2 = i$0");
   const size_t increment = text.find("i$0 = (t$1 + 1u)");
   const size_t last = text.find("((t$2 + (t$1 * 2u)) + i$0)");
@@ -190,7 +190,7 @@ TEST(Lowering, GlobalsStartPerInvocation) {
   ASSERT_NE(compilation.module, nullptr) << compilation.messages();
   const std::string text = dump(*compilation.module);
   EXPECT_TRUE(contains(text, "global uint counter$")) << text;
-  // start's initialiser calls a function, so it runs as statements at the entry point.
+  // start's initialiser calls a function, so it runs as statements in the entry point.
   EXPECT_TRUE(contains(compilation.function("main"), "= make()")) << text;
   for (const ir::Variable* global : compilation.module->globals) {
     EXPECT_EQ(global->storage == ir::Storage::kConstant, global->name == "kTable") << global->name;
@@ -216,7 +216,7 @@ TEST(Verifier, FindsBrokenRules) {
   Compilation compilation(kernel("float x = results.Load(0); results.Store(0, asuint(x * 2));"));
   ASSERT_NE(compilation.module, nullptr) << compilation.messages();
   EXPECT_EQ(verify(*compilation.module), "");
-  // A float times an integer: what a forgotten conversion would leave.
+  // A float times an integer, as a forgotten conversion would leave it.
   ir::Expr& integer = compilation.module->expr_pool.emplace_back();
   integer.kind = ir::ExprKind::kLiteral;
   integer.literal = {2};
@@ -377,7 +377,7 @@ TEST(Subobjects, AllForms) {
 }
 
 TEST(Speed, MostlyDeadLibrary) {
-  // 10,000 lines of which almost all are dead: bodies that nothing reaches cost no more than
+  // 10,000 lines, almost all of them dead: bodies that nothing reaches must cost no more than
   // parsing.
   std::string text;
   for (int i = 0; i < 1600; ++i) {

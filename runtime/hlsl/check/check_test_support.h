@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compiles a text to the intermediate representation and keeps what was said about it.
+// Compiles a text to the intermediate representation and keeps its diagnostics.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ class Compilation {
     }
     return false;
   }
-  // Of the function of that qualified name; empty where the module has none.
+  // The dump of the function with that qualified name; empty if the module has none.
   std::string function(std::string_view name) const {
     if (!module) return messages();
     for (const ir::Function* one : module->functions) {
@@ -50,7 +50,7 @@ class Compilation {
   DiagnosticEngine diagnostics_;
 };
 
-// A kernel around a body that may write `results`.
+// Wraps `body`, which may write `results`, in a kernel.
 inline std::string kernel(const std::string& body, const std::string& globals = {}) {
   return globals +
          "\nRWByteAddressBuffer results : register(u0);\n[numthreads(1, 1, 1)]\n"

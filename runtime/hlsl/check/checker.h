@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The checker's inner state; check.h is what others include. One class, whose parts stand in one
-// file per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
-// subobjects, payloads, payload_uses, finish_module. Bodies and expressions are the lowerer's
+// The checker's inner state; check.h is what others include. It is one class, split into one file
+// per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
+// subobjects, payloads, payload_uses, finish_module. The lowerer handles bodies and expressions
 // (lowerer.h).
 #pragma once
 
@@ -29,7 +29,7 @@
 
 namespace kaamos::hlsl {
 
-// [name] among them, written in any case; null where there is none.
+// Finds the attribute with that name, ignoring case; null if there is none.
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
 
 class Checker {
@@ -57,11 +57,11 @@ class Checker {
   Symbol* find_in_scope(Scope* scope, std::string_view name, bool check_order);
   Symbol* find_member(StructInfo* structure, std::string_view name);
   Symbol* find(Scope* scope, std::string_view name);
-  // Reports what is missing unless `quiet`.
+  // Reports what is missing, unless `quiet`.
   Symbol* resolve_name(const QualifiedName& name, Scope* scope, bool quiet);
   Scope* scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope);
   std::string similar_name(std::string_view text, Scope* scope, bool with_outer);
-  // With a note of what may be meant.
+  // Adds a note that suggests what may have been meant.
   void report_unknown(CheckId id, SourceLocation location,
                       const std::vector<std::string>& arguments, std::string_view text,
                       Scope* scope, bool with_outer);
@@ -114,7 +114,7 @@ class Checker {
   FunctionInfo* instantiate_function(FunctionInfo* function,
                                      std::span<const TemplateArgument> written, Scope* use_scope,
                                      const std::vector<Value>& arguments);
-  // Empty where an argument is missing or of the wrong kind.
+  // Returns false if an argument is missing or of the wrong kind.
   bool bind_arguments(std::span<const TemplateParameter> parameters,
                       std::span<const TemplateArgument> written, Scope* use_scope,
                       TemplateValues& values);
@@ -175,9 +175,9 @@ class Checker {
   TypeTable types_;
   IrBuilder build_;
   Lowerer lower_;
-  size_t error_count_ = 0;  // those of muted attempts too
+  size_t error_count_ = 0;  // includes those in muted attempts
   bool has_errors_ = false;
-  int muted_ = 0;  // inside: messages are dropped, since failing is no error
+  int muted_ = 0;  // above 0 while something is tried that may fail: messages are dropped
 
   std::deque<Scope> scopes_;
   std::deque<Symbol> symbols_;
@@ -187,7 +187,7 @@ class Checker {
   std::deque<EnumInfo> enums_;
   std::deque<StructTemplate> struct_templates_;
   std::deque<BindingInfo> bindings_;
-  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // of kBinding
+  std::unordered_map<const ir::Expr*, BindingInfo*> binding_of_;  // for kBinding
   std::deque<std::string> names_;
   std::unordered_map<const Decl*, const Type*> declared_types_;
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
@@ -204,25 +204,25 @@ class Checker {
   StructInfo* ray_desc_ = nullptr;
   StructInfo* triangle_attributes_ = nullptr;
 
-  uint32_t visible_ = ~0u;  // symbols of a later sequence are not declared yet
+  uint32_t visible_ = ~0u;  // symbols with a later sequence are not declared yet
   int template_depth_ = 0;
 
-  std::vector<FunctionInfo*> all_functions_;  // in declaration order, no templates
+  std::vector<FunctionInfo*> all_functions_;  // in declaration order, without templates
   std::vector<std::pair<FunctionInfo*, size_t>> entries_;
   std::set<const ir::Struct*> collected_structs_;
   std::set<const ir::Expr*> collected_exprs_;
-  // An entry point made around one of the source.
+  // An entry point that is generated around a function of the source.
   struct Wrapper {
     ir::Function* function;
     FunctionInfo* wrapped;
     uint32_t stage;
   };
   std::vector<Wrapper> wrappers_;
-  std::vector<const FunctionInfo*> library_functions_;  // of Module::library_functions
+  std::vector<const FunctionInfo*> library_functions_;  // for Module::library_functions
   std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
   std::set<std::pair<uint32_t, uint32_t>> reported_uses_;
-  // Of the entry point that mark_reachable walks.
+  // Bindings of the entry point that mark_reachable walks.
   std::set<BindingInfo*> entry_bindings_;
   std::vector<VariableInfo*> entry_globals_;
 };

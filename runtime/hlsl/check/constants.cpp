@@ -150,7 +150,7 @@ uint32_t component_count(const ir::Type* type) {
   }
 }
 
-// Follows variables, fields and elements to the expression that makes the value.
+// Follows variables, fields and elements to the expression that produces the value.
 const ir::Expr* source_of(const ir::Expr* expression, int depth) {
   if (depth > 64 || !expression) return nullptr;
   switch (expression->kind) {

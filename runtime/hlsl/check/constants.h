@@ -12,21 +12,21 @@
 
 namespace kaamos::hlsl {
 
-// Scalars are held as ir::Expr::literal holds them.
+// Converts a scalar in the form in which ir::Expr::literal holds it.
 uint64_t convert_bits(uint64_t bits, ir::Scalar from, ir::Scalar to);
 uint64_t float_bits(double value);
 double float_value(uint64_t bits);
 // Brings an exact value into the range and precision of a type.
 uint64_t normalise_bits(uint64_t bits, ir::Scalar scalar);
 
-// Empty where the result is not to be fixed at compile time: integer division by zero.
+// Empty if the result must not be fixed at compile time, as with an integer division by zero.
 std::optional<uint64_t> fold_binary(ir::BinaryOp op, ir::Scalar scalar, uint64_t left,
                                     uint64_t right);
 std::optional<uint64_t> fold_unary(ir::UnaryOp op, ir::Scalar scalar, uint64_t operand);
 
-// The components (in row-major order) of a numeric expression, if all are known.
+// The components of a numeric expression in row-major order, if all of them are known.
 std::optional<std::vector<uint64_t>> evaluate(const ir::Expr* expression);
-// An expression that is known when the library is compiled; arrays and structs too.
+// Whether the expression, which may be an array or a struct, is known at compile time.
 bool is_constant(const ir::Expr* expression);
 
 }  // namespace kaamos::hlsl

@@ -126,7 +126,7 @@ void Checker::declare_alias(const TypeAliasDecl* decl, Scope* scope) {
   if (Symbol* before = find_local(scope, decl->name)) {
     const bool same = before->kind == SymbolKind::kType && same_type(before->type, type);
     if (same || type->is_error()) return;
-    // `typedef struct S { .. } S;` and an injected name may stand already.
+    // Redeclaring the same type is fine: `typedef struct S { .. } S;`, or an injected name.
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
     return;
   }
@@ -224,7 +224,7 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
 void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
   const Type* type = resolve_type(decl->type, scope);
   if (!check_variable_type(type, decl->location, decl->name)) {
-    // A symbol of unknown type keeps its uses silent.
+    // A symbol of unknown type prevents follow-up errors where the name is used.
     if (!find_local(scope, decl->name)) {
       VariableInfo* info = &variables_.emplace_back();
       info->name = decl->name;
@@ -342,7 +342,7 @@ void Checker::initialise(VariableInfo* variable) {
 }
 
 void Checker::check_initialisers() {
-  // By index: an initialiser may declare further variables (static locals).
+  // By index, because an initialiser may declare more variables (static locals).
   for (size_t i = 0; i < variables_.size(); ++i) {
     if (variables_[i].kind == VariableKind::kGlobal) initialise(&variables_[i]);
   }
@@ -391,7 +391,7 @@ void Checker::resolve_signature(FunctionInfo* function) {
     info.is_const = is_const_type(parameter->type);
     info.decl = parameter;
     info.default_value = parameter->default_value;
-    // A method may take its own struct, which is complete when its body is lowered.
+    // A method may take its own struct, which is complete by the time its body is lowered.
     const bool is_own = function->owner && info.type->is_struct();
     if (!is_own && !check_variable_type(info.type, parameter->location, parameter->name)) {
       info.type = types_.error();
@@ -461,7 +461,7 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
     if (decl->body) {
       before->definition = decl;
       before->body_sequence = ++sequence_;
-      // Attributes such as [shader("miss")] may stand on either.
+      // Attributes such as [shader("miss")] may be on either declaration.
       if (!decl->attributes.empty()) before->decl = decl;
       for (size_t i = 0; i < function->parameters.size(); ++i) {
         before->parameters[i].name = function->parameters[i].name;
@@ -472,7 +472,7 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
       }
     }
     before->is_exported = before->is_exported || function->is_exported;
-    function->definition = nullptr;  // it lives on in the one before
+    function->definition = nullptr;  // it lives on in the earlier one
     return;
   }
   if (decl->qualifier && owner) {

@@ -50,7 +50,7 @@ const Attribute* find_attribute(std::span<const Attribute> attributes, std::stri
   return nullptr;
 }
 
-// 0: none.
+// Returns 0 if there is none.
 uint32_t Checker::stage_attribute(FunctionInfo* function) {
   const Attribute* attribute = find_attribute(*function, "shader");
   if (!attribute) return 0;
@@ -103,7 +103,7 @@ void Checker::find_entry_points() {
     check_entry_point(kernel, ir::kStageCompute, options_.entry_point);
     return;
   }
-  // By index: lowering a body may declare further methods of local structs.
+  // By index, because lowering a body may declare more methods (of local structs).
   for (size_t i = 0; i < all_functions_.size(); ++i) {
     FunctionInfo* function = all_functions_[i];
     if (!function->definition) continue;
@@ -136,7 +136,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
            {std::string(stage_name(stage)), name, to_string(function->result)});
     valid = false;
   }
-  // The body is checked even where the signature is wrong, so that all errors come in one run.
+  // The body is checked even if the signature is wrong, so that one run reports all errors.
   lower_.lower_function(function, location);
   const bool parameters = stage == ir::kStageCompute ? check_compute_parameters(function, entry)
                                                      : check_ray_parameters(function, entry);
@@ -237,8 +237,8 @@ bool Checker::read_thread_group(FunctionInfo* function, ir::EntryPoint& entry) {
   return true;
 }
 
-// System values may come in any integer type, in parts, or as fields of a struct: a wrapper takes
-// them in their own types and hands them on.
+// System values may be of any integer type, split into parts, or fields of a struct: a wrapper
+// takes them in their native types and passes them on.
 bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry) {
   bool valid = read_thread_group(function, entry);
   struct Source {
@@ -343,7 +343,7 @@ void Checker::add_library_functions() {
       for (const ParameterInfo& parameter : function->parameters) {
         parameters.push_back({parameter.type, parameter.is_out && parameter.type->is_numeric()});
       }
-      // A rename changes the name inside the mangled one as well.
+      // Renaming an export changes the name inside the mangled one, too.
       std::string qualified = function->qualified;
       if (name != function->name) qualified = name;
       module_->library_functions.push_back(

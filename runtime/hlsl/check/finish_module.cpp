@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the call graph says about every function, and what the module holds in the end.
+// What the call graph says about each function, and what finally goes into the module.
 #include <algorithm>
 
 #include "runtime/hlsl/analysis/checked_access.h"
@@ -43,7 +43,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
 }
 
 void Checker::finish(ir::Module& module) {
-  // Facts flow from callees to callers; the order of lowering has callees first.
+  // Facts propagate from callees to callers, which works because callees were lowered first.
   for (FunctionInfo* function : lower_.lowered_functions_) {
     std::sort(function->callees.begin(), function->callees.end());
     function->callees.erase(std::unique(function->callees.begin(), function->callees.end()),
@@ -82,7 +82,7 @@ void Checker::finish(ir::Module& module) {
               [](const VariableInfo* a, const VariableInfo* b) {
                 return a->variable->id < b->variable->id;
               });
-    // Initialisers that call functions run first thing in the shader.
+    // Initialisers that call functions run at the very start of the shader.
     ir::Block start;
     for (VariableInfo* global : entry_globals_) {
       all_globals.insert(global);
@@ -181,7 +181,7 @@ void Checker::warn_skipped() {
     const bool skipped = function.definition && !function.is_template &&
                          function.template_suffix.empty() &&
                          function.state == FunctionInfo::State::kPending;
-    // What an included file offers and this library does not use is no news.
+    // It is normal that a library does not use everything in the files it includes.
     if (!skipped || sources_.include_location(function.definition->location).is_valid()) continue;
     if (count == 0) first = function.definition->location;
     if (count < kNamesShown) names += (count ? ", " : "") + function.qualified;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Makes nodes of the intermediate representation and folds what is constant on the way.
+// Makes nodes of the intermediate representation and folds constants on the way.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class IrBuilder {
  public:
   IrBuilder(ir::Module& module, TypeTable& types) : module_(module), types_(types) {}
 
-  // Given to every node made from now on.
+  // Given to every node from now on.
   ir::Location location;
 
   ir::Expr* expr(ir::ExprKind kind, const ir::Type* type,

@@ -12,7 +12,7 @@ uint32_t clamp_size(uint64_t size) {
   return static_cast<uint32_t>(std::min<uint64_t>(size, kMaxLayoutBytes));
 }
 
-// Of a matrix or of the matrices in an array: the intermediate type does not hold it.
+// For a matrix, or for the matrices in an array: the IR's type does not record the storage order.
 bool is_row_major(const Type* type) {
   while (type->is_array()) type = type->element;
   return type->is_numeric() && type->row_major;

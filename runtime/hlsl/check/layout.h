@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// Where members lie in memory, for the checker's types: ir_layout.h has the rules.
+// Where members are in memory, for the checker's types; the rules are in ir/layout.h.
 #pragma once
 
 #include <cstdint>
@@ -20,15 +19,15 @@ struct LayoutSize {
 inline constexpr uint32_t kMaxLayoutBytes = 0x7FFFFFF0u;
 
 LayoutSize layout_of(const Type* type, ir::Layout layout);
-// Bytes from one array element to the next.
+// Bytes from the start of one array element to the next.
 uint32_t array_stride(const Type* element, ir::Layout layout);
 // Bytes from one row (row_major) or column of a matrix to the next.
 uint32_t matrix_stride(const Type* matrix, ir::Layout layout);
-// Where a member goes whose predecessors end at `offset`.
+// The offset of a member whose predecessors end at `offset`.
 uint32_t place_member(const Type* type, uint32_t offset, ir::Layout layout);
-// Of field `index` in ir::Struct::fields order: the base, if any, is field 0.
+// The offset of field `index` in the order of ir::Struct::fields: the base, if any, is field 0.
 uint32_t field_offset(const StructInfo& structure, uint32_t index, ir::Layout layout);
-// Each scalar counts 4 bytes, 64-bit ones 8. [DXR: D3D12_RAYTRACING_SHADER_CONFIG]
+// Each scalar counts as 4 bytes, a 64-bit one as 8. [DXR: D3D12_RAYTRACING_SHADER_CONFIG]
 uint32_t payload_bytes(const Type* type);
 
 }  // namespace kaamos::hlsl

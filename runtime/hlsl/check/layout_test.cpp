@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Offsets as DXC places them, and mangled names as DXC writes them.
+// Checks offsets against DXC's placement, and mangled names against DXC's spelling.
 #include "runtime/hlsl/check/layout.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 struct LayoutCase {
   const char* name;
-  const char* members;                                    // of a constant buffer; each is read
+  const char* members;                                    // of a constant buffer; all are read
   std::vector<std::pair<const char*, uint32_t>> offsets;  // byte offset of each
   uint32_t size;
 };
@@ -56,7 +56,7 @@ const LayoutCase kCases[] = {
     {"Row2Dimensional", "float a[2][3]; float b;", {{"a[1][2]", 80}, {"b", 84}}, 88},
 };
 
-// Every offset that a constant buffer is read at in the text of a function.
+// All offsets at which a function's text reads a constant buffer.
 std::vector<uint32_t> loaded_offsets(const std::string& text) {
   std::vector<uint32_t> offsets;
   for (size_t at = text.find("load_cb_"); at != std::string::npos;
@@ -78,7 +78,7 @@ TEST(Layout, ConstantBufferOffsets) {
       std::vector<uint32_t> offsets = loaded_offsets(text);
       ASSERT_EQ(offsets.size(), 1u) << one.name << " " << member << "\n" << text;
       if (text.find("._m") != std::string::npos) {
-        // Read as a whole matrix: the element's place in it comes from the type.
+        // Read as a whole matrix, so the element's position in it comes from the type.
         const ir::Binding& binding = compilation.module->bindings[0];
         EXPECT_EQ(binding.size_bytes, one.size) << one.name;
         continue;
@@ -137,7 +137,7 @@ TEST(Layout, StructuredStrideAndPadding) {
   }
 }
 
-// The emitter lays out the same types on its own side; they must agree.
+// The emitter computes the layout of the same types on its own; the two must agree.
 TEST(Layout, AgreesWithTheEmitter) {
   const Compilation compilation(
       kernel("results.Store(0, (uint)c.h + (uint)s[0].h);",
@@ -171,7 +171,7 @@ struct MangleCase {
   const char* mangled;  // without the leading \01
 };
 
-// From DXC's own tests and from names that its users quote.
+// From DXC's own tests and from names quoted by its users.
 const MangleCase kNames[] = {
     {"void f() {}", "?f@@YAXXZ"},
     {"float f(float a) { return a; }", "?f@@YAMM@Z"},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Calls of functions and methods, with copy-in and copy-out. [hlsl-subset 3.7]
+// Calls of functions and methods, including copy-in and copy-out. [hlsl-subset 3.7]
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"
@@ -16,7 +16,7 @@ Value Lowerer::lower_call(const CallExpr* expr) {
   if (const auto* member = as<MemberExpr>(expr->callee)) return call_method(member, expr);
   const auto* callee = as<NameExpr>(expr->callee);
   if (!callee) {
-    // An object with operator().
+    // An object with an operator().
     std::vector<const Expr*> all = {expr->callee};
     all.insert(all.end(), expr->arguments.begin(), expr->arguments.end());
     std::vector<Value> values = lower_all(all, true);
@@ -67,7 +67,7 @@ Value Lowerer::lower_call(const CallExpr* expr) {
     FunctionInfo* function =
         resolve_overload(symbol->functions, name.last(), arguments, expr->location, is_builtin);
     if (function) {
-      // Of a method of this object, or of a static one.
+      // A method of this object; a static one needs no object.
       if (function->owner && !function->is_static) {
         if (!this_variable_) {
           report(CheckId::kMethodWithoutObject, expr->location, {function->qualified});
@@ -95,7 +95,7 @@ Value Lowerer::call_method(const MemberExpr* callee, const CallExpr* call_expr) 
   std::vector<const Expr*> all = {callee->base};
   all.insert(all.end(), call_expr->arguments.begin(), call_expr->arguments.end());
   std::vector<Value> values = lower_all(all, true, true);
-  values[0].saved = nullptr;  // the object is no value
+  values[0].saved = nullptr;  // the object is not passed by value
   result_unused_ = unused;
   for (const Value& value : values) {
     if (value.failed()) return error_value();
@@ -157,7 +157,7 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
   const bool unused = result_unused_;
   result_unused_ = false;
   for (size_t i = arguments.size(); i < function->parameters.size(); ++i) {
-    // A default argument sees what the function's declaration sees.
+    // A default argument is looked up in the scope of the function's declaration.
     Scope* scope = scope_;
     scope_ = function->scope;
     arguments.push_back(lower(function->parameters[i].default_value));
@@ -191,7 +191,8 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
            (mentions(object->expr, variable) || mentions(object->offset, variable) ||
             mentions(object->element, variable));
   };
-  // A whole local variable that is named once is passed itself; all else through a copy.
+  // A whole local variable that occurs only once is passed directly; everything else through a
+  // copy.
   const auto by_reference = [&](const Value& value, const Type* type, bool is_in, bool writes_back,
                                 size_t index) -> bool {
     const ir::Expr* expr = value.kind == ValueKind::kExpr ? value.expr : nullptr;
@@ -235,7 +236,7 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
     const ParameterInfo& parameter = function->parameters[i];
     const Value& argument = arguments[i];
     if (parameter.type->is_query()) {
-      // One object under two names, whatever the parameter's direction. [DXR: RayQuery]
+      // The parameter is a second name for the same object, whatever its direction. [DXR: RayQuery]
       const ir::Expr* query = query_object(argument, parameter.type);
       if (!query) return error_value();
       statement->arguments.push_back(query);
@@ -294,7 +295,8 @@ ir::Function* Lowerer::make_ir_function(FunctionInfo* function) {
     node->parameters.push_back(variable);
   }
   node->mangled = mangle(*function);
-  // Two that differ in what the name does not hold (const methods, values of templates).
+  // Two functions may differ only in what the mangled name leaves out (const methods, template
+  // values).
   for (int i = 2; !mangled_names_.insert(node->mangled).second; ++i) {
     node->mangled = mangle(*function) + "#" + std::to_string(i);
   }
@@ -309,7 +311,7 @@ void Lowerer::lower_function(FunctionInfo* function, SourceLocation use) {
     return;
   }
   if (!function->definition) {
-    // A definition may stand behind the template's or the method's declaration.
+    // There may be a definition elsewhere, later than the template's or method's declaration.
     checker_.report_with_notes(CheckId::kNoBody, use, {describe(*function)},
                                {{function->decl->location, "declared here"}});
     return;

@@ -184,7 +184,7 @@ const ir::Expr* Lowerer::convert_numeric(const ir::Expr* expr, const Type* from,
     const Type* smaller = types_.matrix(from->scalar, to->rows, to->columns);
     return build_.convert(build_.truncate(expr, smaller->ir), scalar);
   }
-  // The same number of components in another shape: 1x4 to 4x1.
+  // The same number of components in another shape, such as 1x4 to 4x1.
   std::vector<const ir::Expr*> parts;
   const ir::Expr* base = repeatable(expr);
   for (uint8_t row = 0; row < from->rows; ++row) {
@@ -277,7 +277,7 @@ const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocat
   return build_from_pieces(to, {Piece{expr, from}}, location, true);
 }
 
-// `queue` is a stack: its back is the next piece.
+// `queue` is a stack: the next piece is at its back.
 void Lowerer::split(const Piece& piece, std::vector<Piece>& queue) {
   const Type* type = piece.type;
   const ir::Expr* expr = repeatable(piece.expr);
@@ -375,7 +375,7 @@ const ir::Expr* Lowerer::build_from_pieces(const Type* type, std::vector<Piece> 
            {to_string(type), std::to_string(needed), std::to_string(available)});
     return nullptr;
   }
-  // A struct without fields.
+  // The struct has no fields.
   if (needed == 0) return build_.zero(type->ir);
   std::reverse(pieces.begin(), pieces.end());
   bool failed = false;
@@ -414,7 +414,7 @@ void Lowerer::collect_pieces(const InitListExpr* list, std::vector<Piece>& piece
 
 const ir::Expr* Lowerer::lower_init_list(const InitListExpr* list, const Type* type) {
   if (type->is_error()) return nullptr;
-  // `Texture2D t = {..}` and the like come down to one element.
+  // `Texture2D t = {..}` and the like reduce to their only element.
   std::vector<Piece> pieces;
   collect_pieces(list, pieces, 0);
   for (const Piece& piece : pieces) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Elements of arrays, rows of matrices, components of vectors: places inside of places.
+// Elements of arrays, rows of matrices, components of vectors: places inside other places.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -33,7 +33,7 @@ Value Lowerer::memory_element(const Value& base, const ir::Expr* index) {
   Value result = base;
   const Type* type = base.type;
   if (base.whole) {
-    // An element of a swizzle that is not applied yet.
+    // An element of a swizzle that has not been applied yet.
     if (index->kind == ir::ExprKind::kLiteral) {
       return component_of(base, {static_cast<uint8_t>(index->literal[0])});
     }
@@ -104,7 +104,7 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
   result.kind = ValueKind::kExpr;
   result.type = element;
   result.expr = build_.element(expr, at_index);
-  // Only a plain variable, field or element can be indexed as a place.
+  // Only a plain variable, field or element stays a place when it is indexed.
   if (base.kind != ValueKind::kExpr ||
       (expr->kind == ir::ExprKind::kSwizzle && at_index->kind != ir::ExprKind::kLiteral)) {
     result.is_place = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names, members, casts, constructors. Operators stand in lower_operators.cpp.
+// Names, members, casts, constructors. Operators are in lower_operators.cpp.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -16,7 +16,7 @@ Value Lowerer::lower(const Expr* expression) {
   }
   ++depth_;
   at(expression->location);
-  // Of all others each operand is used, also where the result is not.
+  // All other kinds use each operand even if the result is unused.
   const ExprKind kind = expression->kind;
   const bool unused = result_unused_;
   result_unused_ = unused && (kind == ExprKind::kCall || kind == ExprKind::kAssign ||
@@ -104,9 +104,9 @@ Value Lowerer::lower_inner(const Expr* expression) {
   return error_value();
 }
 
-// Left to right. What an operand gives is saved before a later one's effects, where they could
-// change it; with `keep_places` a place stays one, and only its indices are saved, with
-// `save_values` what it holds as well.
+// Evaluates left to right. An operand's value is saved before the effects of a later one if those
+// could change it. With `keep_places` a place stays a place, and only its indices are saved; with
+// `save_values` its contents are saved too.
 std::vector<Value> Lowerer::lower_all(std::span<const Expr* const> expressions, bool keep_places,
                                       bool save_values) {
   std::vector<Value> values;
@@ -389,7 +389,7 @@ Value Lowerer::lower_construct(const Type* type, std::span<const Expr* const> ar
     if (!expr) return error_value();
     count += from->components();
     if (from->is_matrix()) {
-      // As its elements, row by row.
+      // As its elements, in row-major order.
       const ir::Expr* base = repeatable(expr);
       for (uint8_t row = 0; row < from->rows; ++row) {
         for (uint8_t column = 0; column < from->columns; ++column) {

@@ -126,7 +126,7 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
       return error_value();
     }
   }
-  // One shape and scalar for all arguments; refract's last stands apart.
+  // All arguments get the same shape and scalar, except for refract's last one.
   const size_t joined = shape == S::kRefract ? 2 : arguments.size();
   const Type* type =
       arguments[0].type->is_enum() ? types_.scalar(arguments[0].type->scalar) : arguments[0].type;
@@ -280,7 +280,7 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
   }
   at(location);
   if (type->is_scalar()) {
-    // Vector functions on scalars come down to arithmetic.
+    // Vector functions on scalars reduce to arithmetic.
     const auto absolute = [&](const ir::Expr* value) {
       return build_.intrinsic(Intrinsic::abs, type->ir, {value});
     };
@@ -323,7 +323,7 @@ Value Lowerer::call_mul(std::vector<Value>& arguments, SourceLocation location) 
     if (!left || !right) return error_value();
     return rvalue(build_.binary(ir::BinaryOp::kMultiply, left, right), type);
   }
-  // A vector stands on the left as a row, on the right as a column.
+  // A vector on the left is a row, on the right a column.
   const uint32_t inner_a = a->columns;
   const uint32_t inner_b = b->is_matrix() ? b->rows : b->columns;
   const uint32_t inner = std::min(inner_a, inner_b);

@@ -137,7 +137,7 @@ Value Lowerer::lower_unary(const UnaryExpr* expr) {
     return rvalue(build_.unary(ir::UnaryOp::kNot, build_.convert(value, ir::Scalar::kBool)),
                   boolean);
   }
-  // Arithmetic on a bool is arithmetic on an int.
+  // Arithmetic on a bool is done on an int.
   if (type->scalar == Scalar::kBool) {
     type = types_.with_scalar(type, Scalar::kInt32);
     value = build_.convert(value, ir::Scalar::kInt32);
@@ -210,7 +210,7 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
   const bool logical = op == BinaryOp::kLogicalAnd || op == BinaryOp::kLogicalOr;
   if (logical) type = types_.with_scalar(type, Scalar::kBool);
   if (is_shift(op)) {
-    // The left operand decides; a literal on the left of a variable is an int.
+    // The left operand decides the type; a literal shifted by a variable is an int.
     const Type* own = left.type;
     Scalar scalar = own->scalar;
     if (scalar == Scalar::kLiteralInt && right.type->scalar != Scalar::kLiteralInt) {
@@ -225,7 +225,7 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
            {std::string(spelling(op)), to_string(left.type), to_string(right.type)});
     return error_value();
   }
-  // bool & bool stays bool; other arithmetic on bools is that of ints.
+  // bool & bool stays bool; other arithmetic on bools is done on ints.
   const bool keeps_bool = is_bitwise(op) || is_comparison(op) || logical;
   if (type->scalar == Scalar::kBool && !keeps_bool) type = types_.with_scalar(type, Scalar::kInt32);
   const auto operand = [&](const Value& value) -> const ir::Expr* {
@@ -267,7 +267,7 @@ Value Lowerer::lower_binary(const BinaryExpr* expr) {
   return binary_value(expr->op, values[0], values[1], expr->location);
 }
 
-// Short circuit on scalars; on vectors component by component, as before HLSL 2021.
+// Short-circuits on scalars; before HLSL 2021 it also works on vectors, component by component.
 Value Lowerer::lower_logical(const BinaryExpr* expr) {
   const bool is_and = expr->op == BinaryOp::kLogicalAnd;
   Value left = lower(expr->left);
@@ -332,7 +332,7 @@ Value Lowerer::lower_logical(const BinaryExpr* expr) {
 }
 
 Value Lowerer::lower_assign(const AssignExpr* expr) {
-  // The value first, as DXC does it; then the place.
+  // The value is evaluated before the place, as in DXC.
   const bool unused = result_unused_;
   result_unused_ = false;
   Value value = lower(expr->value);
@@ -355,7 +355,7 @@ Value Lowerer::lower_assign(const AssignExpr* expr) {
       const std::string name = "operator" + std::string(spelling(*expr->op)) + "=";
       if (auto result = overloaded_operator(name, target, {value}, expr->location)) return *result;
     }
-    // `v += w` where w is longer than v truncates w; where v is longer it does not shorten v.
+    // `v += w` truncates w if it is longer than v; if v is longer, v is not shortened.
     position = block().size();
     freeze(target, &position);
     value = binary_value(*expr->op, target, value, expr->location);
@@ -464,7 +464,7 @@ Value Lowerer::lower_conditional(const ConditionalExpr* expr) {
     emit(branch);
     return rvalue(build_.read(result), type);
   }
-  // A vector condition chooses component by component and evaluates both sides.
+  // A vector condition selects per component and evaluates both sides.
   if (checker_.options_.hlsl_version >= 2021) {
     report(CheckId::kVectorLogic, expr->location, {"?:", "select"});
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which of several functions a call means: the one whose conversions are nowhere worse and
-// somewhere better than those of every other. [hlsl-subset 3.5]
+// Overload resolution: a call means the function whose conversions are nowhere worse and somewhere
+// better than those of every other candidate. [hlsl-subset 3.5]
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"

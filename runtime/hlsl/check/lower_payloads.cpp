@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a stage sees of a payload with access qualifiers: a working copy of its own, into which the
-// fields that it may read are copied, and from which those that it may write are copied back.
-// DXR leaves all other fields undefined; here they are zero. [DXR: Payload access qualifiers,
-// Detailed semantics]
+// A stage sees a payload with access qualifiers as a working copy of its own: the fields that it
+// may read are copied in, and those that it may write are copied back. DXR leaves all other fields
+// undefined; here they are zero. [DXR: Payload access qualifiers, Detailed semantics]
 #include "runtime/hlsl/check/checker.h"
 #include "runtime/hlsl/check/payload_access.h"
 
@@ -14,7 +13,7 @@ const ir::Expr* Lowerer::payload_field(const ir::Variable* payload, const Payloa
   return expr;
 }
 
-// The place without folding: a copy of `from`'s field, or zero without `from`.
+// Uses the place without folding: a copy of `from`'s field, or zero without `from`.
 void Lowerer::copy_payload_field(const ir::Variable* to, const ir::Variable* from,
                                  const PayloadLeaf& leaf) {
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
@@ -23,8 +22,8 @@ void Lowerer::copy_payload_field(const ir::Variable* to, const ir::Variable* fro
   emit(statement);
 }
 
-// TraceRay's own payload object: what a caller may not write does not reach the stages, and what
-// it may not read does not come back.
+// TraceRay gets a payload object of its own: what the caller may not write does not reach the
+// stages, and what it may not read does not come back.
 void Lowerer::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const Type* type,
                          SourceLocation location) {
   if (!type->structure->is_payload) {
@@ -51,7 +50,8 @@ void Lowerer::emit_trace(ir::Stmt* statement, const ir::Variable* payload, const
   }
 }
 
-// The entry point becomes a function that makes the working copy and calls the one of the source.
+// The source's entry point becomes an ordinary function; the new entry point makes the working copy
+// and calls it.
 void Lowerer::wrap_payload(FunctionInfo* function, ir::EntryPoint& entry) {
   if (!function->ir || function->parameters.empty()) return;
   const StructInfo& structure = *function->parameters[0].type->structure;

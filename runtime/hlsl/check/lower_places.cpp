@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Places: what can be assigned to, in variables and in memory. Nothing is read before load().
+// Places: anything that can be assigned to, in variables and in memory. Nothing is read before
+// load().
 #include <algorithm>
 #include <functional>
 
@@ -103,7 +104,7 @@ void Lowerer::assign(const ir::Variable* variable, const ir::Expr* value) {
   emit(statement);
 }
 
-// True where no later statement can change what the expression gives.
+// Whether no later statement can change the expression's value.
 bool Lowerer::is_fixed(const ir::Expr* expr) {
   switch (expr->kind) {
     case ir::ExprKind::kVariable:
@@ -132,7 +133,7 @@ bool Lowerer::mentions(const ir::Expr* expr, const ir::Variable* variable) {
                      [&](const ir::Expr* operand) { return mentions(operand, variable); });
 }
 
-// Keeps the place, but fixes the indices in it at `position` of the block.
+// Keeps the place, but saves the values of its indices at `position` in the block.
 const ir::Expr* Lowerer::freeze_place(const ir::Expr* expr, size_t* position) {
   if (expr->kind == ir::ExprKind::kVariable || expr->operands.empty()) return expr;
   const ir::Expr* base = freeze_place(expr->operands[0], position);
@@ -148,8 +149,8 @@ const ir::Expr* Lowerer::freeze_place(const ir::Expr* expr, size_t* position) {
   return copy;
 }
 
-// What the expression gives now, whatever comes later. A resource of an array stays one, by an
-// index that is fixed: backends look it up as such.
+// The expression's current value, whatever follows. An element of a resource array stays an
+// element, but with a fixed index, because that is how backends look it up.
 const ir::Expr* Lowerer::frozen(const ir::Expr* expr, size_t* position) {
   if (!expr || is_fixed(expr)) return expr;
   if (expr->kind != ir::ExprKind::kBinding) return build_.read(temporary(expr, position));
@@ -307,7 +308,7 @@ void Lowerer::store(const Value& target, const ir::Expr* value) {
   } else if (target.kind == ValueKind::kTyped) {
     const ir::Expr* stored = value;
     if (target.whole) {
-      // Part of a texel: read it, change it, write it back.
+      // To write part of a texel: read it, change it, write it back.
       Value all = target;
       all.whole = nullptr;
       all.saved = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What only ray tracing shaders do. [DXR: Ray tracing HLSL intrinsics]
+// Intrinsics that only ray tracing shaders have. [DXR: Ray tracing HLSL intrinsics]
 #include <algorithm>
 
 #include "runtime/hlsl/analysis/checked_access.h"
@@ -21,7 +21,7 @@ Value Lowerer::call_system_value(const SystemValueRule& rule, SourceLocation loc
   return rvalue(node, type);
 }
 
-// The variable that stands for a payload, callable data or the like during the call.
+// The variable that holds a payload, callable data or the like during the call.
 const ir::Variable* Lowerer::pass_by_reference(const Value& value, std::string_view what,
                                                SourceLocation location, bool& copied) {
   if (!value.type || !value.type->is_struct() || contains_resource(value.type)) {

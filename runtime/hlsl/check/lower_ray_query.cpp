@@ -4,7 +4,7 @@
 
 namespace kaamos::hlsl {
 
-// The variable that the value names. Null and a message where it is anything else.
+// The variable that the value names; reports an error and returns null if it is anything else.
 const ir::Expr* Lowerer::query_object(const Value& value, const Type* type) {
   if (value.failed()) return nullptr;
   const bool is_object = value.type && value.type->is_query() && value.kind == ValueKind::kExpr &&
@@ -13,14 +13,14 @@ const ir::Expr* Lowerer::query_object(const Value& value, const Type* type) {
     report(CheckId::kRayQueryCopy, value.location, {to_string(type)});
     return nullptr;
   }
-  if (!same_type(value.type, type)) {  // the flags count as well
+  if (!same_type(value.type, type)) {  // the flags must match too
     report(CheckId::kConversion, value.location, {to_string(value.type), to_string(type)});
     return nullptr;
   }
   return value.expr;
 }
 
-// With an initialiser the variable is a second name of that object. [DXR: RayQuery]
+// With an initialiser, the variable becomes a second name for that object. [DXR: RayQuery]
 void Lowerer::lower_local_query(const VariableDecl* decl, const Type* type, VariableInfo* info) {
   if (decl->modifiers & kModStatic) {
     report(CheckId::kRayQueryPlace, decl->location, {to_string(type), "static"});
@@ -32,7 +32,7 @@ void Lowerer::lower_local_query(const VariableDecl* decl, const Type* type, Vari
     const ir::Expr* object = query_object(value, type);
     if (!object) return;
     info->type = type;
-    info->variable = const_cast<ir::Variable*>(object->variable);  // the pool's own
+    info->variable = const_cast<ir::Variable*>(object->variable);  // it belongs to the pool
     return;
   }
   info->type = type;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Buffers: subscripts, loads, stores, atomics. Textures stand in lower_textures.cpp.
+// Buffers: subscripts, loads, stores, atomics. Textures are in lower_textures.cpp.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -152,7 +152,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     type = checker_.type_argument(part.template_arguments[0], scope_);
     if (type->is_error()) return error_value();
   } else if (is_store && plain) {
-    // Store takes any type; Store<T> names it.
+    // Store takes any type; Store<T> names it explicitly.
     Value settled_value = settle(arguments[1]);
     if (!settled_value.type || settled_value.failed()) {
       report(CheckId::kInitListUse, location);

@@ -34,7 +34,7 @@ bool uses_variable(const ir::Block& body, const ir::Variable* variable) {
 
 }  // namespace
 
-// True where the end of the block cannot be reached.
+// Whether the end of the block is unreachable.
 bool Lowerer::ends(const ir::Block& body) {
   if (body.empty()) return false;
   const ir::Stmt* last = body.back();
@@ -51,7 +51,7 @@ bool Lowerer::ends(const ir::Block& body) {
       return ends(last->body) && ends(last->orelse);
     case ir::StmtKind::kLoop: {
       if (last->value) return false;
-      // A loop without a condition ends only by a break of its own.
+      // A loop without a condition ends only by its own break.
       const std::function<bool(const ir::Block&)> breaks = [&](const ir::Block& statements) {
         return std::any_of(statements.begin(), statements.end(), [&](const ir::Stmt* statement) {
           if (statement->kind == ir::StmtKind::kBreak) return true;
@@ -198,7 +198,8 @@ const ir::Expr* Lowerer::initial_value(const Expr* initialiser, const Type* type
   return convert(value, type, initialiser->location);
 }
 
-// A temporary that nothing else reads: a variable that begins with it may take its place.
+// Whether it is a temporary that nothing else reads, so that the variable it initialises can take
+// its place.
 bool Lowerer::is_result_of_last_call(const ir::Expr* value) const {
   return value && value->kind == ir::ExprKind::kVariable && value->variable == call_result_ &&
          !block_->empty() && block_->back()->kind == ir::StmtKind::kCall &&
@@ -231,7 +232,7 @@ void Lowerer::lower_local(const VariableDecl* decl) {
     if (valid) lower_local_static(decl, type);
     return;
   }
-  // The name is known behind its initialiser: `int x = x;` means the outer x.
+  // The name is declared after its initialiser: `int x = x;` means the outer x.
   const ir::Expr* value = nullptr;
   if (valid && type->is_array() && type->count == 0) {
     const auto* list = as<InitListExpr>(decl->initializer);
@@ -262,7 +263,7 @@ void Lowerer::lower_local(const VariableDecl* decl) {
     if (is_result_of_last_call(value)) {
       info->variable = call_result_;
       info->variable->name = decl->name;
-      call_result_ = nullptr;  // it has an owner now
+      call_result_ = nullptr;  // now owned by the variable
     } else {
       info->variable = build_.variable(std::string(decl->name), type->ir, ir::Storage::kLocal);
       ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
@@ -279,7 +280,8 @@ void Lowerer::lower_local(const VariableDecl* decl) {
   checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
 }
 
-// One per shader invocation, as if it stood outside. Its initialiser may not use locals.
+// There is one per shader invocation, as if it were declared globally. Its initialiser must not use
+// locals.
 void Lowerer::lower_local_static(const VariableDecl* decl, const Type* type) {
   checker_.declare_static(decl, type, scope_);
   Symbol* symbol = checker_.find_local(scope_, decl->name);
@@ -317,7 +319,7 @@ void Lowerer::lower_if(const IfStmt* statement) {
   emit(node);
 }
 
-// A hint: what is no number of times is none.
+// Only a hint: an argument that is not a number is ignored.
 uint32_t Lowerer::unroll_count(const Stmt& loop) {
   constexpr uint32_t kMost = 16;
   const Attribute* attribute = find_attribute(loop.attributes, "unroll");
@@ -417,7 +419,7 @@ void Lowerer::lower_switch(const SwitchStmt* statement) {
   emit(node);
 }
 
-// All sections of a switch share one scope: what a later one uses is declared in front.
+// All sections of a switch share one scope: what a later one uses is declared before the switch.
 void Lowerer::share_section_variables(ir::Stmt* node) {
   for (size_t i = 0; i + 1 < node->cases.size(); ++i) {
     for (const ir::Stmt*& statement : node->cases[i].body) {

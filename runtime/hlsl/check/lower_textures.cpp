@@ -92,7 +92,7 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
     report(CheckId::kNoSuchMethod, location, {std::string(traits.name), std::string(rule.name)});
     return error_value();
   }
-  // Sampler, location, what the form asks for; then an offset, where the texture takes one.
+  // Sampler, location and the operands of the form; then an offset, if the texture takes one.
   size_t fixed = 2;
   if (rule.form == F::kGradient || rule.form == F::kCompareLevel) {
     fixed = 4;
@@ -185,7 +185,7 @@ Value Lowerer::call_dimensions(const Value& object, std::vector<Value>& argument
   using K = ir::ResourceKind;
   const Type* type = object.type;
   const ResourceTraits& traits = traits_of(type->resource);
-  // Which component of ir::ExprKind::kDimensions each output gets.
+  // Which component of ir::ExprKind::kDimensions goes to each output.
   std::vector<uint8_t> outputs;
   bool has_mips = is_sampled_texture(type->resource);
   if (is_structured(type->resource)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wave intrinsics of ray tracing shaders. Each thread is a wave of its own, which DXR allows: a
-// wave may be packed anew at every trace and call. [DXR: Wave intrinsics] [HLSL: Shader Model 6.0]
+// Wave intrinsics in ray tracing shaders. Each thread is a wave of its own, which DXR allows: waves
+// may be re-formed at every trace and call. [DXR: Wave intrinsics] [HLSL: Shader Model 6.0]
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -11,14 +11,14 @@ enum class WaveResult : uint8_t {
   kZero,       // uint 0
   kTrue,       // bool
   kCondition,  // the argument as bool
-  kCount,      // the argument as bool, as uint
-  kBallot,     // the same in the first of four
+  kCount,      // the argument as bool, then as uint
+  kBallot,     // the same in the first of four components
   kMatch,      // uint4 with this lane's bit
-  kAllEqual,   // bool of the argument's shape
+  kAllEqual,   // bool with the argument's shape
   kArgument,   // the argument
   kInteger,    // the argument, which is an integer
-  kNothing,    // zero of the argument's type
-  kNeutral,    // one of the argument's type
+  kNothing,    // zero, of the argument's type
+  kNeutral,    // one, of the argument's type
 };
 
 struct WaveRule {

@@ -2,7 +2,7 @@
 //
 // From syntax trees of bodies and expressions to IR. The lowerer asks the checker what names and
 // types mean; the checker asks it for the values of constants and initialisers, and to lower what
-// an entry point reaches. One class, whose parts stand in lower_*.cpp, one noun each.
+// an entry point reaches. It is one class, split into lower_*.cpp, one file per noun.
 #pragma once
 
 #include <optional>
@@ -30,19 +30,19 @@ class Lowerer {
  public:
   explicit Lowerer(Checker& checker);
 
-  // Swaps what a body is lowered into; restores it when it goes.
+  // Swaps the state that a body is lowered into, and restores it when it goes out of scope.
   struct BodyScope;
 
   // -- Conversions (lower_conversions.cpp)
   ConversionRank rank(const Value& value, const Type* to);
   ConversionRank rank(const Type* from, const Type* to);
   Scalar common_scalar(Scalar a, Scalar b);
-  // Explicit: what a cast may do beyond an implicit conversion.
+  // An explicit conversion also allows what only a cast may do.
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,
                           bool is_explicit = false);
   const ir::Expr* convert_numeric(const ir::Expr* expr, const Type* from, const Type* to);
   bool convertible_numeric(const Type* from, const Type* to, bool is_explicit);
-  // Literal types to what they stand for.
+  // Replaces literal types by their default types.
   Value settle(Value value);
   const Type* settled(const Type* type);
   struct Piece {
@@ -88,7 +88,8 @@ class Lowerer {
   void emit(const ir::Stmt* statement);
   const ir::Variable* temporary(const ir::Expr* value, size_t* position = nullptr);
   ir::Variable* empty_temporary(const ir::Type* type);
-  // Simple enough to be repeated; else read from a temporary.
+  // Returns the value itself if it is cheap enough to repeat, else a read of a temporary that holds
+  // it.
   const ir::Expr* repeatable(const ir::Expr* value);
   void assign(const ir::Variable* variable, const ir::Expr* value);
 
@@ -116,7 +117,8 @@ class Lowerer {
   Value lower_construct(const Type* type, std::span<const Expr* const> arguments,
                         SourceLocation location);
   Value lower_sizeof(const SizeofExpr* expr);
-  // The type of two operands of one numeric shape; null, and reported, where there is none.
+  // The common type of two operands of one numeric shape; reports an error and returns null if
+  // there is none.
   const Type* common_type(const Type* a, const Type* b, SourceLocation location, bool& truncates);
   std::optional<Value> overloaded_operator(std::string_view name, const Value& left,
                                            std::vector<Value> arguments, SourceLocation location);
@@ -218,7 +220,7 @@ class Lowerer {
  private:
   friend class Checker;
 
-  // The checker's, under the names that they have there.
+  // Forward to the checker's functions with the same names.
   void report(CheckId id, SourceLocation location,
               std::initializer_list<std::string> arguments = {});
   ir::Location locate(SourceLocation location);
@@ -240,17 +242,17 @@ class Lowerer {
   int loop_depth_ = 0;
   int switch_depth_ = 0;
   int depth_ = 0;           // of nested expressions and statements
-  int function_depth_ = 0;  // of functions lowered on the way to others
+  int function_depth_ = 0;  // nested lowerings of functions
   bool result_unused_ = false;
-  // What the last kCall gives its result to, until a variable of the source takes its place.
+  // The variable that receives the last kCall's result, until a variable of the source replaces it.
   ir::Variable* call_result_ = nullptr;
 
   std::vector<FunctionInfo*> lowered_functions_;  // callees before callers
-  // Where the source names a field of a payload struct, and passes one to TraceRay.
+  // Where the source names a field of a payload struct, and where it passes one to TraceRay.
   std::unordered_map<const ir::Expr*, SourceLocation> payload_accesses_;
   std::unordered_map<const ir::Stmt*, TracePayload> trace_payloads_;
   std::set<std::string> mangled_names_;
-  ir::Block no_block_;  // for what is lowered outside any body
+  ir::Block no_block_;  // takes what is lowered outside any body
 
   Checker& checker_;
   TypeTable& types_;

@@ -9,10 +9,10 @@
 namespace kaamos::hlsl {
 namespace {
 
-// Names and types that come again are written as a digit.
+// Names and types that were seen before are written as a digit.
 class Mangler {
  public:
-  // `name`: one component, or a whole template such as "?$vector@M$02@".
+  // `name` is one component, or a whole template such as "?$vector@M$02@".
   void source_name(const std::string& name) {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found != names_.end()) {
@@ -152,7 +152,7 @@ std::string mangle(std::string_view qualified, const Type* result,
   Mangler mangler;
   mangler.text = "\01?";
   if (!template_arguments.empty()) {
-    // The last component becomes a template name of its own.
+    // The last component is replaced by a template name.
     const size_t angle = qualified.find('<');
     const std::string_view plain = qualified.substr(0, angle);
     const size_t colon = plain.rfind("::");

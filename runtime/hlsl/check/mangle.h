@@ -16,15 +16,16 @@ struct FunctionInfo;
 
 struct MangledParameter {
   const Type* type = nullptr;
-  bool is_reference = false;  // out and inout of numeric type
+  bool is_reference = false;  // numeric out and inout parameters
 };
 
-// `qualified`: "ns::f"; a template's instance is "f<float, 3>" with its arguments given apart.
+// `qualified` is "ns::f"; a template instance is "f<float, 3>", with its arguments passed
+// separately.
 std::string mangle(std::string_view qualified, const Type* result,
                    std::span<const MangledParameter> parameters, bool is_method = false,
                    std::string_view template_arguments = {});
 std::string mangle(const FunctionInfo& function);
-// Of one type, as it stands in a template argument list.
+// Mangles one type as it appears in a template argument list.
 std::string mangle_type(const Type* type);
 // Microsoft's encoding of a number in a template argument, without the leading "$0".
 std::string mangle_number(int64_t value);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Payload access qualifiers: what the fields of a [raypayload] struct say about the stages.
+// Payload access qualifiers: which stages may read and write the fields of a [raypayload] struct.
 // [DXR: Payload access qualifiers]
 #pragma once
 
@@ -22,22 +22,22 @@ constexpr uint8_t kPayloadStages[] = {kPayloadCaller, kPayloadClosestHit, kPaylo
 
 // "closesthit", as in read(closesthit).
 const char* payload_stage_name(uint8_t stage);
-// Of a word behind read( or write(; 0: no such stage.
+// The stage that a word in read(...) or write(...) names; 0 if there is none.
 uint8_t payload_stage(std::string_view word);
-// Of an ir::StageBits; ray generation and all others are callers.
+// For one ir::StageBits value; ray generation and all other stages are callers.
 uint8_t payload_stage_of(uint32_t stage);
 
-// One field that has qualifiers of its own, at any depth of payload structs in payload structs.
+// A field with qualifiers of its own, at any depth of nested payload structs.
 struct PayloadLeaf {
   std::vector<uint32_t> path;  // indices in ir::Struct::fields
   const FieldInfo* field = nullptr;
   PayloadAccessBits access;
   const ir::Type* type = nullptr;
 };
-// Of a struct with `is_payload`, in the order of declaration.
+// The struct must have `is_payload`. In the order of declaration.
 std::vector<PayloadLeaf> payload_leaves(const StructInfo& structure);
 
-// Every field may be read and written in the stage: nothing needs to be copied apart.
+// Whether the stage may read and write every field, so that nothing needs a separate copy.
 bool all_access(const std::vector<PayloadLeaf>& leaves, uint8_t stage);
 
 }  // namespace kaamos::hlsl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Warns where a shader reads a payload field that has no value there, and where what it writes is
-// lost. Follows the payload through calls; every path through a body counts.
+// Warns if a shader reads a payload field that has no value at that point, or if what it writes is
+// lost. The payload is followed through calls; every path through a body counts.
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -15,7 +15,7 @@ namespace {
 
 enum FieldState : uint8_t {
   kUndefined = 1,     // on some path
-  kAfterTrace = 2,    // and that because TraceRay did not return it
+  kAfterTrace = 2,    // because TraceRay did not return it
   kMayBeWritten = 4,  // by the source, on some path
   kMayBeLeft = 8,     // not written on some path
 };
@@ -43,7 +43,7 @@ class Checker::PayloadUses {
     const State end = walk_function(*function.ir, std::move(state));
     if (!payload) return;
     for (const auto& [leaf, location] : dropped_) {
-      // In a shader that hands its payload on, the next trace gets it.
+      // If a shader passes its payload on, the next trace receives the value.
       if (passed_on_.count(leaf)) continue;
       checker_.report(CheckId::kPayloadDropped, location,
                       {std::string(leaf->field->name), payload_stage_name(stage_)});
@@ -65,7 +65,7 @@ class Checker::PayloadUses {
   struct Fields {
     const std::vector<PayloadLeaf>* leaves = nullptr;
     std::vector<uint8_t> states;  // FieldState
-    bool of_stage = false;        // the payload that the shader got
+    bool of_stage = false;        // the payload that the shader received
     bool operator==(const Fields&) const = default;
   };
   struct State {
@@ -114,7 +114,7 @@ class Checker::PayloadUses {
     }
   }
 
-  // The leaves that a chain of fields on a tracked variable selects: [first, last).
+  // The leaves that a chain of fields selects on a tracked variable: [first, last).
   Fields* select(State& state, const ir::Expr* expr, size_t& first, size_t& last) {
     std::vector<uint32_t> path;
     for (; expr->kind != ir::ExprKind::kVariable; expr = expr->operands[0]) {
@@ -122,7 +122,7 @@ class Checker::PayloadUses {
         path.push_back(expr->index);
       } else if (expr->kind == ir::ExprKind::kElement || expr->kind == ir::ExprKind::kSwizzle ||
                  expr->kind == ir::ExprKind::kMatrixSwizzle) {
-        path.clear();  // inside of a leaf
+        path.clear();  // inside a leaf
       } else {
         return nullptr;
       }
@@ -155,7 +155,7 @@ class Checker::PayloadUses {
       size_t first = 0;
       size_t last = 0;
       Fields* fields = location ? select(state, &one, first, last) : nullptr;
-      // A nested payload struct as a whole says nothing about its fields.
+      // Reading a nested payload struct as a whole says nothing about its fields.
       if (!fields || last != first + 1 || !(fields->states[first] & kUndefined)) return;
       const std::string name((*fields->leaves)[first].field->name);
       if (fields->states[first] & kAfterTrace) {
@@ -175,7 +175,7 @@ class Checker::PayloadUses {
       if (!location) location = source_of(one);
     }
     const bool whole = place->kind == ir::ExprKind::kVariable;
-    if (!location && !whole) return;  // of the compiler's own
+    if (!location && !whole) return;  // made by the compiler itself
     size_t first = 0;
     size_t last = 0;
     Fields* fields = select(state, place, first, last);
@@ -185,7 +185,7 @@ class Checker::PayloadUses {
       if (fields->of_stage && !whole && !(leaf.access.write & stage_)) {
         dropped_.push_back({&leaf, *location});
       }
-      // A struct that is set as a whole is initialised; that says nothing of its fields.
+      // Assigning a whole struct initialises it, but says nothing about its individual fields.
       fields->states[i] = whole ? 0 : kMayBeWritten;
     }
   }
@@ -302,7 +302,7 @@ class Checker::PayloadUses {
         state.reachable = false;
         break;
       case StmtKind::kContinue:
-        // What it skips is taken as not written behind the loop too.
+        // Treat what it skips as possibly unwritten after the loop too.
         if (state.reachable && !breaks_.empty()) merge(breaks_.back().out, state);
         state.reachable = false;
         break;
@@ -327,7 +327,8 @@ class Checker::PayloadUses {
   }
 
   void loop(const ir::Stmt& stmt, State& state) {
-    // A second time with what the first leaves: a trace in the body may undo fields.
+    // The second round starts with what the first leaves, because a trace in the body may
+    // invalidate fields.
     const int rounds = breaks_.size() < 4 ? 2 : 1;
     for (int i = 0; i < rounds; ++i) {
       State once = state;

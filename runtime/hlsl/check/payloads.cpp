@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* kNames[] = {"caller", "closesthit", "miss", "anyhit"};
 
-// Stages that run before, and those that run after, one of this kind in a trace. Any-hit shaders
-// run several times, and what the caller wrote may come back to it if nothing runs.
+// The stages that can run before, and those that can run after, a stage of this kind in a trace.
+// Any-hit shaders run several times, and the caller gets its own values back if nothing runs.
 uint8_t producers(uint8_t stage) {
   switch (stage) {
     case kPayloadCaller:
@@ -154,7 +154,7 @@ void Checker::check_payload_field(FieldInfo& field) {
   }
 }
 
-// Of a struct that a shader takes or TraceRay gets as its payload.
+// For a struct that a shader takes, or TraceRay passes, as its payload.
 void Checker::check_payload_use(const Type* type, SourceLocation location) {
   const StructInfo& structure = *type->structure;
   if (!structure.decl) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From types as written to types.
+// Turns types as written into types.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -169,7 +169,7 @@ const Type* Checker::resolve_named(const TypeSyntax* syntax, Scope* scope) {
 
 const Type* Checker::type_argument(const TemplateArgument& argument, Scope* scope) {
   if (argument.type) return resolve_type(argument.type, scope);
-  // The parser takes a name that it does not know as a type for a value.
+  // The parser takes a name that it does not know as a type to be a value.
   if (const auto* name = as<NameExpr>(argument.value)) {
     Symbol* symbol = resolve_name(*name->name, scope, true);
     if (symbol && symbol->kind == SymbolKind::kType) return symbol->type;
@@ -296,7 +296,7 @@ std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* 
   at(expression->location);
   Value value = lower_.lower(expression);
   if (value.failed()) return std::nullopt;
-  if (!value.type) {  // a heap, an initialiser list: no value yet
+  if (!value.type) {  // a heap or an initialiser list: not a value yet
     report(CheckId::kNotConstant, expression->location, {std::string(purpose)});
     return std::nullopt;
   }

@@ -6,7 +6,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// Letters to change, add or leave out.
+// Number of letters to change, add or remove.
 size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   for (size_t i = 0; i <= b.size(); ++i) row[i] = i;
@@ -24,7 +24,7 @@ size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-// What the writer of an unknown name may have meant; empty: no idea.
+// What an unknown name was probably meant to be; empty if there is no guess.
 std::string Checker::similar_name(std::string_view text, Scope* scope, bool with_outer) {
   if (text.size() > 64) return {};
   size_t best = (text.size() <= 4 ? 1 : 2) + 1;
@@ -32,7 +32,7 @@ std::string Checker::similar_name(std::string_view text, Scope* scope, bool with
   const auto offer = [&](std::string_view candidate) {
     if (candidate.size() > text.size() + 2 || text.size() > candidate.size() + 2) return;
     const size_t found = edit_distance(text, candidate);
-    // Equal ones by name, so that the answer does not depend on the order of a hash table.
+    // Ties go to the alphabetically first, so that the result does not depend on hash table order.
     const bool is_better = found < best || (found == best && candidate < result);
     if (!is_better) return;
     best = found;
@@ -133,7 +133,7 @@ Symbol* Checker::find(Scope* scope, std::string_view name) {
   return nullptr;
 }
 
-// The scope that stands in front of `::`.
+// The scope that is named before a `::`.
 Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope) {
   switch (symbol->kind) {
     case SymbolKind::kNamespace:

@@ -8,7 +8,7 @@ StructInfo* Checker::make_struct(const StructDecl* decl, Scope* parent, const st
   info->decl = decl;
   info->name = qualify(parent, name);
   info->ir = &module_->struct_pool.emplace_back();
-  // Structs of two functions, or of two libraries' headers, may share a name.
+  // Structs in two functions, or from the headers of two libraries, may share a name.
   std::string unique = info->name;
   for (int i = 2; !struct_names_.insert(unique).second; ++i) {
     unique = info->name + "#" + std::to_string(i);
@@ -136,7 +136,7 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
   field.index = static_cast<uint32_t>(info->ir->fields.size());
   ir::Field& ir_field = info->ir->fields.emplace_back();
   ir_field.name = variable->name;
-  // An unknown type takes the place of a float, so that the struct stays usable in messages.
+  // A float stands in for an unknown type, so that the struct stays usable in messages.
   ir_field.type = type->is_error() ? types_.scalar(Scalar::kFloat32)->ir : type->ir;
   const Type* element = type;
   while (element->is_array()) element = element->element;

@@ -8,7 +8,7 @@ namespace {
 struct Form {
   std::string_view name;
   uint32_t type;  // D3D12_STATE_SUBOBJECT_TYPE
-  // One letter for each argument: s string, i integer; a fixed value `value` behind them.
+  // One letter per argument: s string, i integer; the fixed `value`, if any, comes after them.
   std::string_view arguments;
   int value;  // D3D12_HIT_GROUP_TYPE; -1: none
 };

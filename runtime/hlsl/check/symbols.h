@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the checker knows about names: bindings, variables, functions, scopes; and the values that
-// expressions come to.
+// What the checker knows about names (bindings, variables, functions, scopes), and the values that
+// expressions evaluate to.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ struct BindingInfo {
   uint32_t size_bytes = 0;
   SourceLocation location;
   bool reachable = false;
-  uint32_t index = 0;  // in Module::bindings, once that is known
+  uint32_t index = 0;  // in Module::bindings, once known
   std::vector<ir::Expr*> uses;
 };
 
@@ -51,7 +51,7 @@ struct VariableInfo {
   Scope* scope = nullptr;
   uint32_t sequence = 0;
   enum class State : uint8_t { kPending, kRunning, kDone } state = State::kDone;
-  ir::Block start_up;  // what initialises it at the start of a shader, if an expression cannot
+  ir::Block start_up;  // initialises it when a shader starts, if an expression cannot
   std::unique_ptr<FunctionInfo> initialiser_facts;
 };
 
@@ -65,7 +65,7 @@ struct ParameterInfo {
   const Expr* default_value = nullptr;
 };
 
-// Something that only some stages may do.
+// An operation that only some stages allow.
 struct StageUse {
   SourceLocation location;
   std::string_view name;
@@ -86,7 +86,7 @@ struct FunctionInfo {
   std::string qualified;
   const FunctionDecl* decl = nullptr;
   const FunctionDecl* definition = nullptr;
-  Scope* scope = nullptr;  // what its parameters' types and its body see
+  Scope* scope = nullptr;  // what its parameters' types and its body can see
   StructInfo* owner = nullptr;
   bool is_static = false;
   bool is_const_method = false;
@@ -99,12 +99,12 @@ struct FunctionInfo {
 
   bool is_template = false;
   std::unordered_map<std::string, FunctionInfo*> instances;
-  std::string template_suffix;  // "<float>" of an instance
+  std::string template_suffix;  // "<float>" for an instance
   TemplateValues template_values;
 
   enum class State : uint8_t { kPending, kLowering, kDone } state = State::kPending;
   ir::Function* ir = nullptr;
-  // Facts of its own body.
+  // Facts about its own body.
   std::vector<FunctionInfo*> callees;
   std::vector<BindingInfo*> bindings;
   std::vector<VariableInfo*> globals;
@@ -113,7 +113,7 @@ struct FunctionInfo {
   bool queries = false;
   bool calls_shader = false;
   bool ends_shader = false;
-  uint32_t reported_bytes = 0;  // the largest attributes that it gives to ReportHit
+  uint32_t reported_bytes = 0;  // size of the largest attributes that it passes to ReportHit
   uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
   bool has_barrier = false;
   bool uses_view_heap = false;
@@ -123,7 +123,7 @@ struct FunctionInfo {
 
 enum class SymbolKind : uint8_t {
   kVariable,
-  kField,  // of the enclosing struct: through `this`
+  kField,  // a field of the enclosing struct, reached through `this`
   kFunctions,
   kType,
   kNamespace,
@@ -167,17 +167,17 @@ struct Scope {
 
 enum class ValueKind : uint8_t {
   kError,
-  kExpr,      // expr: a value, or the place of one in a variable
+  kExpr,      // expr: a value, or a place in a variable
   kMemory,    // in a buffer: expr is the resource, offset the byte offset
   kTyped,     // a texel: expr is the resource, coordinates its location
-  kBindings,  // an array of resources, partly indexed: binding, offset is the flat index so far
-  kHeap,      // ResourceDescriptorHeap, SamplerDescriptorHeap; and an element of it until its
+  kBindings,  // array of resources, partly indexed: binding; offset is the flat index so far
+  kHeap,      // ResourceDescriptorHeap, SamplerDescriptorHeap, or an element of one until its
               // type is known: offset is the index
   kMips,      // texture.mips, texture.mips[level] (offset)
-  kInitList,  // init_list, whose type is that of its target
+  kInitList,  // init_list, which takes the type of its target
 };
 
-// What an expression came to. Nothing is read from memory until load().
+// The outcome of lowering an expression. Nothing is read from memory until load().
 struct Value {
   ValueKind kind = ValueKind::kError;
   const Type* type = nullptr;
@@ -189,21 +189,21 @@ struct Value {
   const ir::Expr* coordinates = nullptr;
   const ir::Expr* mip = nullptr;
   ir::Layout layout = ir::Layout::kStructured;
-  uint32_t component_stride = 0;  // kMemory: of a vector that is not contiguous, bytes
-  // kMemory, kTyped: a swizzle of `whole` that is not applied yet.
+  uint32_t component_stride = 0;  // kMemory: bytes, for a vector that is not contiguous
+  // kMemory, kTyped: a swizzle of `whole` that has not been applied yet.
   std::vector<uint8_t> components;
   const Type* whole = nullptr;
   BindingInfo* binding = nullptr;
   bool is_sampler_heap = false;
   const InitListExpr* init_list = nullptr;
-  // What the place held when it was evaluated, where a later argument may have changed it.
+  // What the place held when it was evaluated, if a later argument may have changed it.
   const ir::Expr* saved = nullptr;
   SourceLocation location;
 
   bool failed() const { return kind == ValueKind::kError; }
 };
 
-// How far a conversion goes; lower is better.
+// The cost of a conversion; lower is better.
 struct ConversionRank {
   bool possible = false;
   uint8_t shape = 0;   // 0 same, 1 splat, 2 truncation or another shape

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Templates of structs, aliases and functions: one copy for each set of arguments.
+// Templates of structs, aliases and functions: one copy per set of arguments.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -90,7 +90,7 @@ std::string Checker::template_suffix(const TemplateValues& values) {
   return text + ">";
 }
 
-// Inside of Pair<float>, `Pair` alone is that instance and `Pair<int>` is another.
+// Inside Pair<float>, `Pair` alone means that instance, and `Pair<int>` another.
 StructTemplate* Checker::template_of(const Symbol* symbol, const NamePart& part) {
   if (symbol->kind == SymbolKind::kStructTemplate) return symbol->struct_template;
   if (symbol->kind != SymbolKind::kType || !part.has_template_arguments ||
@@ -118,10 +118,10 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
     report(CheckId::kIncomplete, location, {structure->name});
     return nullptr;
   }
-  // Arguments made of the ones before, twice, double with each level: the name tells long before
-  // the depth does.
+  // If each level's arguments use the previous ones twice, the name doubles in length at each level
+  // and hits its limit long before the depth does.
   constexpr size_t kMaxSuffixBytes = 4096;
-  constexpr size_t kMaxInstances = 1024;  // of one template: levels may branch as well
+  constexpr size_t kMaxInstances = 1024;  // per template, because levels may branch too
   if (template_depth_ >= kMaxTemplateDepth || suffix.size() > kMaxSuffixBytes ||
       structure->instances.size() >= kMaxInstances) {
     report(CheckId::kTemplateDepth, location,
@@ -167,7 +167,7 @@ void Checker::deduce_value(const Expr* expression, uint64_t value,
   values[*index].value = build_.literal(types_.scalar(Scalar::kInt64)->ir, {value});
 }
 
-// False where `type` contradicts what is known already.
+// Returns false if `type` contradicts what is already deduced.
 bool Checker::deduce(const TypeSyntax* syntax, const Type* type,
                      std::span<const TemplateParameter> parameters, TemplateValues& values) {
   if (syntax->kind == TypeSyntaxKind::kArray) {
@@ -235,7 +235,7 @@ FunctionInfo* Checker::instantiate_function(FunctionInfo* function,
   ++muted_;
   bool fits = arguments.size() <= decl->parameters.size() &&
               bind_arguments(parameters, written, use_scope, values);
-  // What is no literal decides first: in f(x, 1) x gives the type.
+  // Arguments that are not literals decide first: in f(x, 1), x determines the type.
   for (const bool literals : {false, true}) {
     for (size_t i = 0; fits && i < arguments.size(); ++i) {
       const Type* type = arguments[i].type;

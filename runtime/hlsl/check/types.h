@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The checker's types. They know what the intermediate representation does not: literal types,
-// enums, the storage order of a matrix and which struct declaration a type came from. Types are
-// interned: two are equal where their `canonical` pointers are.
+// The checker's types. They hold what the intermediate representation does not: literal types,
+// enums, a matrix's storage order and the struct declaration that a type came from. Types are
+// interned: two are equal if their `canonical` pointers are.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace kaamos::hlsl {
 
-// The first ten have the numbers of ir::Scalar. A literal type adapts to what it meets; its values
-// are held as 64-bit integers and doubles.
+// The first ten have the numbers of ir::Scalar. A literal type adapts to what it is used with; its
+// values are held as 64-bit integers and doubles.
 enum class Scalar : uint8_t {
   kBool,
   kInt16,
@@ -57,7 +57,7 @@ uint32_t scalar_bytes(ir::Scalar scalar);
 std::string_view name_of(Scalar scalar);
 
 enum class TypeKind : uint8_t {
-  kError,  // was diagnosed; converts to and from anything in silence
+  kError,  // already diagnosed; converts to and from anything without a message
   kVoid,
   kNumeric,
   kEnum,
@@ -73,7 +73,7 @@ struct EnumInfo;
 struct Type {
   TypeKind kind = TypeKind::kError;
   Scalar scalar = Scalar::kFloat32;
-  uint8_t rows = 0;     // 0: no matrix
+  uint8_t rows = 0;     // 0: not a matrix
   uint8_t columns = 0;  // 0: a scalar
   bool row_major = false;
   const Type* element = nullptr;  // array; resource
@@ -82,7 +82,7 @@ struct Type {
   EnumInfo* enumeration = nullptr;
   ir::ResourceKind resource = ir::ResourceKind::kByteAddressBuffer;
   bool has_written_element = false;  // Texture2D<float4>, not Texture2D
-  uint32_t ray_query_flags = 0;      // of RayQuery<flags>
+  uint32_t ray_query_flags = 0;      // RayQuery<flags>
   const Type* canonical = nullptr;   // without storage order
   const ir::Type* ir = nullptr;
 
@@ -107,7 +107,7 @@ inline bool same_type(const Type* a, const Type* b) {
   return a->canonical == b->canonical;
 }
 
-// Scalars, vectors, matrices, arrays and structs in all: what a value takes when it is flattened.
+// The number of scalars, vectors, matrices, arrays and structs in a value when it is flattened.
 // Saturates at 2^31 so that nested arrays cannot overflow.
 uint64_t flat_component_count(const Type* type);
 bool contains_resource(const Type* type);
@@ -132,13 +132,13 @@ struct StructInfo {
   std::string name;  // qualified
   const StructDecl* decl = nullptr;
   Scope* scope = nullptr;      // its members
-  StructInfo* base = nullptr;  // field 0 of the ir::Struct, where there is one
+  StructInfo* base = nullptr;  // field 0 of the ir::Struct, if there is one
   std::vector<FieldInfo> fields;
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;
   bool complete = false;
-  bool is_payload = false;         // its access qualifiers count
-  std::string_view template_name;  // "Pair" of Pair<float>; empty where it is no instance
+  bool is_payload = false;         // its access qualifiers take effect
+  std::string_view template_name;  // "Pair" for Pair<float>; empty if it is not an instance
 };
 
 struct EnumInfo {
@@ -147,7 +147,7 @@ struct EnumInfo {
   bool is_class = false;
 };
 
-// Creates types, once each. Owned by a check; its ir::Types live in the module.
+// Creates each type once. Owned by a check; its ir::Types live in the module.
 class TypeTable {
  public:
   explicit TypeTable(ir::Module& module);

@@ -24,7 +24,7 @@ std::string quote(std::string_view text) {
       out += '\\';
       out += c;
     } else if (byte < 0x20 || byte >= 0x7F) {
-      // Octal: at most three digits, so that it ends by itself.
+      // Octal, because it has at most three digits and so ends by itself.
       out += '\\';
       out += static_cast<char>('0' + (byte >> 6));
       out += static_cast<char>('0' + ((byte >> 3) & 7));
@@ -38,7 +38,8 @@ std::string quote(std::string_view text) {
 
 namespace {
 
-// A group looks up all elements of an array of resources, read or not: worth it for short ones.
+// A group looks up all elements of a resource array, whether read or not, which only pays off for
+// short arrays.
 constexpr uint32_t kMostBoundElements = 16;
 
 }  // namespace
@@ -60,8 +61,8 @@ CppEmitter::CppEmitter(const Module& module, const EmitCppOptions& options)
   }
 }
 
-// Copies of structures cost more than what many functions do with them: a tenth of the instructions
-// of a reflection's closest-hit shader.
+// Copying structures costs more than what many functions do with them: it was a tenth of the
+// instructions of a closest-hit shader for reflections.
 void CppEmitter::collect_parameters_by_reference() {
   for (const Function* function : module_.functions) {
     for (const Variable* parameter : function->parameters) {
@@ -79,7 +80,7 @@ void CppEmitter::collect_parameters_by_reference() {
   }
 }
 
-// Which static globals a function can touch, and how much stack it may need; callees stand before
+// Which static globals a function can touch, and how much stack it may need. Callees come before
 // callers in the module.
 void CppEmitter::collect_static_use() {
   for (const Function* function : module_.functions) {
@@ -112,7 +113,7 @@ void CppEmitter::collect_static_use() {
   }
   // An initialiser may read other static globals.
   for (auto& entry : statics_) {
-    auto& statics = entry.second;  // by name: clang 14 captures no structured binding
+    auto& statics = entry.second;  // by name: clang 14 cannot capture a structured binding
     for (bool grown = true; grown;) {
       const size_t before = statics.size();
       for (const Variable* variable :
@@ -175,8 +176,8 @@ void CppEmitter::emit_context() {
 }
 
 void CppEmitter::emit_signature(const Function& function) {
-  // "inline" is a hint that counts: without it g++ calls functions as small as one that reads a ray
-  // from a buffer, for 2 % of the time of a short ray.
+  // The "inline" hint matters: without it g++ does not inline even a function that only reads a ray
+  // from a buffer, which costs 2 % of the time of a short ray.
   std::string text = "static inline " + type(function.result) + " " + function_names_[&function] +
                      "([[maybe_unused]] Context& ctx";
   for (const Variable* parameter : function.parameters) {
@@ -190,8 +191,8 @@ void CppEmitter::emit_signature(const Function& function) {
   open(text + ") {");
 }
 
-// What a function uses more than once is looked up at its start: the compiler cannot know that a
-// store to a picture leaves the bindings as they are.
+// What a function uses more than once is looked up at its start, because the C++ compiler cannot
+// know that storing to a texture leaves the bindings unchanged.
 void CppEmitter::look_up_once(const Function& function) {
   if (!reads_bound_) return;
   std::map<uint32_t, int> resources, views;
@@ -255,9 +256,10 @@ void CppEmitter::emit_function(const Function& function) {
   resources_found_.clear();
   views_found_.clear();
   at(function.end_location);
-  // Where HLSL code can fall off the end of a function, its result is undefined: zero here. Nothing
-  // behind an only return: it lets the C++ compiler build the variable that is returned in place.
-  // Functions with more returns are better off with it in registers until they end.
+  // If HLSL code can fall off the end of a function, its result is undefined; here it is zero.
+  // Nothing is emitted after an only return, which lets the C++ compiler build the returned
+  // variable in place. Functions with more returns are faster if it stays in registers until they
+  // end.
   if (function.result->kind != TypeKind::kVoid && !ends_in_its_only_return(function)) {
     line("return " + type(function.result) + "{};");
     at(function.end_location);
@@ -315,7 +317,7 @@ std::string CppEmitter::entry_arguments(const EntryPoint& entry) {
   return out;
 }
 
-// Declares `bound` and fills what the entry point can reach.
+// Declares `bound` and fills in what the entry point can reach.
 void CppEmitter::emit_bound(const EntryPoint& entry) {
   if (!binds_per_group_ && !reads_bound_) return;
   std::string used;
@@ -350,7 +352,8 @@ void CppEmitter::emit_compute_entry(size_t index) {
          "}, sizeof(u::Shared), group_" + number + ", nullptr};");
     return;
   }
-  // A group runs its threads itself and binds for all of them; else each thread is on its own.
+  // A group function runs its threads itself and binds for all of them; otherwise each thread binds
+  // for itself.
   const bool in_group = !module_.check_access && !entry.function->has_barrier;
   const bool passes_bound = in_group && binds_per_group_;
   open("static void thread_" + number +
@@ -415,7 +418,7 @@ void CppEmitter::emit_entry(size_t index) {
        std::to_string(index) + "(" + parameters + ") {");
   line("u::Context ctx(invocation);");
   if (entry.attributes != nullptr) {
-    // The backend's buffer; C++ may pad what counts as less in DXR.
+    // The size of the backend's buffer; C++ padding may exceed what DXR counts.
     line("static_assert(sizeof(" + type(entry.attributes) + ") <= 32);");
   }
   payload_check(entry);
@@ -427,7 +430,7 @@ void CppEmitter::emit_entry(size_t index) {
   close("}");
 }
 
-// A loop here is shorter than one that calls the entry point. Not in code for a debugger.
+// A loop here is faster than one that calls the entry point. Not used in code for a debugger.
 bool CppEmitter::emit_row(size_t index) {
   const EntryPoint& entry = module_.entry_points[index];
   if (entry.stage != kStageRayGeneration || module_.check_access ||
@@ -457,7 +460,7 @@ std::string CppEmitter::run() {
   if (wide.any()) line("#include <kaamos/shader/wide_memory.h>");
   if (wide.any()) line("#include <kaamos/shader/wide_stage.h>");
   line("namespace {");
-  // A namespace of its own lets several units stand in one file.
+  // A namespace of its own allows several units in one file.
   line("namespace unit_" + options_.entry_point + " {");
   line("namespace ks = kaamos::shader;");
   line("namespace u {");

@@ -14,26 +14,26 @@
 
 namespace kaamos::hlsl {
 
-// Compute and ray generation shaders that run several threads at once. [wide_plan.h]
+// Which compute and ray generation shaders run several threads at once. [wide_plan.h]
 enum class WideThreads : uint8_t {
   kNever,
-  kWhereFaster,  // ray generation, and groups of as many threads
-  kAlways,       // for tests: wherever it is possible
+  kWhereFaster,  // ray generation, and groups of at least as many threads
+  kAlways,       // for tests: wherever possible
 };
 
 struct EmitCppOptions {
-  // Name of the table's function. Libraries of one program need different names; a library that is
-  // loaded at run time has shader::kLibraryEntryPoint.
+  // Name of the function that returns the table. Libraries linked into one program need different
+  // names; a library that is loaded at run time uses shader::kLibraryEntryPoint.
   std::string entry_point = "kaamos_shader_library";
-  bool line_directives = true;  // `#line`: a debugger and a profiler show the HLSL source
-  // The SPIR-V of each entry point (spirv.h), for the table; empty: a library without it.
+  bool line_directives = true;  // `#line`, so that a debugger or profiler shows the HLSL source
+  // The SPIR-V of each entry point (spirv.h), for the table; if empty, the library has none.
   std::span<const std::vector<uint32_t>> spirv = {};
-  uint32_t flags = 0;        // shader::LibraryFlags besides kLibraryChecked
-  bool split_groups = true;  // compute: cut at barriers where possible, else fibers
+  uint32_t flags = 0;        // shader::LibraryFlags other than kLibraryChecked
+  bool split_groups = true;  // compute: cut at barriers where possible, otherwise use fibers
   WideThreads wide = WideThreads::kWhereFaster;
 };
 
-// The module must come from the checker without errors; emission cannot fail.
+// The module must have passed the checker without errors; emission cannot fail.
 std::string emit_cpp(const ir::Module& module, const EmitCppOptions& options);
 
 }  // namespace kaamos::hlsl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The emitter and the host compiler alone, on a module built by hand; what the front end makes of
-// HLSL goes through both in tests/hlsl.
+// Tests the emitter and the host compiler alone, on a module built by hand; tests/hlsl runs what
+// the front end makes of HLSL through both.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <kaamos/shader/abi.h>
@@ -21,7 +21,7 @@ namespace {
 using namespace ir;
 namespace fs = std::filesystem;
 
-// `results.Store(id * 4, id * 3)` for each of 8 threads of one group.
+// `results.Store(id * 4, id * 3)` for each of the 8 threads of one group.
 struct TripleKernel {
   Module module;
 
@@ -51,7 +51,7 @@ struct TripleKernel {
     module.bindings = {binding};
 
     Variable& id = module.variable_pool.emplace_back();
-    id.name = "register";  // a word of C++'s
+    id.name = "register";  // a C++ keyword
     id.type = &uint;
     id.storage = Storage::kParameter;
     const auto id_value = [&] {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The C++ emitter's state, shared by its files: emit_types.cpp (types, literals, memory access of
-// structs), emit_expressions.cpp, emit_statements.cpp, emit_cpp.cpp (functions, entry points,
-// tables), emit_groups.cpp (compute shaders with barriers). Those that run several threads at once
-// are WideEmitter's.
+// The C++ emitter's state, shared by its files: types.cpp (types, literals, memory access of
+// structs), expressions.cpp, statements.cpp, emit_cpp.cpp (functions, entry points, tables),
+// groups.cpp (compute shaders with barriers). WideEmitter emits those that run several threads at
+// once.
 //
-// The emitted unit: prelude as namespace `ks`, everything of the library in namespace `u`:
-// structs, constants, `u::Context` (one for each shader invocation: the ABI's Invocation, static
-// globals, how the shader ended), functions that take a Context, then entry functions of the ABI's
-// types and the tables.
+// The emitted unit has the prelude as namespace `ks` and everything that belongs to the library in
+// namespace `u`: structs, constants, `u::Context` (one per shader invocation, with the ABI's
+// Invocation, static globals and how the shader ended), functions that take a Context, then entry
+// functions of the ABI's types and the tables.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class CppEmitter {
  private:
   friend class WideEmitter;  // prints into the same unit
 
-  // emit_types.cpp
+  // types.cpp
   std::string type(const ir::Type* type);
   void emit_structs();
   void emit_memory_functions();
@@ -48,12 +48,12 @@ class CppEmitter {
                            const std::string& text);
   static uint64_t bytes_in_place(const ir::Type* type, ir::Layout layout);
   std::string read_function(const ir::Type* structure, ir::Layout layout);
-  // Bytes of a value of the type as C++ stores it, near enough for stack sizes.
+  // Approximate bytes that C++ needs to store a value of the type; close enough for stack sizes.
   uint32_t stack_bytes(const ir::Type* type) const;
 
-  // emit_expressions.cpp
+  // expressions.cpp
   std::string value(const ir::Expr* expr);
-  std::string place(const ir::Expr* expr);  // an lvalue: what may stand left of "="
+  std::string place(const ir::Expr* expr);  // an lvalue, valid to the left of "="
   std::string literal(const ir::Expr& expr);
   std::string scalar_literal(ir::Scalar scalar, uint64_t bits);
   std::string construct(const ir::Expr& expr);
@@ -64,39 +64,40 @@ class CppEmitter {
   std::string query_value(const ir::Expr& expr);
   std::string binding(const ir::Expr& expr);
   bool is_bound(const ir::Expr& expr) const;
-  // A binding that was looked up before, for a group or for all invocations of a ray shader.
+  // Whether the binding was looked up beforehand, for a group or for all invocations of a ray
+  // shader.
   bool is_looked_up(const ir::Expr& resource) const;
-  // `element`: the index into a structured buffer; null for raw and constant buffers. `text` is
-  // asked for the index, and for the buffer unless it was looked up.
+  // `element` is the index into a structured buffer; null for raw and constant buffers. `text`
+  // prints the index, and the buffer unless that was looked up.
   using TextOf = std::function<std::string(const ir::Expr*)>;
   std::string buffer_view(const ir::Expr& buffer, const ir::Expr* element, const TextOf& text);
   std::string bound(const ir::Expr& expr);
   std::string texture(const ir::Expr* expr);  // operand of a texel load or store
   std::string load(const ir::Expr& expr);
-  // The resource operand of an access to memory, in a checked library with the check around it, or
-  // with `result` "_view" what is read or written. `element`: null for raw and constant buffers.
-  // write: 0 read, 1 write, 2 atomic.
+  // The resource operand of a memory access, wrapped in the check in a checked library; with
+  // `result` "_view", it is what is read or written. `element` is null for raw and constant
+  // buffers. write: 0 read, 1 write, 2 atomic.
   std::string accessed(const char* result, const ir::Expr* resource, const ir::Expr* element,
                        const ir::Expr* offset, const ir::Type* type, ir::Layout layout,
                        bool row_major, int write, const ir::Location& location);
-  // CheckReport::site, of the expression or else of the statement that is being printed.
+  // CheckReport::site for the expression, or else for the statement that is being printed.
   std::string site(const ir::Location& location) const;
   std::string typed_load(const ir::Expr& expr);
-  // The same of operands that the caller has printed.
+  // The same for operands that the caller prints.
   std::string sample_text(const ir::Expr& expr, const TextOf& text);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
   std::string variable(const ir::Variable* variable);
-  // Texel coordinates as the ABI wants them: {x, y, z or array element, mip}.
+  // Texel coordinates in the form that the ABI takes: {x, y, z or array element, mip}.
   std::string texel_coordinates(const ir::Type* resource, const ir::Expr* coordinates,
                                 const ir::Expr* mip, const ir::Expr* offset);
   std::string texel_coordinates_text(const ir::Type* resource, const std::string& coordinates,
                                      const std::string& mip, const std::string& offset);
 
-  // emit_statements.cpp
+  // statements.cpp
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
   void begin_statement(const ir::Stmt& stmt);
-  const std::string& name_local(const ir::Variable* variable);  // where it is declared
+  const std::string& name_local(const ir::Variable* variable);  // called where it is declared
   void declare(const ir::Stmt& stmt);
   bool declare_in_place(const ir::Stmt& stmt);
   void assign(const ir::Expr* target, const std::string& value);
@@ -109,7 +110,7 @@ class CppEmitter {
   void loop(const ir::Stmt& stmt);
   void switch_(const ir::Stmt& stmt);
   void payload_check(const ir::EntryPoint& entry);
-  void end_shader();  // return from the function with any value
+  void end_shader();  // returns from the function with any value
 
   // emit_cpp.cpp
   void emit_constants();
@@ -118,7 +119,7 @@ class CppEmitter {
   void emit_signature(const ir::Function& function);
   void emit_function(const ir::Function& function);
   void emit_entry(size_t index);
-  bool emit_row(size_t index);  // ExportDesc::row; false: none
+  bool emit_row(size_t index);  // ExportDesc::row; false if there is none
   void emit_bound(const ir::EntryPoint& entry);
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);
@@ -130,7 +131,7 @@ class CppEmitter {
   void collect_static_use();
   void look_up_once(const ir::Function& function);
 
-  // emit_groups.cpp: compute shaders that are cut at their barriers
+  // groups.cpp: compute shaders that are cut at their barriers
   bool emit_split_group(size_t index);  // false: it must run on fibers
   void emit_group_body(const ir::EntryPoint& entry, const GroupPlan& plan);
   void emit_group_variables(const ir::EntryPoint& entry, const GroupPlan& plan);
@@ -165,7 +166,8 @@ class CppEmitter {
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
   std::vector<bool> has_row_;     // by entry point: ExportDesc::row
-  // Where the elements of each array stand in `bound`, behind what is no array; 0: they do not.
+  // Where the elements of each array start in `bound`, after everything that is not an array; 0 if
+  // they are not there.
   std::vector<uint32_t> bound_elements_;
   uint32_t bound_count_ = 0;
   std::string out_;
@@ -180,29 +182,29 @@ class CppEmitter {
   // Static globals that a function and everything it calls can touch, in the module's order.
   std::unordered_map<const ir::Function*, std::unordered_set<const ir::Variable*>> statics_;
   std::unordered_map<const ir::Function*, uint32_t> stack_;
-  std::unordered_set<const ir::Function*> hit_kind_readers_;  // and what calls them
-  // By binding: what the running function has looked up for all its uses.
+  std::unordered_set<const ir::Function*> hit_kind_readers_;  // and their callers
+  // By binding: what the running function has looked up once for all its uses.
   std::unordered_map<uint32_t, std::string> resources_found_;  // ks::Descriptor
   std::unordered_map<uint32_t, std::string> views_found_;      // ks::MemoryView
-  // Parameters of several words that no statement writes: passed by reference.
+  // Parameters of several words that no statement writes; they are passed by reference.
   std::unordered_set<const ir::Variable*> by_reference_;
   const ir::Function* current_ = nullptr;
   ir::Location statement_location_;
-  // The innermost loops: number of the label that `continue` jumps to.
+  // The enclosing loops, innermost last: the number of the label that `continue` jumps to.
   std::vector<int> loops_;
   std::unordered_set<int> used_labels_;
   int next_label_ = 0;
-  // While a split group is emitted: variables that are declared outside of its pieces, and what
-  // `return` becomes.
+  // While a split group is emitted: the variables that are declared outside its pieces, and what
+  // `return` turns into.
   std::unordered_set<const ir::Variable*> placed_;
   std::string return_text_ = "return;";
 };
 
 // Whether the statements i and i + 1 are `T x;` and `x = f();`.
 bool begins_with_call(const ir::Block& body, size_t i);
-// Whether a loop is one that KAAMOS_UNROLL can stand before.
+// Whether KAAMOS_UNROLL applies to this loop.
 bool is_unrolled(const ir::Stmt& loop);
-// As C++ code that sees the prelude as `ks` writes it: "int32_t", "ks::half".
+// The C++ name in code that sees the prelude as `ks`: "int32_t", "ks::half".
 const char* scalar_name(ir::Scalar scalar);
 // Quoted for C and C++.
 std::string quote(std::string_view text);

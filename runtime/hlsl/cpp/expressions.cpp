@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions. Scalars of 32 and 64 bits use C++'s own operators where these mean the same (emitted
+// Expressions. Scalars of 32 and 64 bits use C++'s own operators where they mean the same (emitted
 // code is compiled with -fwrapv); everything else goes through the prelude's functions.
 #include <bit>
 #include <cmath>
@@ -15,7 +15,7 @@ using namespace ir;
 
 namespace {
 
-// What a descriptor of it must be, as two arguments.
+// The kind of descriptor that it needs, as two arguments.
 std::string descriptor_words(ResourceKind kind) {
   const ResourceClass c = class_of(kind);
   return "ks::DescriptorKind(" + std::to_string(static_cast<int>(c.kind)) +
@@ -36,7 +36,7 @@ bool has_native_operators(const Type* type) {
 
 struct BinaryNames {
   const char* function;
-  const char* native;  // null where C++'s operator means something else
+  const char* native;  // null if C++'s operator means something else
 };
 
 BinaryNames names_of(BinaryOp op) {
@@ -110,7 +110,7 @@ std::string component_list(const std::vector<uint8_t>& components) {
   return out;
 }
 
-// A variable that is a vector, or such a field of one: nothing to evaluate.
+// A vector variable, or a vector field of one: there is nothing to evaluate.
 bool is_vector_in_place(const Expr& expr) {
   if (expr.type->kind != TypeKind::kVector) return false;
   const Expr* place = &expr;
@@ -256,7 +256,7 @@ std::string CppEmitter::element(const Expr& expr, bool as_place) {
                          : indexed->kind == TypeKind::kMatrix ? indexed->rows
                                                               : indexed->columns;
   if (indexed->kind == TypeKind::kScalar) {
-    return base;  // a vector of one component
+    return base;  // a vector with one component
   }
   if (index->kind == ExprKind::kLiteral && index->literal[0] < count) {
     return base + "[" + std::to_string(index->literal[0]) + "]";
@@ -326,7 +326,7 @@ std::string CppEmitter::binding(const Expr& expr) {
   return "ks::resource(ctx.invocation, " + std::to_string(expr.index) + "u, " + index + ")";
 }
 
-// Looked up by the group: compute shaders only, whose functions no ray shader calls.
+// Looked up by the group. This is only for compute shaders, whose functions no ray shader calls.
 bool CppEmitter::is_bound(const Expr& expr) const {
   return binds_per_group_ && expr.kind == ExprKind::kBinding &&
          (expr.operands.empty() || bound_elements_[expr.index] != 0);
@@ -504,7 +504,7 @@ std::string CppEmitter::place(const Expr* e) {
     case ExprKind::kElement:
       return element(expr, true);
     case ExprKind::kSwizzle:
-      // One component: of a vector, or of a scalar, which is itself.
+      // One component of a vector, or of a scalar, which is the scalar itself.
       return expr.operands[0]->type->kind == TypeKind::kScalar
                  ? place(expr.operands[0])
                  : place(expr.operands[0]) + "[" + std::to_string(expr.components[0]) + "]";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute shaders that are cut at their barriers (split_groups.h): one function for the group, a
-// loop over its threads for each piece. What threads keep across pieces lies in arrays with an
-// element for each.
+// Compute shaders that are cut at their barriers (split_groups.h): one function for the group, with
+// a loop over its threads for each piece. What threads keep across pieces is in arrays with one
+// element per thread.
 #include <algorithm>
 
 #include "runtime/hlsl/cpp/emitter.h"
@@ -13,7 +13,7 @@ using namespace ir;
 
 namespace {
 
-// On the stack of the thread that runs the group.
+// A limit, because it is on the stack of the thread that runs the group.
 constexpr uint64_t kMostKeptBytes = 256 * 1024;
 
 uint64_t thread_count(const EntryPoint& entry) {
@@ -45,7 +45,7 @@ bool CppEmitter::emit_split_group(size_t index) {
   open("static void group_" + std::to_string(index) +
        "(ks::Invocation& invocation, ks::ComputeGroup& group) {");
   local_names_.push();
-  // What the emitted code itself calls so; HLSL's variables of these names get others.
+  // Names that the emitted code itself uses; HLSL variables with these names are renamed.
   for (const char* name : {"invocation", "group", "thread", "size", "n", "alive", "ended",
                            "statics", "bound", "used"}) {
     local_names_.declare(name);
@@ -75,7 +75,7 @@ void CppEmitter::emit_group_body(const EntryPoint& entry, const GroupPlan& plan)
 void CppEmitter::emit_group_variables(const EntryPoint& entry, const GroupPlan& plan) {
   const std::string count = std::to_string(thread_count(entry));
   const auto& parameters = entry.function->parameters;
-  // In the module's order of ids, so that the text does not depend on addresses.
+  // Sorted by id in the module, so that the text does not depend on addresses.
   std::vector<const Variable*> variables(plan.uniform.begin(), plan.uniform.end());
   variables.insert(variables.end(), plan.kept.begin(), plan.kept.end());
   std::sort(variables.begin(), variables.end(),
@@ -103,7 +103,7 @@ void CppEmitter::emit_group_variables(const EntryPoint& entry, const GroupPlan& 
   }
 }
 
-// Opens the loop over the threads, with the entry point's parameters in it.
+// Opens the loop over the threads and declares the entry point's parameters in it.
 void CppEmitter::emit_piece_start(const EntryPoint& entry) {
   open("{");
   line("[[maybe_unused]] uint32_t n = 0;");
@@ -129,7 +129,7 @@ void CppEmitter::emit_piece_end() {
   close("}");
 }
 
-// Static globals and the parameters that threads write.
+// Sets up static globals and the parameters that threads write.
 void CppEmitter::emit_first_piece(const EntryPoint& entry, const GroupPlan& plan) {
   const bool has_statics = !statics_[entry.function].empty();
   bool keeps_parameters = false;
@@ -162,7 +162,8 @@ void CppEmitter::emit_threads(const EntryPoint& entry, const GroupPlan& plan,
   open("{");
   block(region.statements);
   close("}");
-  // A label before the end of the loop's body: what the statements declared is out of scope there.
+  // The label is before the end of the loop's body, where the statements' variables are out of
+  // scope.
   if (region.may_return) line(next + ":;");
   if (!statics_[entry.function].empty()) line("statics[n] = ctx.statics;");
   emit_piece_end();

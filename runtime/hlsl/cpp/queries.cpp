@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery: its methods, and the values that it has.
+// RayQuery: its methods and values.
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/cpp/emitter.h"

@@ -60,15 +60,15 @@ void CppEmitter::at_generated() {
   }
 }
 
-// `x` is declared, and begins with what the function of the next statement returns: as `T x = f()`
-// it is neither cleared nor copied.
+// Whether `x` is declared and the next statement assigns a function's result to it: `T x = f()`
+// neither clears nor copies it.
 bool begins_with_call(const Block& body, size_t i) {
   const Stmt& first = *body[i];
   return first.kind == StmtKind::kDeclare && first.value == nullptr && i + 1 < body.size() &&
          body[i + 1]->kind == StmtKind::kCall && body[i + 1]->result == first.variable;
 }
 
-// The compiler wants the condition in its place.
+// The unroll pragma requires a condition in the loop header.
 bool is_unrolled(const Stmt& loop) {
   return loop.unroll > 1 && loop.prelude.empty() && loop.value != nullptr && !loop.test_at_end;
 }
@@ -100,8 +100,8 @@ const std::string& CppEmitter::name_local(const Variable* variable) {
   return variable_names_[variable] = local_names_.declare(variable->name);
 }
 
-// A large constant that is read from memory which nothing writes stays there: most of it is never
-// asked for. A small one is better off in registers.
+// A large constant that is read from read-only memory stays there, because most of it is usually
+// never accessed. A small one is faster in registers.
 constexpr uint64_t kLeastInPlace = 64;
 
 bool CppEmitter::declare_in_place(const Stmt& stmt) {
@@ -129,7 +129,7 @@ bool CppEmitter::declare_in_place(const Stmt& stmt) {
 }
 
 void CppEmitter::declare(const Stmt& stmt) {
-  // The initialiser is printed before the name is declared: `float x = x` means the outer x.
+  // The initialiser is printed before the name is declared: in `float x = x` it means the outer x.
   const std::string initial = stmt.value != nullptr ? " = " + value(stmt.value) : "{}";
   if (placed_.count(stmt.variable) != 0) {
     line(variable(stmt.variable) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The tables of a library: what a backend reads of it without running it. [kaamos/shader/abi.h]
+// The tables of a library: what a backend can read from it without running it.
+// [kaamos/shader/abi.h]
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/cpp/emitter.h"
 #include "runtime/hlsl/ir/payload_layout.h"
@@ -167,7 +168,7 @@ void CppEmitter::emit_tables() {
   line(files + "nullptr};");
   if (!module_.source.empty()) {
     out_ += "static const char source[] =\n";
-    // Compilers read many short literals faster than one long one, and some allow no long ones.
+    // Compilers read many short literals faster than one long one, and some reject long ones.
     for (size_t at = 0; at < module_.source.size(); at += 4000) {
       out_ += quote(std::string_view(module_.source).substr(at, 4000)) + "\n";
     }

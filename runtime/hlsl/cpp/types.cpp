@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Types, and how values of struct and array types travel between variables and memory: C++ lays a
-// struct out its own way, so it is read and written member by member at HLSL's offsets.
+// Types, and how values of struct and array types move between variables and memory: C++ has its
+// own struct layout, so a struct is read and written member by member at HLSL's offsets.
 #include "kaamos/shader/abi.h"
 #include "runtime/hlsl/cpp/emitter.h"
 #include "runtime/hlsl/ir/layout.h"
@@ -29,7 +29,7 @@ uint32_t scalar_bytes(Scalar scalar) {
   }
 }
 
-// Resources are handles: a struct that holds one never lies in a buffer.
+// Resources are handles: a struct that contains one is never in a buffer.
 bool lies_in_memory(const Type* type) {
   switch (type->kind) {
     case TypeKind::kVoid:
@@ -155,8 +155,8 @@ void CppEmitter::emit_structs() {
   }
 }
 
-// Bytes of a `t` that lies in memory as it does in C++, where nothing has an alignment above 4;
-// else 0.
+// The size of a `t` whose memory layout is the same as in C++ and in which nothing has an alignment
+// above 4; otherwise 0.
 uint64_t CppEmitter::bytes_in_place(const Type* t, Layout layout) {
   switch (t->kind) {
     case TypeKind::kScalar:

@@ -37,7 +37,7 @@ void WideEmitter::plan(const EntryPoint& entry) {
   if ((compute || entry.stage == kStageRayGeneration) && !out_.module_.check_access &&
       out_.options_.wide != WideThreads::kNever) {
     const bool where_faster = out_.options_.wide == WideThreads::kWhereFaster;
-    // One thread of eight is slower so than by itself.
+    // A group of fewer threads than lanes is slower this way than thread by thread.
     if (where_faster && compute && threads < 8) {
       reason = "its groups have fewer than 8 threads";
     } else {
@@ -54,7 +54,7 @@ bool WideEmitter::any() const {
                      [](const WideFunction* entry) { return entry != nullptr; });
 }
 
-// Members as the templates of wide.h look for them.
+// Names the members as the templates of wide.h expect them.
 void WideEmitter::emit_structs() {
   for (const Struct* s : out_.module_.structs) {
     Type whole;
@@ -198,7 +198,7 @@ void WideEmitter::emit_function(const WideFunction& function) {
   scope(f.body);
   texel_rows_.clear();
   out_.at(f.end_location);
-  // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
+  // If HLSL code can fall off the end of a function, its result is undefined; here it is zero.
   if (!result_.empty()) {
     line("return " + result_ + ";");
   } else if (!is_void) {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Prints functions that run several threads at once (wide_plan.h), beside the scalar ones of
-// CppEmitter, whose names and text of uniform expressions it uses: emit_wide.cpp (structs,
-// functions, entry points), emit_wide_statements.cpp, emit_wide_expressions.cpp.
+// Prints functions that run several threads at once (wide_plan.h), next to the scalar functions of
+// CppEmitter, from which it takes names and the text of uniform expressions: wide.cpp (structs,
+// functions, entry points), wide_statements.cpp, wide_expressions.cpp.
 //
-// In emitted code a varying value of type T is of T's wide type (wide.h), a uniform one is as in
-// scalar code. Each function has a mask of the threads it runs for, which is never empty. Under a
-// varying condition a copy of the mask is narrowed; where lanes join again, masks are united.
+// In emitted code, a varying value of type T has T's wide type (wide.h); a uniform value has the
+// same type as in scalar code. Each function has a mask of the threads that it runs for, which is
+// never empty. Under a varying condition, a copy of the mask is narrowed; where lanes join again,
+// their masks are united.
 #pragma once
 
 #include <functional>
@@ -25,18 +26,18 @@ class WideEmitter {
  public:
   explicit WideEmitter(CppEmitter& scalar) : out_(scalar) {}
 
-  // For each entry point, before all else.
+  // Call for each entry point before anything is emitted.
   void plan(const ir::EntryPoint& entry);
   bool any() const;
-  // In namespace u: what the functions of the entry points stand on, then these.
+  // Emits, in namespace u, the functions of the entry points and what they depend on.
   void emit_declarations();
-  // The group's function of a compute shader that runs wide; false where it does not.
+  // Emits the group function of a compute shader that runs wide; returns false if it does not.
   bool emit_group(size_t index);
-  // The same of a row of a ray generation shader.
+  // The same for the row function of a ray generation shader.
   bool emit_row(size_t index);
 
  private:
-  // emit_wide.cpp
+  // wide.cpp
   std::string type(const ir::Type* type);
   void emit_structs();
   void emit_context();
@@ -46,9 +47,9 @@ class WideEmitter {
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   void emit_static_initialisers(const ir::Function& function);
 
-  // emit_wide_statements.cpp
-  void block(const ir::Block& body);  // in the scope that stands
-  void scope(const ir::Block& body);  // in braces, and where those go that leave it early
+  // wide_statements.cpp
+  void block(const ir::Block& body);  // in the current scope
+  void scope(const ir::Block& body);  // in braces, with a label for threads that leave it early
   void statement(const ir::Stmt& stmt);
   void declare(const ir::Stmt& stmt);
   void assign(const ir::Stmt& stmt);
@@ -71,8 +72,8 @@ class WideEmitter {
   std::string declare_mask(const std::string& value);
   void declare_texel_row(const ir::Variable* variable, const ir::Expr* value);
 
-  // emit_wide_expressions.cpp
-  std::string value(const ir::Expr* expr);  // wide, of a uniform expression too
+  // wide_expressions.cpp
+  std::string value(const ir::Expr* expr);  // wide, even for a uniform expression
   std::string varying(const ir::Expr& expr);
   std::string place(const ir::Expr* expr);
   std::string call(std::string_view function, const std::vector<const ir::Expr*>& arguments);
@@ -83,16 +84,16 @@ class WideEmitter {
   std::string logical(const ir::Expr& expr);
   std::string load(const ir::Expr& expr);
   std::string typed_load(const ir::Expr& expr);
-  // As the prelude's load_texels and store_texels take them. [wide_memory.h: TexelRow]
+  // In the form that the prelude's load_texels and store_texels take. [wide_memory.h: TexelRow]
   std::string texel_coordinates(const ir::Expr* at);
   std::string texel_row(const ir::Expr* at);
   bool has_texel_row(const ir::Variable* variable) const;
   std::string sample(const ir::Expr& expr);
   std::string dimensions(const ir::Expr& expr);
-  // `[&](const ks::lanes& name) { return text; }` with the text under that mask.
+  // `[&](const ks::lanes& name) { return text; }`, where the text runs under that mask.
   std::string under_mask(const std::function<std::string()>& text);
-  // Operands of an access that is done lane by lane: each as a capture of a lambda, and as what
-  // one lane has of it.
+  // Operands of an access that is done lane by lane: the captures of its lambda, and the text by
+  // which one lane refers to each operand.
   struct LaneOperands {
     std::string captures;
     std::unordered_map<const ir::Expr*, std::string> text;
@@ -101,7 +102,7 @@ class WideEmitter {
   std::string buffer_view(LaneOperands& operands, const std::vector<const ir::Expr*>& accessed,
                           bool element);
   std::string gather(const ir::Expr& expr, const LaneOperands& operands, const std::string& text);
-  // Name of a member of a wide struct, which also has members of its own.
+  // The name of a field in a wide struct, which also has members of its own.
   std::string field(const ir::Expr& expr);
 
   bool is_varying(const ir::Expr* expr) const { return current_->is_varying(expr); }
@@ -113,20 +114,20 @@ class WideEmitter {
   CppEmitter& out_;
   WidePlan plan_;
   std::vector<const WideFunction*> entries_;  // by entry point; null: scalar
-  bool has_rows_ = false;                     // ray generation shaders among them
+  bool has_rows_ = false;                     // whether ray generation shaders are among them
   std::unordered_map<const WideFunction*, std::string> names_;
   std::unordered_map<const ir::Struct*, std::string> struct_names_;
   std::unordered_set<const WideFunction*> emitted_;
   std::unordered_map<const ir::Variable*, std::string> texel_rows_;  // names, in this function
 
   const WideFunction* current_ = nullptr;
-  std::string mask_;       // name of the mask that the statement runs under
-  std::string restarted_;  // of the innermost loop: name of the mask of those that continue
-  std::string gone_;       // name of the mask of those that have returned; empty: none do
-  std::string result_;     // name of what they returned
-  int skip_label_ = 0;     // number of the label behind the innermost scope
+  std::string mask_;       // mask that the statement runs under
+  std::string restarted_;  // mask of the threads that continue the innermost loop
+  std::string gone_;       // mask of the threads that have returned; empty: none do
+  std::string result_;     // what they returned
+  int skip_label_ = 0;     // number of the label after the innermost scope
   bool skip_used_ = false;
-  std::vector<int> loops_;  // numbers of the labels that `continue` of all threads jumps to
+  std::vector<int> loops_;  // labels that `continue` jumps to when all threads do
 };
 
 }  // namespace kaamos::hlsl

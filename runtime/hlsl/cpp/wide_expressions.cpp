@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions of varying values. Uniform ones are those of the scalar emitter, spread over the
-// lanes where a varying one is wanted. What can read outside of a buffer without bounds is done
-// under the mask of the lanes that want it.
+// Expressions with varying values. Uniform ones come from the scalar emitter and are spread over
+// the lanes if a varying value is needed. Anything that can read outside a buffer without bounds is
+// done under the mask of the lanes that need it.
 #include <algorithm>
 
 #include "runtime/hlsl/cpp/wide_emitter.h"
@@ -69,8 +69,8 @@ const char* function_of(BinaryOp op) {
   return "";
 }
 
-// Whether the prelude's function of the intrinsic takes wide values of the scalar type: those that
-// work component by component do, and geometry of what registers hold.
+// Whether the prelude's function for the intrinsic takes wide values of the scalar type:
+// component-wise functions do, and so does geometry on types that fit registers.
 bool takes_wide(Intrinsic intrinsic, Scalar scalar) {
   switch (intrinsic) {
     case Intrinsic::determinant:
@@ -213,7 +213,7 @@ std::string WideEmitter::gather(const Expr& expr, const LaneOperands& operands,
          "](int lane_number) KAAMOS_INLINE_LAMBDA { return " + text + "; })";
 }
 
-// Of one lane. `accessed`: operands of a load or a store.
+// The buffer view for one lane. `accessed` are the operands of a load or a store.
 std::string WideEmitter::buffer_view(LaneOperands& operands,
                                      const std::vector<const Expr*>& accessed, bool element) {
   for (const Expr* operand : accessed) {
@@ -227,7 +227,7 @@ std::string WideEmitter::buffer_view(LaneOperands& operands,
 std::string WideEmitter::load(const Expr& expr) {
   LaneOperands operands;
   const bool element = expr.kind == ExprKind::kLoadElement;
-  // What says where the lanes read, if it is one thing.
+  // The one operand that says where the lanes read, if only one is varying.
   const Expr* at = element ? expr.operands[1] : expr.operands.back();
   const bool is_at =
       std::all_of(expr.operands.begin(), expr.operands.end(),
@@ -255,7 +255,8 @@ bool WideEmitter::has_texel_row(const Variable* variable) const {
          (t->scalar == Scalar::kInt32 || t->scalar == Scalar::kUint32);
 }
 
-// What is known of texel coordinates from others that they are some way away from; empty: nothing.
+// The row known for texel coordinates that are a uniform distance away from others; empty if none
+// is known.
 std::string WideEmitter::texel_row(const Expr* at) {
   if (at->kind == ExprKind::kVariable) {
     const auto known = texel_rows_.find(at->variable);
@@ -382,7 +383,7 @@ std::string WideEmitter::varying(const Expr& expr) {
     case ExprKind::kSystemValue:
       return "ctx.rays_index";
     default:
-      return "";  // never varying, or the plan has refused it
+      return "";  // never varying, or rejected by the plan
   }
 }
 

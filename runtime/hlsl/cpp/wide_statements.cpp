@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Statements under masks. A jump takes lanes out of the mask that it stands under; masks of what
-// stands around join what is left. A scope whose mask has become empty is left.
+// Statements under masks. A jump removes lanes from the mask that it runs under; the masks of
+// enclosing statements are then combined with what is left. A scope whose mask has become empty is
+// left.
 #include <algorithm>
 
 #include "runtime/hlsl/cpp/wide_emitter.h"
@@ -71,7 +72,7 @@ void WideEmitter::declare(const Stmt& stmt) {
   if (stmt.value != nullptr) declare_texel_row(stmt.variable, stmt.value);
 }
 
-// Of a variable that keeps its value; `value`: null for a parameter.
+// For a variable that never changes; `value` is null for a parameter.
 void WideEmitter::declare_texel_row(const Variable* variable, const Expr* value) {
   if (!has_texel_row(variable)) return;
   std::string row = value != nullptr ? texel_row(value) : "";
@@ -81,7 +82,7 @@ void WideEmitter::declare_texel_row(const Variable* variable, const Expr* value)
   texel_rows_[variable] = name;
 }
 
-// Another element in each lane.
+// Writes to a different element in each lane.
 void WideEmitter::write_lanes(const Expr* target, const std::string& text) {
   LaneOperands operands;
   const auto path = [&](const auto& self, const Expr& expr) -> std::string {
@@ -204,7 +205,8 @@ void WideEmitter::atomic(const Stmt& stmt) {
   close("});");
 }
 
-// Where all rays are traced alike the backend gets them at once, else one after the other.
+// If all rays are traced with the same parameters, the backend gets them together, otherwise one by
+// one.
 void WideEmitter::trace_ray(const Stmt& stmt) {
   const std::string payload = out_.variable(stmt.place->variable);
   const Expr* ray = stmt.operands.back();
@@ -261,7 +263,7 @@ void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
   }
 }
 
-// if (condition) continue; without a branch.
+// Emits `if (condition) continue;` without a branch.
 bool WideEmitter::masked_leave(const Stmt& stmt) {
   if (stmt.body.size() != 1 || !stmt.orelse.empty()) return false;
   const Stmt& jump = *stmt.body[0];
@@ -317,7 +319,7 @@ void WideEmitter::if_(const Stmt& stmt) {
   close("}");
 }
 
-// `mask`: of the loop; narrowed by those that leave it from the body.
+// `mask` is the loop's; threads that leave the loop from its body are removed from it.
 void WideEmitter::loop_body(const Stmt& stmt, const std::string& mask) {
   const int label = out_.next_label_++;
   const bool restarts = facts(stmt).masked_continue;
@@ -373,7 +375,7 @@ void WideEmitter::loop(const Stmt& stmt) {
   skip_used_ = outer_used;
 }
 
-// Case by case: those that a label is for join those that ran on from the case before.
+// Case by case: the threads that match a label join those that fall through from the previous case.
 void WideEmitter::masked_switch(const Stmt& stmt) {
   const std::string outer = mask_;
   const std::string selector_type = type(stmt.value->type);
@@ -486,7 +488,7 @@ void WideEmitter::statement(const Stmt& stmt) {
     case StmtKind::kReturn:
       return facts(stmt).masked ? masked_jump(stmt) : return_(stmt);
     default:
-      break;  // the plan has refused them
+      break;  // rejected by the plan
   }
 }
 

@@ -91,7 +91,7 @@ const std::vector<Option>& options() {
       {"-enable-16bit-types", false, flag(&Arguments::native_16bit), ""},
       {"-enable-payload-qualifiers", false,
        [](Arguments& a, const std::string&) {
-         // The other one wins, wherever it stands.
+         // -disable-payload-qualifiers wins, wherever it appears.
          a.payload_qualifiers = a.payload_qualifiers.value_or(true);
          return true;
        },
@@ -131,11 +131,12 @@ const std::vector<Option>& options() {
       {"-help", false, flag(&Arguments::help), ""},
       {"--help", false, flag(&Arguments::help), ""},
       {"-h", false, flag(&Arguments::help), ""},
+      {"--version", false, flag(&Arguments::version), ""},
   };
   return table;
 }
 
-// The option of a word; "-Ifolder" and "-DNAME" carry their value with them.
+// The option for a word; "-Ifolder" and "-DNAME" have their value attached.
 const Option* find_option(const std::string& word, std::string& attached) {
   for (const Option& option : options()) {
     if (word == option.name) return &option;
@@ -173,7 +174,7 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
     }
     if (option->takes_value && value.empty()) {
       if (++i == words.size()) {
-        error = std::string(option->name) + " needs a value behind it; -help lists the options";
+        error = std::string(option->name) + " needs a value after it; -help lists the options";
         return std::nullopt;
       }
       value = words[i];
@@ -183,7 +184,7 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
       return std::nullopt;
     }
   }
-  if (out.help) return out;
+  if (out.help || out.version) return out;
   if (out.source.empty()) {
     error = "no source file given; -help lists the options";
     return std::nullopt;
@@ -193,7 +194,7 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
     return std::nullopt;
   }
   if (!out.dependency_file.empty() && out.output.empty()) {
-    error = "-MF needs the name of what is made: give it with -Fo";
+    error = "-MF needs the name of the output: give it with -Fo";
     return std::nullopt;
   }
   return out;
@@ -212,28 +213,30 @@ As in DXC:
   -default-linkage external every non-static function is an export
   -auto-binding-space N     space of resources without a register
   -enable-payload-qualifiers, -disable-payload-qualifiers
-                            access qualifiers of payloads count (default from lib_6_7 on)
+                            payload access qualifiers take effect (default from lib_6_7 on)
   -enable-16bit-types       half, int16_t and uint16_t are 16 bits wide
   -Zpr, -Zpc                matrices are row- or column-major (default) in memory
   -WX, -no-warnings         warnings are errors, or are not shown
   -Zi                       with -emit object: for a debugger
   -Fo FILE, -o FILE         where to write (default: standard output)
+  -help, --version          prints this text, or which Kaamos this is
 Of its own:
-  -check                    checks only, writes nothing
+  -check                    only checks the source, writes nothing
   -emit cpp|ir|reflection|object|glsl|spirv
                             what to write: C++ (default), the typed intermediate form, the exports
                             and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
                             the GLSL of every export, or the SPIR-V of the only one
-  -no-spirv                 C++ and objects without SPIR-V: they run on the CPU only
-  -check-access             code that looks for what DXR leaves undefined, and tells the device:
-                            root descriptors that are left, wrong descriptors, NaN rays; slower
-  -no-source                leaves out the source, from which a checked device makes that code of
-                            a library that was compiled without -check-access
+  -no-spirv                 C++ and objects without SPIR-V: they only run on the CPU
+  -check-access             code that checks for what DXR leaves undefined and reports it to the
+                            device: accesses outside root descriptors, wrong descriptors, NaN rays;
+                            slower
+  -no-source                leaves out the source, from which a checked device compiles that code
+                            for a library that was compiled without -check-access
   -no-wide                  compute and ray generation shaders run thread by thread, never 8
                             threads at once
-  --strict                  refuses what DXC refuses, also where Kaamos could go on
+  --strict                  refuses what DXC refuses, even if Kaamos could accept it
   --entry-function NAME     name of the C function that returns the library's table
-  -MF FILE                  writes the files that were read as a make rule
+  -MF FILE                  writes a make rule with the files that were read
 )";
 }
 

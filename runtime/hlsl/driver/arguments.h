@@ -35,13 +35,14 @@ struct Arguments {
   bool no_source = false;
   bool no_wide = false;
   Emit emit = Emit::kCpp;
-  std::string output;           // empty: standard output; kObject: required
+  std::string output;           // empty: standard output; required with kObject
   std::string dependency_file;  // -MF: a makefile rule for ninja and make
   std::string entry_function = "kaamos_shader_library";
   bool help = false;
+  bool version = false;
 };
 
-// An error text in `error` says which argument is wrong, what is allowed, and points to -help.
+// The text in `error` says which argument is wrong and what is allowed, and points to -help.
 std::optional<Arguments> parse_arguments(const std::vector<std::string>& words, std::string& error);
 
 const char* help_text();

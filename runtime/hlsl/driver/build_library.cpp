@@ -13,14 +13,15 @@ SharedObject build_library(const HostCompiler& compiler, const ir::Module& modul
                            const BuildOptions& options) {
   const uint32_t flags =
       options.optimisation == Optimisation::kDebug ? uint32_t{shader::kLibraryDebug} : 0u;
-  // A debugger shows one thread after the other.
+  // A debugger should show one thread after another.
   const bool is_wide = options.wide && flags != shader::kLibraryDebug;
   const WideThreads wide = is_wide ? WideThreads::kWhereFaster : WideThreads::kNever;
   std::string content = emit_cpp(module, {.flags = flags, .wide = wide});
   if (!options.spirv) {
     return build_shared_object(compiler, content, options.optimisation, options.cache);
   }
-  // The GLSL stands for the SPIR-V, which takes many times longer to make.
+  // The GLSL takes the place of the SPIR-V in the key, because SPIR-V takes many times longer to
+  // make.
   std::vector<GlslShader> shaders;
   for (const ir::EntryPoint& entry : module.entry_points) {
     shaders.push_back(emit_glsl(module, entry));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// From the intermediate representation to a shared object with the native code and the SPIR-V of
-// every export.
+// Turns the intermediate representation into a shared object that holds the native code and the
+// SPIR-V of every export.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,7 @@ struct BuildOptions {
   std::filesystem::path cache = cache_folder();
 };
 
-// What the cache has is neither compiled nor turned into SPIR-V again.
+// Whatever the cache already has is neither compiled nor turned into SPIR-V again.
 SharedObject build_library(const HostCompiler& compiler, const ir::Module& module,
                            const BuildOptions& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// kaamos-hlsl as it is called from a shell: exit status, what it prints, what it writes.
+// kaamos-hlsl as called from a shell: its exit status, what it prints and what it writes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -85,7 +85,7 @@ TEST_F(Driver, WrongCommandLines) {
       {"-foo main.hlsl", "kaamos-hlsl: unknown option \"-foo\"; -help lists the options\n"},
       {"main.hlsl kernel.hlsl",
        "kaamos-hlsl: two source files, \"main.hlsl\" and \"kernel.hlsl\": give one\n"},
-      {"main.hlsl -T", "kaamos-hlsl: -T needs a value behind it; -help lists the options\n"},
+      {"main.hlsl -T", "kaamos-hlsl: -T needs a value after it; -help lists the options\n"},
       {"-HV 2017 main.hlsl", "kaamos-hlsl: -HV 2017: the value must be 2018 or 2021\n"},
       {"-emit exe main.hlsl",
        "kaamos-hlsl: -emit exe: the value must be cpp, ir, reflection, object, glsl or spirv\n"},
@@ -96,7 +96,7 @@ TEST_F(Driver, WrongCommandLines) {
       {"--entry-function 1a main.hlsl",
        "kaamos-hlsl: --entry-function 1a: the value must be a C identifier\n"},
       {"-emit object main.hlsl", "kaamos-hlsl: -emit object needs a file name: give it with -Fo\n"},
-      {"-MF rule main.hlsl", "kaamos-hlsl: -MF needs the name of what is made: give it with -Fo\n"},
+      {"-MF rule main.hlsl", "kaamos-hlsl: -MF needs the name of the output: give it with -Fo\n"},
   };
   for (const auto& one : cases) {
     const Outcome outcome = run(one.arguments);
@@ -207,7 +207,7 @@ TEST_F(Driver, Exports) {
   const Outcome unknown = run(reflect + "-exports nobody");
   EXPECT_EQ(unknown.status, 1);
   EXPECT_EQ(unknown.error,
-            "error: export 'nobody' is asked for, but there is no such function [KA2577]\n"
+            "error: cannot export 'nobody': there is no such function [KA2577]\n"
             "1 error\n");
   EXPECT_EQ(run(reflect + "-exports '=Main'").status, 1);
 }
@@ -224,10 +224,10 @@ TEST_F(Driver, ComputeTargets) {
   EXPECT_EQ(kernel.status, 0) << kernel.error;
   EXPECT_THAT(kernel.out, HasSubstr("\"name\": \"kernel\""));
   EXPECT_EQ(run("-T cs_6_0 -E nobody kernel.hlsl").error,
-            "error: there is no function 'nobody', the entry point asked for [KA2562]\n1 error\n");
+            "error: entry point 'nobody' not found [KA2562]\n1 error\n");
   const Outcome pixel = run("-T ps_6_0 kernel.hlsl");
   EXPECT_EQ(pixel.status, 1);
-  EXPECT_THAT(pixel.error, HasSubstr("target 'ps_6_0' is not known"));
+  EXPECT_THAT(pixel.error, HasSubstr("unknown target 'ps_6_0'"));
 }
 
 TEST_F(Driver, WarningsAsErrors) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The form: a mark, then strings with their lengths in front, in a fixed order.
+// The format is a marker, then length-prefixed strings in a fixed order.
 #include "runtime/hlsl/driver/embedded_source.h"
 
 #include <charconv>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a library was compiled from, as one text that the library carries: every file that was read,
-// and the options. From it the library's checked variant is made where and when one is wanted, and
-// `#include` finds what it found.
+// What a library was compiled from, as one text that the library carries: the options and every
+// file that was read. It lets the library's checked variant be compiled where and when one is
+// wanted, with every `#include` finding the same files.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct EmbeddedSource {
   FrontendOptions options;
   MemoryFileLoader files;
 };
-// Empty: `text` is none of embed_source.
+// Empty if `text` was not made by embed_source.
 std::optional<EmbeddedSource> read_embedded_source(std::string_view text);
 
 }  // namespace kaamos::hlsl

@@ -21,7 +21,7 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
   return parts;
 }
 
-// lib_6_3 or cs_6_6: the digit behind "6_"; x counts as 8. -1: another profile.
+// For lib_6_3 or cs_6_6, the digit after "6_", where x counts as 8; -1 for any other profile.
 int minor_version(const std::string& target) {
   const bool known = (target.starts_with("lib_6_") && target.size() == 7) ||
                      (target.starts_with("cs_6_") && target.size() == 6);

@@ -17,8 +17,8 @@
 namespace kaamos::hlsl {
 
 struct FrontendOptions {
-  std::string path;                 // of the main file; with `text`, its name in messages
-  std::optional<std::string> text;  // the source itself; empty: the file is read
+  std::string path;                 // path of the main file; with `text`, its name in messages
+  std::optional<std::string> text;  // the source itself; if empty, the file is read
   std::vector<std::string> include_folders;
   std::vector<std::string> defines;  // "NAME" or "NAME=VALUE"
   std::string target = "lib_6_6";    // lib_6_3 .. lib_6_8, lib_6_x, cs_6_0 .. cs_6_8
@@ -29,19 +29,19 @@ struct FrontendOptions {
   uint32_t hlsl_version = 2021;      // [-HV]
   bool native_16bit = false;         // [-enable-16bit-types]
   bool row_major = false;            // [-Zpr]; false is [-Zpc]
-  // -enable-payload-qualifiers, -disable-payload-qualifiers; empty: from lib_6_7 on.
+  // -enable-payload-qualifiers, -disable-payload-qualifiers; if empty, on from lib_6_7 up.
   std::optional<bool> payload_qualifiers = {};
   bool check_access = false;  // Module::check_access
   bool embed_source = true;   // Module::source
-  bool strict = false;        // refuse what DXC refuses; give it to the engine as well
+  bool strict = false;        // refuse what DXC refuses; the diagnostic engine needs it too
 };
 
-// Null where there is an error; it then stands in `diagnostics`. `sources` must outlive the
-// rendering of the diagnostics, and lists the files that were read.
+// Returns null after an error, which is then in `diagnostics`. `sources` must outlive the rendering
+// of the diagnostics, and lists the files that were read.
 std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
                                           DiagnosticEngine& diagnostics);
 
-// "A;B1,B2=C" to requests. Empty: `text` has no such form.
+// Parses "A;B1,B2=C" into requests. Empty if `text` does not have that form.
 std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text);
 
 }  // namespace kaamos::hlsl

@@ -53,7 +53,7 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
 }
 
-// The program's full path; a name without a slash is looked for in $PATH.
+// The program's full path; a name without a slash is searched for in $PATH.
 fs::path find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) {
     return is_program(name) ? fs::path(name) : fs::path();
@@ -74,9 +74,9 @@ std::string read_file(const fs::path& path) {
 }
 
 const std::vector<std::string>& flags_of(Optimisation optimisation) {
-  // -fwrapv: HLSL's integers wrap. -ffp-contract=off: no fused operations that the source does not
-  // ask for. -fno-math-errno, -fno-trapping-math: nobody looks at errno or the exception flags.
-  // -fstack-clash-protection: variables that do not fit the stack meet the page that guards it.
+  // -fwrapv: HLSL integers wrap. -ffp-contract=off: no fused operations that the source does not
+  // ask for. -fno-math-errno, -fno-trapping-math: nothing looks at errno or the exception flags.
+  // -fstack-clash-protection: variables that do not fit the stack hit its guard page.
   static const std::vector<std::string> common = {"-std=c++20",
                                                   "-fPIC",
                                                   "-shared",
@@ -95,12 +95,12 @@ const std::vector<std::string>& flags_of(Optimisation optimisation) {
     return more;
   };
   static const std::vector<std::string> none = with({"-O0"});
-  // No inlining of HLSL functions and a frame pointer: the stack shows every function of the
-  // shader.
+  // HLSL functions are not inlined and there is a frame pointer, so that the stack shows every
+  // shader function.
   static const std::vector<std::string> debug =
       with({"-Og", "-g", "-fno-inline-functions-called-once", "-fno-inline-small-functions",
             "-fno-optimize-sibling-calls", "-fno-omit-frame-pointer"});
-  // For this machine's registers, as libraries that are compiled with a program are.
+  // Uses this machine's registers, as libraries that are compiled along with a program do.
   static const std::vector<std::string> full =
       shader::cpu_level() == shader::CpuLevel::kAvx2 ? with({"-O2", "-mavx2"}) : with({"-O2"});
   switch (optimisation) {
@@ -128,7 +128,7 @@ std::string cache_key(const HostCompiler& compiler, const std::string& source,
   for (const std::string& flag : flags_of(optimisation)) {
     all += '\0' + flag;
   }
-  // Path, size and time name a compiler without the cost of starting it.
+  // Path, size and time identify a compiler without the cost of starting it.
   std::error_code ignored;
   const fs::path program = fs::canonical(compiler.program, ignored);
   all += '\0' + program.string() + '\0' + std::to_string(fs::file_size(program, ignored)) + '\0' +
@@ -145,7 +145,8 @@ std::string cache_key(const HostCompiler& compiler, const std::string& source,
   return hex(XXH3_128bits(all.data(), all.size()));
 }
 
-// Runs a program to its end; its output goes to `log`. Returns its exit code, or -1 with errno.
+// Runs a program until it exits, with its output going to `log`. Returns its exit code, or -1 with
+// errno.
 int run_program(const std::vector<std::string>& words, const fs::path& log) {
   std::vector<char*> arguments;
   for (const std::string& word : words) {
@@ -258,7 +259,7 @@ SharedObject build_shared_object(const HostCompiler& compiler, const std::string
   if (out.error) {
     return out;
   }
-  // A folder of this build's own; the object moves out of it in one step.
+  // Each build has its own folder; the object is moved out of it in one step.
   std::string work = (cache / "build-XXXXXX").string();
   if (mkdtemp(work.data()) == nullptr) {
     out.error.text = "cannot write to the shader cache " + cache.string() + ": " +

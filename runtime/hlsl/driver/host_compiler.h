@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Builds emitted C++ into a shared object with the machine's own compiler, and keeps what it built
-// in a cache whose keys are the content: source, flags, compiler and shader headers.
+// Builds emitted C++ into a shared object with the machine's own compiler, and caches the result.
+// The cache key covers the source, flags, compiler and shader headers.
 #pragma once
 
 #include <filesystem>
@@ -26,24 +26,24 @@ struct SharedObject {
   BuildFailure error;  // what, which program, its first messages, what to do
 };
 
-// `wanted`, else $KAAMOS_CXX, else the compiler that built Kaamos, else c++, g++, clang++ in $PATH.
-// The headers:
-// $KAAMOS_SHADER_INCLUDE, else the installed or the source folder. `error` is set where one of them
-// is missing.
+// The compiler is `wanted`, else $KAAMOS_CXX, else the one that built Kaamos, else c++, g++ or
+// clang++ in $PATH. The headers are in $KAAMOS_SHADER_INCLUDE, else in the installed or the source
+// folder. Sets `error` if either is missing.
 std::optional<HostCompiler> find_host_compiler(std::string& error, const std::string& wanted = {});
 
-// $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a folder in /tmp of
-// this user.
+// $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a per-user folder in
+// /tmp.
 std::filesystem::path cache_folder();
 
-// Builds `source` unless the cache has it. Safe to call from many processes and threads at once:
-// the object appears under its name only when it is complete.
+// Builds `source` unless it is in the cache. Many processes and threads may call it at once: the
+// object appears under its name only when it is complete.
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,
                                  Optimisation optimisation,
                                  const std::filesystem::path& cache = cache_folder());
 
-// The same where the source is costly to make: `content` has everything that it depends on, and
-// `make_source` runs only if the cache has no object. It sets `error` where it cannot.
+// The same for a source that is expensive to make: `content` holds everything that the source
+// depends on, and `make_source` runs only if the object is not in the cache. On failure,
+// `make_source` sets `error`.
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& content,
                                  const std::function<std::string(BuildFailure& error)>& make_source,
                                  Optimisation optimisation, const std::filesystem::path& cache);

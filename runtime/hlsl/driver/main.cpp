@@ -51,7 +51,7 @@ FrontendOptions frontend_options(const Arguments& arguments) {
   return options;
 }
 
-// Writes to a name of its own first, so that an interrupted run leaves no half of a file. Returns
+// Writes to a temporary name first, so that an interrupted run does not leave half a file. Returns
 // the exit status.
 int write_file(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".new";
@@ -71,7 +71,7 @@ int write_file(const std::string& path, const std::string& text) {
   return fail("cannot write " + path + ": " + failed.message());
 }
 
-// "output: source header ..." with spaces escaped as make and ninja read them.
+// "output: source header ..." with spaces escaped the way make and ninja expect.
 std::string make_rule(const std::string& output, const std::vector<std::string>& inputs) {
   std::string rule = output + ":";
   for (const std::string& input : inputs) {
@@ -100,7 +100,7 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
   return failed ? fail("cannot write " + arguments.output + ": " + failed.message()) : 0;
 }
 
-// To the file asked for, or to standard output.
+// Writes to the requested file, or to standard output.
 int write_output(const Arguments& arguments, const std::string& text) {
   if (arguments.output.empty()) {
     std::cout << text << std::flush;
@@ -152,7 +152,7 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
   return write_output(arguments, text);
 }
 
-// DXC has no warning about bodies that nothing reaches: what passes its -WX passes here.
+// DXC has no warning about unreached bodies, so what passes with its -WX must pass here too.
 bool has_warning_for_wx(const DiagnosticEngine& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
     if (diagnostic.severity == Severity::kWarning && diagnostic.id != DiagnosticId::kSkipped) {
@@ -191,6 +191,10 @@ int main(int argc, char** argv) {
   if (!arguments) return fail(error, kBadUsage);
   if (arguments->help) {
     std::fputs(help_text(), stdout);
+    return 0;
+  }
+  if (arguments->version) {
+    std::puts("kaamos-hlsl " KAAMOS_VERSION);
     return 0;
   }
   return compile(*arguments);

@@ -140,7 +140,7 @@ std::string reflect_json(const Module& module) {
   for (const Subobject& subobject : module.subobjects) {
     json["subobjects"].push_back({{"name", subobject.name}, {"type", subobject.type}});
   }
-  // Names may hold bytes that are no UTF-8: they are shown, not thrown on.
+  // Names may contain bytes that are not UTF-8: they are replaced instead of throwing an exception.
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

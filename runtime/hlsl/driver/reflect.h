@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a library exports and binds, as JSON for tools and people.
+// What a library exports and binds, as JSON for tools and human readers.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace kaamos::hlsl {
 
 // {"name", "target", "exports": [{"name", "mangled", "stage", ...}], "bindings": [...],
-// "subobjects": [...]}, ends with a line end.
+// "subobjects": [...]}, followed by a newline.
 std::string reflect_json(const ir::Module& module);
 
 }  // namespace kaamos::hlsl

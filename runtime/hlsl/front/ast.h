@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The syntax tree of one HLSL translation unit, as written: no name is resolved, no type is
-// computed. Nodes are plain structs that live in an AstArena and are immutable once parsed; text
-// (std::string_view) points into the sources or the arena and lives as long as both do.
+// The syntax tree of one HLSL translation unit, as written: names are not resolved and types are
+// not computed. Nodes are plain structs that live in an AstArena and are immutable once parsed;
+// text (std::string_view) points into the sources or the arena and lives as long as both do.
 //
 // `location` is the token that a diagnostic about the node should point at: the operator of a
 // binary expression, the member's name of a member access, the name of a declaration.
@@ -27,13 +27,13 @@ struct VariableDecl;
 
 // ---- Names, modifiers, annotations --------------------------------------------------------------
 
-// Words in front of a declaration or a type, as a bit set. const, volatile, row_major,
+// Keywords in front of a declaration or a type, as a bit set. const, volatile, row_major,
 // column_major, snorm and unorm are kept on TypeSyntax::modifiers; all others on Decl::modifiers.
 using Modifiers = uint32_t;
 enum Modifier : Modifiers {
   kModConst = 1u << 0,
   kModVolatile = 1u << 1,
-  kModRowMajor = 1u << 2,  // Also set where `#pragma pack_matrix` decides.
+  kModRowMajor = 1u << 2,  // Also set where `#pragma pack_matrix` says so.
   kModColumnMajor = 1u << 3,
   kModSnorm = 1u << 4,
   kModUnorm = 1u << 5,
@@ -75,7 +75,7 @@ struct NamePart {
 
 // `a`, `::a`, `ns::Type<float>::member`. Always has at least one part.
 struct QualifiedName {
-  SourceLocation location;  // Of the last part.
+  SourceLocation location;  // The last part's location.
   bool is_global = false;   // Starts with `::`.
   std::span<const NamePart> parts;
 
@@ -85,14 +85,14 @@ struct QualifiedName {
 
 // [shader("miss")], [numthreads(8,8,1)], [[vk::binding(0, 1)]].
 struct Attribute {
-  SourceLocation location;  // Of the name.
+  SourceLocation location;  // The name's location.
   std::string_view scope;   // "vk" of [[vk::binding]]; empty otherwise.
-  std::string_view name;    // As written; HLSL compares attribute names without case.
+  std::string_view name;    // As written; attribute names are case-insensitive in HLSL.
   bool is_double_bracket = false;
   std::span<const Expr* const> arguments;
 };
 
-// `: SV_Target3`; compared without case.
+// `: SV_Target3`; semantics are case-insensitive.
 struct Semantic {
   SourceLocation location;
   std::string_view text;  // "SV_Target3".
@@ -103,8 +103,7 @@ struct Semantic {
 // `: register(t3, space1)`, `: register(space1)`.
 struct RegisterBinding {
   SourceLocation location;
-  char register_class =
-      0;  // Lower case 't', 'u', 'b', 's', 'c', 'i'; 0 where only a space is given.
+  char register_class = 0;  // Lower case 't', 'u', 'b', 's', 'c', 'i'; 0 if only a space is given.
   uint32_t number = 0;
   uint32_t space = 0;
   bool has_space = false;
@@ -119,7 +118,7 @@ struct PackOffset {
 
 struct PayloadStage {
   SourceLocation location;
-  std::string_view name;  // caller, closesthit, miss, anyhit; checked by the checker.
+  std::string_view name;  // caller, closesthit, miss, anyhit; the checker validates it.
 };
 
 // `: read(caller, anyhit)`, `: write(closesthit)`. [DXR: Payload access qualifiers]
@@ -129,10 +128,11 @@ struct PayloadAccess {
   std::span<const PayloadStage> stages;
 };
 
-// What stands behind colons after a declarator, a parameter list or the name of a buffer block.
+// Everything that follows a colon after a declarator, a parameter list or the name of a buffer
+// block.
 struct Annotations {
   const Semantic* semantic = nullptr;
-  std::span<const RegisterBinding> registers;  // More than one only with profile-specific ones.
+  std::span<const RegisterBinding> registers;  // More than one only if they are profile-specific.
   const PackOffset* pack_offset = nullptr;
   std::span<const PayloadAccess> payload_access;
 };
@@ -159,7 +159,7 @@ enum class ScalarKind : uint8_t {
 };
 
 enum class TypeSyntaxKind : uint8_t {
-  kError,  // Was diagnosed; take it as "any type" and stay silent.
+  kError,  // Already diagnosed; treat it as "any type" and report nothing more.
   kVoid,
   kNumeric,  // scalar, rows, columns.
   kNamed,    // name: user types, resources, `vector<T,N>`, `matrix`, `string`, template parameters.
@@ -191,7 +191,7 @@ struct TypeSyntax {
 // ---- Expressions --------------------------------------------------------------------------------
 
 enum class ExprKind : uint8_t {
-  kError,  // Was diagnosed; stay silent.
+  kError,  // Already diagnosed; report nothing more.
   kIntLiteral,
   kFloatLiteral,
   kBoolLiteral,
@@ -214,7 +214,7 @@ enum class ExprKind : uint8_t {
 struct Expr {
   ExprKind kind;
   bool is_parenthesized = false;
-  uint16_t height = 0;  // Levels of expressions below; limited, so that a walk may be recursive.
+  uint16_t height = 0;  // Levels of expressions below; bounded, so a recursive walk is safe.
   SourceLocation location;
 };
 
@@ -407,8 +407,8 @@ struct BlockStmt : Stmt {
   SourceLocation end;  // The closing brace.
 };
 
-// One declaration statement: several declarators are several VariableDecls; also StructDecl,
-// TypeAliasDecl, EnumDecl, UsingNamespaceDecl, UsingDecl.
+// A declaration statement. Several declarators become several VariableDecls; it can also hold
+// StructDecl, TypeAliasDecl, EnumDecl, UsingNamespaceDecl and UsingDecl.
 struct DeclStmt : Stmt {
   static constexpr StmtKind kKind = StmtKind::kDecl;
   std::span<const Decl* const> declarations;
@@ -451,8 +451,8 @@ struct CaseLabel {
   const Expr* value = nullptr;  // Null: default.
 };
 
-// A run of labels and the statements up to the next label. Falls through into the next section
-// where its end is reachable. All sections share one scope.
+// A run of labels and the statements up to the next label. Execution falls through into the next
+// section if the end is reachable. All sections share one scope.
 struct SwitchSection {
   std::span<const CaseLabel> labels;
   std::span<const Stmt* const> statements;
@@ -488,7 +488,7 @@ enum class DeclKind : uint8_t {
 struct Decl {
   DeclKind kind;
   Modifiers modifiers = 0;
-  SourceLocation location;  // Of the name, or of the keyword where there is no name.
+  SourceLocation location;  // The name, or the keyword if there is no name.
   std::string_view name;    // Empty: anonymous.
   std::span<const Attribute> attributes;
 };
@@ -518,8 +518,8 @@ struct ParameterDecl : Decl {
 
 struct FunctionDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kFunction;
-  // `void ns::S::f() {}` has the qualifier `ns::S`; null: none. An overloaded operator is named
-  // "operator+", "operator[]", "operator()".
+  // `void ns::S::f() {}` has the qualifier `ns::S`; null means none. An overloaded operator is
+  // named "operator+", "operator[]", "operator()".
   const QualifiedName* qualifier = nullptr;
   std::span<const TemplateParameter> template_parameters;
   bool is_template = false;
@@ -530,23 +530,23 @@ struct FunctionDecl : Decl {
   const BlockStmt* body = nullptr;  // Null: a declaration only.
 };
 
-// struct and class (which differ in nothing in HLSL).
+// struct and class, which mean the same in HLSL.
 struct StructDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kStruct;
   bool is_class = false;
-  bool is_definition = false;  // False: forward declaration.
+  bool is_definition = false;  // False for a forward declaration.
   bool is_template = false;
   std::span<const TemplateParameter> template_parameters;
   std::span<const TypeSyntax* const> bases;
-  // VariableDecl (fields; static members carry kModStatic), FunctionDecl, StructDecl, EnumDecl,
-  // TypeAliasDecl, in order.
+  // In source order: VariableDecl (fields; static members carry kModStatic), FunctionDecl,
+  // StructDecl, EnumDecl, TypeAliasDecl.
   std::span<const Decl* const> members;
 };
 
 struct Enumerator {
   SourceLocation location;
   std::string_view name;
-  const Expr* value = nullptr;  // Null: the one before plus 1.
+  const Expr* value = nullptr;  // Null: the previous one plus 1.
 };
 
 struct EnumDecl : Decl {
@@ -556,12 +556,12 @@ struct EnumDecl : Decl {
   std::span<const Enumerator> enumerators;
 };
 
-// cbuffer and tbuffer. Members are seen in the enclosing scope.
+// cbuffer and tbuffer. Members are visible in the enclosing scope.
 struct BufferDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kBuffer;
   bool is_texture_buffer = false;
   Annotations annotations;
-  // VariableDecl mostly; StructDecl, FunctionDecl and others may stand inside too.
+  // Mostly VariableDecl, but StructDecl, FunctionDecl and others are allowed too.
   std::span<const Decl* const> members;
 };
 
@@ -601,8 +601,8 @@ enum class SubobjectKind : uint8_t {
   kProceduralPrimitiveHitGroup,
 };
 
-// `TriangleHitGroup MyHitGroup = { "MyAnyHit", "MyClosestHit" };` The arguments are checked by the
-// checker. [DXR: Subobjects in HLSL]
+// `TriangleHitGroup MyHitGroup = { "MyAnyHit", "MyClosestHit" };` The checker validates the
+// arguments. [DXR: Subobjects in HLSL]
 struct SubobjectDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kSubobject;
   SubobjectKind subobject_kind = SubobjectKind::kStateObjectConfig;
@@ -615,7 +615,7 @@ struct TranslationUnit {
 
 // ---- Access -------------------------------------------------------------------------------------
 
-// The node as a T, or null where it is of another kind: `if (auto* call = as<CallExpr>(expr))`.
+// The node as a T, or null if it is of another kind: `if (auto* call = as<CallExpr>(expr))`.
 template <class T, class Base>
 const T* as(const Base* node) {
   return node != nullptr && node->kind == T::kKind ? static_cast<const T*>(node) : nullptr;

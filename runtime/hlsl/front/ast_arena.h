@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory of a syntax tree: nodes are never destroyed one by one, only with the whole arena.
+// Memory for a syntax tree: nodes are not destroyed one by one, but all together with the arena.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ class AstArena {
   AstArena(const AstArena&) = delete;
   AstArena& operator=(const AstArena&) = delete;
 
-  // A value-initialised node. T must need no destructor, since none will run.
+  // Makes a value-initialised node. T must be trivially destructible, because no destructor runs.
   template <class T>
   T* make() {
     static_assert(std::is_trivially_destructible_v<T>);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The syntax tree as text, for tests and for people who look for a mistake in the parser.
-// Expressions are written (operator operand ...), each statement and declaration on its own line.
+// The syntax tree as text, for tests and for debugging the parser. Expressions are printed as
+// (operator operand ...), each statement and declaration on its own line.
 #pragma once
 
 #include <string>

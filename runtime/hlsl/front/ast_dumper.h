@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes one tree; dump() is its only user. ast_dump.cpp has types and expressions,
-// ast_dump_statements.cpp statements and declarations.
+// Dumps one tree; only dump() uses it. Types and expressions are in ast_dump.cpp, statements and
+// declarations in ast_dump_statements.cpp.
 #pragma once
 
 #include <initializer_list>

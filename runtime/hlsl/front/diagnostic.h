@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Collects what the compiler has to say about the source, and renders it for a person.
+// Collects the compiler's diagnostics and renders them as text.
 #pragma once
 
 #include <initializer_list>
@@ -21,7 +21,7 @@ struct Diagnostic {
   DiagnosticId id;
   Severity severity = Severity::kError;
   SourceLocation location;
-  // First and last token to underline; invalid: the caret alone.
+  // First and last token to underline; if invalid, only the caret is shown.
   SourceLocation range_begin;
   SourceLocation range_last;
   std::string message;
@@ -30,15 +30,15 @@ struct Diagnostic {
 
 struct DiagnosticOptions {
   bool strict = false;
-  uint32_t error_limit = 50;  // Behind it comes one kTooManyErrors; 0: no limit.
+  uint32_t error_limit = 50;  // One kTooManyErrors follows the last one; 0: no limit.
 };
 
 class DiagnosticEngine {
  public:
   explicit DiagnosticEngine(DiagnosticOptions options = {}) : options_(options) {}
 
-  // Fills the text's {0}, {1}, ... from `arguments`. The result takes notes and a range, until the
-  // next report: report(...).note(previous, "previous definition is here").
+  // Fills in the text's {0}, {1}, ... from `arguments`. Notes and a range can be added to the
+  // result until the next report: report(...).note(previous, "previous definition is here").
   class Report {
    public:
     explicit Report(Diagnostic* diagnostic) : diagnostic_(diagnostic) {}
@@ -46,7 +46,7 @@ class DiagnosticEngine {
     Report& range(SourceLocation first_token, SourceLocation last_token);
 
    private:
-    Diagnostic* diagnostic_;  // nullptr: not shown, the limit is reached.
+    Diagnostic* diagnostic_;  // nullptr: not shown, because the limit is reached.
   };
   Report report(DiagnosticId id, SourceLocation location,
                 std::initializer_list<std::string_view> arguments = {});
@@ -55,7 +55,7 @@ class DiagnosticEngine {
   uint32_t error_count() const { return errors_; }
   uint32_t warning_count() const { return warnings_; }
   bool has_errors() const { return errors_ != 0; }
-  // The error limit is reached: a stage should end soon.
+  // True once the error limit is reached: a stage should end soon.
   bool should_stop() const { return stopped_; }
 
  private:
@@ -69,9 +69,9 @@ class DiagnosticEngine {
 // "KA2002".
 std::string diagnostic_code(DiagnosticId id);
 // `file:line:column: error: message [KA2002]`, the source line, the caret, and the notes, with the
-// chains of #include and macro expansion. Ends with a line end.
+// chains of #include and macro expansion. Ends with a newline.
 std::string render(const Diagnostic& diagnostic, const SourceManager& sources);
-// All of them, and "2 errors, 1 warning" at the end where there are any.
+// Renders all of them, followed by "2 errors, 1 warning" if there are any.
 std::string render_all(const DiagnosticEngine& diagnostics, const SourceManager& sources);
 
 }  // namespace kaamos::hlsl

@@ -7,14 +7,14 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr size_t kTabColumns = 4;
-constexpr size_t kMaxLineColumns = 160;  // A longer line is shown around the caret only.
+constexpr size_t kMaxLineColumns = 160;  // Longer lines are cut to the part around the caret.
 constexpr size_t kMaxMacroNotes = 8;
 constexpr size_t kMaxIncludeNotes = 8;
 
-// One source line as shown: tabs as spaces, other control bytes as '?'.
+// One source line as shown: tabs become spaces, other control bytes '?'.
 struct ShownLine {
   std::string text;
-  std::vector<size_t> column_of_byte;  // Where each byte of the source line begins on screen.
+  std::vector<size_t> column_of_byte;  // The screen column where each source byte begins.
 };
 
 bool is_continuation_byte(char c) {
@@ -44,7 +44,8 @@ ShownLine show(std::string_view line) {
   return shown;
 }
 
-// Bytes of the token that begins at `begin`: a word or number, a string, else one character.
+// The length of the token that begins at `begin`: a word, number or string, otherwise one
+// character.
 size_t token_bytes(std::string_view line, size_t begin) {
   auto is_word = [](char c) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -61,7 +62,7 @@ size_t token_bytes(std::string_view line, size_t begin) {
   return end - begin;
 }
 
-// Cuts a long line to the part around the caret.
+// Cuts a long line down to the part around the caret.
 void cut(std::string& text, std::string& marks, size_t caret) {
   if (text.size() <= kMaxLineColumns) return;
   size_t begin = caret > kMaxLineColumns / 2 ? caret - kMaxLineColumns / 2 : 0;
@@ -74,7 +75,7 @@ void cut(std::string& text, std::string& marks, size_t caret) {
   marks = (begin ? "   " : "") + (begin < marks.size() ? marks.substr(begin, count) : "");
 }
 
-// `location` and the range must stand in one file; what is not on the caret's line is not marked.
+// `location` and the range must be in one file; only what is on the caret's line is marked.
 std::string snippet(const SourceManager& sources, SourceLocation location, SourceLocation first,
                     SourceLocation last) {
   std::string_view line = sources.line_text(location);
@@ -111,7 +112,7 @@ std::string place(const ResolvedLocation& at) {
   return std::string(at.path) + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
 }
 
-// From the main file down to the file of the location; of a long chain the inner end.
+// From the main file down to the location's file; a long chain shows only the inner end.
 std::string include_chain(const SourceManager& sources, SourceLocation location) {
   std::string result;
   SourceLocation from = sources.include_location(location);
@@ -135,7 +136,7 @@ std::string entry(const SourceManager& sources, std::string_view severity, std::
   return place(sources.resolve(location)) + ": " + text + snippet(sources, location, first, last);
 }
 
-// From the outermost macro to the innermost, as one reads the expansion.
+// From the outermost macro to the innermost.
 std::string macro_notes(const SourceManager& sources, SourceLocation location) {
   std::vector<SourceManager::MacroExpansion> chain;
   while (auto expansion = sources.expansion_of(location)) {

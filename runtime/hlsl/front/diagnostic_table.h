@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every diagnostic of the HLSL compiler: number, severity, text. A stage's lines stand in its own
+// Every diagnostic of the HLSL compiler: number, severity, text. Each stage has its own
 // diagnostic_ids_*.inc. A number never changes its meaning.
 #pragma once
 
@@ -26,14 +26,14 @@ enum class DiagnosticId : uint16_t {
 enum class DiagnosticClass : uint8_t {
   kError,
   kWarning,
-  kStrict,  // A warning; with --strict an error.
+  kStrict,  // A warning, or an error with --strict.
 };
 
 struct DiagnosticInfo {
   DiagnosticId id;
   std::string_view name;  // The enumerator.
   DiagnosticClass severity;
-  std::string_view text;  // {0}, {1}, ... stand for the arguments.
+  std::string_view text;  // {0}, {1}, ... are placeholders for the arguments.
 };
 
 // All, in the order of their numbers.

@@ -62,7 +62,7 @@ TEST(Render, ArgumentsPointIntoTheCall) {
 
 TEST(Render, NotesFollow) {
   EXPECT_EQ(Preprocessed("#define A 1\n#define A 2\n").rendered(),
-            "main.hlsl:2:9: warning: macro 'A' is defined again, differently [KA2012]\n"
+            "main.hlsl:2:9: warning: macro 'A' is redefined differently [KA2012]\n"
             "#define A 2\n"
             "        ^\n"
             "main.hlsl:1:9: note: the previous definition is here\n"

@@ -20,8 +20,8 @@ bool equal_without_case(std::string_view a, std::string_view b) {
                     [](char x, char y) { return lower(x) == lower(y); });
 }
 
-// The entry of `folder` that equals `name` but for case; the first in order where several do, so
-// that the result does not depend on the file system.
+// The entry of `folder` that equals `name` except for case. If there are several, the
+// alphabetically first, so that the result does not depend on the file system.
 std::optional<fs::path> find_without_case(const fs::path& folder, const std::string& name) {
   std::error_code failure;
   std::optional<fs::path> best;
@@ -68,7 +68,7 @@ std::optional<LoadedFile> DiskFileLoader::load(const std::string& path, std::str
     if (!other) return std::nullopt;
     found = *other;
   }
-  // A folder is no file: the next folder of the search may hold one of that name.
+  // A folder is not a file: the next search folder may have a file of that name.
   if (fs::is_directory(found, failure)) return std::nullopt;
   if (!fs::is_regular_file(found, failure)) {
     if (error) *error = "it is a device or a pipe, not a file";

@@ -11,7 +11,7 @@
 namespace kaamos::hlsl {
 
 struct LoadedFile {
-  std::string path;       // As found: the spelling on disk where the request differs in case.
+  std::string path;       // As found: the spelling on disk if the request differs in case.
   std::string canonical;  // The same for all spellings of one file; #pragma once compares it.
   std::string text;
 };
@@ -19,19 +19,19 @@ struct LoadedFile {
 class FileLoader {
  public:
   virtual ~FileLoader() = default;
-  // `path` uses `/`. nullopt with `error` empty: there is no such file; with `error` set: there is
-  // one, but it cannot be read.
+  // `path` uses `/`. On nullopt, `error` is empty if there is no such file, and set if the file
+  // exists but cannot be read.
   virtual std::optional<LoadedFile> load(const std::string& path, std::string* error) = 0;
 };
 
-// Exact name first, then without regard to case, as Windows finds it.
+// Tries the exact name first, then ignores case, as Windows does.
 class DiskFileLoader : public FileLoader {
  public:
   static constexpr size_t kMaxBytes = size_t{64} << 20;
   std::optional<LoadedFile> load(const std::string& path, std::string* error) override;
 };
 
-// Files by normalised path ("a/b.hlsli"); the same look-up rules as on disk.
+// Files by normalised path ("a/b.hlsli"), with the same look-up rules as on disk.
 class MemoryFileLoader : public FileLoader {
  public:
   MemoryFileLoader() = default;

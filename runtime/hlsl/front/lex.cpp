@@ -20,7 +20,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// Longest first among those that share a beginning.
+// Longest first among those with the same beginning.
 struct Punctuator {
   std::string_view text;
   TokenKind kind;
@@ -77,7 +77,7 @@ constexpr Punctuator kPunctuators[] = {
     {"#", TokenKind::kHash},
 };
 
-// First entry of kPunctuators for each first byte, so that most are found at the first try.
+// The first entry in kPunctuators for each first byte, so that most are found at the first try.
 struct PunctuatorStarts {
   uint8_t first[128];
 };
@@ -224,7 +224,7 @@ void Lexer::lex_identifier(Token& token) {
   if (!skipping_) token.value = identifiers_.intern(token.text);
 }
 
-// `.xxx` behind a number is a swizzle of it, not its fraction [HLSL: 1.0.xxx].
+// `.xxx` after a number is a swizzle of it, not its fraction [HLSL: 1.0.xxx].
 bool Lexer::is_swizzle(const char* p) const {
   constexpr std::string_view kComponents = "xyzwrgba";
   size_t count = 0;
@@ -268,7 +268,7 @@ void Lexer::lex_quoted(Token& token) {
   }
   bool is_closed = p < end_ && *p == quote;
   if (!is_closed) {
-    // Spaces and comments at the end of the line are not part of what is shown.
+    // The text shown does not include spaces and comments at the end of the line.
     finish(token, TokenKind::kUnknown, p < end_ ? p : end_);
     token.flags |= Token::kQuotedBroken;
     return;
@@ -297,7 +297,7 @@ void Lexer::lex_punctuator(Token& token) {
   lex_unknown(token);
 }
 
-// One character, all bytes of it where it is UTF-8.
+// One character, with all its bytes if it is UTF-8.
 void Lexer::lex_unknown(Token& token) {
   const char* p = position_ + 1;
   if (static_cast<unsigned char>(*position_) >= 0xC0) {

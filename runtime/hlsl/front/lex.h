@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cuts the text of one file into preprocessing tokens [C++: lex.pptoken]. Never reports anything
-// but a comment without its end: what is wrong with a token only matters where it is used.
+// Cuts the text of one file into preprocessing tokens [C++: lex.pptoken]. It reports nothing except
+// an unterminated comment, because an error in a token only matters where the token is used.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace kaamos::hlsl {
 
 struct Macro;
 
-// Everything known about a name; one entry for each different text.
+// Everything known about a name; each distinct text has one entry.
 struct Identifier {
   std::string_view text;
   TokenKind keyword = TokenKind::kIdentifier;
@@ -38,27 +38,28 @@ class Lexer {
  public:
   Lexer(SourceManager& sources, SourceManager::FileIndex file, IdentifierTable& identifiers,
         DiagnosticEngine* diagnostics);
-  // A text without a place, behind which a zero byte stands; its tokens have no location.
+  // For a text without a location, such as the result of `##`; a zero byte must follow it. The
+  // tokens have no location.
   Lexer(SourceManager& sources, std::string_view text, IdentifierTable& identifiers);
 
-  // Names get kind kIdentifier (keywords too), numbers kNumber with their text. Behind the last
-  // token kEndOfFile comes again and again.
+  // Names (including keywords) get kind kIdentifier; numbers get kNumber and their text. After the
+  // last token, every call returns kEndOfFile.
   Token next();
-  // Between begin and end, the end of the line reads as kEndOfDirective again and again.
+  // Between begin and end, the end of the line reads as kEndOfDirective, over and over.
   void begin_directive() { in_directive_ = true; }
   void end_directive() { in_directive_ = false; }
   bool in_directive() const { return in_directive_; }
-  // In groups that #if leaves out, names are not entered into the table.
+  // While a group is skipped because of #if, names are not entered into the table.
   void set_skipping(bool skipping) { skipping_ = skipping; }
 
-  // Whether '(' stands right here, without a space.
+  // Whether '(' comes next without any space.
   bool is_left_paren_adjacent() const { return *skip_splices(position_) == '('; }
-  // Whether the next token is '('; reads nothing.
+  // Whether the next token is '('; consumes nothing.
   bool is_left_paren_next();
-  // At `<`: reads up to `>` in this line as one kUnknown token whose text is what stands between.
-  // False and nothing read where there is no `<...>`.
+  // At `<`: reads up to `>` on this line as one kUnknown token whose text is what is in between.
+  // Returns false and reads nothing if there is no `<...>`.
   bool read_angled_name(Token& token);
-  // Reads the rest of the line and returns it as written, without the spaces around it.
+  // Reads the rest of the line and returns it as written, without surrounding spaces.
   std::string_view rest_of_line();
 
   SourceManager::FileIndex file() const { return file_; }
@@ -75,7 +76,7 @@ class Lexer {
   void skip_newline();
   void skip_line_comment();
   void skip_block_comment();
-  // False: the directive ends here.
+  // Returns false at the end of a directive.
   bool skip_space(Token& token);
   std::string_view text_between(const char* begin, const char* end);
   void finish(Token& token, TokenKind kind, const char* end);

@@ -110,7 +110,7 @@ TEST(Lex, FloatingPointNumbers) {
 }
 
 TEST(Lex, SuffixFRoundsOnceToFloat) {
-  // Halfway between two floats but for a bit that double drops.
+  // Halfway between two floats, except for a bit that double drops.
   EXPECT_EQ(number("1.00000005960464477540f").real, double{1.00000005960464477540f});
   EXPECT_EQ(number("0.1f").real, double{0.1f});
   EXPECT_EQ(number("0.1").real, 0.1);

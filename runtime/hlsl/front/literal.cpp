@@ -79,7 +79,7 @@ class NumberReader {
   void read_integer(size_t begin, uint64_t base, std::string_view kind) {
     size_t at = begin;
     bool is_too_large = false;
-    // Octal and binary numbers with a digit out of range are read to their end as digits, so that
+    // An octal or binary number with an out-of-range digit is read to its end as digits, so that
     // the message names the digit and not a suffix.
     int limit = base == 16 ? 16 : 10;
     for (; at < text_.size() && digit_value(text_[at]) < limit; ++at) {
@@ -152,7 +152,7 @@ class NumberReader {
     }
   }
 
-  // Out of range on the small side reads as 0.
+  // A number that is too small is read as 0.
   template <class Float>
   std::optional<Float> parse(std::string_view digits) const {
     Float value = 0;
@@ -161,7 +161,7 @@ class NumberReader {
     return is_large(digits) ? std::nullopt : std::optional<Float>(Float{0});
   }
 
-  // Whether a number that is out of range is so because it is large.
+  // Whether an out-of-range number is too large rather than too small.
   static bool is_large(std::string_view digits) {
     size_t e = digits.find_first_of("eE");
     std::string_view mantissa = digits.substr(0, e);
@@ -181,7 +181,7 @@ class NumberReader {
     result_.real = *value;
     bool is_half = result_.suffix == LiteralSuffix::kH;
     if (result_.suffix != LiteralSuffix::kF && !is_half) return;
-    // Straight to float: by way of double it could round twice.
+    // Converted directly to float, because going through double could round twice.
     std::optional<float> narrow = parse<float>(digits);
     result_.real = narrow ? *narrow : std::numeric_limits<float>::infinity();
     if (is_half && *value >= kMaxHalf + 16) {

@@ -102,7 +102,7 @@ bool Parser::expect(Kind kind, std::string_view expected) {
 bool Parser::expect_semicolon(std::string_view after) {
   if (panic_) return false;
   if (accept(Kind::kSemicolon)) return true;
-  // Where the next token begins a line, the mistake is at the end of the one before.
+  // If the next token begins a line, the mistake is at the end of the previous one.
   SourceLocation location = here();
   const bool next_line = (token().flags & Token::kAtLineStart) != 0 || at_end();
   if (pos_ > 0 && next_line && !here().is_macro()) {
@@ -179,7 +179,8 @@ DiagnosticEngine::Report Parser::fail(DiagnosticId id, SourceLocation location,
 
 size_t Parser::behind_closing(size_t open) const {
   const bool in_braces = token_at(open).is(Kind::kLeftBrace);
-  // Only `for (;;)` has semicolons in parentheses; elsewhere one means that the `)` is missing.
+  // Only `for (;;)` has semicolons in parentheses; anywhere else, one means that the `)` is
+  // missing.
   const bool in_for = open > 0 && tokens_[open - 1].is(Kind::kFor);
   size_t depth = 0;
   for (size_t i = open; i < tokens_.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What stands behind a colon: semantics, registers, packoffset, payload access qualifiers.
+// What comes after a colon: semantics, registers, packoffset, payload access qualifiers.
 #include <cctype>
 #include <charconv>
 
@@ -19,7 +19,7 @@ bool all_digits(std::string_view text) {
   return !text.empty();
 }
 
-// `ps_5_0`, `vs`: registers of one profile.
+// `ps_5_0`, `vs`: for registers of one profile.
 bool is_profile(std::string_view text) {
   return text.size() >= 2 && text[1] == 's' && (text.size() == 2 || text[2] == '_');
 }

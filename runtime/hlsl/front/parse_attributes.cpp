@@ -8,7 +8,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// In lower case: HLSL does not look at the case of attributes.
+// In lower case: HLSL ignores the case of attributes.
 constexpr std::string_view kKnown[] = {
     "allow_uav_condition",
     "branch",
@@ -54,7 +54,7 @@ void Parser::attributes(std::vector<Attribute>& out) {
     advance();
     const size_t inner = pos_;
     const bool is_double = accept(Kind::kLeftBracket);
-    // A lambda as a statement.
+    // A lambda used as a statement.
     if (!is_double && (at(Kind::kRightBracket) || at(Kind::kAmp) || at(Kind::kEqual))) {
       fail(DiagnosticId::kNoLambda, token_at(open).location, {});
       return;
@@ -75,7 +75,7 @@ void Parser::attributes(std::vector<Attribute>& out) {
 Attribute Parser::attribute(bool is_double) {
   Attribute result{.location = here(), .scope = {}, .name = {}, .arguments = {}};
   result.is_double_bracket = is_double;
-  // `[loop]`, but also `[export]`: any word.
+  // Any word: `[loop]`, but also keywords such as `[export]`.
   const auto word = [&]() -> const Token* {
     const bool is_word = at_name() || is_keyword(token().kind) || at(Kind::kReservedWord);
     if (!is_word) {

@@ -142,7 +142,7 @@ const std::unordered_map<std::string_view, BuiltinName>& names() {
   return table;
 }
 
-// 1..4, or 0.
+// 1 to 4, or 0 if it is not a dimension.
 uint8_t dimension(char c) {
   return c >= '1' && c <= '4' ? static_cast<uint8_t>(c - '0') : 0;
 }
@@ -156,7 +156,8 @@ BuiltinName shaped(std::string_view scalar, uint8_t rows, uint8_t columns) {
   return result;
 }
 
-// Letters to change, insert or drop between the two; more than `limit` where lengths tell so.
+// Number of letters to change, insert or remove to get from one to the other; more than `limit` if
+// the lengths already differ by more.
 size_t distance(std::string_view a, std::string_view b, size_t limit) {
   if (a.size() > b.size() + limit || b.size() > a.size() + limit) return limit + 1;
   std::vector<size_t> row(b.size() + 1);
@@ -171,7 +172,7 @@ size_t distance(std::string_view a, std::string_view b, size_t limit) {
   return row[b.size()];
 }
 
-// vec3 is float3, mat4 float4x4, mat3x4 (3 columns) float4x3.
+// vec3 becomes float3, mat4 float4x4, mat3x4 (3 columns) float4x3.
 std::string from_glsl(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kVectors[] = {
       {"vec", "float"}, {"ivec", "int"}, {"uvec", "uint"}, {"bvec", "bool"}, {"dvec", "double"}};
@@ -205,7 +206,7 @@ BuiltinName find_builtin_name(std::string_view text) {
 
 std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared) {
   if (std::string glsl = from_glsl(text); !glsl.empty()) return glsl;
-  // `flaot3`: the table has only the scalars.
+  // `flaot3`: only scalars are in the table.
   if (text.size() > 4 && dimension(text.back()) != 0) {
     const std::string scalar = similar_type_name(text.substr(0, text.size() - 1), {});
     if (find_builtin_name(scalar).kind == BuiltinName::kNumeric) return scalar + text.back();
@@ -215,7 +216,7 @@ std::string similar_type_name(std::string_view text, std::span<const std::string
   std::string result;
   const auto offer = [&](std::string_view candidate) {
     const size_t found = distance(text, candidate, limit);
-    // Equal ones by name, so that the answer does not depend on the order of a hash table.
+    // Ties go to the alphabetically first, so that the result does not depend on hash table order.
     const bool is_better = found < best || (found == best && candidate < result);
     if (found > limit || !is_better) return;
     best = found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The names that mean a type before any declaration: the parser needs them to tell `Name x;` and
+// The names that are types before anything is declared: the parser needs them to tell `Name x;` and
 // `(Name)x` from expressions.
 #pragma once
 
@@ -18,7 +18,7 @@ struct BuiltinName {
     kType,        // Texture2D, RayDesc, vector, ...
     kSubobject,   // TriangleHitGroup, ...
     kNamespace,   // dx
-    kScopedType,  // HitObject of dx::HitObject
+    kScopedType,  // HitObject in dx::HitObject
   };
   Kind kind = kNone;
   ScalarKind scalar = ScalarKind::kFloat;
@@ -29,8 +29,8 @@ struct BuiltinName {
 
 BuiltinName find_builtin_name(std::string_view text);
 
-// What a writer of the unknown type `text` may have meant: a name of `declared` or a built-in one
-// with one or two letters changed, or HLSL's word for a GLSL type. Empty: no idea.
+// What the unknown type `text` was probably meant to be: a name in `declared` or a built-in one
+// that differs in one or two letters, or HLSL's word for a GLSL type. Empty if there is no guess.
 std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared);
 
 }  // namespace kaamos::hlsl

@@ -113,7 +113,7 @@ void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
     }
     return;
   }
-  // A forgotten ';' behind a struct: what follows is the next declaration.
+  // A missing ';' after a struct: what follows is the next declaration.
   if (is_definition && ((token().flags & Token::kAtLineStart) != 0 || at_end())) {
     expect_semicolon(type->definition->kind == DeclKind::kEnum ? "the enum" : "the struct");
     panic_ = false;
@@ -182,7 +182,7 @@ const Expr* Parser::variable_initializer() {
   return nullptr;
 }
 
-// `<string UIName = "Roughness";>`: for tools, in effect files.
+// `<string UIName = "Roughness";>`: used by tools in effect files.
 void Parser::skip_effect_annotation() {
   const size_t open = pos_;
   report(DiagnosticId::kStateBlockIgnored, here(), {"the effect annotation '<...>'"});
@@ -205,7 +205,7 @@ void Parser::namespace_declaration(DeclList& out) {
     scope = known.kind == ParsedKind::kNamespace ? known.scope : scopes_.create(scopes_.current());
     scopes_.declare(scopes_.current(), name->value, {ParsedKind::kNamespace, scope});
   } else {
-    // What an unnamed namespace declares is seen around it.
+    // What an unnamed namespace declares is visible in the enclosing scope.
     scope = scopes_.create(scopes_.current());
     scopes_.add_using(scopes_.current(), scope);
   }

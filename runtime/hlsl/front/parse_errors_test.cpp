@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each mistake: which message, at which line and column; and that one mistake gives one message.
+// Which message each mistake gives, at which line and column; and that one mistake gives one
+// message.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ struct Mistake {
   const char* name;
   const char* text;
   const char* expected;  // positions()
-  const char* message;   // A part of the first message.
+  const char* message;   // Part of the first message.
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -26,7 +27,7 @@ TEST_P(ParseError, IsReportedWhereItIs) {
   EXPECT_EQ(positions(parsed), GetParam().expected) << parsed.messages();
   ASSERT_FALSE(parsed.diagnostics.diagnostics().empty());
   EXPECT_THAT(parsed.diagnostics.diagnostics()[0].message, testing::HasSubstr(GetParam().message));
-  // What is left of the tree can be walked.
+  // The rest of the tree can be walked.
   dump(*parsed.unit);
 }
 
@@ -84,7 +85,7 @@ constexpr Mistake kMistakes[] = {
     {"ColonOfCase", "void f() { switch (a) { case 1 b; } }", "KA2200 1:32",
      "expected ':' after the case label, found 'b'"},
     {"FunctionBody", "void f() return;", "KA2200 1:10",
-     "expected '{' or ';' after the head of the function, found 'return'"},
+     "expected '{' or ';' after the function's parameters, found 'return'"},
     {"Operand", "float a = 3 + ;", "KA2204 1:15", "expected an expression, found ';'"},
     {"OperandOfUnary", "float a = -;", "KA2204 1:12", "expected an expression, found ';'"},
     {"ArgumentAfterComma", "float a = f(1, );", "KA2204 1:16", "expected an expression, found ')'"},
@@ -102,14 +103,14 @@ constexpr Mistake kMistakes[] = {
      "expected ';' after the declaration of 'a', found '2'"},
     {"Declaration", "3;", "KA2203 1:1", "expected a declaration, found '3'"},
 
-    // ---- Something is too much, or at the wrong place
-    {"BraceTooMuch", "void f() { } }\nfloat a;", "KA2211 1:14", "'}' has no opening '{'"},
+    // ---- Something is superfluous or in the wrong place
+    {"BraceTooMuch", "void f() { } }\nfloat a;", "KA2211 1:14", "'}' has no matching '{'"},
     {"ElseWithoutIf", "void f() { a; else b; }", "KA2212 1:15", "'else' without 'if'"},
     {"CaseOutsideSwitch", "void f() { case 1: a; }", "KA2213 1:12", "'case' outside of a switch"},
     {"StatementBeforeCase", "void f() { switch (a) { b; case 1: c; } }", "KA2214 1:25",
      "expected 'case' or 'default' as the first statement of a switch, found 'b'"},
     {"FunctionInFunction", "void f() {\nvoid g() { }\n}", "KA2215 2:6",
-     "function 'g' begins inside a function; is a '}' missing before it?"},
+     "function 'g' is defined inside another function; is a '}' missing before it?"},
     {"NamespaceInFunction", "void f() { namespace n { } }", "KA2219 1:12",
      "a namespace can only be declared in the global scope or a namespace"},
     {"BufferInStruct", "struct S { cbuffer C { int a; } };", "KA2219 1:12",
@@ -119,40 +120,41 @@ constexpr Mistake kMistakes[] = {
     {"StructInParameters", "void f(struct S { int a; } s) { }", "KA2219 1:8",
      "a struct can only be declared"},
     {"AttributeOnNothing", "void f() { [unroll] }", "KA2251 1:13",
-     "attribute 'unroll' must stand before a statement, found '}'"},
-    {"ListAsArgument", "float a = f({1, 2});", "KA2218 1:13", "an initializer list can only stand"},
+     "attribute 'unroll' must come before a statement, found '}'"},
+    {"ListAsArgument", "float a = f({1, 2});", "KA2218 1:13",
+     "an initializer list is only allowed"},
 
     // ---- Names and types
-    {"UnknownType", "void f() { Foo a; a.x = 1; }", "KA2207 1:12",
-     "'Foo' is not the name of a type"},
+    {"UnknownType", "void f() { Foo a; a.x = 1; }", "KA2207 1:12", "unknown type name 'Foo'"},
     {"UnknownTypeOfParameter", "void f(in Foo a, float b) { }", "KA2207 1:11",
-     "'Foo' is not the name of a type"},
-    {"UnknownTypeInCast", "float a = (Foo)0;", "KA2207 1:12", "'Foo' is not the name of a type"},
-    {"UnknownScopedType", "namespace n { } n::Foo a;", "KA2207 1:17",
-     "'n::Foo' is not the name of a type"},
+     "unknown type name 'Foo'"},
+    {"UnknownTypeInCast", "float a = (Foo)0;", "KA2207 1:12", "unknown type name 'Foo'"},
+    {"UnknownScopedType", "namespace n { } n::Foo a;", "KA2207 1:17", "unknown type name 'n::Foo'"},
     {"UnknownTemplate", "void f() { Foo<float, 3> a; }", "KA2207 1:12",
-     "'Foo<float, 3>' is not the name of a type"},
+     "unknown type name 'Foo<float, 3>'"},
     {"TypeAsValue", "float a = 1 + float3;", "KA2208 1:15", "expected an expression, found type"},
     {"TypeAsName", "float float3;", "KA2216 1:7",
-     "built-in type 'float3' cannot be the name of a variable"},
-    {"KeywordAsName", "float out;", "KA2217 1:7", "keyword 'out' cannot be the name of a variable"},
+     "built-in type 'float3' cannot be used as the name of a variable"},
+    {"KeywordAsName", "float out;", "KA2217 1:7",
+     "keyword 'out' cannot be used as the name of a variable"},
     {"ReservedWordAsName", "float union;", "KA2217 1:7",
-     "keyword 'union' cannot be the name of a variable"},
+     "keyword 'union' cannot be used as the name of a variable"},
     {"ModifiersThatExclude", "row_major column_major float2x2 a;", "KA2253 1:11",
      "'row_major' cannot be combined with 'column_major'"},
 
-    {"ModifierTwice", "static const static float a = 1;", "KA2254 1:14", "'static' is given twice"},
+    {"ModifierTwice", "static const static float a = 1;", "KA2254 1:14",
+     "'static' is specified twice"},
     {"AccessSpecifiers", "class C { public: int a; private: int b; };", "KA2241 1:11\nKA2241 1:26",
      "access specifier 'public' is ignored: all members are public"},
 
-    // ---- What HLSL does not have
+    // ---- Not in HLSL
     {"Pointer", "void f(float* a) { }", "KA2220 1:13", "HLSL has no pointers"},
     {"PointerVariable", "void f() { int *a = 0; }", "KA2220 1:16", "HLSL has no pointers"},
     {"PointerCast", "float a = (float*)b;", "KA2220 1:17", "HLSL has no pointers"},
     {"Reference", "void f(const float& a) { }", "KA2221 1:19", "HLSL has no references"},
     {"Arrow", "float a = b->c;", "KA2222 1:12", "HLSL has no '->'; use '.'"},
-    {"Address", "float a = f(&b, 1);", "KA2223 1:13", "unary '&' does not exist"},
-    {"Dereference", "float a = *b;", "KA2223 1:11", "unary '*' does not exist"},
+    {"Address", "float a = f(&b, 1);", "KA2223 1:13", "there is no unary '&'"},
+    {"Dereference", "float a = *b;", "KA2223 1:11", "there is no unary '*'"},
     {"Goto", "void f() { goto a; }", "KA2224 1:12", "HLSL has no 'goto'"},
     {"Label", "void f() { a: b; }", "KA2242 1:12", "HLSL has no labels"},
     {"Try", "void f() { try { a; } catch (int) { b; } }", "KA2225 1:12",
@@ -179,10 +181,10 @@ constexpr Mistake kMistakes[] = {
      "HLSL has no 'float3 v(...)'; write 'float3 v = float3(...)'"},
     {"BraceConstruction", "float3 a = float3{1, 2, 3};", "KA2239 1:12",
      "HLSL has no 'float3{...}'; write 'float3(...)'"},
-    {"Variadic", "void f(int a, ...) { }", "KA2237 1:15", "no variable number of parameters"},
+    {"Variadic", "void f(int a, ...) { }", "KA2237 1:15", "a variable number of parameters"},
     {"ParameterPack", "template<typename... T> void f() { }", "KA2237 1:18",
-     "no variable number of template parameters"},
-    {"BoundsBeforeName", "float[3] a;", "KA2238 1:6", "array bounds stand behind the name"},
+     "a variable number of template parameters"},
+    {"BoundsBeforeName", "float[3] a;", "KA2238 1:6", "array bounds go after the name"},
     {"BitField", "struct S { uint a : 4; uint b; };", "KA2240 1:21",
      "bit fields are not supported"},
     {"ConversionOperator", "struct S { operator float() { return 1; } };", "KA2274 1:12",
@@ -195,13 +197,13 @@ constexpr Mistake kMistakes[] = {
     {"RegisterSpace", "Texture2D t : register(t0, 1);", "KA2261 1:28",
      "expected a space such as space1, found '1'"},
     {"RegisterNumber", "Texture2D t : register(t4294967296);", "KA2262 1:24",
-     "number of 't4294967296' is too large; at most 4294967295 is allowed"},
+     "the number in 't4294967296' is too large; at most 4294967295 is allowed"},
     {"PackOffset", "cbuffer C { float a : packoffset(b0); }", "KA2263 1:34",
      "expected a constant register such as c0 or c3.y, found 'b0'"},
     {"PackOffsetComponent", "cbuffer C { float a : packoffset(c0.q); }", "KA2263 1:37",
      "expected a constant register such as c0 or c3.y, found 'q'"},
     {"SemanticTwice", "struct S { float a : A : B; };", "KA2264 1:26",
-     "the semantic is given twice"},
+     "the semantic is specified twice"},
     {"SemanticName", "float f() : 1.5 { }", "KA2205 1:13", "expected the name of a semantic"},
     {"UnknownAttribute", "[frobnicate] void f() { }", "KA2250 1:2",
      "unknown attribute 'frobnicate' is ignored"},
@@ -304,8 +306,8 @@ TEST(ParseLimit, ElseIfChainsMayBeLong) {
             "KA2209 1027:1");
 }
 
-// Chains inside chains, and expressions inside template arguments, count together: what walks the
-// tree must not run out of its stack.
+// Chains inside chains, and expressions inside template arguments, are counted together, so that
+// code that walks the tree does not run out of stack.
 TEST(ParseLimit, LimitsHoldForTheWholePath) {
   std::string chains = "void f() {";
   for (int level = 0; level < 20; ++level) chains += repeated("if (a) b; else ", 100) + "{";
@@ -335,7 +337,7 @@ TEST(ParseSuggestion, ForMisspeltTypesAndThoseOfGlsl) {
   EXPECT_EQ(note("Quaternion"), "");
 }
 
-// Texts that lead a careless parser into the end of its stack or into quadratic time.
+// Texts that would make a careless parser overflow its stack or take quadratic time.
 TEST(ParseLimit, HostileTextsEndSoon) {
   const char* openings[] = {
       "(",

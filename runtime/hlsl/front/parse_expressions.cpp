@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Expressions made of operators, from comma down to prefix operators and casts.
+// Expressions made of operators, from the comma down to prefix operators and casts.
 #include <algorithm>
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace {
 
 struct BinaryInfo {
   BinaryOp op;
-  int precedence;  // Higher binds tighter; 0: no binary operator.
+  int precedence;  // Higher binds tighter; 0: not a binary operator.
 };
 
 BinaryInfo binary_info(TokenKind kind) {
@@ -56,7 +56,7 @@ BinaryInfo binary_info(TokenKind kind) {
   }
 }
 
-// False: no assignment operator.
+// Returns false if it is not an assignment operator.
 bool assignment_operator(TokenKind kind, std::optional<BinaryOp>* op) {
   switch (kind) {
     case TokenKind::kEqual:
@@ -252,7 +252,7 @@ const Expr* Parser::cast_or_parentheses() {
       return finish(result, {result->operand});
     }
   } else if (is_name(pos_ + 1) && token_at(pos_ + 2).is(Kind::kRightParen)) {
-    // `(Unknown)x` is no expression, whatever the name is.
+    // `(Unknown)x` cannot be an expression, whatever the name is.
     const Token& next = token_at(pos_ + 3);
     const bool is_operand =
         can_be_name(next.kind) || next.is(Kind::kIntLiteral) || next.is(Kind::kFloatLiteral);

@@ -42,7 +42,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
       scopes_.declare_value(scope_of(prefix), *name_token);
     }
   }
-  // A method's body sees the struct's names, wherever the body stands.
+  // A method's body sees the struct's names, even if the body is outside the struct.
   ScopeId parent = scopes_.current();
   if (qualifier != kNoScope && qualifier != kDependentScope) {
     parent = scopes_.create(parent);
@@ -63,7 +63,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   out.push_back(decl);
   if (accept(Kind::kSemicolon)) return;
   if (!at(Kind::kLeftBrace)) {
-    expect(Kind::kLeftBrace, "'{' or ';' after the head of the function");
+    expect(Kind::kLeftBrace, "'{' or ';' after the function's parameters");
     return;
   }
   const Token* outer = std::exchange(function_token_, name_token);
@@ -230,7 +230,7 @@ void Parser::reject_local_declarator(const Prefix& prefix, Modifiers modifiers,
     message.note(function_token_->location,
                  "function '" + std::string(function_token_->text) + "' begins here");
   }
-  // Read for its own mistakes, and so that the braces match; the tree does not get it.
+  // Parsed to find errors in it and to keep the braces matched, but left out of the tree.
   DeclList dropped;
   function(prefix, modifiers, type, dropped);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Real libraries, damaged at random: whatever comes out, the parser ends, and its tree can be
-// walked. And how fast it is on the undamaged ones.
+// Real libraries, damaged at random: whatever comes out, the parser ends and its tree can be
+// walked. Also measures how fast it is on the undamaged ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,10 +44,10 @@ TEST(ParseSamples, WholeLibrariesWithoutAMessage) {
   }
 }
 
-// One of: drop, double, swap, replace a run of tokens.
+// Drops, duplicates, swaps or replaces a run of tokens.
 void mutate(std::vector<Token>& tokens, const std::vector<Token>& other, std::mt19937& random) {
   const auto below = [&](size_t n) { return static_cast<size_t>(random() % n); };
-  const size_t count = tokens.size() - 1;  // Not the end of the file.
+  const size_t count = tokens.size() - 1;  // Without the end of the file.
   if (count < 2) return;
   const size_t at = below(count);
   const size_t length = std::min<size_t>(1 + below(below(8) == 0 ? 200 : 3), count - at);
@@ -85,7 +85,7 @@ TEST(ParseMutation, DamagedLibrariesNeitherCrashNorHang) {
     samples.push_back(std::make_unique<Parsed>(read(path)));
   }
   ASSERT_FALSE(samples.empty());
-  // One file's names in another's numbers would not fit: a token keeps to its own file.
+  // Names are numbered per file, so tokens are only exchanged within a file.
   while (seconds() < 1.5) {
     const Parsed& sample = *samples[runs % samples.size()];
     TokenList damaged = sample.tokens;

@@ -7,7 +7,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// A look ahead into `a<b<c<...` ends here; nobody nests what is not declared so far.
+// Bounds the look-ahead into `a<b<c<...`; nobody nests undeclared names more deeply.
 constexpr int kMaxLookAheadDepth = 4;
 
 }  // namespace
@@ -21,7 +21,7 @@ Parser::NameLookup Parser::look_up(size_t index) {
   if (!is_name(i)) return result;
   result.symbol =
       is_global ? scopes_.find_in(kGlobalScope, token_at(i)) : scopes_.find(token_at(i));
-  // `::float3`, `::RayDesc`: the built-in names stand in the global scope.
+  // `::float3`, `::RayDesc`: the built-in names are in the global scope.
   if (is_global && result.symbol.kind == ParsedKind::kUnknown) {
     const ScopeId previous = scopes_.enter(kGlobalScope);
     result.symbol = scopes_.find(token_at(i));
@@ -126,7 +126,7 @@ size_t Parser::behind_plain_template_arguments(size_t index, bool first_is_type)
     } else {
       return index;
     }
-    // `>>`: its first half closed a list inside.
+    // If it is `>>`, its first half closed an inner list.
     if (token_at(i).is(Kind::kGreater) || token_at(i).is(Kind::kGreaterGreater)) return i + 1;
     if (!token_at(i).is(Kind::kComma) || i > index + kMaxLookAhead) return index;
     ++i;

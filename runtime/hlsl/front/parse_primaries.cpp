@@ -111,7 +111,7 @@ const Expr* Parser::primary() {
       Setting setting(greater_is_operator_, true);
       const Expr* inner = expression();
       expect_closing(Kind::kRightParen, open, "the expression");
-      // Nodes are constant for all that get them; this one was made just now.
+      // Nodes are constant for everyone who receives them, but this one was only just made.
       const_cast<Expr*>(inner)->is_parenthesized = true;
       return inner;
     }

@@ -6,8 +6,8 @@
 namespace kaamos::hlsl {
 namespace {
 
-// Scopes that one look-up visits through bases and `using namespace`; ends cycles, and keeps a net
-// of namespaces that all use each other from taking for ever.
+// How many scopes one look-up visits through bases and `using namespace`. It ends cycles, and keeps
+// a web of namespaces that all use each other from taking forever.
 constexpr int kMaxVisits = 256;
 
 bool is_word(TokenKind kind) {
@@ -53,12 +53,12 @@ void ParseScopes::declare(ScopeId scope, uint32_t name, ParsedSymbol symbol) {
 }
 
 void ParseScopes::declare_value(ScopeId scope, const Token& name) {
-  // A name that is no type anywhere so far hides none.
+  // A name that has not been a type anywhere so far hides nothing.
   NameInfo& info = infos_[name.value];
   info.is_value = true;
   if (!info.is_recorded && builtin(name).kind == BuiltinName::kNone) return;
   info.is_recorded = true;
-  // Overloads of a function template do not make it less of a template.
+  // Overloading a function template leaves it a template.
   ParsedSymbol& symbol = symbols_[key(scope, name.value)];
   if (symbol.kind != ParsedKind::kFunctionTemplate) symbol = {ParsedKind::kValue, kNoScope};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the parser has to know of names while it parses: which of them are types, templates and
-// namespaces, in which scope. Variables and functions are recorded only where they hide a type.
+// What the parser needs to know about names while it parses: which are types, templates and
+// namespaces, and in which scope. Variables and functions are recorded only if they hide a type.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@
 namespace kaamos::hlsl {
 
 enum class ParsedKind : uint8_t {
-  kUnknown,  // Not declared as anything that the parser records; most often a value.
+  kUnknown,  // Not declared as anything the parser records; usually a value.
   kValue,
   kFunctionTemplate,
   kNamespace,
   kSubobject,
-  kType,  // And all behind it.
+  kType,  // This kind and all after it are types.
   kNumericType,
   kTypeParameter,
 };
@@ -26,7 +26,7 @@ enum class ParsedKind : uint8_t {
 using ScopeId = uint32_t;
 inline constexpr ScopeId kGlobalScope = 0;
 inline constexpr ScopeId kNoScope = 0xFFFFFFFFu;
-// The inside of a type that is not known before a template is instantiated.
+// The members of a type that is not known before a template is instantiated.
 inline constexpr ScopeId kDependentScope = 0xFFFFFFFEu;
 // `dx::`, whose types are built in.
 inline constexpr ScopeId kBuiltinScope = 0xFFFFFFFDu;
@@ -54,7 +54,8 @@ class ParseScopes {
   void declare_value(ScopeId scope, const Token& name);
   ParsedSymbol find(const Token& name);
   ParsedSymbol find_in(ScopeId scope, const Token& name);
-  // Is `name` a function template somewhere? Decides `x.name<`, where the type of x is not known.
+  // Is there a function template called `name` in any scope? Decides `x.name<` when the type of x
+  // is unknown.
   bool is_template_function(uint32_t name) const { return infos_[name].is_template_function; }
   // Was it ever declared as a variable, parameter, function or enumerator?
   bool is_known_value(const Token& name) const { return infos_[name.value].is_value; }

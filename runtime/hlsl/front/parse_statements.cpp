@@ -124,7 +124,7 @@ Parser::Condition Parser::condition_value() {
   return {value, statement};
 }
 
-// `if (T x = e) ...` is `{ T x = e; if (x) ... }`.
+// `if (T x = e) ...` becomes `{ T x = e; if (x) ... }`.
 Stmt* Parser::body_with(const Condition& condition, Stmt* body) {
   if (condition.declared == nullptr) return body;
   BlockStmt* result = make<BlockStmt>(body->location);
@@ -133,7 +133,7 @@ Stmt* Parser::body_with(const Condition& condition, Stmt* body) {
   return result;
 }
 
-// `while (T x = e) body` is `while (true) { T x = e; if (x) body else break; }`.
+// `while (T x = e) body` becomes `while (true) { T x = e; if (x) body else break; }`.
 Stmt* Parser::loop_body_with(const Condition& condition, Stmt* body) {
   if (condition.declared == nullptr) return body;
   IfStmt* test = make<IfStmt>(body->location);
@@ -154,7 +154,8 @@ Stmt* Parser::if_statement() {
   std::vector<Link> links;
   const Stmt* last = nullptr;
   std::span<const Attribute> kept;
-  // A chain of `else if` is no nesting for the parser; each link has a scope for its condition.
+  // A chain of `else if` does not count as nesting in the parser; each link has a scope for its
+  // condition.
   const ScopeId outer = scopes_.current();
   const uint32_t outer_else_ifs = else_ifs_;
   for (;;) {
@@ -304,7 +305,7 @@ CaseLabel Parser::case_label() {
   return label;
 }
 
-// ---- Others
+// ---- Other statements
 
 Stmt* Parser::return_statement() {
   ReturnStmt* result = make<ReturnStmt>(here());
@@ -336,7 +337,7 @@ Stmt* Parser::reserved_statement() {
   }
   if (word == "try" || word == "catch") {
     const SourceLocation location = here();
-    // One message for `try {} catch (...) {}`; the blocks are read for mistakes of their own.
+    // One message for `try {} catch (...) {}`; errors inside the blocks are still reported.
     if (word == "try") report(DiagnosticId::kNoExceptions, location, {word});
     advance();
     if (at(Kind::kLeftParen)) pos_ = behind_closing(pos_);
@@ -409,7 +410,7 @@ bool Parser::starts_declaration(size_t index) {
   if (name.symbol.kind == ParsedKind::kSubobject) return can_be_name(next.kind);
   if (name.is_dependent) return can_be_name(next.kind);
   const bool same_line = (next.flags & Token::kAtLineStart) == 0;
-  // Two names in a row: a type that is not known, or a forgotten operator or ';'.
+  // Two names in a row: either an unknown type, or a missing operator or ';'.
   if (name.symbol.kind == ParsedKind::kUnknown && same_line &&
       !scopes_.is_known_value(token_at(name.end - 1))) {
     if (can_be_name(next.kind)) return true;

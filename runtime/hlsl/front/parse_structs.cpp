@@ -27,7 +27,7 @@ const StructDecl* Parser::struct_definition() {
     decl->template_parameters = prefix->template_parameters;
     outer = scope_of(*prefix);
   }
-  // DXC has them on either side: `struct [raypayload] P`.
+  // DXC accepts them on either side: `struct [raypayload] P`.
   attributes(found);
   decl->attributes = list(found);
   const Token* name = at(Kind::kLeftBrace) || at(Kind::kColon) ? nullptr : expect_name("a struct");
@@ -36,7 +36,7 @@ const StructDecl* Parser::struct_definition() {
   if (name != nullptr) {
     decl->name = name->text;
     decl->location = name->location;
-    // A definition behind a forward declaration fills the same scope.
+    // A definition after a forward declaration fills the same scope.
     const ParsedSymbol known = scopes_.find_in(outer, *name);
     const bool is_forward =
         known.kind == ParsedKind::kType && known.scope < scope && !decl->is_template;
@@ -73,8 +73,8 @@ void Parser::bases(StructDecl& decl, ScopeId scope) {
   decl.bases = list(found);
 }
 
-// Methods may use a nested type that is declared behind them: their bodies belong behind the
-// struct's end.
+// Methods may use a nested type that is declared after them, because their bodies count as being
+// after the end of the struct.
 void Parser::predeclare_members(ScopeId scope) {
   const auto declare = [&](size_t index) {
     if (!is_name(index)) return;
@@ -94,7 +94,7 @@ void Parser::predeclare_members(ScopeId scope) {
         if (tokens_[i].is(Kind::kEnum) && (token_at(name).is(Kind::kClass))) ++name;
         const Kind next = token_at(name + 1).kind;
         if (next == Kind::kLeftBrace || next == Kind::kColon) declare(name);
-        // The `class` of `enum class` is none.
+        // The `class` in `enum class` does not declare one.
         i = name;
         break;
       }
@@ -188,7 +188,7 @@ void Parser::enumerators(EnumDecl& decl, ScopeId scope) {
 void Parser::skip_interface() {
   report(DiagnosticId::kNoInterface, here(), {});
   advance();
-  // Its name is a type for what follows, so that each use is no further mistake.
+  // Its name is treated as a type from here on, so that its uses cause no further errors.
   if (at_name()) scopes_.declare(scopes_.current(), token().value, {ParsedKind::kType, kNoScope});
   while (!at(Kind::kLeftBrace) && !at(Kind::kSemicolon) && !at(Kind::kRightBrace) && !at_end()) {
     advance();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// template<...> in front of functions, structs and aliases.
+// template<...> before functions, structs and aliases.
 #include "runtime/hlsl/front/parser.h"
 
 namespace kaamos::hlsl {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Each construct of the language, by the dump of its tree.
+// Tests each construct of the language by the dump of its tree.
 #include "runtime/hlsl/front/parse.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the parser's tests share: a text in, the tree and the diagnostics out.
+// Shared by the parser's tests: parses a text and gives the tree and the diagnostics.
 #pragma once
 
 #include <string>
@@ -24,20 +24,20 @@ struct Parsed {
     tokens = preprocess_text("test.hlsl", std::move(text), {}, sources, diagnostics);
     unit = parse(tokens, arena, diagnostics);
   }
-  // Empty where there is nothing to say.
+  // Empty if there are no diagnostics.
   std::string messages() const {
     return diagnostics.diagnostics().empty() ? "" : render_all(diagnostics, sources);
   }
 };
 
-// The dump of a whole text; the messages where there are any.
+// The dump of a whole text, or the diagnostics if there are any.
 inline std::string dump_unit(std::string_view text) {
   const Parsed parsed{std::string(text)};
   const std::string messages = parsed.messages();
   return messages.empty() ? dump(*parsed.unit) : messages;
 }
 
-// The dump of an expression; `before` declares what it needs.
+// The dump of an expression; `before` holds the declarations it needs.
 inline std::string dump_expression(std::string_view text, std::string_view before = "") {
   const Parsed parsed(std::string(before) + "\nstatic float test_value = " + std::string(text) +
                       ";");
@@ -48,7 +48,7 @@ inline std::string dump_expression(std::string_view text, std::string_view befor
                                                                  : "no expression";
 }
 
-// The dump of the statements of a function's body.
+// The dump of the statements in a function body.
 inline std::string dump_statements(std::string_view text, std::string_view before = "") {
   const Parsed parsed(std::string(before) + "\nvoid test_function() { " + std::string(text) + " }");
   const std::string messages = parsed.messages();
@@ -60,7 +60,7 @@ inline std::string dump_statements(std::string_view text, std::string_view befor
   return result;
 }
 
-// "KA2201 3:4" for each message, one a line.
+// "KA2201 3:4" for each diagnostic, one per line.
 inline std::string positions(const Parsed& parsed) {
   std::string result;
   for (const Diagnostic& diagnostic : parsed.diagnostics.diagnostics()) {

@@ -112,13 +112,13 @@ bool is_scalar_word(std::string_view text) {
 Modifiers Parser::modifier_at(size_t index) const {
   const Kind kind = token_at(index).kind;
   const Modifiers modifier = modifier_of(kind);
-  // `sample = 3;`, `linear.x`: a name.
+  // `sample = 3;`, `linear.x`: used as a name.
   if (is_contextual_keyword(kind) && !is_word(token_at(index + 1).kind)) return 0;
   return modifier;
 }
 
 void Parser::add_modifier(Modifiers& modifiers, Modifiers added, const Token& word) {
-  // `in out` is `inout`.
+  // `in out` means `inout`.
   const bool repeats = (modifiers & added) == added;
   if (repeats) report(DiagnosticId::kModifierTwice, word.location, {word.text});
   const Modifiers both = modifiers | added;
@@ -311,7 +311,7 @@ TypeSyntax* Parser::definition_type(DeclList* definitions) {
   const bool is_definition = behind_name == Kind::kLeftBrace || behind_name == Kind::kColon ||
                              behind_name == Kind::kSemicolon || !is_name(i);
   if (!is_definition) {
-    // `struct S s`: a reference with the keyword.
+    // `struct S s` uses S with the keyword.
     advance();
     return named_type();
   }

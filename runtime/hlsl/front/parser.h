@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The recursive-descent parser; parse() is its only user. One class over several files, by noun:
+// The recursive-descent parser; only parse() uses it. One class, split into one file per noun:
 // parse.cpp (tokens, errors, recovery), parse_names, parse_types, parse_expressions,
 // parse_primaries, parse_statements, parse_declarations, parse_functions, parse_structs,
 // parse_templates, parse_annotations, parse_attributes, parse_subobjects.
 //
-// Errors: the first one in a statement or declaration sets panic_. While it is set, nothing more is
-// reported and all loops end; the list of statements or declarations around it skips to a place
-// where the next one can begin and clears it. So one mistake gives one message, and every function
-// may return any node in panic.
+// Error recovery: the first error in a statement or declaration sets panic_. While it is set,
+// nothing more is reported and all loops end; the enclosing list of statements or declarations
+// skips to a place where the next one can begin and clears it. So one mistake gives one message,
+// and during a panic a function may return any node.
 #pragma once
 
 #include <initializer_list>
@@ -30,14 +30,14 @@ class Parser {
   using Kind = TokenKind;
   using DeclList = std::vector<const Decl*>;
 
-  // Nested expressions, statements, structs, namespaces, template arguments, together: bounds the
-  // parser's own stack, about 2 KiB a level.
+  // Nesting of expressions, statements, structs, namespaces and template arguments together. It
+  // bounds the parser's own stack, which grows by about 2 KiB per level.
   static constexpr uint32_t kMaxNesting = 256;
-  // Levels of one expression; a sum of n terms has n - 1. Bounds the stack of recursive walks.
+  // Levels of one expression; a sum of n terms has n - 1. It bounds the stack of recursive walks.
   static constexpr uint32_t kMaxHeight = 1024;
   static constexpr uint32_t kMaxElseIf = 1024;
   static constexpr size_t kMaxArrayBounds = 32;
-  // Tokens that a look ahead into template arguments reads; what is in parentheses counts once.
+  // How many tokens to look ahead into template arguments; a parenthesised group counts as one.
   static constexpr size_t kMaxLookAhead = 512;
 
   struct Nesting {
@@ -45,7 +45,7 @@ class Parser {
     ~Nesting() { --parser_.depth_; }
     Nesting(const Nesting&) = delete;
     Nesting& operator=(const Nesting&) = delete;
-    bool ok = true;  // False: too deep, reported.
+    bool ok = true;  // False if nested too deep, which is then already reported.
 
    private:
     Parser& parser_;
@@ -61,7 +61,7 @@ class Parser {
     Parser& parser_;
     ScopeId previous_;
   };
-  // Sets a flag for a part of the parse.
+  // Sets a flag while a part is parsed and restores it afterwards.
   struct Setting {
     Setting(bool& flag, bool value) : flag_(flag), previous_(flag) { flag = value; }
     ~Setting() { flag_ = previous_; }
@@ -75,7 +75,7 @@ class Parser {
 
   // ---- parse.cpp: tokens
   const Token& token() const { return tokens_[pos_]; }
-  // Behind the end there is only the end.
+  // Past the end there is only the end-of-file token.
   const Token& token_at(size_t index) const {
     return tokens_[index < tokens_.size() ? index : tokens_.size() - 1];
   }
@@ -89,35 +89,36 @@ class Parser {
   bool accept(Kind kind);
   // Consumes `>`, or the first half of `>>`, `>=`, `>>=`.
   bool accept_template_end();
-  // The token, or an error that says what it would follow.
+  // Consumes the token, or reports an error that says what it should have followed.
   bool expect(Kind kind, std::string_view expected);
   bool expect_semicolon(std::string_view after);
-  // The bracket that closes the one at token `open`.
+  // Consumes the bracket that closes the one at token `open`.
   bool expect_closing(Kind kind, size_t open, std::string_view after);
-  // The same where a ',' could stand as well.
+  // The same where a ',' would be allowed too.
   bool expect_list_end(Kind kind, size_t open, std::string_view after);
   bool expect_template_end(size_t open);
-  // A name for `what` ("a variable"); null after an error.
+  // Consumes a name for `what` ("a variable"); null after an error.
   const Token* expect_name(std::string_view what);
 
   // ---- parse.cpp: errors and recovery
   DiagnosticEngine::Report report(DiagnosticId id, SourceLocation location,
                                   std::initializer_list<std::string_view> arguments);
-  // Reports unless in panic, and begins one.
+  // Reports unless in panic, and starts a panic.
   DiagnosticEngine::Report fail(DiagnosticId id, SourceLocation location,
                                 std::initializer_list<std::string_view> arguments);
   DiagnosticEngine::Report fail_here(DiagnosticId id,
                                      std::initializer_list<std::string_view> arguments) {
     return fail(id, here(), arguments);
   }
-  // Index behind the bracket that closes the one at `open`; the end if none does.
+  // The index after the bracket that closes the one at `open`, or the end if none does.
   size_t behind_closing(size_t open) const;
-  // Skips to where a statement or declaration can begin; at least one token if pos_ is `begin`.
+  // Skips to where a statement or declaration can begin; skips at least one token if pos_ is
+  // `begin`.
   void recover(size_t begin);
-  // After an error between the bracket at token `open` and its `)`: behind the `)` if there is one
-  // before the statement ends, else the panic goes on.
+  // After an error between the bracket at token `open` and its `)`: continues after the `)` if it
+  // comes before the end of the statement, otherwise stays in panic.
   void recover_behind_paren(size_t open);
-  // The same for the `}` of the brace at token `open`.
+  // The same for the `}` that closes the brace at token `open`.
   void recover_behind_brace(size_t open);
   bool starts_new_item(size_t index);
 
@@ -137,34 +138,35 @@ class Parser {
   // What the qualified name at a token means, found without consuming it.
   struct NameLookup {
     ParsedSymbol symbol;
-    size_t end = 0;             // Behind the name; the same index: there is none.
-    bool is_dependent = false;  // `T::name`: known when the template is instantiated.
+    size_t end = 0;             // After the name; the starting index if there is no name.
+    bool is_dependent = false;  // `T::name`: only known when the template is instantiated.
     bool is_type() const { return symbol.is_type(); }
   };
   NameLookup look_up(size_t index);
-  // Whether the `<` at `index`, behind the name at `name_index`, begins template arguments.
+  // Whether the `<` at `index`, after the name at `name_index`, begins template arguments.
   bool begins_template_arguments(size_t index, size_t name_index, const ParsedSymbol& symbol,
                                  bool is_member);
-  // Index behind the type (modifiers included) that begins at `index`, or `index`: there is none.
+  // The index after the type (modifiers included) that begins at `index`; `index` if there is none.
   size_t behind_type(size_t index);
-  // Index behind `<...>` at `index`, or `index` where it does not look like such a list. Where the
+  // The index after `<...>` at `index`, or `index` if it does not look like such a list. If the
   // list ends with the first half of a `>>`, the index of the `>>`.
   size_t behind_template_arguments(size_t index) const;
   size_t behind_plain_template_arguments(size_t index, bool first_is_type);
-  // Parses `::a::b<float>::c`. `is_member`: behind a `.`. `container` gets the scope in which the
-  // last part stands. `S::operator` ends behind the `::`, with `S` as the name.
+  // Parses `::a::b<float>::c`. `is_member`: after a `.`. `container` receives the scope of the last
+  // part. `S::operator` ends after the `::`, with `S` as the name.
   const QualifiedName* qualified_name(bool is_member, ParsedSymbol* symbol = nullptr,
                                       ScopeId* container = nullptr);
   std::span<const TemplateArgument> template_arguments();
   TemplateArgument template_argument();
 
   // ---- parse_types.cpp
-  // Adds modifiers to `modifiers` as long as there are any.
+  // Adds modifiers to `modifiers` for as long as there are any.
   void parse_modifiers(Modifiers& modifiers);
   Modifiers modifier_at(size_t index) const;
   void add_modifier(Modifiers& modifiers, Modifiers added, const Token& token);
   // Modifiers and a type. Those of kTypeModifiers go to the type, the others to `modifiers`.
-  // Definitions of structs and enums are appended to `definitions`; null: they are errors here.
+  // Definitions of structs and enums are appended to `definitions`; if that is null, definitions
+  // are an error here.
   const TypeSyntax* type_specifier(Modifiers& modifiers, DeclList* definitions);
   TypeSyntax* bare_type(DeclList* definitions);
   TypeSyntax* named_type();
@@ -174,20 +176,20 @@ class Parser {
   TypeSyntax* reserved_type();
   TypeSyntax* definition_type(DeclList* definitions);
   TypeSyntax* error_type(SourceLocation location);
-  // What `#pragma pack_matrix` says here.
+  // The matrix order that `#pragma pack_matrix` sets at this point.
   Modifiers pack_matrix_modifier() const;
-  // `[2][3]` behind a declarator's name.
+  // `[2][3]` after a declarator's name.
   const TypeSyntax* array_bounds(const TypeSyntax* element);
   // A type alone, as in a cast: `const float3`, `float[4]`.
   const TypeSyntax* type_name();
   const TypeSyntax* type_without_bounds();
-  // After a type: `*`, `&`, `[` in front of a name. Reports and skips them.
+  // Reports and skips a `*`, `&` or `[` between a type and a name.
   void reject_declarator_prefix();
-  // The tokens as one would write them, for messages.
+  // The tokens as they would be written, for messages.
   std::string text_between(size_t begin, size_t end) const;
 
   // ---- parse_expressions.cpp, parse_primaries.cpp
-  const Expr* expression();  // With comma operators.
+  const Expr* expression();  // Includes comma operators.
   const Expr* assignment();
   const Expr* assignment_value();  // Or an initializer list.
   const Expr* conditional();
@@ -208,7 +210,7 @@ class Parser {
   const Expr* init_list();
   std::span<const Expr* const> call_arguments();
   const Expr* error_expr(SourceLocation location) { return make<ErrorExpr>(location); }
-  // Sets the height; an ErrorExpr where it is too large.
+  // Sets the height; returns an ErrorExpr if it is too large.
   const Expr* finish(Expr* expr, std::initializer_list<const Expr*> children,
                      std::span<const Expr* const> more = {});
 
@@ -230,7 +232,7 @@ class Parser {
   Stmt* reserved_statement();
   Stmt* jump(Stmt* statement, std::string_view word);
   bool starts_declaration(size_t index);
-  // The condition between parentheses, `declared` null where it declares nothing.
+  // The condition between parentheses; `declared` is null if it declares nothing.
   struct Condition {
     const Expr* value = nullptr;
     const Stmt* declared = nullptr;
@@ -242,12 +244,12 @@ class Parser {
 
   // ---- parse_declarations.cpp
   enum class Context : uint8_t { kGlobal, kMember, kBuffer, kLocal };
-  // What stands before a declaration.
+  // What comes before a declaration.
   struct Prefix {
     std::span<const Attribute> attributes;
     std::span<const TemplateParameter> template_parameters;
     bool is_template = false;
-    // The scope to declare in, where a template's parameters stand in one between.
+    // The scope to declare in; it differs from the current one inside a template's parameter scope.
     ScopeId scope = kNoScope;
     Context context = Context::kGlobal;
   };
@@ -277,7 +279,7 @@ class Parser {
   void parameters(std::vector<const ParameterDecl*>& out);
   const ParameterDecl* parameter();
   bool starts_function_declarator(size_t index);
-  // `Type name(` inside a function: neither a function nor a constructor call may stand here.
+  // `Type name(` inside a function: neither a function nor a constructor call is allowed here.
   void reject_local_declarator(const Prefix& prefix, Modifiers modifiers, const TypeSyntax* type,
                                size_t type_begin);
 
@@ -312,7 +314,7 @@ class Parser {
 
   std::vector<Token> tokens_;  // Without pragmas; `>>` is split in place.
   struct PackMatrix {
-    size_t index;  // Of the first token that it governs.
+    size_t index;  // The first token that it applies to.
     Modifiers modifier;
   };
   std::vector<PackMatrix> pack_matrix_;
@@ -323,15 +325,15 @@ class Parser {
   size_t pos_ = 0;
   uint32_t depth_ = 0;
   bool panic_ = false;
-  bool greater_is_operator_ = true;  // Not directly in template arguments.
-  // Height of the expressions in types and template arguments, for the next expression made.
+  bool greater_is_operator_ = true;  // False directly inside template arguments.
+  // Height of the expressions in types and template arguments, added to the next expression made.
   uint32_t pending_height_ = 0;
-  uint32_t else_ifs_ = 0;                  // Links of `else if` chains around.
-  ScopeId type_scope_ = kNoScope;          // Of the type parsed last: its members.
-  const Prefix* struct_prefix_ = nullptr;  // For the struct or enum that may come next.
-  const Token* function_token_ = nullptr;  // The name of the function around.
+  uint32_t else_ifs_ = 0;                  // Length of the enclosing `else if` chains.
+  ScopeId type_scope_ = kNoScope;          // The members of the type that was parsed last.
+  const Prefix* struct_prefix_ = nullptr;  // For a struct or enum that may come next.
+  const Token* function_token_ = nullptr;  // The name of the enclosing function.
   int look_ahead_depth_ = 0;
-  std::vector<std::string_view> type_names_;  // All declared so far, for suggestions.
+  std::vector<std::string_view> type_names_;  // All types declared so far, for suggestions.
 };
 
 }  // namespace kaamos::hlsl

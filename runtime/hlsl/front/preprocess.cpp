@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The main loop: files in, tokens of the language out.
+// The main loop: files in, language tokens out.
 #include "runtime/hlsl/front/preprocess.h"
 
 #include <utility>
@@ -56,7 +56,7 @@ void Preprocessor::define_predefined(std::string& text) const {
   define("__SHADER_STAGE_LIBRARY", static_cast<uint32_t>(ShaderStage::kLibrary));
   define("__SHADER_STAGE_MESH", static_cast<uint32_t>(ShaderStage::kMesh));
   define("__SHADER_STAGE_AMPLIFICATION", static_cast<uint32_t>(ShaderStage::kAmplification));
-  // The DXC release whose rules are followed; headers ask for at least some version.
+  // The DXC release whose rules are followed; headers test for a minimum version.
   define("__DXC_VERSION_MAJOR", 1);
   define("__DXC_VERSION_MINOR", 8);
   define("__DXC_VERSION_RELEASE", 2407);
@@ -64,7 +64,7 @@ void Preprocessor::define_predefined(std::string& text) const {
   if (options_.enable_16bit_types) define("__HLSL_ENABLE_16_BIT", 1);
 }
 
-// One text for each option: a comment or line continuation in a value ends with it.
+// Each option is a text of its own, so that a comment or line continuation in a value ends with it.
 std::vector<SourceText*> Preprocessor::define_options() const {
   std::vector<SourceText*> texts;
   for (const std::string& option : options_.defines) {
@@ -112,7 +112,7 @@ void Preprocessor::read_definitions(SourceText* text) {
   }
 }
 
-// Preprocessing token to token [C++: translation phase 7].
+// Turns a preprocessing token into a token [C++: translation phase 7].
 void Preprocessor::emit(Token token) {
   if (token.is(TokenKind::kStringLiteral)) return emit_string(token);
   finish_string();
@@ -149,7 +149,7 @@ void Preprocessor::emit(Token token) {
   output_.tokens.push_back(token);
 }
 
-// Adjacent strings become one, which gets its text when another token follows.
+// Adjacent strings become one, which gets its text when a different token follows.
 void Preprocessor::emit_string(const Token& token) {
   if (!is_joining_) output_.tokens.push_back(token);
   is_joining_ = true;
@@ -170,7 +170,7 @@ void Preprocessor::fatal() {
   frames_.clear();
 }
 
-// A token of the innermost file, directives carried out on the way.
+// A token of the innermost file; directives are carried out on the way.
 Token Preprocessor::read_file_token() {
   for (;;) {
     if (is_fatal_ || diagnostics_.should_stop()) return stop_token(TokenKind::kEndOfFile);
@@ -187,7 +187,7 @@ Token Preprocessor::read_file_token() {
       continue;
     }
     if (!token.is(TokenKind::kEndOfFile)) return token;
-    // The arguments of a macro do not go on behind the end of a file.
+    // A macro's arguments do not extend past the end of a file.
     if (!collecting_.empty()) return token;
     leave_file();
     if (files_.empty()) return token;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a main file to the tokens that the parser reads: the C preprocessor as DXC has it.
+// From a main file to the tokens that the parser reads: the C preprocessor, with DXC's behaviour.
 #pragma once
 
 #include <cstdint>
@@ -36,16 +36,16 @@ struct PreprocessOptions {
 
   uint32_t max_include_depth = 200;
   uint32_t max_inclusions = 20000;
-  uint32_t max_macro_depth = 200;             // Macro calls inside the arguments of macro calls.
-  uint32_t max_expansion_tokens = 4'000'000;  // All macro expansions together.
+  uint32_t max_macro_depth = 200;             // Macro calls nested in the arguments of macro calls.
+  uint32_t max_expansion_tokens = 4'000'000;  // For all macro expansions together.
 };
 
-// Always returns a list that ends with kEndOfFile; errors are in `diagnostics`. Token texts live
-// as long as `sources`.
+// Always returns a list that ends with kEndOfFile; errors are in `diagnostics`. Token texts live as
+// long as `sources`.
 TokenList preprocess_file(const std::string& path, const PreprocessOptions& options,
                           SourceManager& sources, DiagnosticEngine& diagnostics);
-// The same for a text in memory; `name` is shown in diagnostics, and quoted includes are searched
-// in its folder.
+// The same for a text in memory; `name` is shown in diagnostics, and its folder is searched for
+// quoted includes.
 TokenList preprocess_text(std::string name, std::string text, const PreprocessOptions& options,
                           SourceManager& sources, DiagnosticEngine& diagnostics);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The expression of #if and #elif [C++: cpp.cond]: 64-bit integers, all operators but assignment
+// The expression of #if and #elif [C++: cpp.cond]: 64-bit integers, all operators except assignment
 // and comma.
 #include "runtime/hlsl/front/preprocessor.h"
 
@@ -50,7 +50,8 @@ int precedence(TokenKind kind) {
   }
 }
 
-// A negative count shifts the other way; all bits shifted out leave zeros or copies of the sign.
+// A negative count shifts the other way; once all bits are shifted out, zeros or copies of the sign
+// remain.
 Value shift(Value value, Value count, bool is_left) {
   bool is_negative = !count.is_unsigned && count.as_signed() < 0;
   uint64_t distance = is_negative ? 0 - count.bits : count.bits;
@@ -97,7 +98,8 @@ class ConditionParser {
   }
   void advance() { token_ = preprocessor_.next_expanded(); }
 
-  // The first error counts, be it one of a macro's call; the rest of the expression is not read.
+  // Only the first error is reported, even if it came from a macro call; the rest of the expression
+  // is not read.
   void report(DiagnosticId id, SourceLocation location,
               std::initializer_list<std::string_view> arguments) {
     bool is_first = !failed_ && !preprocessor_.is_fatal() &&
@@ -207,7 +209,7 @@ class ConditionParser {
       return {0, is_unsigned};
     }
     if (is_unsigned) return {is_quotient ? a.bits / b.bits : a.bits % b.bits, true};
-    // The smallest number over -1 does not fit: it wraps.
+    // The smallest number divided by -1 does not fit and wraps around.
     if (b.as_signed() == -1) return {is_quotient ? 0 - a.bits : 0, false};
     int64_t result = is_quotient ? a.as_signed() / b.as_signed() : a.as_signed() % b.as_signed();
     return {static_cast<uint64_t>(result), false};
@@ -274,7 +276,7 @@ class ConditionParser {
     return {literal.integer, is_unsigned};
   }
 
-  // A name that no macro has replaced is 0; `true` is 1, as in C++.
+  // A name that is not a macro is 0; `true` is 1, as in C++.
   Value name() {
     if (token_.text == "defined") return defined();
     Value value{token_.text == "true", false};

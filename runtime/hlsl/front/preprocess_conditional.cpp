@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// #if, #ifdef, #ifndef, #elif, #else, #endif and the groups that they leave out.
+// #if, #ifdef, #ifndef, #elif, #else, #endif and the groups that they skip.
 #include "runtime/hlsl/front/preprocessor.h"
 
 namespace kaamos::hlsl {
@@ -26,7 +26,7 @@ void Preprocessor::directive_if(const Token& name, bool value) {
   if (!value) skip_group();
 }
 
-// A group that was read ends here: all others up to #endif are left out.
+// A group that was read ends here; all others up to #endif are skipped.
 void Preprocessor::directive_elif(const Token& name) {
   if (file().conditionals.empty()) {
     diagnostics_.report(DiagnosticId::kConditionalWithoutIf, name.location, {name.text});
@@ -106,7 +106,7 @@ bool Preprocessor::skip_directive(uint32_t& depth) {
     finish_directive();
   }
   if (conditional.is_taken) return false;
-  // The keyword stays "if": the location that an error names is the #if.
+  // The keyword stays "if", because errors point at the #if.
   conditional.is_taken = text == "else" || read_condition(name);
   return conditional.is_taken;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// #define: parameters and body are checked and taken apart once, here.
+// #define: parameters and body are checked and split up once, here.
 #include <algorithm>
 
 #include "runtime/hlsl/front/preprocessor.h"
@@ -18,7 +18,7 @@ bool equal_bodies(const Macro& a, const Macro& b) {
          std::equal(a.body.begin(), a.body.end(), b.body.begin(), b.body.end(), equal);
 }
 
-// Takes the tokens of a body apart; stops at the first error.
+// Splits up the tokens of a body; stops at the first error.
 class BodyReader {
  public:
   BodyReader(Macro& macro, const std::vector<Token>& tokens, uint32_t va_args, uint32_t va_opt,
@@ -46,7 +46,7 @@ class BodyReader {
     is_valid_ = false;
   }
 
-  // The number of parameters where it is none of them.
+  // Index of the parameter, or the number of parameters if it is not one.
   size_t parameter_of(const Token& token) const {
     if (!token.is(TokenKind::kIdentifier)) return macro_.parameters.size();
     auto found = std::find(macro_.parameters.begin(), macro_.parameters.end(), token.value);
@@ -111,7 +111,7 @@ class BodyReader {
   DiagnosticEngine& diagnostics_;
   size_t next_ = 0;
   size_t begin_ = kNone;  // Index of the open __VA_OPT__ in the body.
-  uint32_t parens_ = 0;   // Open within it.
+  uint32_t parens_ = 0;   // Open parentheses inside it.
   bool is_valid_ = true;
 };
 
@@ -150,12 +150,12 @@ void Preprocessor::set_macro(uint32_t identifier, std::unique_ptr<Macro> macro) 
     diagnostics_.report(DiagnosticId::kMacroRedefined, macro->location, {macro->name})
         .note(current->location, "the previous definition is here");
   }
-  // The old one stays alive: an expansion of it may be going on.
+  // The old one stays alive, because an expansion of it may be in progress.
   macros_.push_back(std::move(macro));
   current = macros_.back().get();
 }
 
-// Only a `(` directly behind the name begins a parameter list.
+// A `(` begins a parameter list only if it follows the name directly.
 bool Preprocessor::read_parameters(Macro& macro) {
   if (!lexer().is_left_paren_adjacent()) return true;
   lexer().next();
@@ -176,7 +176,7 @@ bool Preprocessor::read_parameters(Macro& macro) {
       }
       macro.parameters.push_back(token.value);
       token = lexer().next();
-      // `name...`: a variadic parameter with a name of its own [GNU].
+      // `name...`: a named variadic parameter [GNU].
       if (token.is(TokenKind::kEllipsis)) {
         macro.is_variadic = true;
         token = lexer().next();
@@ -207,7 +207,7 @@ bool Preprocessor::read_body(Macro& macro) {
   return reader.read() && check_pastes(macro);
 }
 
-// `##` needs an operand on both sides, also within __VA_OPT__.
+// `##` needs an operand on both sides, even inside __VA_OPT__.
 bool Preprocessor::check_pastes(const Macro& macro) {
   for (size_t i = 0; i < macro.body.size(); ++i) {
     if (macro.body[i].role != MacroItem::kPaste) continue;

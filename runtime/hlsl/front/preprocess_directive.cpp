@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directives other than #define, #include and the conditional ones.
+// Directives other than #define, #include and the conditionals.
 #include <array>
 
 #include "runtime/hlsl/front/preprocessor.h"
@@ -7,7 +7,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// Known elsewhere, without a meaning here.
+// Known in other compilers, but without meaning here.
 constexpr std::array<std::string_view, 8> kIgnoredPragmas = {
     "warning", "message", "region", "endregion", "clang", "GCC", "dxc", "def"};
 
@@ -52,7 +52,7 @@ void Preprocessor::expect_end(std::string_view directive) {
   finish_directive();
 }
 
-// Leaves the rest of the line, and of macros expanded in it, unread.
+// Skips the rest of the line, and of any macros being expanded in it.
 void Preprocessor::finish_directive() {
   for (Frame& frame : frames_) {
     if (frame.macro) frame.macro->is_disabled = false;
@@ -113,7 +113,7 @@ void Preprocessor::directive_line(std::string_view name, std::optional<Token> nu
   }
   SourceManager::FileIndex index = lexer().file();
   uint32_t offset = lexer().offset();
-  // `# 1 "file" 1 3`: the flags of a preprocessor's output mean nothing here.
+  // `# 1 "file" 1 3`: the flags in preprocessor output have no meaning here.
   if (is_marker || !shown) {
     finish_directive();
   } else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is wrong is reported with its exact place, and reading goes on behind it.
+// Each mistake is reported at its exact place, and reading continues after it.
 #include <gtest/gtest.h>
 
 #include "runtime/hlsl/front/preprocess_test_support.h"
@@ -10,8 +10,8 @@ namespace {
 struct Case {
   const char* name;
   const char* source;
-  const char* place;           // Of the only diagnostic.
-  const char* text = nullptr;  // Tokens that come out.
+  const char* place;           // Where the only diagnostic points.
+  const char* text = nullptr;  // The tokens that come out.
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {

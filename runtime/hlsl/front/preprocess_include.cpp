@@ -25,10 +25,10 @@ std::string joined(std::string folder, std::string_view name) {
 
 }  // namespace
 
-// "name", <name> or a macro that gives one of them; reads it and leaves the rest of the line.
+// Reads "name", <name> or a macro that expands to one of them, and leaves the rest of the line.
 std::optional<Preprocessor::IncludeName> Preprocessor::read_include_name(const Token& directive) {
   Token token;
-  // Only the file itself has `<name>` as it was written; out of a macro it comes in pieces.
+  // Only in the file itself does `<name>` appear as written; a macro gives it in pieces.
   bool is_from_file = std::all_of(frames_.begin(), frames_.end(), [](const Frame& frame) {
     return frame.next == frame.tokens.size();
   });
@@ -49,7 +49,7 @@ std::optional<Preprocessor::IncludeName> Preprocessor::include_name_of(const Tok
                                                                        const Token& directive) {
   if (!tokens.empty() && tokens[0].is(TokenKind::kStringLiteral)) {
     std::string_view text = tokens[0].text;
-    // A `\` is a folder's end here, not an escape.
+    // A `\` separates folders here and is not an escape.
     return IncludeName{std::string(text.substr(1, text.size() - 2)), false};
   }
   bool is_angled =
@@ -96,7 +96,7 @@ bool Preprocessor::has_include(const Token& keyword) {
   if (!is_left_paren_next()) {
     Token found = next_unexpanded();
     diagnostics_.report(DiagnosticId::kConditionTokenExpected, found.location,
-                        {"'(' behind __has_include", describe(found)});
+                        {"'(' after __has_include", describe(found)});
     return false;
   }
   next_unexpanded();
@@ -105,7 +105,7 @@ bool Preprocessor::has_include(const Token& keyword) {
   Token close = next_unexpanded();
   if (!close.is(TokenKind::kRightParen)) {
     diagnostics_.report(DiagnosticId::kConditionTokenExpected, close.location,
-                        {"')' behind __has_include", describe(close)});
+                        {"')' after __has_include", describe(close)});
   }
   std::string searched;
   std::string error;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Macro expansion: finding calls, reading arguments, the stack of what is read next.
+// Macro expansion: recognising calls, reading arguments, the stack of tokens to be read next.
 #include <utility>
 
 #include "runtime/hlsl/front/preprocessor.h"
@@ -25,8 +25,8 @@ Token Preprocessor::stop_token(TokenKind kind) {
   return token;
 }
 
-// Macros of frames that are not read to their end stay as they are [C++: cpp.rescan]: their names
-// are marked here, since they leave the frame with the mark.
+// Macros whose frames have not been read to the end are not expanded [C++: cpp.rescan]. Their names
+// are marked here, because they keep the mark after they leave the frame.
 Token Preprocessor::next_unexpanded() {
   while (!frames_.empty()) {
     Frame& frame = frames_.back();
@@ -78,7 +78,7 @@ bool Preprocessor::expand(Token& token, bool& is_replaced) {
   Call call{macro, token, 0, {}, {}};
   if (macro->is_function_like) {
     if (!read_arguments(call)) {
-      // What belongs to the broken call is gone; reading goes on behind it.
+      // The tokens of the broken call are gone; reading continues after it.
       return true;
     }
   }
@@ -126,7 +126,7 @@ bool Preprocessor::count_tokens(size_t count, std::string_view macro) {
   return false;
 }
 
-// From `(` up to the matching `)`. False where it is missing or the number is wrong.
+// Reads from `(` to the matching `)`. Returns false if that is missing or the number is wrong.
 bool Preprocessor::read_arguments(Call& call) {
   const Macro& macro = *call.macro;
   collecting_.push_back(macro.name);
@@ -166,7 +166,7 @@ bool Preprocessor::check_argument_count(Call& call) {
   bool is_empty = call.arguments.size() == 1 && call.arguments[0].empty();
   if (wanted == 0 && is_empty) call.arguments.clear();
   size_t given = call.arguments.size();
-  // Nothing at all may stand for the variadic part, not even a comma.
+  // The variadic part may be left out entirely, even its comma.
   if (macro.is_variadic && given + 1 == wanted) call.arguments.emplace_back();
   if (call.arguments.size() == wanted) {
     call.expanded.resize(wanted);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Damaged sources: whatever comes in, the preprocessor ends, and what it reports can be rendered.
+// Damaged sources: whatever the input, the preprocessor ends, and what it reports can be rendered.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -111,7 +111,7 @@ TEST(Mutation, NeverCrashesNorHangs) {
     ASSERT_EQ(input.rendered().empty(), input.diagnostics.diagnostics().empty()) << main;
     errors += input.diagnostics.error_count();
   }
-  EXPECT_GT(errors, 1000u);  // The mutations do reach the error paths.
+  EXPECT_GT(errors, 1000u);  // The mutations must reach the error paths.
 }
 
 }  // namespace

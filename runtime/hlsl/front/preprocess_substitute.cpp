@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A macro's body with its arguments put in: #, ##, __VA_OPT__ [C++: cpp.subst, cpp.concat].
+// A macro's body with its arguments inserted: #, ##, __VA_OPT__ [C++: cpp.subst, cpp.concat].
 #include <utility>
 
 #include "runtime/hlsl/front/preprocessor.h"
@@ -33,7 +33,7 @@ void Preprocessor::substitute(Call& call, uint32_t begin, uint32_t end, Tokens& 
     const MacroItem& right = body[i + 1];
     bool is_variadic_parameter = right.role == MacroItem::kParameter && call.macro->is_variadic &&
                                  right.parameter + 1 == call.macro->parameters.size();
-    // `, ## __VA_ARGS__`: the comma goes where there are no arguments [GNU].
+    // `, ## __VA_ARGS__`: the comma is dropped if there are no arguments [GNU].
     if (is_variadic_parameter && i > begin && body[i - 1].token.is(TokenKind::kComma) &&
         body[i - 1].role == MacroItem::kPlain) {
       if (call.arguments[right.parameter].empty()) {
@@ -86,7 +86,7 @@ uint32_t Preprocessor::append_operand(Call& call, uint32_t i, bool is_raw, Token
   return last;
 }
 
-// Expanded as if nothing else stood in the file; once for all uses of the parameter.
+// Expanded as if it were alone in the file, and only once for all uses of the parameter.
 const std::vector<Token>& Preprocessor::expanded_argument(Call& call, uint32_t parameter) {
   std::optional<Tokens>& known = call.expanded[parameter];
   if (known) return *known;
@@ -136,7 +136,7 @@ Token Preprocessor::stringize(Call& call, const MacroItem& item) {
   return token;
 }
 
-// The last token of `left` and the first of `right` become one.
+// Joins the last token of `left` and the first of `right`.
 void Preprocessor::paste(Call& call, const Token& operation, Tokens& left, const Tokens& right) {
   Token first = left.back();
   const Token& second = right.front();
@@ -163,7 +163,7 @@ void Preprocessor::paste(Call& call, const Token& operation, Tokens& left, const
   left.insert(left.end(), right.begin() + 1, right.end());
 }
 
-// kEndOfFile where `text` is not exactly one token.
+// Returns kEndOfFile if `text` is not exactly one token.
 Token Preprocessor::lex_pasted(const std::string& text) {
   Lexer reader(sources_, sources_.keep(text), identifiers_);
   Token token = reader.next();

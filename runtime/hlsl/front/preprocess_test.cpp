@@ -39,7 +39,7 @@ TEST(Macro, ANameIsNotExpandedInItself) {
   EXPECT_EQ(expand("#define foo foo\n#define CAT(a, b) a ## b\nCAT(fo, o) foo"), "foo foo");
 }
 
-// The example of [C++: cpp.rescan], which combines nearly all rules.
+// The example in [C++: cpp.rescan], which combines nearly all rules.
 TEST(Macro, RescanningExampleOfTheStandard) {
   EXPECT_EQ(expand(R"(#define x 3
 #define f(a) f(x * (a))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// For the tests of lexer and preprocessor: files in memory in, tokens and diagnostics out.
+// For the tests of the lexer and preprocessor: turns files in memory into tokens and diagnostics.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct Preprocessed {
     list = preprocess_file("main.hlsl", options, sources, diagnostics);
   }
 
-  // All tokens but the last, with one space between them; strings in quotes.
+  // All tokens but the last, separated by spaces; strings are in quotes.
   std::string text() const {
     std::string result;
     for (const Token& token : list.tokens) {

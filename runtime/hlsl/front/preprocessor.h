@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The preprocessor's inner state; users include preprocess.h. What is where:
-// preprocess.cpp files in, tokens out; _directive directives, _conditional #if and the groups left
-// out, _condition its expression, _include #include, _define #define, _macro calls and their
-// arguments, _substitute bodies with arguments put in.
+// The preprocessor's inner state; users include preprocess.h. Where to find what:
+// preprocess.cpp: files in, tokens out; _directive: directives; _conditional: #if and skipped
+// groups; _condition: its expression; _include: #include; _define: #define; _macro: calls and their
+// arguments; _substitute: bodies with arguments inserted.
 #pragma once
 
 #include <deque>
@@ -20,12 +20,12 @@ namespace kaamos::hlsl {
 
 enum class BuiltinMacro : uint8_t { kNone, kLine, kFile, kCounter };
 
-// One piece of a macro's body, as substitution needs it.
+// One piece of a macro's body, in the form that substitution needs.
 struct MacroItem {
   enum Role : uint8_t {
     kPlain,
     kParameter,
-    kStringize,   // '#' and the parameter behind it.
+    kStringize,   // '#' and the parameter after it.
     kPaste,       // '##'
     kVaOptBegin,  // __VA_OPT__( up to `end`, the index of the kVaOptEnd.
     kVaOptEnd,
@@ -43,7 +43,7 @@ struct Macro {
   bool is_predefined = false;
   bool is_function_like = false;
   bool is_variadic = false;
-  bool is_disabled = false;  // Its expansion is being read: the name stays as it is.
+  bool is_disabled = false;  // While its expansion is being read, the name is not expanded again.
   std::vector<uint32_t> parameters;
   std::vector<MacroItem> body;
 };
@@ -60,14 +60,14 @@ class Preprocessor {
   bool is_defined(const Token& name);
   bool has_include(const Token& keyword);
   DiagnosticEngine& diagnostics() { return diagnostics_; }
-  // A limit was exceeded: only ends of file come from now on.
+  // A limit was exceeded: every token from now on is an end of file.
   bool is_fatal() const { return is_fatal_; }
 
  private:
   struct Conditional {
     SourceLocation location;
     std::string_view keyword;  // "if", "ifdef", "ifndef"
-    bool is_taken;             // One of its groups was or is read.
+    bool is_taken;             // One of its groups was read or is being read.
     bool has_else;
   };
   struct OpenFile {
@@ -76,7 +76,7 @@ class Preprocessor {
     Lexer lexer;
     std::vector<Conditional> conditionals;
   };
-  // Tokens that are read before the file goes on.
+  // Tokens to be read before the file goes on.
   struct Frame {
     std::vector<Token> tokens;
     size_t next = 0;
@@ -125,7 +125,7 @@ class Preprocessor {
   void directive_else(const Token& name);
   void directive_endif(const Token& name);
   void skip_group();
-  // One directive of a group left out; true: the following group is read.
+  // Handles one directive in a skipped group; returns true if the following group is to be read.
   bool skip_directive(uint32_t& depth);
   bool read_condition(const Token& name);
 
@@ -148,7 +148,7 @@ class Preprocessor {
   Macro* make_builtin(std::string_view name, BuiltinMacro builtin);
 
   // preprocess_macro.cpp
-  // True: `token` was a macro and its expansion is read next, or `token` was replaced.
+  // Returns true if `token` was a macro, whose expansion is read next, or was replaced.
   bool expand(Token& token, bool& is_replaced);
   void expand_builtin(Token& token, const Macro& macro);
   bool is_left_paren_next();
@@ -159,7 +159,7 @@ class Preprocessor {
 
   // preprocess_substitute.cpp
   void substitute(Call& call, uint32_t begin, uint32_t end, Tokens& result);
-  // Appends what items[i] stands for; returns the index of the last item of it.
+  // Appends what items[i] expands to; returns the index of its last item.
   uint32_t append_operand(Call& call, uint32_t i, bool is_raw, Tokens& result);
   const Tokens& expanded_argument(Call& call, uint32_t parameter);
   Token stringize(Call& call, const MacroItem& item);
@@ -173,15 +173,15 @@ class Preprocessor {
   IdentifierTable identifiers_;
   std::vector<std::unique_ptr<OpenFile>> files_;
   std::vector<Frame> frames_;
-  std::vector<Tokens> spare_;  // Memory of frames that were read.
+  std::vector<Tokens> spare_;  // Memory of frames that have been read.
   std::vector<std::unique_ptr<Macro>> macros_;
-  std::unordered_set<const SourceText*> once_;  // #pragma once was seen.
-  std::optional<Token> pending_;                // #pragma pack_matrix, to be handed out next.
+  std::unordered_set<const SourceText*> once_;  // Files with #pragma once.
+  std::optional<Token> pending_;                // A #pragma pack_matrix, to be returned next.
   TokenList output_;
-  std::string joined_;  // Of the adjacent strings at the end of the output.
+  std::string joined_;  // The value of the adjacent strings at the end of the output.
   bool is_joining_ = false;
-  std::vector<std::string_view> collecting_;  // Names of macros whose arguments are being read.
-  bool is_isolated_ = false;  // An argument is expanded by itself: nothing follows the frames.
+  std::vector<std::string_view> collecting_;  // Macros whose arguments are being read.
+  bool is_isolated_ = false;  // Expanding an argument by itself: nothing follows the frames.
   bool is_fatal_ = false;
   uint32_t argument_depth_ = 0;
   uint32_t inclusions_ = 0;

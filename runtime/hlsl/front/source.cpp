@@ -13,7 +13,7 @@ SourceText* SourceManager::load(const std::string& path, std::string* error) {
   std::optional<LoadedFile> loaded = loader_.load(path, &failure);
   if (!loaded) {
     if (error) *error = failure;
-    // A file that exists but cannot be read is asked for again, so that each use reports why.
+    // A file that exists but cannot be read is tried again each time, so that each use reports why.
     if (failure.empty()) by_path_[path] = nullptr;
     return nullptr;
   }
@@ -36,7 +36,7 @@ SourceText* SourceManager::add_text(std::string name, std::string text) {
 
 std::optional<SourceManager::FileIndex> SourceManager::add_file(SourceText* text,
                                                                 SourceLocation included_from) {
-  // One more than the size: the end of the file is a location too.
+  // One more than the size, because the end of the file is a location too.
   uint64_t end = uint64_t{next_base_} + text->text.size() + 1;
   if (end >= SourceLocation::kMacroBit) return std::nullopt;
   files_.push_back({next_base_, text, included_from, {}});
@@ -120,7 +120,7 @@ ResolvedLocation SourceManager::resolve(SourceLocation location) const {
   uint32_t offset = location.raw - file->base;
   uint32_t line = physical_line(*file->text, offset);
   uint32_t line_start = file->text->line_starts[line - 1];
-  // A byte order mark is no column.
+  // A byte order mark does not count as a column.
   uint32_t mark = line == 1 && file->text->text.starts_with("\xEF\xBB\xBF") && offset >= 3 ? 3 : 0;
   ResolvedLocation result{file->text->path, line, offset - line_start - mark + 1};
   for (auto it = file->overrides.rbegin(); it != file->overrides.rend(); ++it) {

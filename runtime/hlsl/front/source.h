@@ -24,32 +24,32 @@ struct SourceLocation {
 
   constexpr bool is_valid() const { return raw != 0; }
   constexpr bool is_macro() const { return (raw & kMacroBit) != 0; }
-  // `bytes` further on in the same file; a token of a macro expansion stays where it is.
+  // `bytes` further on in the same file; a token from a macro expansion does not move.
   constexpr SourceLocation advanced(uint32_t bytes) const {
     return is_macro() || raw == 0 ? *this : SourceLocation{raw + bytes};
   }
   friend constexpr bool operator==(SourceLocation, SourceLocation) = default;
 };
 
-// What a person reads: the outermost place in a file, #line applied.
+// What a person reads: the outermost place in a file, with #line applied.
 struct ResolvedLocation {
-  std::string_view path;  // Empty where there is no location.
-  uint32_t line = 0;      // From 1.
-  uint32_t column = 0;    // From 1, in bytes.
+  std::string_view path;  // Empty if there is no location.
+  uint32_t line = 0;      // Counted from 1.
+  uint32_t column = 0;    // Counted from 1, in bytes.
 };
 
 // The text of one file; shared by all inclusions of it.
 struct SourceText {
   std::string path;       // As found; what diagnostics show.
   std::string canonical;  // Names the file uniquely.
-  std::string text;  // std::string keeps a zero byte behind the last one: the lexer's sentinel.
-  std::vector<uint32_t> line_starts;  // Filled at the first question for a line.
+  std::string text;       // std::string ends in a zero byte, which is the lexer's sentinel.
+  std::vector<uint32_t> line_starts;  // Filled when a line is first looked up.
 };
 
 class SourceManager {
  public:
-  // One token's way through a macro: `spelling` is the token in the #define, `invocation` the
-  // macro's name where it was used (itself a macro location where macros nest).
+  // How one token got through a macro: `spelling` is the token in the #define, `invocation` the
+  // macro's name where it was used (itself a macro location if macros are nested).
   struct MacroExpansion {
     std::string_view macro;
     SourceLocation spelling;
@@ -63,43 +63,43 @@ class SourceManager {
   SourceManager(const SourceManager&) = delete;
   SourceManager& operator=(const SourceManager&) = delete;
 
-  // The file's text, from memory after the first time; nullptr where there is none. `error` is set
-  // only where there is a file that cannot be read.
+  // The file's text, cached after the first time; nullptr if there is none. `error` is set only if
+  // the file exists but cannot be read.
   SourceText* load(const std::string& path, std::string* error);
-  // A text that no loader knows, such as -D options.
+  // A text that does not come from a loader, such as -D options.
   SourceText* add_text(std::string name, std::string text);
-  // Enters a text at `included_from` (invalid for the main file). nullopt: the 2 GiB of locations
-  // are used up.
+  // Enters a text at `included_from` (invalid for the main file). Returns nullopt if the 2 GiB of
+  // locations are used up.
   std::optional<FileIndex> add_file(SourceText* text, SourceLocation included_from);
 
   const SourceText& text_of(FileIndex file) const { return *files_[file].text; }
   SourceLocation location(FileIndex file, uint32_t offset) const {
     return {files_[file].base + offset};
   }
-  // From the line behind `offset` on, lines count from `line` [C++: line control].
+  // From the line after `offset`, lines count from `line` [C++: line control].
   void set_line(FileIndex file, uint32_t offset, uint32_t line, std::optional<std::string> name);
 
-  // Registers an expansion of `macro` (text that lives as long as this object).
+  // Registers an expansion of `macro` (whose text lives as long as this object).
   uint32_t begin_expansion(std::string_view macro, SourceLocation invocation);
   SourceLocation expansion_token(uint32_t expansion, SourceLocation spelling);
   size_t expansion_token_count() const { return expansion_tokens_.size(); }
 
-  // Outermost place in a file: where the macro was used, or the location itself.
+  // The outermost place in a file: where the macro was used, or the location itself.
   SourceLocation file_location(SourceLocation location) const;
-  // Where the characters stand: in the #define for a token of a macro's body.
+  // Where the characters are: in the #define for a token of a macro's body.
   SourceLocation spelling_location(SourceLocation location) const;
   std::optional<MacroExpansion> expansion_of(SourceLocation location) const;
-  // The #include that brought the file of this location; invalid for the main file.
+  // The #include that included the file of this location; invalid for the main file.
   SourceLocation include_location(SourceLocation location) const;
   ResolvedLocation resolve(SourceLocation location) const;
-  // The whole line, without its end; empty where there is no location.
+  // The whole line without its newline; empty if there is no location.
   std::string_view line_text(SourceLocation location) const;
 
-  // Keeps a text as long as this object lives; a zero byte follows it.
+  // Keeps a text as long as this object lives, followed by a zero byte.
   std::string_view keep(std::string text);
-  // Paths of all files that were read, in the order of reading.
+  // Paths of all files that were read, in the order in which they were read.
   std::vector<std::string> loaded_paths() const;
-  // The same with their texts, by the path that each was asked for, in the order of these.
+  // The same with their texts, by the path that was asked for, sorted by that path.
   std::vector<std::pair<std::string, const SourceText*>> loaded_files() const;
 
  private:
@@ -128,8 +128,8 @@ class SourceManager {
   static uint32_t physical_line(SourceText& text, uint32_t offset);
 
   FileLoader& loader_;
-  std::unordered_map<std::string, SourceText*> by_path_;       // As asked for; nullptr: none.
-  std::unordered_map<std::string, SourceText*> by_canonical_;  // As found.
+  std::unordered_map<std::string, SourceText*> by_path_;       // As asked for; null: no such file.
+  std::unordered_map<std::string, SourceText*> by_canonical_;  // By the path found.
   std::vector<std::unique_ptr<SourceText>> texts_;
   std::vector<File> files_;
   std::vector<Expansion> expansions_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the lexer and the preprocessor hand to the parser.
+// What the lexer and the preprocessor pass to the parser.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,21 @@ enum class TokenKind : uint8_t {
 
 struct Token {
   enum Flag : uint8_t {
-    kAtLineStart = 1,   // First of its line in the file.
-    kSpaceBefore = 2,   // White space or a comment stands before it.
-    kNoExpand = 4,      // Its macro was being expanded: never again a macro [C++: rescan].
-    kQuotedBroken = 8,  // A string or character without its end, reported already.
+    kAtLineStart = 1,   // First on its line in the file.
+    kSpaceBefore = 2,   // White space or a comment comes before it.
+    kNoExpand = 4,      // Its macro was being expanded, so it is never a macro again [C++: rescan].
+    kQuotedBroken = 8,  // An unterminated string or character, already reported.
   };
 
   TokenKind kind = TokenKind::kEndOfFile;
   uint8_t flags = 0;
   SourceLocation location;
-  // Names and keywords: the same number for the same text. Numbers: index into
-  // TokenList::numbers.
+  // For names and keywords, a number that is the same for the same text. For numbers, the index
+  // into TokenList::numbers.
   uint32_t value = 0;
-  // As written, line continuations removed; kStringLiteral: the value, escapes resolved, adjacent
-  // literals joined; kPragmaPackMatrix: row_major or column_major. Lives as long as the
-  // SourceManager.
+  // As written, with line continuations removed. kStringLiteral: the value, with escapes resolved
+  // and adjacent literals joined. kPragmaPackMatrix: row_major or column_major. Lives as long as
+  // the SourceManager.
   std::string_view text;
 
   bool is(TokenKind k) const { return kind == k; }
@@ -49,10 +49,10 @@ struct TokenList {
 std::string_view token_kind_text(TokenKind kind);
 // The token as diagnostics quote it: 'foo', end of file.
 std::string describe(const Token& token);
-// Keyword, reserved word, or kIdentifier.
+// A keyword, a reserved word, or kIdentifier.
 TokenKind keyword_kind(std::string_view text);
 bool is_keyword(TokenKind kind);
-// sample, linear, ...: keywords that DXC also takes as names.
+// sample, linear, ...: keywords that DXC also accepts as names.
 bool is_contextual_keyword(TokenKind kind);
 inline bool can_be_name(TokenKind kind) {
   return kind == TokenKind::kIdentifier || is_contextual_keyword(kind);

@@ -5,7 +5,7 @@
 
 namespace kaamos::hlsl {
 
-// The files of runtime/hlsl/glsl, ended by an empty one.
+// The files of runtime/hlsl/glsl/prelude; an empty one marks the end.
 extern const std::string_view kGlslPreludeSources[];
 
 namespace glsl_blocks {
@@ -47,8 +47,8 @@ std::string type_name(const Kind& kind, int width) {
 struct Dimension {
   std::string_view name, glsl, location, texels, gradient, offset, number;
 };
-// location: the sampling coordinates; texels: coordinates of one texel, arrays included; gradient,
-// offset: without the array element; number: D3D12_SRV_DIMENSION.
+// location: the sampling coordinates; texels: coordinates of one texel, including the array
+// element; gradient, offset: without the array element; number: D3D12_SRV_DIMENSION.
 constexpr Dimension kDimensions[] = {
     {"1d", "1D", "float", "int", "float", "int", "2"},
     {"1d_array", "1DArray", "vec2", "ivec2", "float", "int", "3"},
@@ -72,9 +72,9 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
   }
 }
 
-// $T the type, $S its scalar, $W what its sums are kept in, $K the kind's name, $N the width; $i16
-// and the like: that kind of the same width, for which $B, $I, $U, $F are short. $1 and $0: all
-// components 1 and 0.
+// $T is the type, $S its scalar, $W the type its sums are kept in, $K the kind's name, $N the
+// width. $i16 and the like are that kind with the same width; $B, $I, $U and $F are short for the
+// common ones. $1 and $0 have all components 1 and 0.
 std::string instantiate(std::string_view text, const Kind& kind, int width) {
   std::string out(text);
   replace_all(out, "$T", type_name(kind, width));
@@ -96,7 +96,7 @@ std::string instantiate(std::string_view text, const Kind& kind, int width) {
   return out;
 }
 
-// The vector form of the scalar function whose head `text` begins with.
+// The vector form of the scalar function whose header is at the start of `text`.
 std::string each_component(std::string_view text, int width) {
   const size_t open = text.find('('), close = text.find(')');
   if (open == std::string_view::npos || close == std::string_view::npos) return {};
@@ -188,7 +188,7 @@ Library::Library() {
   }
 }
 
-// Blocks begin with a line `//@ name words`; what stands before the first is a comment.
+// A block begins with a line `//@ name words`; everything before the first block is a comment.
 void Library::read(std::string_view source) {
   constexpr std::string_view kMark = "//@ ";
   size_t at = source.find(kMark);
@@ -231,7 +231,7 @@ void Library::add(std::string_view header, std::string_view text) {
   insert(std::string(words[0]), std::move(block));
 }
 
-// `k_sin,k_cos words`: a block for each; $NAME is the name, $BASE what follows its k_.
+// `k_sin,k_cos words`: one block per name; $NAME is the name, $BASE the part after its k_.
 void Library::add_alternatives(std::string_view names, std::string_view words,
                                std::string_view text) {
   for (size_t i = 0; i < names.size();) {
@@ -246,7 +246,7 @@ void Library::add_alternatives(std::string_view names, std::string_view words,
   }
 }
 
-// `k_name_$D_$C 2d 3d f`: words name the dimensions and classes; without them all.
+// `k_name_$D_$C 2d 3d f`: the words name the dimensions and classes; without them, all are meant.
 void Library::add_textures(std::span<const std::string_view> words, std::string_view text) {
   const auto wanted = [&](std::string_view name, bool is_class) {
     bool any = false;

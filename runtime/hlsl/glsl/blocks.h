@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The blocks of text of which the GLSL prelude is made: how the files of runtime/hlsl/glsl are
-// read, and how a block becomes the overloads that it stands for.
+// The text blocks that make up the GLSL prelude: how the files in runtime/hlsl/glsl/prelude are
+// read, and how a block is expanded into the overloads that it stands for.
 #pragma once
 
 #include <cctype>
@@ -17,14 +17,15 @@ namespace kaamos::hlsl::glsl_blocks {
 
 // Names of scalar kinds: b, i16, u16, i32, u32, i64, u64, f16, f32, f64.
 using KindSet = std::set<std::string_view>;
-// Those that need no capability of their own; overloads for others are left out unless used.
+// Kinds that need no capability of their own; overloads for other kinds are left out unless they
+// are used.
 extern const KindSet kOrdinary;
-// Adds the kind that a type's name, or the end of a name of the prelude, speaks of.
+// Adds the kind that is named by a type, or by the end of a name in the prelude.
 void add_kind_of_identifier(std::string_view word, KindSet& kinds);
 
 enum class Expansion {
   kPlain,
-  kEach,    // written for a scalar; vectors go component by component
+  kEach,    // written for a scalar; vectors are done component by component
   kAny,     // $T is a scalar or a vector of any width
   kVector,  // widths 2 to 4
   kScalar,  // width 1
@@ -61,10 +62,10 @@ class Library {
 
   std::map<std::string, std::vector<Block>, std::less<>> blocks_;
   std::vector<std::string> names_;
-  std::deque<std::string> generated_;  // keeps its elements' addresses
+  std::deque<std::string> generated_;  // the addresses of its elements stay valid
 };
 
-// Calls visit(word) for each identifier and keyword outside of line comments.
+// Calls visit(word) for each identifier and keyword that is not in a line comment.
 template <class Visit>
 void each_identifier(std::string_view text, const Visit& visit) {
   const auto is_word = [](char c) {
@@ -85,7 +86,7 @@ void each_identifier(std::string_view text, const Visit& visit) {
   }
 }
 
-// The names k_* in a text, each once.
+// The names k_* in a text, without duplicates.
 std::vector<std::string_view> used_names(std::string_view text);
 
 }  // namespace kaamos::hlsl::glsl_blocks

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The text as a whole: globals, functions, main.
+// The shader as a whole: globals, functions, main.
 #include "runtime/hlsl/glsl/emit_glsl.h"
 
 #include "kaamos/shader/spirv_interface.h"
@@ -40,7 +40,7 @@ void GlslEmitter::collect(const Expr& root) {
   });
 }
 
-// What the entry point reaches.
+// Collects what the entry point reaches.
 void GlslEmitter::collect(const Function& function) {
   if (!functions_.insert(&function).second) {
     return;
@@ -86,7 +86,7 @@ void GlslEmitter::emit_globals() {
   }
 }
 
-// Once per invocation, in main.
+// Runs once per invocation, in main.
 void GlslEmitter::initialise_globals() {
   for (const Variable* variable : module_.globals) {
     const bool constant = variable->storage == Storage::kConstant;
@@ -104,7 +104,7 @@ void GlslEmitter::initialise_globals() {
 void GlslEmitter::emit_function(const Function& function) {
   current_ = &function;
   local_names_ = GlslNames("u_");
-  // Locals and globals share one prefix: what a local hides is not reached by its name.
+  // Locals and globals share one prefix; a local must not hide a global that the function uses.
   for (const Variable* variable : module_.globals) {
     if (globals_.count(variable) != 0) {
       local_names_.reserve(variable_names_[variable]);
@@ -115,7 +115,7 @@ void GlslEmitter::emit_function(const Function& function) {
     const Variable* parameter = function.parameters[i];
     variable_names_[parameter] = local_names_.add(parameter->name);
     constexpr const char* kModes[] = {"", "inout ", "out "};
-    if (parameter->type->is_query()) {  // opaque: by reference without being told
+    if (parameter->type->is_query()) {  // opaque: always passed by reference
       const std::string& name = variable_names_[parameter];
       text +=
           (i == 0 ? "" : ", ") + type(parameter->type) + " " + name + ", inout g_Query g_s_" + name;
@@ -131,7 +131,7 @@ void GlslEmitter::emit_function(const Function& function) {
     }
   }
   block(function.body);
-  // Where HLSL code can fall off the end of a function, its result is undefined: zero here.
+  // If HLSL code can fall off the end of a function, its result is undefined; here it is zero.
   if (function.result->kind != TypeKind::kVoid) {
     line("return " + zero(function.result) + ";");
   }
@@ -199,7 +199,7 @@ void GlslEmitter::emit_main() {
            site(entry_.function->location) + ", 0u, 0u, uint64_t(g_in.bytes), " +
            std::to_string(4 * glsl::words(entry_.payload)) + "UL, " + (callable ? "1UL" : "0UL") +
            ", 0UL);");
-      if (entry_.stage != kStageAnyHit) line("g_in.type = 0u;");  // for the caller: this ran
+      if (entry_.stage != kStageAnyHit) line("g_in.type = 0u;");  // tells the caller that this ran
     }
     line(type(entry_.payload) + " g_argument = " + convert_wire(entry_.payload, false) +
          "(g_in.data);");
@@ -220,7 +220,7 @@ void GlslEmitter::emit_main() {
   out_ = std::move(functions) + "void main() {\n" + start_ + out_ + "}\n";
 }
 
-// For k_tell: which shader of the pipeline runs, and for which pixel or thread group.
+// For k_tell: which shader of the pipeline is running, and for which pixel or thread group.
 void GlslEmitter::define_check_place() {
   Expr index;
   index.kind = ExprKind::kSystemValue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Every entry point of every HLSL file of the tests, examples and effects becomes GLSL that glslang
-// takes and SPIR-V that spirv-val takes; and what the text looks like where that counts.
+// Every entry point in every HLSL file of the tests, examples and effects becomes GLSL that glslang
+// accepts and SPIR-V that spirv-val accepts. Where the shape of the text matters, it is tested too.
 #include "runtime/hlsl/glsl/emit_glsl.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ using ::testing::Not;
 
 const std::string kRoot = KAAMOS_SOURCE_DIR;
 
-// What the head of a file of tests/hlsl asks for.
+// The options in the header of a file in tests/hlsl.
 FrontendOptions options_of(const fs::path& path) {
   FrontendOptions options;
   options.path = path.string();
@@ -58,7 +58,7 @@ std::string validate(const std::vector<uint32_t>& words) {
   return tools.Validate(words.data(), words.size(), options) ? "" : messages + "invalid";
 }
 
-// How many entry points pass; messages of those that do not.
+// The number of entry points that pass; messages for those that do not.
 int sweep_file(const fs::path& path, bool checked, std::string& wrong) {
   DiskFileLoader loader;
   SourceManager sources(loader);
@@ -115,7 +115,7 @@ TEST(EmitGlsl, Effects) {
   sweep("effects", 4);
 }
 
-// What a checked device runs.
+// The code that a checked device runs.
 TEST(EmitCheckedGlsl, Effects) {
   sweep("effects", 40, true);
 }
@@ -208,7 +208,7 @@ TEST(EmitGlsl, PayloadsTravelWithTheirDepthAndWithoutBools) {
   EXPECT_THAT(text, HasSubstr("g_max_trace_depth"));
 }
 
-// glslang 12 makes invalid SPIR-V of both forms of the matrix in one shader.
+// glslang 12 generates invalid SPIR-V if both forms of the matrix are used in one shader.
 TEST(EmitGlsl, OnlyOneFormOfTheTransformsIsUsed) {
   const std::string text = glsl_of(kScene, "Hit");
   EXPECT_THAT(text, HasSubstr("gl_ObjectToWorldEXT"));
@@ -250,7 +250,7 @@ TEST(Spirv, ManyThreadsCompileAtOnce) {
   for (const SpirvLibrary& result : results) EXPECT_EQ(result.modules, alone.modules);
 }
 
-// DXC refuses it; the native code takes it.
+// DXC rejects it; the native code accepts it.
 TEST(EmitGlsl, GroupsharedMemoryOfRayTracingIsPrivate) {
   const std::string text = glsl_of(
       "RWByteAddressBuffer results : register(u0);\ngroupshared uint n[2];\n"

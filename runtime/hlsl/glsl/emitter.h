@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// The GLSL emitter's state, shared by its files: emit_glsl_types.cpp (types, literals),
-// emit_glsl_memory.cpp (loads and stores), emit_glsl_matrices.cpp, emit_glsl_expressions.cpp,
-// emit_glsl_resources.cpp (bindings, typed buffers, textures, atomics), emit_glsl_statements.cpp,
-// emit_glsl_rays.cpp (TraceRay and its kin, system values), emit_glsl.cpp (functions, main).
+// The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
+// stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
+// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, system_values.cpp,
+// emit_glsl.cpp (functions, main).
 //
-// Names: u_ variables, f_ functions, s_ structs, m_ fields of the HLSL source, each numbered where
-// it is not unique; k_ the prelude's; g_ what is generated here. No name of the source stands bare,
-// so none can meet a word of GLSL's.
+// Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
+// a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
+// Every name of the source has a prefix, so none can clash with a GLSL keyword.
 //
 // GLSL has no matrices of every scalar type and no rows: an HLSL matrix is a struct of rows, and
 // its functions are generated when first used.
@@ -44,15 +44,15 @@ class GlslEmitter {
   GlslShader run();
 
  private:
-  // A place inside a variable. What an index does not reach is guarded by a condition, and the
-  // index clamped, so that the text itself is always in range.
+  // A place inside a variable. If an index can be out of range, a condition guards the access and
+  // the index is clamped, so that the emitted expression is always in range.
   struct Path {
     std::string text;
     std::vector<std::string> guards;
-    std::string guard() const;  // all of them
+    std::string guard() const;  // all guards combined
   };
 
-  // emit_glsl_types.cpp
+  // types.cpp
   std::string type(const ir::Type* type);
   std::string matrix_name(ir::Scalar scalar, int rows, int columns);
   std::string zero(const ir::Type* type);
@@ -61,7 +61,7 @@ class GlslEmitter {
   void emit_struct(const ir::Struct* structure);
   bool is_constant(const ir::Expr& expr) const;
 
-  // emit_glsl_memory.cpp
+  // memory.cpp
   std::string memory_read(const ir::Type* type, ir::Layout layout, bool row_major,
                           const std::string& window, const std::string& at);
   std::string memory_write(const ir::Type* type, ir::Layout layout, bool row_major,
@@ -74,7 +74,7 @@ class GlslEmitter {
   std::string load(const ir::Expr& expr);
   void store(const ir::Stmt& stmt);
 
-  // emit_glsl_matrices.cpp
+  // matrices.cpp
   std::string matrix_call(const std::string& function, const ir::Type* result,
                           const std::vector<const ir::Expr*>& operands);
   std::string matrix_intrinsic(const ir::Expr& expr);
@@ -86,7 +86,7 @@ class GlslEmitter {
   std::string transpose(const ir::Type* matrix);
   std::string determinant(const ir::Type* matrix);
 
-  // emit_glsl_expressions.cpp
+  // expressions.cpp
   std::string value(const ir::Expr* expr);
   Path path(const ir::Expr* expr);
   std::string element_index(const ir::Expr* index, uint32_t count, Path& path);
@@ -97,15 +97,16 @@ class GlslEmitter {
   std::string unary(const ir::Expr& expr);
   std::string binary(const ir::Expr& expr);
   std::string intrinsic(const ir::Expr& expr);
-  // A temporary, declared before the statement that is being printed. Expressions are pure, so
-  // where they are evaluated does not matter.
+  // Declares a temporary before the statement that is being printed. Expressions are pure, so it
+  // does not matter where they are evaluated.
   std::string hoist(const std::string& type, const std::string& text);
   std::string repeatable(const ir::Expr* expr);  // a name or a literal
 
-  // emit_glsl_resources.cpp
+  // resources.cpp
   std::string binding(const ir::Expr& expr);
   std::string binding_arguments(uint32_t binding, const std::string& index);
-  // Checked libraries: CheckReport::site; what the checked windows take more; what k_tell asks for.
+  // For checked libraries: CheckReport::site; the extra arguments of the checked windows; k_tell's
+  // arguments.
   std::string site(const ir::Location& location) const;
   std::string access_arguments(const ir::Type* type, ir::Layout layout, bool row_major, int write,
                                const ir::Location& location) const;
@@ -121,7 +122,7 @@ class GlslEmitter {
   std::string to_texel(const ir::Type* type, const std::string& text);
   std::string texel_at(const ir::Expr* coordinates);
 
-  // emit_glsl_statements.cpp
+  // statements.cpp
   void block(const ir::Block& body);
   void statement(const ir::Stmt& stmt);
   void declare(const ir::Stmt& stmt);
@@ -135,7 +136,7 @@ class GlslEmitter {
   void barrier(uint32_t flags);
   void end_shader();
 
-  // emit_glsl_rays.cpp
+  // rays.cpp
   void declare_workarounds();
   std::string generated(const std::string& name, const std::string& text);
   std::string wire_type(const ir::Type* type);
@@ -161,7 +162,7 @@ class GlslEmitter {
   std::string reported_t();
   void report_hit(const ir::Stmt& stmt);
 
-  // emit_glsl_queries.cpp
+  // queries.cpp
   void declare_query();
   bool uses_queries() const;
   std::string query_arguments(const ir::Expr* object);
@@ -170,7 +171,7 @@ class GlslEmitter {
   std::string query_result(const ir::Expr& expr);
   std::string query_value(const ir::Expr& expr);
 
-  // emit_glsl_system_values.cpp
+  // system_values.cpp
   void declare_instance_entry();
   std::string system_value(const ir::Expr& expr);
   std::string hit_builtin(const std::string& name, const std::string& type,
@@ -212,7 +213,7 @@ class GlslEmitter {
   // A loop whose body is being printed.
   struct Loop {
     const ir::Stmt* stmt;
-    bool flagged;  // step and condition stand at the start of the next round
+    bool flagged;  // step and condition come at the start of the next iteration
   };
 
   const ir::Module& module_;
@@ -220,7 +221,7 @@ class GlslEmitter {
   const ir::EntryPoint& entry_;
   GlslShader shader_;
 
-  // Parts of the text, in the order in which they are put together.
+  // Sections of the text, in the order in which they are put together.
   std::string constants_;     // specialization constants
   std::string matrices_;      // matrix structs
   std::string structs_;       // the library's structs
@@ -239,15 +240,15 @@ class GlslEmitter {
   std::unordered_map<const ir::Function*, std::string> function_names_;
   std::unordered_map<const ir::Variable*, std::string> variable_names_;
 
-  std::unordered_set<const ir::Function*> functions_;  // that the entry point reaches
+  std::unordered_set<const ir::Function*> functions_;  // reached by the entry point
   std::unordered_set<const ir::Variable*> globals_;
-  std::vector<const ir::Type*> attribute_types_;            // that it reports or is given
+  std::vector<const ir::Type*> attribute_types_;            // those that it reports or receives
   std::unordered_set<std::string> made_;                    // generated functions and variables
-  std::unordered_map<std::string, std::string> generated_;  // what is generated, by what for
+  std::unordered_map<std::string, std::string> generated_;  // names, by what they were made for
   const ir::Function* current_ = nullptr;
   std::vector<Loop> loops_;
   int next_temporary_ = 0;
-  int next_location_ = 1;  // of payloads and callable data; 0 is the incoming one
+  int next_location_ = 1;  // for payloads and callable data; 0 is the incoming one
 };
 
 namespace glsl {
@@ -260,7 +261,7 @@ uint32_t memory_bytes(ir::Scalar scalar);  // bool takes 4
 std::string component(int index);          // "x"
 std::string number(uint64_t n);            // "3u"
 bool contains_bool(const ir::Type* type);
-// 32-bit words that all scalars take, each of 64 bits two and any other one.
+// Total number of 32-bit words for all scalars: two for a 64-bit one, one for any other.
 uint32_t words(const ir::Type* type);
 
 }  // namespace glsl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Expressions. GLSL's own operators where they mean the same as HLSL's, else the prelude's
+// Expressions: GLSL's own operators if they mean the same as HLSL's, otherwise the prelude's
 // functions.
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
@@ -17,7 +17,7 @@ bool is_vector(const Type* type) {
 
 struct BinaryNames {
   const char* function;
-  const char* native;  // of scalars; null where GLSL's operator means something else
+  const char* native;  // for scalars; null if GLSL's operator means something else
 };
 
 BinaryNames names_of(BinaryOp op) {
@@ -59,7 +59,7 @@ BinaryNames names_of(BinaryOp op) {
 }
 
 bool is_arithmetic(BinaryOp op) {
-  return op <= BinaryOp::kBitXor;  // those with an operator of vectors too
+  return op <= BinaryOp::kBitXor;  // those that also have an operator for vectors
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ std::string GlslEmitter::Path::guard() const {
   return out;
 }
 
-// The text of an index that is in range, for one that may be not.
+// The text of an in-range index, for one that may be out of range.
 std::string GlslEmitter::element_index(const Expr* index, uint32_t count, Path& out) {
   if (index->kind == ExprKind::kLiteral) {
     if (static_cast<uint32_t>(index->literal[0]) < count) {
@@ -182,7 +182,7 @@ std::string GlslEmitter::convert(const Expr& expr) {
   if (to->kind == TypeKind::kMatrix) {
     return matrix_call(function, to, expr.operands);
   }
-  // GLSL's constructors wrap integers, and round integers and doubles as HLSL does.
+  // GLSL's constructors wrap integers, and round integers and doubles, as HLSL does.
   const bool plain = to->scalar == Scalar::kFloat32 || to->scalar == Scalar::kFloat64 ||
                      (!glsl::is_float(from->scalar) && !glsl::is_float(to->scalar)) ||
                      to->scalar == Scalar::kBool;

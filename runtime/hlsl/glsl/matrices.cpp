@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Matrices: structs of rows, with functions generated from those on vectors when first used. The
-// order of sums is that of <kaamos/shader/intrinsics_geometry.h>.
+// Matrices are structs of rows, whose functions are generated from those on vectors when first
+// used. Sums are in the order of <kaamos/shader/intrinsics_geometry.h>.
 #include "runtime/hlsl/glsl/emitter.h"
 
 namespace kaamos::hlsl {
@@ -18,15 +18,15 @@ std::string row(const std::string& matrix, int index) {
   return matrix + ".r[" + std::to_string(index) + "]";
 }
 
-// One component of a row, which is a scalar where the matrix has one column.
+// One component of a row; the row is a scalar if the matrix has one column.
 std::string at(const std::string& matrix, const Type* type, int r, int c) {
   return row(matrix, r) + (type->columns == 1 ? "" : "." + glsl::component(c));
 }
 
 }  // namespace
 
-// A function that the prelude has for rows, for whole matrices: operands that are no matrices go to
-// every row.
+// Applies one of the prelude's functions, which work on rows, to whole matrices: an operand that is
+// not a matrix goes to every row.
 std::string GlslEmitter::matrix_call(const std::string& function, const Type* result,
                                      const std::vector<const Expr*>& operands) {
   const Type* shape = result;
@@ -161,7 +161,7 @@ std::string GlslEmitter::matrix_intrinsic(const Expr& expr) {
   const Type* first = expr.operands[0]->type;
   switch (expr.intrinsic) {
     case Intrinsic::mul: {
-      // First, because the function must stand before what uses it.
+      // Called first, because the function must be defined before its use.
       const std::string function = mul(expr.type, first, expr.operands[1]->type);
       return call(function, expr.operands);
     }
@@ -189,7 +189,7 @@ std::string GlslEmitter::matrix_intrinsic(const Expr& expr) {
 
 std::string GlslEmitter::matrix_construct(const Expr& expr) {
   const Type* m = expr.type;
-  // Every component by itself, and parts that are whole rows.
+  // Collects all components individually, and also the parts that are whole rows.
   std::vector<std::string> components;
   std::vector<std::string> whole;
   for (const Expr* operand : expr.operands) {
@@ -247,7 +247,7 @@ std::string GlslEmitter::matrix_truncate(const Expr& expr) {
   const Type* from = expr.operands[0]->type;
   const std::string m = repeatable(expr.operands[0]);
   if (!is_matrix(to)) {
-    // To a scalar, or a vector of the first components.
+    // Truncates to a scalar, or to a vector of the first components.
     std::string out = type(to) + "(";
     for (int i = 0; i < to->columns; ++i) {
       out += (i == 0 ? "" : ", ") + at(m, from, i / from->columns, i % from->columns);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// How values travel between variables and buffers: scalars and short vectors through the prelude's
+// Moves values between variables and buffers: scalars and short vectors through the prelude's
 // k_read_ and k_write_ functions, everything else by generated functions at HLSL's offsets. The
-// twin of <kaamos/shader/memory.h> and views.h.
+// GLSL counterpart of <kaamos/shader/memory.h> and views.h.
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
 #include "runtime/hlsl/ir/layout.h"
@@ -29,7 +29,7 @@ bool has_vector_access(Scalar scalar) {
   return scalar == Scalar::kInt32 || scalar == Scalar::kUint32 || scalar == Scalar::kFloat32;
 }
 
-// Low bits of an offset that do not count.
+// The low bits of an offset that are ignored.
 uint32_t ignored_bits(Scalar scalar) {
   return glsl::memory_bytes(scalar) < 4 ? 1 : 3;
 }
@@ -75,7 +75,7 @@ std::string GlslEmitter::memory_write(const Type* t, Layout layout, bool row_maj
 namespace {
 
 // Calls visit(component of "value", its byte offset) for each part of a vector or matrix that one
-// prelude function reads: a scalar or, where a line of memory is a row, a row.
+// prelude function reads: a scalar or, if the matrix is stored by rows, a row.
 template <typename Visit>
 void each_part(const Type* t, Layout layout, bool row_major, const Visit& visit) {
   const uint32_t bytes = glsl::memory_bytes(t->scalar);
@@ -176,8 +176,6 @@ std::string GlslEmitter::write_function(const Type* t, Layout layout, bool row_m
   return function;
 }
 
-// The window that an access of a `t` goes through, from its operands: the resource, the element of
-// a structured buffer, the offset, whose low bits do not count.
 std::string GlslEmitter::site(const Location& location) const {
   return glsl::number(site_of(location.line != 0 ? location : statement_location_));
 }
@@ -189,7 +187,9 @@ std::string GlslEmitter::access_arguments(const Type* t, Layout layout, bool row
          std::to_string(write) + "u, " + site(location);
 }
 
-// `access`: in a checked library, access_arguments.
+// The window through which a `t` is accessed. The operands are the resource, the element of a
+// structured buffer, and the offset, whose low bits are ignored. `access` is access_arguments in a
+// checked library.
 std::string GlslEmitter::window(const std::vector<const Expr*>& operands, bool element,
                                 const Type* t, const std::string& access) {
   if (!access.empty()) {
@@ -199,7 +199,7 @@ std::string GlslEmitter::window(const std::vector<const Expr*>& operands, bool e
   }
   const Expr* offset = operands.back();
   const Type* leaf = innermost(t);
-  // A struct's members are at offsets of their own; those of 16 bits need two bytes only.
+  // A struct's members have offsets of their own, and 16-bit members need only two-byte alignment.
   const bool mask = !element && is_numeric(leaf);
   std::string text;
   if (offset->kind == ExprKind::kLiteral) {

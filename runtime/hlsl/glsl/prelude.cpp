@@ -12,12 +12,12 @@ using namespace glsl_blocks;
 
 namespace {
 
-// Depth first, so that a definition stands before its uses.
+// Depth first, so that a definition comes before its uses.
 class Selection {
  public:
   explicit Selection(const KindSet& kinds) : kinds_(kinds) {}
 
-  // False: nobody defines it.
+  // Returns false if nothing defines it.
   bool add(std::string_view name) {
     const std::vector<Block>* blocks = Library::get().find(name);
     if (blocks == nullptr) return false;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // HLSL's operators, conversions, intrinsics and resource accesses as GLSL functions: what
-// kaamos/shader/prelude.h is for emitted C++. The text is in runtime/hlsl/glsl; its README tells
-// what is there and how the blocks are written.
+// kaamos/shader/prelude.h is for emitted C++. The text is in runtime/hlsl/glsl/prelude; the README
+// there says what it contains and how the blocks are written.
 #pragma once
 
 #include <string>
@@ -13,16 +13,16 @@ namespace kaamos::hlsl {
 
 struct GlslPrelude {
   std::string text;                  // #extension lines, then declarations
-  std::vector<std::string> missing;  // k_* names of `body` that the prelude lacks
+  std::vector<std::string> missing;  // k_* names in `body` that the prelude lacks
 };
 
-// What a shader of text `body` needs before it, behind `#version` and before anything else: the
-// definitions of the names k_* that occur in it, and of what these use. Overloads for 16-bit,
-// 64-bit integer and double types are there if the body speaks of such a type; so an ordinary
-// shader asks for no capability that it does not use.
+// What a shader with the text `body` needs directly after `#version`: the definitions of the k_*
+// names in it, and of those they use. Overloads for 16-bit, 64-bit integer and double types are
+// included only if the body mentions such a type, so that an ordinary shader requires no capability
+// that it does not use.
 GlslPrelude glsl_prelude(std::string_view body);
 
-// Names of all blocks, in the order of the text, each once.
+// The names of all blocks in text order, without duplicates.
 std::vector<std::string> glsl_prelude_names();
 
 }  // namespace kaamos::hlsl

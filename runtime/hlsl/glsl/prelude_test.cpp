@@ -66,7 +66,7 @@ TEST(GlslPrelude, EveryBlockFindsWhatItUses) {
   for (const std::string& name : names) EXPECT_THAT(text, HasSubstr(name));
 }
 
-// Calls of the functions that `text` defines, but of those with parameters that are no values.
+// Calls of the functions that `text` defines, except those with parameters that are not values.
 std::string calls_of(const std::string& text) {
   static const std::regex kHead(R"(\n(\w+) (k_\w+)\(([^)]*)\) \{)");
   static const std::regex kParameter(R"((\w+) \w+,?\s*)");
@@ -109,7 +109,7 @@ TEST(GlslPrelude, EveryFunctionIsValidSpirv) {
   EXPECT_TRUE(tools.Validate(module.words.data(), module.words.size(), options)) << messages;
 }
 
-// The text of `body` and of what it uses is GLSL.
+// Checks that the text of `body`, together with what it uses, is valid GLSL.
 std::string messages_of(std::string_view head, const std::string& body) {
   GlslShader shader;
   shader.text = std::string("#version 460\n") + std::string(head) + glsl_prelude(body).text +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// RayQuery. Beside each rayQueryEXT goes what GLSL does not tell, or not at every time: the ray,
-// and whether the query runs and has a candidate. A driver is asked for nothing that is not there.
+// RayQuery. Each rayQueryEXT is accompanied by what GLSL does not return, or not at any time: the
+// ray, and whether the query is running and has a candidate. The driver is never asked for a value
+// that does not exist.
 #include "kaamos/shader/spirv_interface.h"
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
@@ -13,7 +14,7 @@ using namespace ir;
 
 namespace {
 
-// Of g_Query::state.
+// Bits of g_Query::state.
 constexpr char kState[] =
     "const uint g_query_runs = 1u;\n"
     "const uint g_query_has_candidate = 2u;\n"
@@ -50,7 +51,7 @@ constexpr char kCommitProcedural[] =
     "  if ((s.flags & 4u) != 0u) s.state &= ~g_query_runs;\n"
     "}\n";
 
-// Checked libraries; `type`: the only one that may be, if it is not 0xFFFFFFFF.
+// For checked libraries; `type` is the only one allowed, unless it is 0xFFFFFFFF.
 constexpr char kCheckCandidate[] =
     "void g_check_candidate(rayQueryEXT q, g_Query s, uint type, uint what, uint site) {\n"
     "  bool has = (s.state & g_query_has_candidate) != 0u;\n"
@@ -88,7 +89,7 @@ bool GlslEmitter::uses_queries() const {
   return made_.count("g_Query") != 0;
 }
 
-// The object and what goes with it, as arguments.
+// The object and its accompanying state, as arguments.
 std::string GlslEmitter::query_arguments(const Expr* object) {
   const std::string name = path(object).text;
   return name + ", g_s_" + name;
@@ -105,7 +106,7 @@ std::string GlslEmitter::query_trace_function() {
   const std::string t_min = member(1);
   const std::string direction = member(2);
   const std::string t_max = member(3);
-  // What Vulkan does not allow is a miss.
+  // A ray that Vulkan does not allow is a miss.
   return generated(
       "g_query_trace",
       "void g_query_trace(rayQueryEXT q, inout g_Query s, k_Descriptor scene, uint flags, uint "
@@ -172,7 +173,7 @@ void GlslEmitter::query(const Stmt& stmt) {
   }
 }
 
-// The statement that returns the value, where there is a hit.
+// The statement that returns the value, if there is a hit.
 std::string GlslEmitter::query_result(const Expr& expr) {
   const std::string of = expr.index == 1 ? "(q, true)" : "(q, false)";
   const auto get = [&](const char* what) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// TraceRay, CallShader, ReportHit and what they carry: payloads, callable data and attributes, as
-// <kaamos/shader/spirv_interface.h> lays them out.
+// TraceRay, CallShader, ReportHit and the data they pass: payloads, callable data and attributes,
+// as <kaamos/shader/spirv_interface.h> lays them out.
 #include <algorithm>
 
 #include "kaamos/shader/spirv_interface.h"
@@ -60,7 +60,7 @@ void GlslEmitter::declare_workarounds() {
   constant(kWorkaroundsConstant, "g_workarounds");
 }
 
-// A function or variable, declared once. Returns the name.
+// Emits a function or variable the first time it is needed. Returns the name.
 std::string GlslEmitter::generated(const std::string& name, const std::string& text) {
   if (made_.insert(name).second) {
     helpers_ += text;
@@ -69,7 +69,7 @@ std::string GlslEmitter::generated(const std::string& name, const std::string& t
 }
 
 // ---------------------------------------------------------------------------------------------
-// The form in which payloads travel: bools as uints.
+// The form in which payloads are passed between shaders: bools become uints.
 
 std::string GlslEmitter::wire_type(const Type* t) {
   if (!glsl::contains_bool(t)) {
@@ -104,8 +104,8 @@ std::string GlslEmitter::wire_type(const Type* t) {
   return name;
 }
 
-// The name of a function from a type to the form in which it travels, or back; empty where they
-// are the same.
+// The name of a function that converts a type to the form in which it is passed, or back; empty if
+// the two are the same.
 std::string GlslEmitter::convert_wire(const Type* t, bool to_wire) {
   if (!glsl::contains_bool(t)) {
     return "";
@@ -153,7 +153,7 @@ void GlslEmitter::declare_status() {
                 "];\n  uint64_t unknown_structure;\n};\n");
 }
 
-// A statement that counts, where the device collects statistics.
+// A statement that increments a counter, if the device collects statistics.
 std::string GlslEmitter::count(uint32_t what) {
   constant(shader::spirv::kCountConstant, "g_counts");
   declare_status();
@@ -188,13 +188,13 @@ std::string GlslEmitter::payload_block(const char* qualifier, int location, cons
   return name;
 }
 
-// What the shader that gets the payload compares, in checked libraries.
+// Writes the header that the receiving shader checks, in checked libraries.
 std::string GlslEmitter::header(const std::string& payload, const Type* t) const {
   return "  " + payload + ".type = " + glsl::number(type_hash(t)) + ";\n  " + payload +
          ".bytes = " + glsl::number(4 * glsl::words(t)) + ";\n";
 }
 
-// Which acceleration structure a resource means.
+// Which acceleration structure a resource refers to.
 void GlslEmitter::declare_top_level() {
   declare_status();
   generated("g_top_level",
@@ -360,7 +360,7 @@ void GlslEmitter::declare_attributes() {
 
 namespace {
 
-// Text of a scalar's bits in 32-bit words, or of the scalar from them.
+// Converts a scalar's bits to 32-bit words, or back.
 std::string to_word(Scalar scalar, const std::string& text, int half) {
   switch (scalar) {
     case Scalar::kFloat32:
@@ -433,7 +433,7 @@ void GlslEmitter::each_scalar(const Type* t, const std::string& at,
   }
 }
 
-// A function that puts a value into the attributes, or gets one out of them.
+// A function that stores a value in the attributes, or loads one from them.
 std::string GlslEmitter::attributes_function(const Type* t, bool store) {
   auto& name = generated_[(store ? "store attributes " : "load attributes ") + type(t)];
   if (!name.empty()) {
@@ -494,7 +494,7 @@ std::string GlslEmitter::report_function(const Type* attributes) {
   return name;
 }
 
-// What the closest hit is so far, in an intersection shader.
+// The closest hit so far, in an intersection shader.
 std::string GlslEmitter::reported_t() {
   declare_workarounds();
   return generated("g_ray_t_current", std::string("float g_ray_t_current() { return ") +

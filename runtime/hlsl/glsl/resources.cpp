@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Resources: from a binding to its descriptor, typed buffers, textures, atomics.
+// Resources: how a binding leads to its descriptor, typed buffers, textures, atomics.
 #include <algorithm>
 #include <cctype>
 
@@ -40,7 +40,7 @@ bool is_writable_texture(const Type* resource) {
          resource->resource <= ResourceKind::kRWTexture3D;
 }
 
-// As the prelude's functions are named.
+// The dimension as it appears in the names of the prelude's functions.
 const char* dimension_name(ResourceKind kind) {
   switch (kind) {
     case ResourceKind::kTexture1D:
@@ -64,7 +64,7 @@ const char* dimension_name(ResourceKind kind) {
   }
 }
 
-// Of offsets: array elements have none.
+// The number of offset components; array elements have none.
 int dimension_count(ResourceKind kind) {
   switch (kind) {
     case ResourceKind::kTexture1D:
@@ -82,7 +82,7 @@ int dimension_count(ResourceKind kind) {
   }
 }
 
-// The 32-bit type that a texel holds for a component type: "f", "i" or "u".
+// The class of the 32-bit type that a texel holds for a component type: "f", "i" or "u".
 const char* texel_class(Scalar scalar) {
   switch (scalar) {
     case Scalar::kFloat16:
@@ -108,7 +108,7 @@ std::string texture_function(const char* operation, const Type* resource, Scalar
          texel_class(scalar);
 }
 
-// Whether it is a constant that Vulkan takes as an offset.
+// Whether it is a constant that Vulkan accepts as an offset.
 bool is_texel_offset(const Expr& offset) {
   if (offset.kind != ExprKind::kLiteral) {
     return false;
@@ -165,7 +165,7 @@ std::string GlslEmitter::binding_arguments(uint32_t binding, const std::string& 
   return module_.check_access ? text + ", " + glsl::number(binding + 1) : text;
 }
 
-// What is no array is looked up once, when the shader starts.
+// A binding that is not an array is looked up once, when the shader starts.
 std::string GlslEmitter::binding(const Expr& expr) {
   const bool checked = module_.check_access;
   if (!expr.operands.empty() && module_.bindings[expr.index].is_array) {
@@ -189,7 +189,7 @@ std::string GlslEmitter::binding(const Expr& expr) {
 // ---------------------------------------------------------------------------------------------
 // Texels
 
-// A value from a texel of the 32-bit type for its scalar: vec4, ivec4 or uvec4.
+// Converts a texel of the scalar's 32-bit type (vec4, ivec4 or uvec4) to a value.
 std::string GlslEmitter::from_texel(const Type* t, const std::string& texel) {
   const std::string components =
       t->columns == 4 ? texel : texel + "." + std::string("xyzw").substr(0, t->columns);
@@ -232,7 +232,7 @@ std::string GlslEmitter::typed_load(const Expr& expr) {
                                    ")");
 }
 
-// Coordinates of a texel as int.
+// A texel's coordinates as int.
 std::string GlslEmitter::texel_at(const Expr* coordinates) {
   const std::string text = value(coordinates);
   return coordinates->type->scalar == Scalar::kInt32
@@ -263,19 +263,19 @@ std::string GlslEmitter::sample(const Expr& expr) {
   const Type* resource = operands[0]->type;
   constexpr const char* kNames[] = {"sample_level", "sample_gradient", "sample_compare_level",
                                     "gather", "gather_compare"};
-  constexpr size_t kFixed[] = {4, 5, 5, 3, 4};  // operands without the offset
+  constexpr size_t kFixed[] = {4, 5, 5, 3, 4};  // number of operands before the offset
   const auto kind = static_cast<size_t>(expr.sample);
   const bool compares =
       expr.sample == SampleKind::kCompareLevel || expr.sample == SampleKind::kGatherCompare;
   const Scalar scalar = compares ? Scalar::kFloat32 : expr.type->scalar;
-  // Gathers take any offset; for others a constant one is exact, and stands in a macro, which wants
-  // names for what it uses more than once.
+  // Gathers accept any offset. For other samples, a constant offset is exact; it is passed to a
+  // macro, so operands that the macro uses more than once are put in variables first.
   const bool constant_offset =
       kind < 3 && operands.size() > kFixed[kind] && is_texel_offset(*operands[kFixed[kind]]);
   std::string out = texture_function(
       (kNames[kind] + std::string(constant_offset ? "_offset" : "")).c_str(), resource, scalar);
   if (compares) {
-    out.resize(out.size() - 2);  // depths are floats
+    out.resize(out.size() - 2);  // depth values are floats
   }
   out += "(";
   for (size_t i = 0; i < kFixed[kind]; ++i) {
@@ -313,7 +313,8 @@ std::string GlslEmitter::dimensions(const Expr& expr) {
 // ---------------------------------------------------------------------------------------------
 // Atomics
 
-// An atomic operation on groupshared memory of a ray tracing shader, which nobody shares.
+// An atomic operation on groupshared memory in a ray tracing shader, where no other thread shares
+// it.
 std::string GlslEmitter::alone_atomic(AtomicOp op, const Type* t) {
   constexpr const char* kResults[] = {"old + v",     "old & v", "old | v", "old ^ v", "min(old, v)",
                                       "max(old, v)", "v",       "",        ""};

@@ -28,8 +28,8 @@ EShLanguage language(uint32_t stage) {
   }
 }
 
-// D3D12 allows larger groups and more of them than glslang's defaults; the device has the last
-// word.
+// D3D12 allows larger groups, and more of them, than glslang's defaults; the device sets the actual
+// limit.
 TBuiltInResource limits() {
   TBuiltInResource out = *GetDefaultResources();
   out.maxComputeWorkGroupSizeX = 1024;
@@ -38,7 +38,7 @@ TBuiltInResource limits() {
   return out;
 }
 
-// Once per process; glslang needs it before anything else.
+// Done once per process; glslang needs it before anything else.
 void initialise() {
   static const bool done = glslang::InitializeProcess();
   static_cast<void>(done);
@@ -50,7 +50,7 @@ SpirvModule compile_spirv(const GlslShader& shader, const std::string& name) {
   initialise();
   static const TBuiltInResource kLimits = limits();
   SpirvModule out;
-  // glslang has 11 bits for the number of a constant; a binding takes four.
+  // glslang has 11 bits for a constant's number, and a binding takes four constants.
   constexpr size_t kMostConstants = 2047;
   if (shader.constants.size() > kMostConstants) {
     out.error.id = kSpirvBindings;

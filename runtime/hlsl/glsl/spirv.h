@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From GLSL to SPIR-V, by glslang as a library.
+// From GLSL to SPIR-V, with glslang as a library.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@ struct SpirvModule {
   BuildFailure error;           // kSpirvFailed: the export, glslang's messages; kSpirvBindings
 };
 
-// The entry point of the module is "main", for Vulkan 1.3. `name` is the export's, for the error.
+// The module is for Vulkan 1.3 and its entry point is "main". `name` is the export, for the error.
 SpirvModule compile_spirv(const GlslShader& shader, const std::string& name);
 
-// Every entry point of a module, in its order. The error is the first one's.
+// Every entry point of a module, in order. The error is that of the first one that fails.
 struct SpirvLibrary {
   std::vector<std::vector<uint32_t>> modules;
   BuildFailure error;
 };
 SpirvLibrary compile_spirv(const ir::Module& module);
 
-// Names how GLSL becomes SPIR-V, glslang's version included, for keys of caches.
+// Identifies how GLSL becomes SPIR-V, including glslang's version, for cache keys.
 std::string spirv_version();
 
-// What glslang gives, changed to mean what HLSL means: floating-point operations are not contracted
-// or rearranged and keep NaNs, infinities and the sign of zero; specialization constants get their
-// numbers; names and other debug information go.
+// Changes glslang's output to mean what HLSL means: floating-point operations are not contracted or
+// rearranged and keep NaNs, infinities and the sign of zero; specialization constants get their
+// numbers; names and other debug information are removed.
 std::vector<uint32_t> finish_spirv(const std::vector<uint32_t>& words,
                                    const std::vector<uint32_t>& constants);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A pass over the words of a module. SPIR-V's layout is strict: capabilities, ..., entry point,
-// execution modes, debug information, decorations, types and the rest; so that one walk finds the
-// places where something is to be added.
+// A pass over a module's words. SPIR-V has a strict order (capabilities, ..., entry point,
+// execution modes, debug information, decorations, types and the rest), so one walk finds every
+// place where something has to be added.
 #include <algorithm>
 #include <set>
 
@@ -11,7 +11,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// Numbers of the SPIR-V specification.
+// Numbers from the SPIR-V specification.
 enum : uint32_t {
   kOpSourceContinued = 2,
   kOpSource = 3,
@@ -90,7 +90,7 @@ Section section_of(uint32_t op) {
 
 struct Instruction {
   uint32_t op;
-  const uint32_t* words;  // the first holds the operation and the count
+  const uint32_t* words;  // the first holds the opcode and the word count
   uint32_t count;
 };
 
@@ -110,7 +110,7 @@ void each_instruction(const std::vector<uint32_t>& words, const Visit& visit) {
 struct Facts {
   std::set<uint32_t> widths;          // of floats
   std::vector<uint32_t> arithmetic;   // results
-  std::set<uint32_t> not_contracted;  // that glslang has decorated
+  std::set<uint32_t> not_contracted;  // already decorated by glslang
   uint32_t entry_point = 0;
 };
 

@@ -9,7 +9,7 @@ using namespace ir;
 
 namespace {
 
-// Whether a `continue` in the block means the loop that the block is the body of.
+// Whether the block, as a loop's body, contains a `continue` for that loop.
 bool has_continue(const Block& block) {
   for (const Stmt* stmt : block) {
     if (stmt->kind == StmtKind::kContinue) {
@@ -57,7 +57,7 @@ void GlslEmitter::declare(const Stmt& stmt) {
                               : numbers             ? zero(stmt.variable->type)
                                                     : "{}";
   auto& name = variable_names_[stmt.variable];
-  // A loop's step may be printed several times.
+  // A loop's step may be printed several times, so the name may be there already.
   if (name.empty()) {
     name = local_names_.add(stmt.variable->name);
   }
@@ -111,8 +111,9 @@ void GlslEmitter::loop_condition(const Stmt& stmt) {
   }
 }
 
-// GLSL has no goto: where a `continue` has to pass by a condition at the end, step and condition
-// stand at the start of the next round; otherwise the step is repeated before each `continue`.
+// GLSL has no goto. If a `continue` has to get to a condition at the loop's end, the step and
+// condition are placed at the start of the next iteration; otherwise the step is repeated before
+// each `continue`.
 void GlslEmitter::loop(const Stmt& stmt) {
   const bool flagged = stmt.test_at_end && has_continue(stmt.body);
   std::string again;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// System values of ray tracing stages. Where a driver overwrites hit builtins by a nested trace,
-// they are copied when the shader starts (Workaround::kCopyHitBuiltins).
+// System values of ray tracing stages. If a driver's nested trace overwrites the hit builtins, they
+// are copied when the shader starts (Workaround::kCopyHitBuiltins).
 #include "runtime/hlsl/glsl/emitter.h"
 
 namespace kaamos::hlsl {
@@ -15,7 +15,7 @@ constexpr uint32_t kRayStages = kHitStages | kStageMiss;
 
 }  // namespace
 
-// A builtin of the stages with a hit, as a function; `text` reads it.
+// Wraps a builtin of the stages with a hit in a function; `text` reads it.
 std::string GlslEmitter::hit_builtin(const std::string& name, const std::string& type,
                                      const std::string& text) {
   const std::string function = "g_" + name;
@@ -30,8 +30,8 @@ std::string GlslEmitter::hit_builtin(const std::string& name, const std::string&
   return function + "()";
 }
 
-// ObjectToWorld and WorldToObject. Only the 4x3 builtins are used: glslang 12 makes invalid SPIR-V
-// where both forms occur in one shader.
+// ObjectToWorld and WorldToObject. Only the 4x3 builtins are used: glslang 12 generates invalid
+// SPIR-V if both forms occur in one shader.
 std::string GlslEmitter::transform(bool to_world, bool transposed, const Type* t) {
   const std::string m = hit_builtin(to_world ? "object_to_world" : "world_to_object", "mat4x3",
                                     to_world ? "gl_ObjectToWorldEXT" : "gl_WorldToObjectEXT");
@@ -53,7 +53,7 @@ std::string GlslEmitter::transform(bool to_world, bool transposed, const Type* t
   return generated(name, text) + "()";
 }
 
-// [DXR: RayTCurrent] by stage.
+// [DXR: RayTCurrent], depending on the stage.
 std::string GlslEmitter::ray_t_current() {
   switch (entry_.stage) {
     case kStageAnyHit:
@@ -69,7 +69,7 @@ std::string GlslEmitter::ray_t_current() {
 std::string GlslEmitter::object_ray(bool origin) {
   hit_builtin("world_to_object", "mat4x3", "gl_WorldToObjectEXT");
   const std::string name = origin ? "g_object_ray_origin" : "g_object_ray_direction";
-  // Row by row, as mul() of a 3x4 matrix and a vector.
+  // Row by row, like mul() of a 3x4 matrix and a vector.
   std::string text = "vec3 " + name + "() {\n  mat4x3 m = g_world_to_object();\n  vec3 v = " +
                      (origin ? "gl_WorldRayOriginEXT" : "gl_WorldRayDirectionEXT") +
                      ";\n  return ((m[0] * v.x + m[1] * v.y) + m[2] * v.z) + m[3] * " +
@@ -81,7 +81,8 @@ std::string GlslEmitter::system_value(const Expr& expr) {
   const bool launched = entry_.stage != kStageCompute;
   const bool ray = (entry_.stage & kRayStages) != 0;
   const bool hit = (entry_.stage & kHitStages) != 0;
-  // In a stage without such a value the checker keeps from asking, except in code that never runs.
+  // The checker rejects a system value that the stage does not have, except in code that never
+  // runs.
   const auto if_has = [&](bool has, const auto& text) {
     return has ? std::string(text()) : zero(expr.type);
   };
@@ -158,7 +159,7 @@ void GlslEmitter::declare_instance_entry() {
             "}\n");
 }
 
-// InstanceIndex and InstanceID as the application knows them, and the way back to its primitives.
+// InstanceIndex and InstanceID as the application numbers them, and the way back to its primitives.
 std::string GlslEmitter::instance_entry() {
   const std::string custom =
       hit_builtin("instance_custom_index", "uint", "uint(gl_InstanceCustomIndexEXT)");

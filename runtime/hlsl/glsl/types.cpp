@@ -105,7 +105,7 @@ uint32_t words(const Type* type) {
 
 std::string GlslNames::add(std::string_view hlsl_name) {
   std::string base = prefix_ + cpp_identifier(hlsl_name);
-  // Two underscores in a row are reserved.
+  // Two consecutive underscores are reserved.
   while (base.size() > prefix_.size() && base.back() == '_') {
     base.pop_back();
   }
@@ -204,7 +204,7 @@ std::string GlslEmitter::zero(const Type* t) {
 
 namespace {
 
-// Numbers whose decimal text is short mean the same to every parser; others are given by bits.
+// A number with a short decimal text means the same to every parser; any other is written as bits.
 bool is_plain(double number) {
   return std::isfinite(number) &&
          (number == 0 ? !std::signbit(number)
@@ -239,8 +239,8 @@ std::string float64_literal(double number) {
          glsl::number(bits >> 32) + "))";
 }
 
-// int(-5) of a literal: GLSL has no negative literals, and -2147483648 is out of range before its
-// sign.
+// int(-5) for a literal: GLSL has no negative literals, and -2147483648 is out of range before its
+// sign is applied.
 std::string negative(const std::string& name, uint64_t bits, const char* suffix) {
   return name + "(" + std::to_string(bits) + suffix + ")";
 }
@@ -296,7 +296,7 @@ std::string GlslEmitter::literal(const Expr& expr) {
   return out + ")";
 }
 
-// What GLSL takes as the initialiser of a constant: no calls, bits of floats among them.
+// What GLSL accepts as the initialiser of a constant: no calls, so no floats made from bits.
 bool GlslEmitter::is_constant(const Expr& expr) const {
   switch (expr.kind) {
     case ExprKind::kZero:
@@ -310,7 +310,7 @@ bool GlslEmitter::is_constant(const Expr& expr) const {
       return expr.type->scalar != Scalar::kFloat64;
     case ExprKind::kConstruct:
       for (const Expr* operand : expr.operands) {
-        // Parts of a matrix that are no scalars are taken apart, which takes a temporary.
+        // Matrix parts that are not scalars are taken apart through a temporary.
         const bool part =
             expr.type->kind == TypeKind::kMatrix && operand->type->kind != TypeKind::kScalar;
         if (part || !is_constant(*operand)) {

@@ -21,7 +21,7 @@ T* argument(void** arguments, size_t i) {
   return *static_cast<T**>(arguments[i]);
 }
 
-// Payload and attributes are the second and the third argument of the stages that have them.
+// Payload and attributes are the second and third argument in the stages that have them.
 template <int Count>
 void run_ray(ffi_cif*, void* result, void** arguments, void* target) {
   const auto& to = *static_cast<const Closure::Target*>(target);

@@ -11,13 +11,13 @@ namespace kaamos::hlsl::interpret {
 
 class Closure {
  public:
-  // Null where the system gives no memory for code.
+  // Null if the system does not provide executable memory.
   static std::unique_ptr<Closure> create(const Program& program, const EntryCode& entry);
   ~Closure();
   Closure(const Closure&) = delete;
   Closure& operator=(const Closure&) = delete;
 
-  // Of the ABI's type for the entry's stage; compute: ComputeThreadFn where it has barriers, else
+  // Has the ABI's type for the entry's stage; for compute, ComputeThreadFn if it has barriers, else
   // ComputeGroupFn.
   shader::AnyFn function() const { return function_; }
 

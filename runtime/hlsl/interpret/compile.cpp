@@ -49,7 +49,7 @@ uint32_t Compiler::declare(const Variable* variable, bool reference) {
 const Action* Compiler::action(const Stmt& stmt) {
   Action& out = program_.actions.emplace_back();
   out.stmt = &stmt;
-  out.prelude = block(stmt.prelude);  // declares what a loop's condition reads
+  out.prelude = block(stmt.prelude);  // declares what the loop's condition reads
   temporary_bytes_ = 0;
   out.place = node(stmt.place);
   out.value = node(stmt.value);
@@ -59,7 +59,7 @@ const Action* Compiler::action(const Stmt& stmt) {
   if (stmt.result != nullptr) out.result = variable_node(stmt.result, nullptr);
   switch (stmt.kind) {
     case StmtKind::kDeclare:
-      // After the initialiser: `float x = x` means the outer x.
+      // After the initialiser: in `float x = x`, it means the outer x.
       out.offset = declare(stmt.variable, false);
       out.bytes = bytes_of(stmt.variable->type);
       break;
@@ -126,7 +126,7 @@ EntryCode Compiler::entry(const EntryPoint& entry) {
   most_temporary_bytes_ = 0;
   statics_.clear();
   statics_.insert(out.code->statics.begin(), out.code->statics.end());
-  // Backwards: an initialiser reads globals that stand before it.
+  // In reverse order, because an initialiser reads globals that come before it.
   std::vector<StaticInitialiser> backwards;
   const auto& globals = program_.module->globals;
   for (auto it = globals.rbegin(); it != globals.rend(); ++it) {
@@ -147,7 +147,7 @@ void Compiler::place_globals() {
     const Extent extent = extent_of(variable->type);
     Place& global = places_[variable];
     if (variable->storage == Storage::kConstant) {
-      // Its initialiser is made of constants: evaluated here, once.
+      // Its initialiser consists of constants, so it is evaluated here, once.
       std::vector<std::byte>& bytes = program_.constants.emplace_back(std::max(extent.bytes, 1u));
       global.data = bytes.data();
       if (variable->initialiser == nullptr) continue;

@@ -45,7 +45,7 @@ std::vector<uint8_t> first_components(uint32_t count) {
   return out;
 }
 
-// Upper left of a matrix, or the leading components.
+// The upper left part of a matrix, or the leading components.
 std::vector<uint8_t> truncated_components(const Type* to, const Type* from) {
   if (to->kind != TypeKind::kMatrix || from->kind != TypeKind::kMatrix) {
     return first_components(component_count(to));
@@ -126,7 +126,7 @@ void Compiler::element(Node& node) {
   const uint32_t count = indexed->kind == TypeKind::kArray    ? indexed->count
                          : indexed->kind == TypeKind::kMatrix ? indexed->rows
                                                               : indexed->columns;
-  // A scalar is a vector of one component, whose index does not matter.
+  // A scalar acts as a vector with one component, whose index does not matter.
   const bool scalar = indexed->kind == TypeKind::kScalar;
   if (scalar || (index->kind == ExprKind::kLiteral && index->literal[0] < count)) {
     node.offset = scalar ? 0 : static_cast<uint32_t>(index->literal[0]) * node.bytes;
@@ -152,7 +152,7 @@ void Compiler::swizzle(Node& node, const Type* base) {
     node.evaluate = evaluate_member();
     node.locate = locate_member();
   } else {
-    gather(node, std::move(components));  // as a place it is written by its statement
+    gather(node, std::move(components));  // as a place, it is written by its statement
   }
 }
 
@@ -203,7 +203,7 @@ void Compiler::compile(Node& node) {
       node.evaluate = evaluate_zero();
       return;
     case ExprKind::kVariable:
-      return;  // variable_node
+      return;  // done by variable_node
     case ExprKind::kField:
       node.offset = program_.layouts.field_offset(*operand->structure, expr.index);
       node.evaluate = evaluate_member();
@@ -228,7 +228,7 @@ void Compiler::compile(Node& node) {
       return kernel(node, find_binary(expr.binary, operand->scalar));
     case ExprKind::kSelect:
       if (operand->kind != TypeKind::kScalar) return kernel(node, find_select(expr.type->scalar));
-      node.evaluate = evaluate_conditional();  // pure: what is not chosen need not run
+      node.evaluate = evaluate_conditional();  // pure, so the other operand need not run
       return;
     case ExprKind::kConditional:
       node.evaluate = evaluate_conditional();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The pass that turns functions of a module into Code: numbers variables and temporaries, picks how
-// each expression evaluates.
+// The pass that turns a module's functions into Code: it numbers variables and temporaries, and
+// picks how each expression is evaluated.
 #pragma once
 
 #include <unordered_map>
@@ -18,21 +18,21 @@ class Compiler {
   void run();
 
  private:
-  // interpret_compile.cpp
+  // compile.cpp
   void place_globals();
   void function(const ir::Function& function);
   EntryCode entry(const ir::EntryPoint& entry);
   Actions block(const ir::Block& body);
   const Action* action(const ir::Stmt& stmt);
   uint32_t declare(const ir::Variable* variable, bool reference);
-  // Room for a value behind `end`, which moves; its offset.
+  // Reserves room for a value at `end`, advances `end`, and returns the value's offset.
   uint32_t place(Extent extent, uint32_t& end);
-  // With bytes 0 and an error where the type is too large.
+  // Returns an extent with bytes 0 and sets the error if the type is too large.
   Extent extent_of(const ir::Type* type);
   uint32_t bytes_of(const ir::Type* type) { return extent_of(type).bytes; }
   std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
-  // interpret_compile_expressions.cpp
+  // compile_expressions.cpp
   const Node* node(const ir::Expr* expr);
   Node* variable_node(const ir::Variable* variable, const ir::Expr* expr);
   void compile(Node& node);
@@ -60,7 +60,7 @@ class Compiler {
   uint32_t most_temporary_bytes_ = 0;                // of any statement of the function
   uint32_t callee_stack_bytes_ = 0;                  // of the function so far
   bool reads_hit_kind_ = false;                      // the function so far
-  std::unordered_set<const ir::Variable*> statics_;  // that the function touches
+  std::unordered_set<const ir::Variable*> statics_;  // touched by the function
 };
 
 }  // namespace kaamos::hlsl::interpret

@@ -115,7 +115,7 @@ const std::byte* keep(const Node& node, Frame& frame, const T& value) {
   return out;
 }
 
-// The checker lets no stage without a ray ask; a backend that hands over no ray gets zeros.
+// The checker rejects this in a stage without a ray; if a backend passes no ray, the value is zero.
 const std::byte* ray_value(const Node& node, Frame& frame) {
   const shader::Invocation& invocation = *frame.context->invocation;
   if (invocation.ray == nullptr) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// How the kinds of nodes evaluate. interpret_compile picks one of these for each expression.
+// How each kind of node is evaluated. compile.cpp picks one of these for each expression.
 #pragma once
 
 #include "runtime/hlsl/interpret/program.h"
 
 namespace kaamos::hlsl::interpret {
 
-// interpret_evaluate.cpp
+// evaluate.cpp
 Evaluate evaluate_data();  // node.data: literals
 Evaluate evaluate_zero();
-// Variables: node.offset bytes from the start of their storage; `reference`: a pointer stands
-// there.
+// Variables: node.offset bytes from the start of their storage. With `reference`, a pointer is
+// stored there.
 void make_variable(Node& node, ir::Storage storage, bool reference);
 Evaluate evaluate_member();  // field, component: node.offset bytes into the operand
 Locate locate_member();
@@ -19,7 +19,7 @@ Evaluate evaluate_element();  // operand[index]: node.length elements, node.stri
 Locate locate_element();
 Evaluate evaluate_gather();       // node.components of the operand, node.stride bytes each
 Evaluate evaluate_construct();    // operands at node.offsets
-Evaluate evaluate_kernel();       // node.kernel on the operands, of which there are up to 3
+Evaluate evaluate_kernel();       // node.kernel on up to 3 operands
 Evaluate evaluate_conditional();  // the chosen operand only
 Evaluate evaluate_logical_and();
 Evaluate evaluate_logical_or();
@@ -28,19 +28,19 @@ Evaluate evaluate_query_value();
 Evaluate evaluate_binding();
 Evaluate evaluate_heap_resource();
 
-// interpret_memory.cpp
+// memory.cpp
 Evaluate evaluate_load();
 Evaluate evaluate_load_element();
 void store(const Action& action, Frame& frame);
 void store_element(const Action& action, Frame& frame);
 void run_atomic(const Action& action, Frame& frame);
 
-// interpret_textures.cpp
+// textures.cpp
 Evaluate evaluate_typed_load();
 Evaluate evaluate_sample();
 Evaluate evaluate_dimensions();
 void typed_store(const Action& action, Frame& frame);
-// Of an atomic on a typed buffer or a texture; null where out of bounds.
+// The target of an atomic on a typed buffer or a texture; null if out of bounds.
 void* typed_place(const Action& action, Frame& frame);
 
 }  // namespace kaamos::hlsl::interpret

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs the intermediate representation itself: the executor that needs no C++ compiler and can look
-// at every step. A module becomes a living library of the ABI whose entry points are native
-// function pointers, so that any backend that runs native code runs it without knowing.
+// Runs the intermediate representation directly. This executor needs no C++ compiler and can
+// observe every step. A module becomes a library of the ABI in memory whose entry points are native
+// function pointers, so any backend that runs native code can run it unchanged.
 //
-// Values lie in memory as the C++ emitter's types do, so payloads, attributes and callable data
+// Values are laid out as the C++ emitter's types are, so payloads, attributes and callable data
 // pass between interpreted and compiled libraries; the arithmetic is that of the shader prelude.
 #pragma once
 
@@ -22,7 +22,7 @@ struct LibraryDesc;
 
 namespace kaamos::hlsl {
 
-// Where a shader stands when a hook is called.
+// The position in a shader when a hook is called.
 struct InterpretPlace {
   const ir::Module* module = nullptr;
   const ir::EntryPoint* entry = nullptr;
@@ -30,15 +30,15 @@ struct InterpretPlace {
   const shader::Invocation* invocation = nullptr;
 };
 
-// What the interpreter saw a shader do that HLSL leaves undefined, and what it gave it instead.
+// Something a shader did that HLSL leaves undefined, and how the interpreter handled it.
 enum class InterpretFinding : uint8_t {
   kIndexOutOfRange,  // of an array, vector or matrix: reads zero, writes nothing
-  kNoRay,            // a system value of a ray where there is none: zero
+  kNoRay,            // a ray system value where there is no ray: zero
   kStepLimit,        // the shader ran for too long: the device is removed
 };
 
-// Called on the thread that runs the shader, on several at once. Whoever listens keeps `user`
-// alive as long as the library, and must not throw. Null members are not called.
+// Called on the thread that runs the shader, possibly on several at once. The owner of `user` must
+// keep it alive as long as the library. Hooks must not throw. Null members are not called.
 struct InterpretHooks {
   void* user = nullptr;
   // Before each statement.
@@ -47,19 +47,19 @@ struct InterpretHooks {
 };
 
 struct InterpretOptions {
-  // Statements and turns of loops that one invocation may run; then the device is removed, so that
-  // an endless loop ends. Half a minute or so.
+  // Number of statements and loop iterations that one invocation may run before the device is
+  // removed, so that an endless loop ends. The default takes about half a minute.
   uint64_t step_limit = uint64_t{1} << 30;
   InterpretHooks hooks;
-  // The SPIR-V of each entry point (spirv.h), for the table; empty: a library without it.
+  // The SPIR-V of each entry point (spirv.h), for the table; if empty, the library has none.
   std::vector<std::vector<uint32_t>> spirv;
 };
 
-// The library's table and all that it refers to. The table is valid as long as this object.
+// The library's table and everything it refers to. The table is valid as long as this object.
 class InterpretedLibrary {
  public:
-  // The module must come from the checker without errors. Null with `error` where the system does
-  // not let a program make functions at run time.
+  // The module must have passed the checker without errors. Returns null and sets `error` if the
+  // system does not allow functions to be made at run time.
   static std::shared_ptr<const InterpretedLibrary> create(std::shared_ptr<const ir::Module> module,
                                                           const InterpretOptions& options,
                                                           std::string& error);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the HLSL tests do not see of the interpreter: hooks, limits, threads, layouts, its place in
-// the public API. Libraries are called here as a backend calls them.
+// The parts of the interpreter that the HLSL tests do not cover: hooks, limits, threads, layouts,
+// its place in the public API. Libraries are called here as a backend calls them.
 #include "runtime/hlsl/interpret/interpret.h"
 
 #include <gtest/gtest.h>
@@ -48,7 +48,7 @@ struct Removal {
   shader::RemovalReason reason = shader::RemovalReason::kOther;
 };
 
-// Calls a kernel whose one binding is a raw buffer in u0; `buffer` is what it sees.
+// Calls a kernel whose only binding is a raw buffer in u0, with `buffer` as its contents.
 void run_kernel(const shader::LibraryDesc& library, std::vector<uint32_t>& buffer,
                 Removal* removal = nullptr) {
   const uint64_t address = reinterpret_cast<uintptr_t>(buffer.data());
@@ -57,7 +57,7 @@ void run_kernel(const shader::LibraryDesc& library, std::vector<uint32_t>& buffe
   slot.kind = shader::DescriptorKind::kRawBuffer;
   slot.access = shader::DescriptorAccess::kUnorderedAccess;
   shader::Services services = {};
-  // Like a backend that cannot leave a shader: the interpreter must stop by itself.
+  // Acts like a backend that cannot leave a shader: the interpreter must stop by itself.
   services.remove_device = [](shader::Invocation& invocation, shader::RemovalReason reason) {
     auto& to = *static_cast<Removal*>(invocation.backend);
     ++to.count;
@@ -184,7 +184,7 @@ uint next(inout uint state) { ++calls; state = state * 1664525 + 1013904223; ret
   }
 }
 
-// As emit_cpp prints the payload below.
+// The struct as emit_cpp prints the payload below.
 struct Inner {
   bool flag;
   shader::half3 h;
@@ -261,7 +261,7 @@ TEST(Interpret, WithoutACompilerTheErrorNamesTheInterpreter) {
       << compiled.Status.error().message;
 }
 
-// Runs the kernel of a source in u0 on a device; `results` are 4 words of zeros.
+// Runs the kernel of the source in u0 on a device; `results` are 4 words, initially zero.
 rtapi::Status run_on_device(const rtapi::ShaderCompileOptions& options,
                             std::vector<uint32_t>& results) {
   const rtapi::ShaderCompilation compiled = rtapi::CompileShaderLibrary(options);
@@ -309,7 +309,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-// On most machines 12 MB do not fit, and nothing but the device may suffer.
+// On most machines 12 MB do not fit on the stack, and nothing but the device may be affected.
 TEST(Interpret, VariablesLargerThanTheStackRemoveTheDevice) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer reports the access itself";
   rtapi::ShaderCompileOptions options;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The arithmetic: for each operator and intrinsic the function that computes it from its operands'
-// values, made of the shader prelude's own functions.
+// The arithmetic: for each operator and intrinsic, the function that computes it from the values of
+// its operands, built from the shader prelude's own functions.
 #pragma once
 
 #include <type_traits>
@@ -15,10 +15,10 @@ Kernel find_unary(ir::UnaryOp op, ir::Scalar scalar);
 Kernel find_binary(ir::BinaryOp op, ir::Scalar scalar);
 Kernel find_select(ir::Scalar scalar);  // component by component
 Kernel find_convert(ir::Scalar to, ir::Scalar from);
-// By the operands' types; null for transpose, which moves components.
+// Chosen by the operands' types; null for transpose, which only moves components.
 Kernel find_intrinsic(const ir::Expr& expr);
-Kernel find_component_intrinsic(const ir::Expr& expr);  // null: no such one
-Kernel find_shape_intrinsic(const ir::Expr& expr);      // null: no such one
+Kernel find_component_intrinsic(const ir::Expr& expr);  // null: not one of these
+Kernel find_shape_intrinsic(const ir::Expr& expr);      // null: not one of these
 Atomic find_atomic(ir::AtomicOp op, ir::Scalar scalar);
 
 // Calls visit(type) with a std::type_identity of the scalar's C++ type.
@@ -49,7 +49,7 @@ auto with_scalar(ir::Scalar scalar, const Visit& visit) {
   return visit(std::type_identity<int32_t>{});
 }
 
-// Op::apply on each component; Ts are the operands' scalar types.
+// Applies Op to each component; Ts are the operands' scalar types.
 template <class Op, class... Ts>
 struct Componentwise {
   template <size_t... I>

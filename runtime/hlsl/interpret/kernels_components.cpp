@@ -13,7 +13,7 @@ using ir::Scalar;
 
 namespace {
 
-// The prelude's function of a name, as something to instantiate a kernel with.
+// Wraps a prelude function in a type that a kernel can be instantiated with.
 #define KAAMOS_INTRINSIC(name)   \
   struct name##_op {             \
     template <class... T>        \
@@ -88,7 +88,7 @@ template <class Op, class T, size_t... I>
 constexpr Kernel repeat(std::index_sequence<I...>) {
   return componentwise<Op, std::conditional_t<I + 1 != 0, T, void>...>();
 }
-// N operands of one type.
+// N operands of the same type.
 template <class Op, size_t N, class T>
 constexpr Kernel same() {
   return repeat<Op, T>(std::make_index_sequence<N>{});

@@ -37,7 +37,7 @@ void all_kernel(const Node& node, std::byte* out, const std::byte* const* operan
   put(out, result);
 }
 
-// Rows times columns; the sums run as in dot_sum().
+// Rows times columns; sums are in the same order as in dot_sum().
 template <class T>
 void product_kernel(const Node& node, std::byte* out, const std::byte* const* operands) {
   using shader::op::Add;
@@ -56,7 +56,7 @@ void product_kernel(const Node& node, std::byte* out, const std::byte* const* op
     }
   }
 }
-// A scalar and anything; node.inner tells which operand is the scalar.
+// A scalar times anything; node.inner says which operand is the scalar.
 template <class T>
 void scale_kernel(const Node& node, std::byte* out, const std::byte* const* operands) {
   const T scalar = as<T>(operands[node.inner]);

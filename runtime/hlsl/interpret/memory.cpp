@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Buffers: loads, stores and atomics on memory. Bounds hold for each scalar, as in memory.h.
+// Buffers: loads, stores and atomics on memory. Each scalar is bounds-checked, as in memory.h.
 #include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
 #include <kaamos/shader/views.h>
@@ -90,7 +90,7 @@ void store_to(const Action& action, Frame& frame, const MemoryView& view) {
   }
 }
 
-// The buffer of an access; checked libraries look at where it goes. `operands` as in the IR.
+// The buffer of an access; checked libraries check where it goes. `operands` are as in the IR.
 Descriptor accessed(const std::vector<const Node*>& operands, const Access& access,
                     const ir::Location& location, uint32_t write, Frame& frame) {
   const auto buffer = evaluate_as<Descriptor>(*operands[0], frame);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // What a module is turned into before it runs: variables are byte offsets, expressions are nodes
-// that know how to evaluate themselves, statements refer to nodes. Immutable while it runs, so that
-// several threads run it at once; all that changes lies in Frame and Context on the stack of the
-// thread. Nothing there owns memory: a backend leaves a shader that fails by a jump.
+// that know how to evaluate themselves, statements refer to nodes. A program is immutable while it
+// runs, so several threads can run it at once; everything that changes is in Frame and Context on
+// the thread's stack. Neither owns memory, because a backend leaves a failing shader by a jump.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,6 @@ namespace kaamos::hlsl::interpret {
 struct Program;
 struct Node;
 
-// One shader invocation.
 struct Context {
   shader::Invocation* invocation = nullptr;
   shader::ComputeGroup* group = nullptr;
@@ -37,20 +36,20 @@ struct Context {
   shader::AnyHitResult any_hit = shader::AnyHitResult::kAccept;
 };
 
-// One function's activation.
 struct Frame {
   Context* context = nullptr;
   std::byte* variables = nullptr;
   std::byte* temporaries = nullptr;  // results of the expressions of one statement
-  std::byte* result =
-      nullptr;  // where `return` puts the value; null: nobody wants it, or it is there
+  std::byte* result = nullptr;  // where `return` puts the value; null: unused, or already there
 };
 
-// The value, which stays valid until the next statement; it may lie in a variable.
+// Returns the value, which stays valid until the next statement and may be a variable's own
+// storage.
 using Evaluate = const std::byte* (*)(const Node& node, Frame& frame);
-// Where a value can be written to; null: out of range, the write is dropped.
+// Returns where a value can be written to, or null if that is out of range and the write is
+// dropped.
 using Locate = std::byte* (*)(const Node& node, Frame& frame);
-// Computes a value from those of the operands.
+// Computes a value from its operands' values.
 using Kernel = void (*)(const Node& node, std::byte* out, const std::byte* const* operands);
 
 struct Node {
@@ -61,21 +60,21 @@ struct Node {
   std::vector<const Node*> operands;
   uint32_t slot = 0;    // of the result among the temporaries
   uint32_t bytes = 0;   // of the value
-  uint32_t offset = 0;  // variable, field; swizzle of one component
+  uint32_t offset = 0;  // of a variable, a field or a swizzle of one component
   uint32_t count = 0;   // components
-  uint32_t length = 0;  // elements of what is indexed
+  uint32_t length = 0;  // number of elements of the indexed operand
   uint32_t stride = 0;  // bytes from one component or element to the next
   uint8_t rows = 1;     // mul: rows of the left, common size, columns of the right operand
   uint8_t inner = 1;
   uint8_t columns = 1;
   std::vector<uint8_t> components;  // result component i is operand component components[i]
-  std::vector<uint32_t> offsets;    // construct: of each part
+  std::vector<uint32_t> offsets;    // construct: one for each part
   const std::byte* data = nullptr;  // literals, constants
   std::vector<Move> moves;          // loads
   Access access;                    // loads, in checked libraries
 };
 
-// Atomic operation on a place that may be null; result may be null.
+// An atomic operation on a place; `place` and `result` may be null.
 using Atomic = void (*)(void* place, const std::byte* compare, const std::byte* value,
                         std::byte* result);
 
@@ -89,7 +88,6 @@ struct ActionCase {
   Actions body;
 };
 
-// A statement.
 struct Action {
   const ir::Stmt* stmt = nullptr;
   const Node* place = nullptr;
@@ -111,7 +109,6 @@ struct Action {
   Atomic atomic = nullptr;
 };
 
-// A function.
 struct Code {
   const ir::Function* function = nullptr;
   std::vector<uint32_t> parameters;       // offsets of the values, or of pointers to them
@@ -120,9 +117,9 @@ struct Code {
   uint32_t variable_bytes = 0;
   uint32_t temporary_bytes = 0;
   uint32_t result_bytes = 0;
-  uint32_t stack_bytes = 0;                  // with all that it calls
-  std::vector<const ir::Variable*> statics;  // that it and its callees touch, in the module's order
-  bool reads_hit_kind = false;               // it or a callee
+  uint32_t stack_bytes = 0;                  // including everything that it calls
+  std::vector<const ir::Variable*> statics;  // touched by it or a callee, in the module's order
+  bool reads_hit_kind = false;               // it or a callee reads it
 };
 
 struct StaticInitialiser {
@@ -148,21 +145,21 @@ struct Program {
   std::deque<Action> actions;
   std::deque<Code> codes;
   std::deque<EntryCode> entries;                 // as Module::entry_points
-  Layouts layouts;                               // while it is made
+  Layouts layouts;                               // used while the program is made
   std::deque<std::vector<std::byte>> constants;  // literals, constants
   std::vector<std::byte> zeros;                  // as long as the longest value
   uint32_t static_bytes = 0;
   uint32_t shared_bytes = 0;
-  std::string error;     // of a module that breaks the rules of the IR
+  std::string error;     // set if a module breaks the rules of the IR
   bool checked = false;  // Module::check_access
 };
 
-// interpret_compile.cpp
+// compile.cpp
 std::unique_ptr<Program> make_program(std::shared_ptr<const ir::Module> module,
                                       const InterpretOptions& options);
 
-// interpret_run.cpp: the stages' entry points. attributes, payload: null where the stage has none.
-// Returns what an any-hit shader decided.
+// run.cpp: the stages' entry points. attributes and payload are null if the stage has
+// none. Returns the any-hit shader's decision.
 shader::AnyHitResult run_ray_entry(const Program& program, const EntryCode& entry,
                                    shader::Invocation& invocation, void* payload,
                                    const void* attributes);
@@ -170,10 +167,10 @@ void run_compute_thread(const Program& program, const EntryCode& entry,
                         shader::Invocation& invocation, shader::ComputeGroup& group,
                         const uint32_t thread[3]);
 
-// Tells whoever listens.
+// Calls the hook, if there is one.
 void report(Context& context, InterpretFinding finding, const ir::Location& location);
 
-// interpret_statements.cpp: runs a function whose parameters are in place.
+// statements.cpp: runs a function whose parameters are already in place.
 void run_body(const Code& code, Frame& frame);
 
 inline const std::byte* evaluate(const Node& node, Frame& frame) {

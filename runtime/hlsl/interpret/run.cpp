@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages: an invocation's context, its static globals, its entry point's parameters.
+// The stages: sets up an invocation's context, its static globals and its entry point's parameters.
 #include <alloca.h>
 #include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
@@ -15,7 +15,7 @@ using ir::EntryParameter;
 
 namespace {
 
-// What the parameters of an entry point are made of; null where the stage has none.
+// Sources of an entry point's parameters; null if the stage has none.
 struct Arguments {
   void* payload = nullptr;
   const void* attributes = nullptr;
@@ -91,7 +91,7 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
   }
 }
 
-// Not inlined into a loop over threads: its memory goes when it returns.
+// Not inlined into a loop over threads, because its memory is released only when it returns.
 [[gnu::noinline]] void run_entry(const EntryCode& entry, Context& context,
                                  const Arguments& arguments) {
   const Program& program = *context.program;

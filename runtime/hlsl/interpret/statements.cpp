@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Statements and calls. Activations lie on the stack of the thread or fiber, because a backend may
-// leave a shader by a jump: nothing may wait for a destructor here.
+// Statements and calls. Activations are on the stack of the thread or fiber. A backend may leave a
+// shader by a jump, so nothing here may rely on a destructor.
 #include <alloca.h>
 #include <kaamos/shader/checked.h>
 #include <kaamos/shader/prelude.h>
@@ -26,8 +26,8 @@ InterpretPlace place_of(const Context& context, const ir::Location& location) {
   return {context.program->module.get(), context.entry, location, context.invocation};
 }
 
-// True where the invocation has used up its steps; the device is then removed, which does not
-// return on backends that can leave a shader.
+// Returns true if the invocation has used up its steps. The device is then removed, and on backends
+// that can leave a shader that call does not return.
 bool out_of_steps(Context& context, const ir::Location& location) {
   if (context.steps_left != 0) {
     --context.steps_left;
@@ -51,7 +51,7 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
   }
   std::byte* base = place.operands[0]->locate(*place.operands[0], frame);
   if (base == nullptr) return;
-  // Through the place's own slot: v.xy = v reads what it writes.
+  // Copied through the place's own slot, because v.xy = v reads what it writes.
   std::byte* copy = frame.temporaries + place.slot;
   std::memcpy(copy, value, value_node.bytes);
   for (size_t i = 0; i < place.components.size(); ++i) {
@@ -59,7 +59,7 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
   }
 }
 
-// The callee's variables are this function's alloca: it must not be inlined into a loop.
+// The callee's variables are allocated by alloca here, so this must not be inlined into a loop.
 [[gnu::noinline]] void call(const Action& action, Frame& frame) {
   const Code& callee = *action.callee;
   Frame inner;
@@ -84,8 +84,8 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
   run_body(callee, inner);
 }
 
-// A payload, or callable data, with the header in front that the shader which gets it reads, and
-// room behind it. On the stack: it must not be inlined into a loop.
+// Passes a payload or callable data with the header that the receiving shader reads, and with room
+// after it. It is on the stack, so this must not be inlined into a loop.
 template <class Call>
 [[gnu::noinline]] void call_with_header(const Action& action, Frame& frame, const Call& call) {
   using shader::checked::PayloadHeader;
@@ -214,7 +214,7 @@ void call_shader(const Action& action, Frame& frame) {
   });
 }
 
-// { prelude; if (!value) leave }. Flow is kNext, kBreak to leave, or kReturn.
+// { prelude; if (!value) leave }. Returns kNext, kBreak to leave, or kReturn.
 Flow test(const Action& loop, Frame& frame) {
   const Flow flow = run(loop.prelude, frame);
   if (flow != Flow::kNext) return flow;
@@ -252,7 +252,8 @@ int64_t selector_of(const Node& node, Frame& frame) {
   }
 }
 
-// A label as the selector's type has it: the checker sign-extends what an unsigned one wraps.
+// Compares in the selector's width, because the checker sign-extends a label that an unsigned
+// selector wraps.
 bool matches(int64_t label, int64_t selector, uint32_t bytes) {
   const uint64_t mask = bytes >= 8 ? ~uint64_t{0} : (uint64_t{1} << (bytes * 8)) - 1;
   return ((static_cast<uint64_t>(label) ^ static_cast<uint64_t>(selector)) & mask) == 0;
@@ -266,7 +267,7 @@ Flow run_switch(const Action& action, Frame& frame) {
     for (const int64_t label : c.labels) {
       if (!matches(label, selector, action.value->bytes)) continue;
       chosen = i;
-      i = action.cases.size() - 1;  // a label comes once
+      i = action.cases.size() - 1;  // a label occurs only once
       break;
     }
     if (c.is_default && chosen == action.cases.size()) chosen = i;
@@ -378,7 +379,7 @@ Flow run(const Actions& actions, Frame& frame) {
 
 void run_body(const Code& code, Frame& frame) {
   run(code.body, frame);
-  // Zero is the result of a function that ends without one, or whose shader ends in it.
+  // A function that ends without returning a value, or in which the shader ends, returns zero.
   if (frame.result != nullptr) std::memset(frame.result, 0, code.result_bytes);
 }
 

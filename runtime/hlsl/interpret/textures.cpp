@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Textures, typed buffers, dimensions: the prelude's calls with operands padded to four components,
-// which is what the ABI makes of them.
+// Textures, typed buffers, dimensions: calls the prelude's functions with operands padded to four
+// components, which is the form that the ABI has.
 #include <kaamos/shader/prelude.h>
 
 #include <cstring>
@@ -20,7 +20,7 @@ using shader::vec;
 
 namespace {
 
-// Any numeric value as four components of To; what it lacks is zero.
+// Any numeric value as four components of To; missing ones are zero.
 template <class To>
 vec<To, 4> widen(const Node& node, Frame& frame) {
   const std::byte* bytes = evaluate(node, frame);
@@ -83,7 +83,7 @@ const std::byte* typed_load(const Node& node, Frame& frame) {
   });
 }
 
-// Operands behind {texture, sampler, location} that are no offset.
+// Number of operands after {texture, sampler, location}, without the offset.
 size_t fixed_operands(SampleKind kind) {
   switch (kind) {
     case SampleKind::kLevel:

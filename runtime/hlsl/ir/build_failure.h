@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Why a library could not be made of sound IR.
+// Why a library could not be built from valid IR.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace kaamos::hlsl {
 
-inline constexpr uint16_t kSpirvFailed = 2760;    // a fault of the emitter
-inline constexpr uint16_t kSpirvBindings = 2761;  // more bindings than SPIR-V takes
+inline constexpr uint16_t kSpirvFailed = 2760;    // an error in the emitter
+inline constexpr uint16_t kSpirvBindings = 2761;  // too many bindings for SPIR-V
 
 struct BuildFailure {
-  uint16_t id = 0;   // the number of rtapi/ERRORS.md; 0: it has none of its own
+  uint16_t id = 0;   // as in rtapi/ERRORS.md; 0: no id of its own
   std::string text;  // without the id; empty: no failure
 
   explicit operator bool() const { return !text.empty(); }

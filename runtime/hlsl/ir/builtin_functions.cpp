@@ -214,7 +214,7 @@ constexpr SampleRule kSamples[] = {
 };
 
 struct Family {
-  std::string_view prefix;  // of a name, or the whole of it where `whole`
+  std::string_view prefix;  // of a name, or the complete name if `whole`
   std::string_view what;
   bool whole;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// HLSL's intrinsic functions, as tables: what a name takes and gives, and in which stages it is
-// legal. [HLSL: Intrinsic functions] [DXR: Ray tracing system values]
+// HLSL's intrinsic functions, as tables: the arguments and result of each, and the stages in which
+// it is legal. [HLSL: Intrinsic functions] [DXR: Ray tracing system values]
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 namespace kaamos::hlsl {
 
 enum class IntrinsicShape : uint8_t {
-  kFloat,      // all arguments to one floating type and shape, which is the result's
-  kNumeric,    // the same with integers left as they are
+  kFloat,      // converts all arguments to one floating type and shape, which is also the result's
+  kNumeric,    // the same, but integers stay integers
   kUint,       // one integer argument of any shape; the result is uint (64-bit ones: uint64)
   kSign,       // one numeric argument; the result is int of the shape
   kTest,       // one floating argument; the result is bool of the shape
@@ -48,17 +48,17 @@ struct IntrinsicRule {
   std::string_view name;
   Intrinsic intrinsic;
   IntrinsicShape shape;
-  uint8_t count;  // of arguments
+  uint8_t count;  // number of arguments
 };
 const IntrinsicRule* find_intrinsic(std::string_view name);
 
-// A method of RayQuery that only tells. [DXR: RayQuery intrinsics]
+// A method of RayQuery that only returns a value. [DXR: RayQuery intrinsics]
 struct QueryValueRule {
   std::string_view name;
   ir::QueryValue value;
   bool of_committed;
   ir::Scalar scalar;
-  uint8_t rows;  // 0: no matrix
+  uint8_t rows;  // 0: not a matrix
   uint8_t columns;
 };
 
@@ -66,7 +66,7 @@ struct SystemValueRule {
   std::string_view name;
   ir::SystemValue value;
   ir::Scalar scalar;
-  uint8_t rows;  // 0: no matrix
+  uint8_t rows;  // 0: not a matrix
   uint8_t columns;
   uint32_t stages;  // ir::StageBits
 };
@@ -77,10 +77,10 @@ struct AtomicRule {
   std::string_view name;
   ir::AtomicOp op;
   bool has_compare;
-  bool needs_result;  // the last argument may not be left out
+  bool needs_result;  // the last argument must not be omitted
   bool has_result;
 };
-// InterlockedAdd and so on; methods of raw buffers have the same names, and may end in "64".
+// InterlockedAdd and so on. The methods of raw buffers have the same names and may end in "64".
 const AtomicRule* find_atomic(std::string_view name);
 
 struct BarrierRule {
@@ -107,17 +107,18 @@ struct SampleRule {
 };
 const SampleRule* find_sample(std::string_view name);
 
-// Functions of HLSL that are known and not supported yet; what they belong to, empty: none such.
+// For HLSL functions that are known but not supported yet: the feature they belong to. Empty for
+// any other name.
 std::string_view unsupported_function(std::string_view name);
-// ddx and its kin, clip: legal where pixels are shaded only.
+// ddx and the like, and clip: legal only in pixel shaders.
 bool is_pixel_function(std::string_view name);
-// Any of the above, or one that is handled by name.
+// Any of the above, or a function that is handled by name.
 bool is_builtin_function(std::string_view name);
 
-// Those that are supported, for suggestions.
+// The supported functions, for suggestions.
 const std::vector<std::string_view>& builtin_function_names();
 
-// "ray generation", "closest hit" ..; of one bit.
+// "ray generation", "closest hit" ..; takes a single bit.
 std::string_view stage_name(uint32_t stage);
 // "closest hit and any hit shaders".
 std::string stage_list(uint32_t stages);

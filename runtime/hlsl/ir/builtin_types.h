@@ -14,8 +14,8 @@ namespace kaamos::hlsl {
 enum class ElementRule : uint8_t {
   kNone,           // takes no argument: SamplerState
   kStruct,         // any type without resources: StructuredBuffer<T>
-  kTexel,          // scalar or vector of up to four: Texture2D<T>, float4 where none is given
-  kRequiredTexel,  // the same, always written: RWTexture2D<T>
+  kTexel,          // scalar or vector of up to four: Texture2D<T>, float4 if none is given
+  kRequiredTexel,  // the same, but it must be written: RWTexture2D<T>
 };
 
 struct ResourceTraits {
@@ -23,16 +23,16 @@ struct ResourceTraits {
   ir::ResourceKind kind;
   ElementRule element;
   uint8_t register_class;  // 0 t, 1 u, 2 b, 3 s
-  uint8_t coordinates;     // of a location: Texture2DArray has 3; 0: no texture or typed buffer
+  uint8_t coordinates;     // in a location: Texture2DArray has 3; 0: no texture or typed buffer
   bool is_array;
   bool is_writable;
 };
 
 const ResourceTraits& traits_of(ir::ResourceKind kind);
 std::string_view resource_name(ir::ResourceKind kind);
-// Also older spellings (`sampler`, `TextureBuffer` has none). Null: not a resource's name.
+// Also knows older spellings such as `sampler`. Null if the name is not a resource type.
 const ResourceTraits* find_resource(std::string_view name);
-// A type of HLSL that is known and not supported: the reason to print, empty: no such type.
+// Why a type that HLSL has is not supported, as text to print. Empty if there is no such type.
 std::string_view unsupported_type(std::string_view name);
 
 inline bool is_texture(ir::ResourceKind kind) {

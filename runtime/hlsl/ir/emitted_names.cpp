@@ -6,7 +6,7 @@
 namespace kaamos::hlsl {
 namespace {
 
-// C++ keywords that HLSL does not have, the names of the emitted code, and macros of <cmath>.
+// C++ keywords that HLSL does not have, names used by the emitted code, and macros of <cmath>.
 constexpr std::string_view kTaken[] = {
     "alignas",
     "alignof",
@@ -174,7 +174,7 @@ bool is_identifier_character(char c) {
 std::string cpp_identifier(std::string_view name) {
   std::string out;
   for (const char c : name) {
-    // Two underscores in a row and a leading one are reserved in C++.
+    // C++ reserves names with two consecutive underscores or a leading one.
     if (is_identifier_character(c)) {
       out += c;
     } else if (out.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// C++ names for HLSL names: the same wherever C++ allows it, because they are what a debugger
-// shows.
+// C++ names for HLSL names. They stay the same wherever C++ allows it, because a debugger shows
+// them.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@
 namespace kaamos::hlsl {
 
 // Turns a qualified HLSL name into a C++ identifier: "Scene::Vertex<float>" gives
-// "Scene_Vertex_float_". Words that mean something to C++ or to the emitted code get a trailing
-// "_".
+// "Scene_Vertex_float_". Words that already have a meaning in C++ or in the emitted code get a
+// trailing "_".
 std::string cpp_identifier(std::string_view name);
 
 // Hands out names that are unique within one set.
@@ -26,8 +26,8 @@ class NameSet {
   std::unordered_set<std::string> used_;
 };
 
-// Names of the variables of one function. A name may come again in a scope beside the first; inside
-// it gets a number, so that hoisted declarations never hide each other.
+// Names the variables of one function. A name can be reused in a sibling scope, but a nested scope
+// adds a number, so that hoisted declarations never hide each other.
 class ScopedNames {
  public:
   void push() { scopes_.emplace_back(); }

@@ -56,7 +56,7 @@ const Layouts::StructLayout& Layouts::layout_of(const Struct& structure) {
     out.extent.alignment = std::max(out.extent.alignment, member.alignment);
     out.extent.bytes = std::min(at + member.bytes, kMaxValueBytes + 1);
   }
-  // C++ gives an empty one a byte.
+  // An empty struct takes one byte in C++.
   const uint32_t bytes = std::max(align(out.extent.bytes, out.extent.alignment), 1u);
   out.extent.bytes = std::min(bytes, kMaxValueBytes + 1);
   return structs_.emplace(&structure, std::move(out)).first->second;
@@ -102,8 +102,8 @@ const Type* innermost(const Type* type) {
   return type;
 }
 
-// Follows memory.h and emit_types.cpp: arrays of structs and structs go member by member; what is
-// left is one access whose scalars are all counted from its aligned start.
+// Follows memory.h and cpp/types.cpp: structs and arrays of structs are copied member by member.
+// Anything else is one access, with the scalars counted from its aligned start.
 class MoveCollector {
  public:
   MoveCollector(Layouts& layouts, ir::Layout layout, std::vector<Move>& out)

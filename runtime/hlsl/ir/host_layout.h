@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How the interpreter stores values: byte for byte as C++ stores the types that emit_cpp prints
-// (vec, mat and array of vector.h without padding, structs with natural alignment).
+// How the interpreter stores values: byte for byte like the C++ types that emit_cpp prints (vec,
+// mat and array of vector.h without padding, structs with natural alignment).
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct Extent {
   uint32_t alignment = 1;
 };
 
-// Longer values are refused: they would fill the stacks of the threads.
+// Longer values are rejected, because they would exhaust the threads' stacks.
 inline constexpr uint32_t kMaxValueBytes = 1u << 24;
-// Of one load or store; beyond it is no more than a part.
+// The limit for one load or store; anything beyond it is moved only in part.
 inline constexpr size_t kMaxMoves = 1u << 20;
 
 uint32_t scalar_bytes(ir::Scalar scalar);
@@ -27,7 +27,7 @@ uint32_t scalar_bytes(ir::Scalar scalar);
 uint32_t component_count(const ir::Type* type);
 uint32_t align(uint32_t offset, uint32_t alignment);
 
-// A run of scalars that lies together both in a value and in a buffer.
+// A run of scalars that is contiguous both in a value and in a buffer.
 struct Move {
   uint32_t member =
       0;               // byte offset in the buffer of the scalar, vector, matrix or array around it
@@ -39,13 +39,13 @@ struct Move {
   bool is_bool = false;
 };
 
-// Remembers the structs it has seen: one in the other, they may unfold to millions of members.
+// Caches the structs it has seen: nested in each other, they can expand to millions of members.
 class Layouts {
  public:
-  // bytes is never more than kMaxValueBytes + 1, which means too long.
+  // bytes is never more than kMaxValueBytes + 1, which means that the type is too large.
   Extent extent_of(const ir::Type* type);
   uint32_t field_offset(const ir::Struct& structure, uint32_t field);
-  // How a value of the type travels to and from a buffer.
+  // How a value of the type is copied to and from a buffer.
   std::vector<Move> moves_of(const ir::Type* type, ir::Layout layout, bool row_major);
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The pure intrinsics of the intermediate representation. A name is that of HLSL unless HLSL's form
-// has out parameters, which the checker splits into pure parts; kaamos::shader has a function of
-// the same name for each.
+// The pure intrinsics of the intermediate representation. The names are HLSL's, except for
+// functions with out parameters, which the checker splits into pure parts; kaamos::shader has a
+// function of the same name for each.
 #pragma once
 
 #include <cstddef>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The typed intermediate representation between the checker and everything that comes after it
-// (C++ emitter, GLSL emitter, interpreter, reflection).
+// The typed intermediate representation between the checker and everything that comes after it (C++
+// emitter, GLSL emitter, interpreter, reflection).
 //
 // What makes the emitters plain printers:
 // - Expressions are pure trees: no side effects, no traps, operands of equal and final type. They
-// may
-//   be evaluated in any order and any number of times between two statements.
+//   may be evaluated in any order and any number of times between two statements.
 // - Everything with an effect is a statement: assignments, memory stores, atomics, calls of user
 //   functions, TraceRay. The checker hoists them out of expressions in HLSL's evaluation order and
 //   saves earlier operands to temporaries where a later effect could change them.
@@ -90,7 +89,7 @@ struct Type {
   ResourceKind resource = ResourceKind::kByteAddressBuffer;
   uint32_t ray_query_flags = 0;
 
-  // A RayQuery is no value: it is only a local variable, or a parameter that stands for one.
+  // A RayQuery is not a value: it can only be a local variable, or a parameter that stands for one.
   bool is_query() const {
     return kind == TypeKind::kResource && resource == ResourceKind::kRayQuery;
   }
@@ -99,8 +98,8 @@ struct Type {
 struct Field {
   std::string name;
   const Type* type = nullptr;
-  bool row_major = false;   // for a matrix, or an array of them, when it lies in memory
-  int32_t packoffset = -1;  // cbuffer members: byte offset given by packoffset, -1 none
+  bool row_major = false;   // for a matrix, or an array of them, in memory
+  int32_t packoffset = -1;  // cbuffer members: byte offset given by packoffset; -1: none
 };
 
 // A base class is the first field, named "base".
@@ -110,7 +109,7 @@ struct Struct {
   Location location;
 };
 
-// How a type lies in memory. [hlsl-subset 3.3, 3.4]
+// How a type is laid out in memory. [hlsl-subset 3.3, 3.4]
 enum class Layout : uint8_t {
   kConstantBuffer,  // 16-byte rows; members do not straddle them; tails are reused
   kStructured,      // natural alignment of components, no padding to rows
@@ -240,7 +239,8 @@ enum class SystemValue : uint8_t {
   kHitKind,
 };
 
-// What a RayQuery tells. Of the candidate, and of the committed hit where Expr::index is 1.
+// What can be read from a RayQuery: about the candidate, or about the committed hit if Expr::index
+// is 1.
 enum class QueryValue : uint8_t {
   kType,  // CANDIDATE_TYPE or COMMITTED_STATUS
   kRayT,
@@ -257,8 +257,8 @@ enum class QueryValue : uint8_t {
   kWorldToObject4x3,
   kBarycentrics,
   kFrontFace,
-  kProceduralNonOpaque,  // of the candidate only
-  kRayFlags,             // these are the ray's
+  kProceduralNonOpaque,  // for the candidate only
+  kRayFlags,             // from here on: about the ray
   kRayTMin,
   kWorldRayOrigin,
   kWorldRayDirection,
@@ -270,7 +270,8 @@ struct Expr {
   Location location;
   std::vector<const Expr*> operands;
   const Variable* variable = nullptr;
-  // kLiteral: one per component; integers and bools sign- or zero-extended, floats as double bits.
+  // kLiteral: one per component. Integers and bools are sign- or zero-extended, floats are the bits
+  // of a double.
   std::vector<uint64_t> literal;
   std::vector<uint8_t> components;  // swizzles
   uint32_t index = 0;               // field, binding, gather component
@@ -289,7 +290,7 @@ struct Expr {
 
 enum class StmtKind : uint8_t {
   kBlock,         // body
-  kDeclare,       // variable [= value]; without a value it is zero
+  kDeclare,       // variable [= value]; zero without a value
   kAssign,        // place = value. place: kVariable, kField, kElement, kSwizzle (no repeats),
                   // kMatrixSwizzle
   kStore,         // operands: resource, byte offset; value. Out of bounds writes nothing
@@ -341,7 +342,7 @@ struct SwitchCase {
   Block body;  // runs on into the next case unless it breaks
 };
 
-// What kAtomic acts on where it is not a groupshared place.
+// What kAtomic acts on if it is not a groupshared place.
 enum class AtomicTarget : uint8_t { kPlace, kMemory, kElement, kTyped };
 
 struct Stmt {
@@ -352,24 +353,24 @@ struct Stmt {
   const Expr* value = nullptr;  // also: condition of kIf and kLoop, selector of kSwitch
   const Expr* compare = nullptr;
   std::vector<const Expr*> operands;
-  // kCall: kIn parameters take any expression, others a kVariable expression naming a variable that
-  // appears once among the arguments and is not otherwise used by them.
+  // kCall: a kIn parameter takes any expression. Any other takes a kVariable expression whose
+  // variable appears only once among the arguments and is not otherwise used by them.
   std::vector<const Expr*> arguments;
   const Function* function = nullptr;
-  const Variable* result = nullptr;  // declared before by a kDeclare
-  // kLoop: { prelude; if (!value) break; body; step } repeated, `continue` goes to step;
-  // with test_at_end { body; step; prelude; if (!value) break }. A null value loops for ever.
+  const Variable* result = nullptr;  // declared earlier by a kDeclare
+  // kLoop repeats { prelude; if (!value) break; body; step }, and `continue` goes to step. With
+  // test_at_end it repeats { body; step; prelude; if (!value) break }. A null value loops forever.
   Block prelude;
   Block body;
   Block orelse;
   Block step;
   bool test_at_end = false;
-  uint32_t unroll = 0;  // how often [unroll] asks for the body to be repeated; 0: it does not
+  uint32_t unroll = 0;  // how often [unroll] asks to repeat the body; 0: it does not
   std::vector<SwitchCase> cases;
   AtomicOp atomic = AtomicOp::kAdd;
   AtomicTarget target = AtomicTarget::kPlace;
   QueryOp query = {};
-  bool outlives_end = false;  // kCall: what follows runs even where the callee ended the shader
+  bool outlives_end = false;  // kCall: what follows runs even if the callee ended the shader
   Layout layout = Layout::kStructured;
   bool row_major = false;
   uint32_t barrier = 0;  // BarrierFlags
@@ -405,7 +406,7 @@ struct Function {
   bool has_barrier = false;     // can reach a group barrier
 };
 
-// How an entry point's parameter gets its value.
+// Where an entry point's parameter gets its value.
 enum class EntryParameter : uint8_t {
   kPayload,
   kAttributes,
@@ -423,7 +424,8 @@ struct EntryPoint {
   std::vector<EntryParameter> parameters;
   const Type* payload = nullptr;  // payload, or callable data
   const Type* attributes = nullptr;
-  // It has access qualifiers, in shader model 6.7 or higher: MaxPayloadSizeInBytes is no limit.
+  // Whether it has access qualifiers, in shader model 6.7 or higher, where MaxPayloadSizeInBytes is
+  // not a limit.
   bool unbounded_payload = false;
   uint32_t payload_bytes = 0;    // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
@@ -434,7 +436,7 @@ struct EntryPoint {
   bool uses_sampler_heap = false;
 };
 
-// An exported function that is no entry point. [-default-linkage external, -exports, `export`]
+// An exported function that is not an entry point. [-default-linkage external, -exports, `export`]
 struct LibraryFunction {
   std::string name;
   std::string mangled;
@@ -473,12 +475,12 @@ struct Module {
   std::vector<const Struct*> structs;  // used ones, members before users
   std::vector<Binding> bindings;       // reachable ones
   std::vector<Subobject> subobjects;
-  // Emitters instrument what DXR leaves undefined [-check-access].
+  // Emitters add checks for what DXR leaves undefined. [-check-access]
   bool check_access = false;
   std::string source;  // all source files and options (embedded_source.h); empty: unknown
   const Struct* ray_desc = nullptr;  // the built-in RayDesc {Origin, TMin, Direction, TMax}
 
-  // Owners; addresses stay valid as long as the module lives.
+  // Owners of the nodes; addresses stay valid as long as the module lives.
   std::deque<Type> type_pool;
   std::deque<Struct> struct_pool;
   std::deque<Variable> variable_pool;

@@ -37,7 +37,7 @@ Extent extent_of_matrix(const Type* type, Layout layout, bool row_major) {
   const uint32_t lines = row_major ? type->rows : type->columns;
   const uint32_t line = bytes * (row_major ? type->columns : type->rows);
   const uint64_t size = uint64_t{matrix_stride(type, layout, row_major)} * (lines - 1) + line;
-  // A matrix of one line lies like a vector.
+  // A matrix with a single line is laid out like a vector.
   return {size, layout == Layout::kConstantBuffer && lines > 1 ? 16 : bytes};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How a payload lies in memory, for debuggers and explanations.
+// How a payload is laid out in memory, for debuggers and explanations.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace kaamos::hlsl {
 
-// The text of shader::ExportDesc::payload_layout. Long values are cut after some hundred fields;
-// null gives an empty text.
+// The text for shader::ExportDesc::payload_layout. Long values are cut off after a few hundred
+// fields; null gives an empty text.
 std::string value_layout(const ir::Type* type);
 
 }  // namespace kaamos::hlsl

@@ -81,7 +81,7 @@ class Verifier {
         const Type* type = field.type;
         while (type->kind == TypeKind::kArray) type = type->element;
         require(type->kind != TypeKind::kStruct || known.count(type->structure) != 0,
-                "struct stands before its member's", nullptr);
+                "struct comes before its member's", nullptr);
       }
       known.insert(structure);
     }
@@ -147,7 +147,7 @@ class Verifier {
         break;
       case ExprKind::kElement:
         operand_count(of, 2, 2);
-        require(is_index(operands[1]->type), "index is no 32-bit integer", of);
+        require(is_index(operands[1]->type), "index is not a 32-bit integer", of);
         if (operands[0]->type->kind == TypeKind::kArray) {
           require(operands[0]->type->element == type, "element has another type", of);
         } else {
@@ -229,14 +229,14 @@ class Verifier {
       case ExprKind::kLoad:
         operand_count(of, 2, 2);
         resource(of, 0);
-        require(is_scalar(operands[1]->type, ir::Scalar::kUint32), "offset is no uint", of);
+        require(is_scalar(operands[1]->type, ir::Scalar::kUint32), "offset is not a uint", of);
         break;
       case ExprKind::kLoadElement:
         operand_count(of, 3, 3);
         resource(of, 0);
         require(is_scalar(operands[1]->type, ir::Scalar::kUint32) &&
                     is_scalar(operands[2]->type, ir::Scalar::kUint32),
-                "element or offset is no uint", of);
+                "element or offset is not a uint", of);
         break;
       case ExprKind::kTypedLoad:
         operand_count(of, 2, 4);
@@ -255,7 +255,7 @@ class Verifier {
       case ExprKind::kQueryValue:
         operand_count(of, 1, 1);
         require(operands[0]->kind == ExprKind::kVariable && operands[0]->type->is_query(),
-                "a query's object is no variable of its type", of);
+                "a query's object is not a variable of its type", of);
         break;
       case ExprKind::kDimensions:
         operand_count(of, 1, 2);
@@ -267,7 +267,8 @@ class Verifier {
   }
 
   void resource(const Expr* of, size_t index) {
-    require(of->operands[index]->type->kind == TypeKind::kResource, "operand is no resource", of);
+    require(of->operands[index]->type->kind == TypeKind::kResource, "operand is not a resource",
+            of);
   }
 
   void construct(const Expr* of) {
@@ -296,11 +297,11 @@ class Verifier {
     }
   }
 
-  // A place is a chain of selections that ends in a variable that can be written to.
+  // A place is a chain of selections that ends in a writable variable.
   void place(const Expr* of) {
     expr(of);
     for (const Expr* at = of; at; at = at->operands.empty() ? nullptr : at->operands[0]) {
-      require(is_place_kind(at->kind), "is no place", of);
+      require(is_place_kind(at->kind), "is not a place", of);
       if (at->kind == ExprKind::kVariable) {
         require(at->variable->storage != ir::Storage::kConstant, "is constant", of);
         return;
@@ -313,7 +314,7 @@ class Verifier {
   }
 
   void call(const Stmt& of) {
-    require(of.function && done_.count(of.function) != 0, "callee does not stand before", nullptr);
+    require(of.function && done_.count(of.function) != 0, "callee does not come first", nullptr);
     if (!of.function) return;
     const auto& parameters = of.function->parameters;
     require(of.arguments.size() == parameters.size(), "wrong number of arguments", nullptr);
@@ -324,7 +325,7 @@ class Verifier {
       if (parameters[i]->mode == ir::ParameterMode::kIn) continue;
       require(argument->kind == ExprKind::kVariable &&
                   (references.insert(argument->variable).second || argument->type->is_query()),
-              "reference is no variable of its own", argument);
+              "reference is not a variable of its own", argument);
     }
     if (of.result) {
       require(of.result->type == of.function->result && declared_.count(of.result) != 0,
@@ -381,13 +382,14 @@ class Verifier {
         break;
       case StmtKind::kTraceRay:
         require(of.operands.size() == 7 && function_->may_trace, "TraceRay", nullptr);
-        require(of.place && of.place->kind == ExprKind::kVariable, "payload is no variable",
+        require(of.place && of.place->kind == ExprKind::kVariable, "payload is not a variable",
                 of.place);
         expr(of.place);
         break;
       case StmtKind::kCallShader:
         require(of.operands.size() == 1 && function_->may_call, "CallShader", nullptr);
-        require(of.place && of.place->kind == ExprKind::kVariable, "data is no variable", of.place);
+        require(of.place && of.place->kind == ExprKind::kVariable, "data is not a variable",
+                of.place);
         expr(of.place);
         break;
       case StmtKind::kReportHit:
@@ -395,7 +397,7 @@ class Verifier {
         break;
       case StmtKind::kQuery: {
         require(of.place && of.place->kind == ExprKind::kVariable && of.place->type->is_query(),
-                "a query's object is no variable of its type", of.place);
+                "a query's object is not a variable of its type", of.place);
         expr(of.place);
         const size_t operands = of.query == ir::QueryOp::kTrace              ? 4
                                 : of.query == ir::QueryOp::kCommitProcedural ? 1
@@ -406,7 +408,7 @@ class Verifier {
       }
       case StmtKind::kIf:
         expr(of.value);
-        require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is no bool", of.value);
+        require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is not a bool", of.value);
         block(of.body);
         block(of.orelse);
         break;
@@ -440,7 +442,7 @@ class Verifier {
     block(of.prelude);
     if (!of.value) return;
     expr(of.value);
-    require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is no bool", of.value);
+    require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is not a bool", of.value);
   }
 
   const ir::Module& module_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Holds a module against the rules of ir.h. For tests: the checker must never break one, whatever
-// it was given.
+// Checks a module against the rules of ir.h. For tests: the checker must never break one, whatever
+// its input.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace kaamos::hlsl {
 
-// Empty, or the first rules that are broken, one a line.
+// Empty, or the first broken rules, one per line.
 std::string verify(const ir::Module& module);
 
 }  // namespace kaamos::hlsl

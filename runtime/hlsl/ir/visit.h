@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Walks over all that a statement or a block refers to, whatever its kind.
+// Visits everything that a statement or a block refers to, whatever its kind.
 #pragma once
 
 #include "runtime/hlsl/ir/ir.h"
 
 namespace kaamos::hlsl::ir {
 
-// on_expr(const Expr&) for the expression and all its operands; null is nothing.
+// Calls on_expr(const Expr&) for the expression and all its operands; null is ignored.
 template <typename ExprVisitor>
 void visit_expr(const Expr* expr, const ExprVisitor& on_expr) {
   if (expr == nullptr) return;
@@ -15,7 +15,7 @@ void visit_expr(const Expr* expr, const ExprVisitor& on_expr) {
   for (const Expr* operand : expr->operands) visit_expr(operand, on_expr);
 }
 
-// on_expr for each expression of the statement itself, without the statements inside it.
+// Calls on_expr for each expression of the statement itself, but not of the statements inside it.
 template <typename ExprVisitor>
 void visit_own_expressions(const Stmt& stmt, const ExprVisitor& on_expr) {
   for (const Expr* expr : {stmt.place, stmt.value, stmt.compare}) visit_expr(expr, on_expr);
@@ -27,7 +27,7 @@ void visit_own_expressions(const Stmt& stmt, const ExprVisitor& on_expr) {
 template <typename ExprVisitor, typename StmtVisitor>
 void visit(const Block& block, const ExprVisitor& on_expr, const StmtVisitor& on_stmt);
 
-// on_stmt(const Stmt&) comes before what is inside the statement.
+// on_stmt(const Stmt&) is called before anything inside the statement is visited.
 template <typename ExprVisitor, typename StmtVisitor>
 void visit(const Stmt& stmt, const ExprVisitor& on_expr, const StmtVisitor& on_stmt) {
   on_stmt(stmt);
@@ -43,7 +43,7 @@ void visit(const Block& block, const ExprVisitor& on_expr, const StmtVisitor& on
   for (const Stmt* stmt : block) visit(*stmt, on_expr, on_stmt);
 }
 
-// The variable that a place selects from.
+// The variable that a place is part of.
 inline const Variable* root_of(const Expr* place) {
   while (place != nullptr && place->kind != ExprKind::kVariable) {
     place = place->operands.empty() ? nullptr : place->operands[0];
@@ -51,8 +51,8 @@ inline const Variable* root_of(const Expr* place) {
   return place != nullptr ? place->variable : nullptr;
 }
 
-// Whether a function can change what it is given for a parameter that it gets by reference without
-// being told to: globals that it names itself.
+// Whether a function can change an argument other than through its by-reference parameter: if the
+// argument uses globals, the function can name them itself.
 inline bool callee_can_write(const Expr* argument) {
   bool names_global = false;
   visit_expr(argument, [&](const Expr& expr) {
@@ -63,9 +63,9 @@ inline bool callee_can_write(const Expr* argument) {
   return names_global;
 }
 
-// on_variable(const Variable*, const Expr* value) for each variable that the statement itself gives
-// a value; value is null where it is not one expression of the statement (results, references,
-// parts of a variable), and on_variable is called with the statement's own `value` for a whole one.
+// Calls on_variable(const Variable*, const Expr* value) for each variable that the statement itself
+// writes. `value` is the statement's own `value` if the whole variable is assigned, else null
+// (results, references, parts of a variable).
 template <typename VariableVisitor>
 void visit_written(const Stmt& stmt, const VariableVisitor& on_variable) {
   switch (stmt.kind) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <string>
 #include <vector>
 
 namespace {
@@ -52,9 +53,21 @@ std::vector<uint32_t> RunSquares() {
   return numbers;
 }
 
+// The library, its headers and its package are of one installation.
+bool VersionsAgree() {
+  const std::string headers = std::to_string(rtapi::kVersionMajor) + "." +
+                              std::to_string(rtapi::kVersionMinor) + "." +
+                              std::to_string(rtapi::kVersionPatch);
+  if (headers == rtapi::GetVersion() && headers == KAAMOS_PACKAGE_VERSION) return true;
+  std::fprintf(stderr, "library %s, headers %s, package %s\n", rtapi::GetVersion(), headers.c_str(),
+               KAAMOS_PACKAGE_VERSION);
+  return false;
+}
+
 }  // namespace
 
 int main() try {
+  if (!VersionsAgree()) return 1;
   const std::vector<uint32_t> numbers = RunSquares();
   for (uint32_t i = 0; i < kCount; ++i) {
     if (numbers.at(i) != i * i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The Interlocked operations on memory; the twin of kaamos/shader/atomics.h. Each returns the value
-// before it; at address 0 (out of bounds) it does nothing and returns zero. Relaxed order: HLSL
-// orders memory by barriers only.
+// The Interlocked operations on memory; the GLSL counterpart of kaamos/shader/atomics.h. Each
+// returns the previous value; at address 0 (out of bounds) it does nothing and returns zero.
+// Relaxed order: HLSL orders memory only by barriers.
 
 //@ k_Atomic_u32
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer k_Atomic_u32 { uint v; };
@@ -172,7 +172,7 @@ int64_t k_atomic_compare_exchange_i64(uint64_t address, int64_t compare, int64_t
   return atomicCompSwap(k_Atomic_i64(address).v, compare, value);
 }
 
-// Floats by their bits.
+// Floats are exchanged as bits.
 //@ k_atomic_exchange_f32
 float k_atomic_exchange_f32(uint64_t address, float value) {
   return uintBitsToFloat(k_atomic_exchange_u32(address, floatBitsToUint(value)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// From an HLSL resource variable to its descriptor; the twin of kaamos/shader/bindings.h. What is
-// unbound, out of bounds or of the wrong kind becomes the null descriptor, which reads as zeros.
-// The structures are those of kaamos/shader/spirv_interface.h.
+// From an HLSL resource variable to its descriptor; the GLSL counterpart of
+// kaamos/shader/bindings.h. Anything unbound, out of bounds or of the wrong kind becomes the null
+// descriptor, which reads as zeros. The structures are those of kaamos/shader/spirv_interface.h.
 
 //@ k_DispatchBlock
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer k_DispatchBlock {
@@ -27,7 +27,7 @@ layout(push_constant, scalar) uniform k_PushConstants { uint64_t k_dispatch_addr
 //@ k_dispatch
 #define k_dispatch k_DispatchBlock(k_dispatch_address)
 
-// A shader that has a record defines KAAMOS_SHADER_RECORD before the prelude.
+// A shader with a shader record defines KAAMOS_SHADER_RECORD before the prelude.
 //@ k_local_arguments
 #ifdef KAAMOS_SHADER_RECORD
 layout(shaderRecordEXT, scalar) buffer k_ShaderRecord { uint64_t k_record_arguments; };
@@ -42,18 +42,18 @@ uint64_t k_global_arguments() { return k_dispatch_address + 112UL; }
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_DescriptorSlot {
   k_Descriptor d;
 };
-// Arguments are aligned to 4 bytes only.
+// Arguments are only aligned to 4 bytes.
 //@ k_read_argument
 uint64_t k_read_argument(uint64_t address) { return packUint2x32(k_Words2(address).v); }
 
 //@ k_matches
 bool k_matches(k_Descriptor d, uint kind, uint access) {
-  if (kind == 0u) return true;  // the slot does not say
+  if (kind == 0u) return true;  // the slot does not specify
   if ((d.kind_access & 0xFFFFu) != kind) return false;
-  // Constant buffers, samplers and acceleration structures have no access.
+  // The access of constant buffers, samplers and acceleration structures is not compared.
   return kind == 1u || kind == 6u || kind == 7u || access == 2u || d.kind_access >> 16 == access;
 }
-// The address where a slot of [begin, end) starts there, else 0: a handle can hold anything.
+// The address if it is the start of a slot in [begin, end), else 0: a handle can hold any value.
 //@ k_heap_slot
 uint64_t k_heap_slot(uint64_t address, uint64_t begin, uint64_t end) {
   bool inside = address >= begin && address < end && ((address - begin) & 31UL) == 0UL;
@@ -75,10 +75,10 @@ k_Descriptor k_from_table(uint kind, uint access, uint64_t handle, uint index) {
   return k_null;
 }
 
-// The four constants of a binding, and the index in it, 0 unless it is an array. The constants are
-// known when a pipeline is made, so that one of these ways is left. Kind and size of a root
-// descriptor are constants too, but for a null one's size: the compiler then drops what k_window
-// and its like compare.
+// Resolves a binding from its four constants and an array index, which is 0 unless it is an array.
+// The constants are known when a pipeline is created, so only one of these branches remains. A root
+// descriptor's kind and size are constant too, except for the size of a null one, so the compiler
+// removes the comparisons in k_window and the like.
 //@ k_resolve
 k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint array_index) {
   uint from = source & 0xFFu;
@@ -97,14 +97,14 @@ k_Descriptor k_resolve(uint source, uint offset, uint index, uint count, uint ar
     uint64_t handle = k_read_argument(arguments + offset) + uint64_t(index) * 32UL;
     return k_from_table(kind, access, handle, array_index);
   }
-  if (array_index != 0u) return k_null;  // root parameters are no arrays
+  if (array_index != 0u) return k_null;  // root parameters are not arrays
   if (from == 1u) {
     return k_Descriptor(1u | 2u << 16, 0u, arguments + offset, there ? uint64_t(count) : 0UL, 0u,
                         0u);
   }
   uint64_t address = 0UL;
   if (there) address = k_read_argument(arguments + offset);
-  // No device has such addresses, and no driver that runs on the processor survives one.
+  // No device has such addresses, and a driver that runs on the CPU would crash.
   if (uint(address >> 32) > 0x00FFFFFFu) address = 0UL;
   // A root descriptor has no bounds. [D3D12]
   return k_Descriptor(kind | access << 16, count, address, address != 0UL ? ~0UL : 0UL, 0u, 0u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shaders of checked libraries do where others trust the application; the twin of
-// kaamos/shader/checked.h. The entry point defines g_check_shader and g_check_index.
+// The checks in shaders of checked libraries, where other shaders trust the application; the GLSL
+// counterpart of kaamos/shader/checked.h. The entry point defines g_check_shader and g_check_index.
 
 //@ k_CheckEntry
 // shader::spirv::CheckEntry
@@ -54,7 +54,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer k_A
 //@ k_checks
 uint64_t k_checks() { return k_CheckStatus(k_dispatch.status).checks; }
 
-// One entry for each kind of finding at a place; of those alike only the first is told.
+// There is one entry per kind of finding and place; of identical ones only the first is reported.
 //@ k_tell
 uint g_check_shader();
 uvec3 g_check_index();
@@ -90,7 +90,8 @@ void k_tell(uint finding, uint site, uint origin, uint write, uint64_t a, uint64
   }
 }
 
-// A call whose arguments are no constants: each different one once, as far as there is room.
+// Records a call whose arguments are not constant: each distinct one once, as long as there is
+// room.
 //@ k_reached
 uint g_check_shader();
 void k_reached(uint by, uint site, uint64_t scene, uint flags, uint indices) {
@@ -116,7 +117,7 @@ void k_reached(uint by, uint site, uint64_t scene, uint flags, uint indices) {
     return;
   }
 }
-// A ray (1) or call (2) for which no closest-hit, miss or callable shader ran.
+// Records a ray (1) or call (2) for which no closest-hit, miss or callable shader ran.
 //@ k_ran_nothing
 void k_ran_nothing(uint by) {
   uint64_t checks = k_checks();
@@ -187,7 +188,7 @@ k_Descriptor k_resolve_checked(uint source, uint offset, uint index, uint count,
   return d;
 }
 // A view whose resource is gone reads as a null descriptor; one whose texture is in a state that
-// forbids its use is told of, and used. [kaamos/shader/checked.h]
+// forbids its use is reported, but used. [kaamos/shader/checked.h]
 //@ k_usable
 k_Descriptor k_usable(k_Descriptor d, uint binding, uint index, uint site) {
   uint kind = d.kind_access & 0xFFFFu;
@@ -204,7 +205,7 @@ k_Descriptor k_usable(k_Descriptor d, uint binding, uint index, uint site) {
   }
   return d;
 }
-// A descriptor that is used, now.
+// Checks a descriptor at the moment it is used.
 //@ k_used
 k_Descriptor k_used(k_Descriptor d, uint source, uint offset, uint index, uint count,
                     uint array_index, uint binding, uint site) {
@@ -243,7 +244,7 @@ k_Descriptor k_heap_resource_checked(uint index, uint kind, uint access, uint si
   return d;
 }
 
-// `at`: from the start of the buffer.
+// `at` is counted from the start of the buffer.
 //@ k_check_access
 void k_check_access(k_Descriptor d, uint64_t at, uint bytes, uint alignment, uint write, uint site) {
   if ((d.reserved & 0x80000000u) != 0u && at + bytes > d.size) {

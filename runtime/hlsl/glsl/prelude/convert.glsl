@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Conversions between scalar kinds, component by component; the twin of kaamos/shader/convert.h.
-// Integers wrap. From floating point to integers: truncated; NaN gives 0, what is out of range the
-// nearest end of it [D3D11.3 ftoi, ftou]. To narrower floats: rounded to nearest even.
+// Conversions between scalar kinds, component by component; the GLSL counterpart of
+// kaamos/shader/convert.h. Integers wrap. Floating point to integer truncates; NaN gives 0, and
+// out-of-range values the nearest limit [D3D11.3 ftoi, ftou]. Narrower floats are rounded to
+// nearest even.
 
 //@ k_to_bool b each
 bool k_to_bool(bool x) { return x; }
@@ -73,7 +74,8 @@ $f64 k_to_f64($T x) { return $f64(x); }
 $f16 k_to_f16($T x) { return $f16(x); }
 //@ k_to_f16 ints any
 $f16 k_to_f16($T x) { return $f16($F(x)); }
-// By way of a float that is rounded to odd, because two roundings to nearest are not one.
+// Goes through a float that is rounded to odd, because rounding to nearest twice is not the same as
+// once.
 //@ k_to_f16 f64 each
 float16_t k_to_f16(double x) {
   float nearest = float(x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Intrinsics that look at bits; the twin of kaamos/shader/intrinsics_bits.h.
+// Intrinsics on bits; the GLSL counterpart of kaamos/shader/intrinsics_bits.h.
 
 //@ k_asfloat i32 any
 $F k_asfloat($T x) { return intBitsToFloat(x); }
@@ -46,7 +46,7 @@ uint k_asuint_low(double x) { return unpackDouble2x32(x).x; }
 //@ k_asuint_high f64 each
 uint k_asuint_high(double x) { return unpackDouble2x32(x).y; }
 
-// By bits: a compiler may take for granted that there is no NaN.
+// Tested by bits, because a compiler may assume that there are no NaNs.
 //@ k_isnan f32 each
 bool k_isnan(float x) { return (floatBitsToUint(x) & 0x7FFFFFFFu) > 0x7F800000u; }
 //@ k_isinf f32 each
@@ -78,7 +78,7 @@ uint k_countbits($T x) {
   uvec2 halves = unpackUint2x32(uint64_t(x));
   return uint(bitCount(halves.x) + bitCount(halves.y));
 }
-// 0xFFFFFFFF where there is none; of a negative number the highest 0 bit.
+// 0xFFFFFFFF if there is none; for a negative number, the highest 0 bit.
 //@ k_firstbitlow i32 u32 any
 $U k_firstbitlow($T x) { return $U(findLSB(x)); }
 //@ k_firstbitlow i16 u16 each
@@ -133,7 +133,7 @@ uint k_f32tof16(float x) {
   if (magnitude > 0x7F800000u) return sign | 0x7E00u | (magnitude >> 13 & 0x3FFu);
   if (magnitude >= 0x477FF000u) return sign | 0x7C00u;
   if (magnitude < 0x38800000u) {
-    // The sum's last place is 2^-24, the step of half's denormals: the addition rounds.
+    // The sum's last place is 2^-24, the step between half's denormals, so the addition rounds.
     precise float sum = uintBitsToFloat(magnitude) + 0.5;
     return sign | (floatBitsToUint(sum) - 0x3F000000u);
   }
@@ -149,8 +149,8 @@ bool $NAME($T x) { return x != $0; }
 //@ k_any,k_all ints floats vector
 bool $NAME($T x) { return $BASE(notEqual(x, $0)); }
 
-// Sums of absolute differences of the reference's bytes with 4 windows of the source's 8 bytes; a
-// reference byte of 0 is masked out.
+// Sums of absolute differences between the reference's bytes and 4 windows of the source's 8 bytes;
+// a reference byte of 0 is masked out.
 //@ k_msad4
 uvec4 k_msad4(uint reference, uvec2 source, uvec4 accumulator) {
   for (int window = 0; window < 4; ++window) {

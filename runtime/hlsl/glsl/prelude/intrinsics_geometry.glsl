@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Vector geometry; the twin of kaamos/shader/intrinsics_geometry.h. Sums run from the first
-// component to the last without fused multiply-add, so that every backend gives the same bits;
-// float16 sums are kept in float and rounded once. Matrices are the emitter's.
+// Vector geometry; the GLSL counterpart of kaamos/shader/intrinsics_geometry.h. Sums run from the
+// first component to the last without fused multiply-add, so that every backend gives the same
+// bits; float16 sums are kept in float and rounded once. The emitter handles matrices.
 
-// The sum in the type that it is kept in: k_dot before it is rounded to float16.
+// The sum in its accumulation type: k_dot before it is rounded to float16.
 //@ k_dot_sum i16 u16 i32 u32 i64 u64 f32 f64 scalar
 $T k_dot_sum($T a, $T b) { return a * b; }
 //@ k_dot_sum i16 u16 i32 u32 i64 u64 f32 f64 vector

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Component-wise intrinsics; the twin of kaamos/shader/intrinsics_scalar.h. float16 is computed in
-// float. `precise` keeps a compiler from rearranging sums whose rounding errors are planned.
+// Component-wise intrinsics; the GLSL counterpart of kaamos/shader/intrinsics_scalar.h. float16 is
+// computed in float. `precise` keeps the compiler from rearranging sums whose rounding errors are
+// intended.
 
 //@ k_ceil,k_floor,k_sqrt floats any
 $T $NAME($T x) { return $BASE(x); }
 //@ k_trunc f16 f32 any
 $T k_trunc($T x) { return trunc(x); }
-// Halves go to even.
+// Ties round to even.
 //@ k_round f16 f32 any
 $T k_round($T x) { return roundEven(x); }
-// Of doubles, lavapipe without AVX-512 (Mesa 25.0, LLVM 15) only gets floor and ceil right.
+// For doubles, lavapipe without AVX-512 (Mesa 25.0, LLVM 15) only gets floor and ceil right.
 //@ k_trunc f64 each
 double k_trunc(double x) { return x < 0.0LF ? ceil(x) : floor(x); }
 //@ k_round f64 each
@@ -18,7 +19,7 @@ double k_round(double x) {
   double part = x - low;
   bool is_odd = low * 0.5LF != floor(low * 0.5LF);
   double rounded = part > 0.5LF || (part == 0.5LF && is_odd) ? low + 1.0LF : low;
-  return rounded == 0.0LF ? x * 0.0LF : rounded;  // -0 of what is negative
+  return rounded == 0.0LF ? x * 0.0LF : rounded;  // -0 for negative values
 }
 //@ k_degrees f32 any
 $T k_degrees($T x) { return x * 57.2957795; }
@@ -40,7 +41,7 @@ $T k_rsqrt($T x) { return $T($F(1) / sqrt($F(x))); }
 //@ k_saturate floats each
 $T k_saturate($T x) { return x > $0 ? (x < $1 ? x : $1) : $0; }
 
-// In [0, 1): x - floor(x) of a small negative x would round to 1. Infinities give NaN.
+// Stays in [0, 1): x - floor(x) of a small negative x would round to 1. Infinities give NaN.
 //@ k_frac f32 each
 float k_frac(float x) {
   float f = x - floor(x);
@@ -64,7 +65,7 @@ int k_sign($T x) { return int(x > $0) - int(x < $0); }
 //@ k_sign u16 u32 u64 each
 int k_sign($T x) { return int(x > $0); }
 
-// A NaN operand gives the other one. [D3D11.3 min, max]
+// If one operand is NaN, the result is the other. [D3D11.3 min, max]
 //@ k_min floats each
 $T k_min($T x, $T y) { return x < y || isnan(y) ? x : y; }
 //@ k_max floats each
@@ -76,7 +77,7 @@ $T k_max($T x, $T y) { return max(x, y); }
 //@ k_clamp ints floats any
 $T k_clamp($T x, $T low, $T high) { return k_min(k_max(x, low), high); }
 
-// x * y + z with two roundings, integers too.
+// x * y + z with two roundings, for integers too.
 //@ k_mad ints floats any
 $T k_mad($T x, $T y, $T z) {
   precise $T sum = x * y + z;
@@ -97,7 +98,7 @@ $T k_smoothstep($T low, $T high, $T x) {
 //@ k_smoothstep f16 any
 $T k_smoothstep($T low, $T high, $T x) { return $T(k_smoothstep($F(low), $F(high), $F(x))); }
 
-// The exact remainder: GLSL has x - y * trunc(x / y), which is wrong where the quotient is large.
+// The exact remainder: GLSL's x - y * trunc(x / y) is wrong if the quotient is large.
 //@ k_fmod f32 each
 float k_fmod(float x, float y) {
   uint a = floatBitsToUint(x) & 0x7FFFFFFFu;
@@ -150,7 +151,7 @@ double k_fmod(double x, double y) {
   return packDouble2x32(unpackUint2x32(rest | sign));
 }
 
-// Zero, infinities and NaN are their own mantissa with exponent 0.
+// Zero, infinities and NaN are their own mantissa, with exponent 0.
 //@ k_frexp_mantissa f32 each
 float k_frexp_mantissa(float x) {
   uint bits = floatBitsToUint(x);
@@ -190,8 +191,8 @@ $T k_modf_integer($T x) { return x; }
 //@ k_modf_fraction ints any
 $T k_modf_fraction($T x) { return $0; }
 
-// x * y + z rounded once, also by drivers whose fma() is a product and a sum. The product is exact
-// as a sum of two doubles; the last addition but one rounds to odd. [Boldo and Melquiond 2008]
+// x * y + z rounded once, even on drivers whose fma() is a product and a sum. The product is exact
+// as a sum of two doubles; the second-to-last addition rounds to odd. [Boldo and Melquiond 2008]
 //@ k_two_sum f64
 dvec2 k_two_sum(double a, double b) {
   precise double sum = a + b;
@@ -222,7 +223,7 @@ double k_fma(double x, double y, double z) {
   if (max(ex, ey) > 1023 || min(ex, ey) < -1022) return x * y + z;
   if (ez > 1023) return z;
   if (z == 0.0LF) return x * y;
-  // Exponents come near 0, so that nothing on the way is out of range.
+  // Exponents are moved near 0, so that no intermediate result is out of range.
   int scale = ex + ey;
   if (ez - scale > 110) return z;
   precise double a = k_with_exponent(x, 0), b = k_with_exponent(y, 0);

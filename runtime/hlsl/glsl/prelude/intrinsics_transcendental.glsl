@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Elementary functions of float to about one unit in the last place: drivers are allowed far more,
-// and differ. A range reduction, then a minimax polynomial of the relative error.
+// Elementary functions of float to about one unit in the last place; drivers are allowed a far
+// larger error, and differ. Each is a range reduction, then a minimax polynomial for the relative
+// error.
 
-// x * 2^n for a whole n of any size; one rounding where the result is a denormal number.
+// x * 2^n for any integer n; rounds once if the result is a denormal number.
 //@ k_scaled f32
 float k_scaled(float x, int n) {
   int n1 = clamp(n, -126, 126);
@@ -10,7 +11,7 @@ float k_scaled(float x, int n) {
   return x * uintBitsToFloat(uint(n1 + 127) << 23) * uintBitsToFloat(uint(n2 + 127) << 23) *
          uintBitsToFloat(uint(clamp(n - n1 - n2, -126, 126) + 127) << 23);
 }
-// HLSL's exponent is a float, and may have a fraction.
+// HLSL's exponent is a float and may have a fraction.
 //@ k_ldexp f32 each
 float k_ldexp(float x, float e) {
   if (trunc(e) == e && abs(e) < 1000.0) return k_scaled(x, int(e));
@@ -52,7 +53,7 @@ float k_log_parts(float x, out float exponent) {
   int offset = 0;
   if (bits < 0x800000u) {
     uint up = 23u - uint(findMSB(bits));
-    bits <<= up;  // the leading bit stands for exponent field 1
+    bits <<= up;  // the leading bit acts as exponent field 1
     offset = -int(up);
   }
   // 0x3F3504F3 is sqrt(1/2).
@@ -60,7 +61,7 @@ float k_log_parts(float x, out float exponent) {
   exponent = float(e + offset);
   return uintBitsToFloat(uint(int(bits) - (e << 23))) - 1.0;
 }
-// log(1 + f) = f + rest; rest is small against f.
+// log(1 + f) = f + rest, where rest is small compared with f.
 //@ k_log_rest f32
 float k_log_rest(float f) {
   precise float p = 0.333333106 + f * (-0.250000069 + f * (0.200022664 + f * (-0.166682839 +
@@ -69,7 +70,7 @@ float k_log_rest(float f) {
   precise float rest = f * f * f * p - 0.5 * f * f;
   return rest;
 }
-// What the logarithms give at the edges of their domain: 0 where x is inside.
+// The value of the logarithms at the edges of their domain; 0 if x is inside.
 //@ k_log_edge f32
 float k_log_edge(float x) {
   uint bits = floatBitsToUint(x);
@@ -104,7 +105,8 @@ float k_log10(float x) {
   float e;
   precise float f = k_log_parts(x, e);
   precise float rest = k_log_rest(f);
-  // 0.30078125 and 0.43359375 are log10(2) and log10(e) to a few bits: their products are exact.
+  // 0.30078125 and 0.43359375 are log10(2) and log10(e) to a few bits, so that products with them
+  // are exact.
   precise float high = e * 0.30078125;
   precise float sum = high + ((e * 2.48745664e-4 + (f + rest) * 7.00731903e-4) +
                               (rest * 0.43359375 + f * 0.43359375));
@@ -122,12 +124,12 @@ float k_quadrant(float x, out int quadrant) {
                       n * 7.54978995489188216e-8;
     return r;
   }
-  // 2 / pi as a fraction of 32-bit words. Of the product with the mantissa only what is below four
-  // quadrants matters: 64 bits from the place that the exponent names.
+  // 2 / pi as a fraction in 32-bit words. Only the part of the product with the mantissa that is
+  // below four quadrants matters: 64 bits, starting at a place given by the exponent.
   const uint kTwoOverPi[7] = uint[7](0u, 0xA2F9836Eu, 0x4E441529u, 0xFC2757D1u, 0xF534DDC0u,
                                      0xDB629599u, 0x3C439041u);
   uint mantissa = (bits & 0x7FFFFFu) | 0x800000u;
-  uint skip = (bits >> 23) - 127u - 23u + 30u;  // bits of the fraction, led by 32 zeros, to drop
+  uint skip = (bits >> 23) - 127u - 23u + 30u;  // bits of the fraction to drop, led by 32 zeros
   uint word = skip >> 5, shift = skip & 31u;
   uint a = kTwoOverPi[word], b = kTwoOverPi[word + 1u], c = kTwoOverPi[word + 2u];
   uint d = word + 3u < 7u ? kTwoOverPi[word + 3u] : 0u;
@@ -138,11 +140,11 @@ float k_quadrant(float x, out int quadrant) {
   }
   uint64_t product = (uint64_t(a * mantissa) << 32) + uint64_t(b) * mantissa +
                      ((uint64_t(c) * mantissa) >> 32);
-  // Two bits of quadrants, 62 of fraction.
+  // Two bits of quadrants and 62 of fraction.
   uint64_t rounded = product + 0x2000000000000000UL;
   quadrant = int(uint(rounded >> 62));
   int64_t fraction = int64_t(product - (uint64_t(quadrant) << 62));
-  // Near 0 the digits of the fraction begin further down.
+  // Near 0 the digits of the fraction start further down.
   uint64_t magnitude = uint64_t(abs(fraction));
   uvec2 halves = unpackUint2x32(magnitude);
   int top = halves.y != 0u ? 32 + findMSB(halves.y) : findMSB(halves.x);
@@ -170,8 +172,8 @@ float k_cos_near(float r) {
                     z * (2.47994787e-05 + z * -2.72067973e-07))));
   return c;
 }
-// Infinities have no sine; zeros keep their sign. Chosen at the end: on lavapipe a return in the
-// middle costs more than what it saves.
+// Infinities have no sine; zeros keep their sign. This is decided at the end, because on lavapipe
+// an early return costs more than it saves.
 //@ k_periodic_edge
 float k_periodic_edge(float x, float result, float at_zero) {
   result = x == 0.0 ? at_zero : result;
@@ -256,7 +258,7 @@ float k_atan2(float y, float x) {
   } else if (isinf(ay) || ax == 0.0) {
     r = 1.57079637;
   } else {
-    // Divided as a number of at most 1, so that nothing overflows.
+    // Divides so that the quotient is at most 1 and nothing overflows.
     precise float near = k_atan(min(ax, ay) / max(ax, ay));
     if (ay > ax) {
       r = left ? 1.57079637 + (near - 4.37113883e-8) : 1.57079637 - (near + 4.37113883e-8);
@@ -267,7 +269,7 @@ float k_atan2(float y, float x) {
   return floatBitsToUint(y) > 0x7FFFFFFFu ? -r : r;
 }
 
-// Half of e^a, which overflows later than e^a.
+// Half of e^a, which overflows later than e^a does.
 //@ k_half_exp f32
 float k_half_exp(float a) {
   if (a < 85.0) return 0.5 * k_exp(a);
@@ -309,8 +311,8 @@ float k_tanh(float x) {
   return x < 0.0 ? -t : t;
 }
 
-// exp2(y * log2(x)) in HLSL: NaN for a negative x, whatever y is. The product has up to 7 bits
-// before the point, so the logarithm is kept as a sum of two floats.
+// HLSL's pow is exp2(y * log2(x)): NaN for a negative x, whatever y is. The product has up to 7
+// bits before the point, so the logarithm is kept as a sum of two floats.
 //@ k_pow f32 each
 float k_pow(float x, float y) {
   if (isnan(y) || !(x >= 0.0)) return uintBitsToFloat(0x7FC00000u);
@@ -343,7 +345,7 @@ float k_pow(float x, float y) {
   if (!(abs(p_high) < 200.0)) return p_high > 0.0 ? uintBitsToFloat(0x7F800000u) : 0.0;
   precise float n = roundEven(p_high);
   precise float g = (p_high - n) + p_low;
-  // g may leave the polynomial's range a little where p_low is large.
+  // g may slightly exceed the polynomial's range if p_low is large.
   precise float more = roundEven(g);
   g -= more;
   precise float p = 1.0 + g * (0.693147208 + g * (0.240226513 + g * (0.0555032426 +
@@ -351,7 +353,7 @@ float k_pow(float x, float y) {
   return k_scaled(p, int(n + more));
 }
 
-// The other types by way of float.
+// The other types are computed in float.
 //@ k_acos,k_asin,k_atan,k_cos,k_cosh,k_exp,k_exp2,k_log,k_log10,k_log2,k_sin,k_sinh,k_tan,k_tanh f16 f64 any
 $T $NAME($T x) { return $T($NAME($F(x))); }
 //@ k_atan2,k_ldexp,k_pow f16 any

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Buffers through descriptors, by address; the twin of kaamos/shader/memory.h. Bounds hold for each
-// scalar: what lies at or past the window's end reads zero and is not written. A read or write that
-// lies inside as a whole is one access; the loop after it does the scalars of one that straddles
-// the end. bool takes 4 bytes.
+// Access to buffers through descriptors, by address; the GLSL counterpart of
+// kaamos/shader/memory.h. Bounds apply to each scalar: one at or past the window's end reads zero
+// and is not written. A read or write that is completely inside is one access; the loop after it
+// handles the scalars of an access that straddles the end. bool takes 4 bytes.
 
 //@ k_Descriptor
 struct k_Descriptor {
@@ -15,7 +15,7 @@ struct k_Descriptor {
 };
 //@ k_null
 const k_Descriptor k_null = k_Descriptor(0u, 0u, 0UL, 0UL, 0u, 0u);
-// Where a value lies: `base` may be read in [0, bytes).
+// Where a value is: `base` may be read in [0, bytes).
 //@ k_Window
 struct k_Window {
   uint64_t base;
@@ -27,15 +27,15 @@ uint64_t k_buffer_bytes(k_Descriptor d) {
   uint kind = d.kind_access & 0xFFFFu;
   return kind >= 1u && kind <= 3u ? d.size : 0UL;  // constant, raw, structured
 }
-// What is without bounds (a root descriptor) stays so: then a compiler sees a constant, and leaves
-// out every comparison with it.
+// Memory without bounds (a root descriptor) stays without: then the compiler sees a constant and
+// removes every comparison with it.
 //@ k_rest
 uint64_t k_rest(uint64_t bytes, uint offset) {
   if (bytes == ~0UL) return bytes;
   return bytes > offset ? bytes - offset : 0UL;
 }
-// The low bits of the offset that an access ignores are for the caller to clear: two, or one for
-// 16-bit scalars.
+// The caller clears the low bits of the offset that an access ignores: two, or one for 16-bit
+// scalars.
 //@ k_window
 k_Window k_window(k_Descriptor d, uint offset) {
   uint64_t size = k_buffer_bytes(d);
@@ -45,18 +45,18 @@ k_Window k_window(k_Descriptor d, uint offset) {
 k_Window k_element_window(k_Descriptor d, uint index, uint offset) {
   if ((d.kind_access & 0xFFFFu) != 3u || offset >= d.stride) return k_Window(0UL, 0UL);
   uint64_t at = uint64_t(index) * d.stride + offset;
-  // An element ends at the view's stride, even where the shader believes it to be longer.
+  // An element ends at the view's stride, even if the shader takes it to be longer.
   uint64_t in_element = uint64_t(d.stride - offset);
   if (d.size == ~0UL) return k_Window(d.address + at, in_element);
   if (at >= d.size) return k_Window(0UL, 0UL);
   return k_Window(d.address + at, min(d.size - at, in_element));
 }
-// A part of a window: what begins `offset` bytes into it.
+// The part of a window that begins `offset` bytes into it.
 //@ k_sub_window
 k_Window k_sub_window(k_Window w, uint offset) {
   return k_Window(w.base + offset, k_rest(w.bytes, offset));
 }
-// For atomics: 0 where out of bounds or misaligned.
+// For atomics; 0 if out of bounds or misaligned.
 //@ k_atomic_address_32
 uint64_t k_atomic_address_32(k_Window w) {
   return w.bytes >= 4UL && (w.base & 3UL) == 0UL ? w.base : 0UL;
@@ -229,7 +229,7 @@ void k_write_f16(k_Window w, uint at, float16_t value) {
   k_write_u16(w, at, float16BitsToUint16(value));
 }
 
-// 64-bit scalars are there as a whole or not at all.
+// A 64-bit scalar is either completely in bounds or out of bounds.
 //@ k_read_u64
 uint64_t k_read_u64(k_Window w, uint at) {
   if (w.bytes < uint64_t(at) + 8UL) return 0UL;
@@ -252,8 +252,8 @@ void k_write_f64(k_Window w, uint at, double value) {
   k_write_u64(w, at, packUint2x32(unpackDouble2x32(value)));
 }
 
-// {elements or bytes, stride, 0, 0}. A root descriptor has no size: the largest number stands for
-// it.
+// {elements or bytes, stride, 0, 0}. A root descriptor has no size, so the largest number is
+// returned.
 //@ k_clamped_size
 uint k_clamped_size(uint64_t n) { return n > 0xFFFFFFFFUL ? 0xFFFFFFFFu : uint(n); }
 //@ k_buffer_dimensions

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// HLSL's operators on scalars and vectors of one type; the twin of kaamos/shader/operators.h.
-// Nothing is undefined: shift counts are masked, x / 0 and x % 0 of integers have all bits set, the
-// lowest integer / -1 is itself, the sign of % is the dividend's. [hlsl-subset 3.8]
+// HLSL's operators on scalars and vectors of one type; the GLSL counterpart of
+// kaamos/shader/operators.h. Nothing is undefined: shift counts are masked, x / 0 and x % 0 on
+// integers have all bits set, the lowest integer / -1 is itself, and % has the dividend's sign.
+// [hlsl-subset 3.8]
 
 //@ k_add ints floats any
 $T k_add($T a, $T b) { return a + b; }
@@ -13,7 +14,7 @@ $T k_multiply($T a, $T b) { return a * b; }
 $T k_divide($T a, $T b) { return a / b; }
 //@ k_divide u16 u32 u64 each
 $T k_divide($T a, $T b) { return b == $0 ? ~$0 : a / b; }
-// Both sides of a choice may be computed, and the lowest integer / -1 stops a CPU's driver.
+// Both sides of a choice may be computed, and on a CPU driver the lowest integer / -1 would trap.
 //@ k_divide i16 i32 i64 each
 $T k_divide($T a, $T b) {
   $T quotient = a / (b == $0 || b == ~$0 ? $1 : b);
@@ -25,7 +26,7 @@ $T k_modulo($T a, $T b) { return k_fmod(a, b); }
 $T k_modulo($T a, $T b) { return b == $0 ? ~$0 : a % b; }
 //@ k_modulo i16 i32 i64 each
 $T k_modulo($T a, $T b) {
-  // Of GLSL's % the result is undefined where an operand is negative.
+  // GLSL's % is undefined if an operand is negative.
   $T divisor = b == $0 || b == ~$0 ? $1 : b;
   $T rest = a - a / divisor * divisor;
   return b == $0 ? ~$0 : rest;
@@ -93,7 +94,7 @@ bool k_not(bool a) { return !a; }
 //@ k_not ints floats each
 bool k_not($T a) { return a == $0; }
 
-// A scalar condition chooses a whole vector too.
+// A scalar condition can also select a whole vector.
 //@ k_select b ints floats each
 $T k_select(bool condition, $T a, $T b) { return condition ? a : b; }
 //@ k_select b ints floats vector

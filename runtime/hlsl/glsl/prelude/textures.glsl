@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Textures of the bindless set of kaamos/shader/spirv_interface.h. What stands behind a descriptor
-// is the driver's; guarded here is what D3D defines and Vulkan does not: null descriptors and those
-// of another kind, dimension, number class or access read 0 and write nothing, and so do texels outside of the
-// texture or its mips [D3D11.3 7.18]; coordinates may be NaN or infinite.
+// Textures of the bindless set of kaamos/shader/spirv_interface.h. The driver handles what a
+// descriptor refers to. The code here handles what D3D defines and Vulkan does not: null
+// descriptors and those of another kind, dimension, number class or access read 0 and write
+// nothing, and so do texels outside the texture or its mips [D3D11.3 7.18]; coordinates may be NaN
+// or infinite.
 //
-// Blocks with $D and $C are written for each dimension and number class: $V texel, $L location of a
-// sample, $X of a texel (array element last), $G gradient, $O offset without the array element.
+// Blocks with $D and $C are expanded for each dimension and number class: $V is a texel, $L the
+// location of a sample, $X that of a texel (array element last), $G a gradient, $O an offset
+// without the array element.
 
 //@ k_textures_$D_$C
 layout(set = 0, binding = 0) uniform $Ptexture$DIM k_textures_$D_$C[];
@@ -16,7 +18,7 @@ layout(set = 0, binding = 2) uniform sampler k_samplers[];
 //@ k_comparison_samplers
 layout(set = 0, binding = 2) uniform samplerShadow k_comparison_samplers[];
 
-// 0 float (with all normalized formats), 1 sint, 2 uint.
+// 0 float (including all normalized formats), 1 sint, 2 uint.
 //@ k_number_class
 uint k_number_class(uint format) {
   if (format >= 64u) return format == 64u ? 1u : 0u;
@@ -44,10 +46,10 @@ bool k_can_sample(k_Descriptor t, k_Descriptor s, uint dimension, uint number) {
   return k_can_read(t, dimension, number) && (s.kind_access & 0xFFFFu) == 6u && s.address != 0UL;
 }
 
-// NaN is 0. Beyond 2^30 every float is a whole even number, so nothing is lost by the clamp.
+// NaN becomes 0. Beyond 2^30 every float is an even integer, so the clamp loses nothing.
 //@ k_coordinate f32 each
 float k_coordinate(float u) { return isnan(u) ? 0.0 : clamp(u, -1073741824.0, 1073741824.0); }
-// A direction of a cube keeps its proportions.
+// A cube direction keeps its proportions.
 //@ k_direction
 vec3 k_direction(vec3 d) {
   d = mix(d, vec3(0.0), isnan(d));
@@ -67,8 +69,8 @@ float k_lod(float lod) { return isnan(lod) ? -1000.0 : clamp(lod, -1000.0, 1000.
 bool k_inside(int at, int size) { return uint(at) < uint(size); }
 bool k_inside(ivec2 at, ivec2 size) { return all(lessThan(uvec2(at), uvec2(size))); }
 bool k_inside(ivec3 at, ivec3 size) { return all(lessThan(uvec3(at), uvec3(size))); }
-// The size of a mip from that of mip 0: lavapipe answers a size query with the mip of the first of
-// the invocations that run side by side.
+// The size of a mip is computed from that of mip 0, because lavapipe answers a size query with the
+// mip of the first of the invocations that run side by side.
 //@ k_size_$D_$C 1d 2d 3d
 $X k_size_$D_$C(k_Descriptor t, int mip) {
   return max(textureSize(k_texture_$D_$C(t), 0) >> mip, $X(1));
@@ -87,7 +89,7 @@ ivec3 k_size_$D_$C(k_Descriptor t, int mip) {
 ivec2 k_size_$D_$C(k_Descriptor t, int mip) {
   return max(textureSize(k_texture_$D_$C(t), 0) >> mip, ivec2(1));
 }
-// A location, or a texel, moved by an offset in texels that leaves the array element alone.
+// A location, or a texel, moved by an offset in texels that leaves the array element unchanged.
 //@ k_moved
 float k_moved(float at, int offset, int size) { return at + float(offset) / float(size); }
 vec2 k_moved(vec2 at, int offset, ivec2 size) {
@@ -130,7 +132,7 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
                      k_coordinate(ddy));
 }
 
-// With an offset that is a constant, from -8 to 7 texels; t and s are names.
+// With a constant offset from -8 to 7 texels; t and s are names.
 //@ k_sample_level_offset_$D_$C 1d 1d_array 2d 2d_array 3d
 #define k_sample_level_offset_$D_$C(t, s, at, lod, offset)                                      \
   (k_can_sample(t, s, $Ru, k_class_$C)                                                          \
@@ -143,8 +145,9 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
                            k_coordinate(ddy), offset)                                           \
        : $V(0))
 
-// With any offset. Vulkan wants a constant one: the location moves instead, by texels of the mip
-// that is nearest; between two mips of different size the other's share is off by part of a texel.
+// With any offset. Vulkan requires a constant one, so the location is moved instead, by texels of
+// the nearest mip; between two mips of different size the other one's share is off by part of a
+// texel.
 //@ k_mip_size_$D 1d 1d_array 2d 2d_array 3d
 $X k_mip_size_$D(k_Descriptor t, float lod) {
   int levels = textureQueryLevels(k_texture_$D_f(t));
@@ -167,7 +170,7 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
   $X mip_size = k_mip_size_$D(t, 0.5 * log2(longest));
   return k_sample_gradient_$D_$C(t, s, k_moved(k_coordinate(at), offset, mip_size), ddx, ddy);
 }
-// A cube has no offsets.
+// Cubes have no offsets.
 //@ k_sample_level_$D_$C cube cube_array
 $V k_sample_level_$D_$C(k_Descriptor t, k_Descriptor s, $L at, float lod, ivec3 zero) {
   return k_sample_level_$D_$C(t, s, at, lod);
@@ -184,8 +187,8 @@ int k_spatial_1d_array(ivec2 size) { return size.x; }
 ivec2 k_spatial_2d_array(ivec3 size) { return size.xy; }
 
 // ---------------------------------------------------------------------------------------------
-// Comparisons. The reference value is clamped as a depth buffer of a normalized format would have
-// stored it.
+// Comparisons. The reference value is clamped to the range that a depth buffer of a normalized
+// format can hold.
 
 //@ k_reference
 float k_reference(k_Descriptor t, float reference) {
@@ -297,7 +300,7 @@ void k_store_texel_$D_$C(k_Descriptor t, $X at, $V value) {
   if (k_inside(at, imageSize(k_image_$D_$C(t)))) imageStore(k_image_$D_$C(t), at, value);
 }
 
-// {width, height, depth or elements, mips} of the mip; of a mip that is not there only the last.
+// {width, height, depth or elements, mips} of a mip; for a mip that does not exist, only the last.
 //@ k_extent
 uvec3 k_extent(int size) { return uvec3(size, 1, 1); }
 uvec3 k_extent(ivec2 size) { return uvec3(size, 1); }
@@ -330,8 +333,8 @@ uvec4 k_image_dimensions_1d_array(k_Descriptor t) {
 }
 
 // ---------------------------------------------------------------------------------------------
-// Interlocked operations on texels of the formats R32_UINT, R32_SINT and (exchange) R32_FLOAT. Each returns the value
-// before it; where there is no such texel it does nothing and returns 0.
+// Interlocked operations on texels of the formats R32_UINT, R32_SINT and (exchange) R32_FLOAT. Each
+// returns the previous value; if there is no such texel, it does nothing and returns 0.
 
 //@ k_atomic_images_$D_i 1d 1d_array 2d 2d_array 3d
 layout(set = 0, binding = 1, r32i) uniform iimage$DIM k_atomic_images_$D_i[];

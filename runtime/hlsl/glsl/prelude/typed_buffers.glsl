@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Typed buffers: elements decoded from memory by their DXGI_FORMAT and encoded to it; the twin of
-// runtime/shader/texture/format_codec.cpp, with its formats and its rounding. By address, because a
-// view of Vulkan has limits of size and alignment that one of D3D12 has not.
+// Typed buffers: elements are decoded from memory by their DXGI_FORMAT and encoded to it; the GLSL
+// counterpart of runtime/shader/texture/format_codec.cpp, with the same formats and rounding.
+// Access is by address, because Vulkan views have limits on size and alignment that D3D12 views do
+// not.
 
-// How a format lies in memory: bytes | kind << 8 | channels << 12 | bits << 16 | order << 24;
-// 0: not supported. Kinds: 0 unorm, 1 snorm, 2 uint, 3 sint, 4 float, 5 sRGB, 6 R11G11B10,
-// 7 R9G9B9E5. Order 0: that many channels of that many bits, red first; others: k_typed_fields.
+// The memory layout of a format: bytes | kind << 8 | channels << 12 | bits << 16 | order << 24; 0:
+// not supported. Kinds: 0 unorm, 1 snorm, 2 uint, 3 sint, 4 float, 5 sRGB, 6 R11G11B10, 7 R9G9B9E5.
+// Order 0: that many channels with that many bits, red first; for others see k_typed_fields.
 //@ k_typed_layout
 uint k_typed_layout(uint f) {
   uint l = 0u;
@@ -37,7 +38,7 @@ uint k_typed_layout(uint f) {
   l = f == 93u ? 0x5000504u : l; l = f == 115u ? 0x6000002u : l;
   return l;
 }
-// Shifts and widths of the channels, a byte each; width 0: not stored.
+// Shifts and widths of the channels, one byte each; width 0: not stored.
 //@ k_typed_fields
 uvec2 k_typed_fields(uint l) {
   uint order = l >> 24;
@@ -54,7 +55,7 @@ uvec2 k_typed_fields(uint l) {
   fields = order == 7u ? uvec2(0x00000000u, 0x08000000u) : fields;  // A8
   return fields;
 }
-// The address of an element, or 0 where it is out of bounds.
+// The address of an element, or 0 if it is out of bounds.
 //@ k_typed_element
 uint64_t k_typed_element(k_Descriptor d, uint element, uint bytes) {
   uint64_t at = uint64_t(element) * bytes;
@@ -148,8 +149,8 @@ uint k_encode_channel(uint kind, uint bits, uint value) {
   precise float scaled = clamp(x, 0.0, 1.0) * float(mask) + 0.5;
   return uint(scaled);
 }
-// Five bits of exponent, no sign: negative numbers give 0, what is finite stays finite.
-// [D3D11.3 3.1.3.3]
+// Five exponent bits, no sign: negative numbers give 0, and finite numbers stay finite. [D3D11.3
+// 3.1.3.3]
 //@ k_encode_unsigned_float
 uint k_encode_unsigned_float(uint value, uint mantissa) {
   uint infinity = 31u << mantissa;
@@ -181,7 +182,7 @@ uvec4 k_encode_element(uint l, uvec4 texel) {
   }
   return words;
 }
-// Parts of a word change without a chance for a neighbour's store to get lost.
+// Changes part of a word so that a store to a neighbouring part cannot get lost.
 //@ k_store_part
 void k_store_part(uint64_t at, uint bytes, uint value) {
   uint shift = 8u * (uint(at) & 3u);
@@ -214,7 +215,7 @@ void k_store_typed(k_Descriptor d, uint element, uvec4 texel) {
     k_store_part(at, bytes, words.x);
   }
 }
-// For atomics: 32-bit formats of one channel; 0 where out of bounds.
+// For atomics: only 32-bit formats with one channel; 0 if out of bounds.
 //@ k_typed_address
 uint64_t k_typed_address(k_Descriptor d, uint element) {
   bool fits = d.format >= 41u && d.format <= 43u && d.kind_access >> 16 == 1u;

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// A row of the registry: what a frame has to know about an effect. A new effect is a folder of its
+/// own and one row.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/composite/composite.h"
+#include "effects/frame/frame.h"
+#include "effects/frame/ray_pass.h"
+
+namespace kaamos::effects {
+
+/// How one effect is rendered. A row has the defaults.
+struct EffectSettings {
+  std::uint32_t samples = 1;     ///< per pixel, at least 1
+  std::uint32_t pixel_step = 1;  ///< 2: only even pixels of even rows are traced
+  float radius = 0;              ///< PassConstants::radius, metres
+  /// b0 of space3, as the effect's header declares them.
+  std::array<std::uint32_t, kPassWords> constants{};
+  bool keep = false;        ///< rendered even where the scene has no use for it
+  bool trace_only = false;  ///< FrameRenderer::run only: the rays without shading [Effect::trace]
+
+  /// Sets `constants`.
+  template <class T>
+  EffectSettings& set_constants(const T& values) {
+    static_assert(sizeof(T) <= sizeof(constants));
+    std::memcpy(constants.data(), &values, sizeof(T));
+    return *this;
+  }
+  /// `constants` as the type that they were set from.
+  template <class T>
+  T get_constants() const {
+    static_assert(sizeof(T) <= sizeof(constants));
+    T values;
+    std::memcpy(static_cast<void*>(&values), constants.data(), sizeof(T));
+    return values;
+  }
+};
+
+/// A shader library, by the file that it is compiled from.
+struct EffectLibrary {
+  std::string file;  ///< below effects/, without ".hlsl": "gbuffer/gbuffer". Empty: none
+  /// Loads the one that the program was built with.
+  std::function<rtapi::Result<rtapi::ShaderLibrary>()> built_in;
+};
+
+/// A picture that an effect writes.
+struct EffectSignal {
+  std::string name;            ///< of the layer; NAME_denoised is what the denoiser makes of it
+  std::uint32_t channels = 3;  ///< that hold light or visibility
+  std::uint32_t output = 0;    ///< its register u of space3
+  /// A picture that every frame has. Without it one of R32G32B32A32_FLOAT is made.
+  std::optional<FrameTexture> picture = {};
+  /// Samples are added up, and the mean is denoised. false: the picture is final as it is written.
+  bool is_sum = true;
+  bool of_lobe = false;  ///< [Denoiser::Signal]
+  /// What the composition takes it for; null: nothing.
+  const rtapi::Texture* FrameParts::*part = nullptr;
+};
+
+/// What an effect reads besides the G-buffer, and what the scene must have for it.
+struct EffectNeeds {
+  bool sun = false;           ///< the scene has a sun
+  bool local_lights = false;  ///< the scene has local lights
+  bool glass = false;         ///< the scene has glass
+  bool lights = false;        ///< lists and shadow maps of local lights, u16 to u18 of space3
+  bool volume = false;        ///< the volume of indirect light, t0 to t2 of space3
+  bool motion = false;        ///< only frames of a sequence have it
+  /// The strongest point and spot light of each pixel, u0 of space3. Main lighting leaves them out,
+  /// and adds them with the effect's signal as their visibility. One effect at most.
+  bool strongest_lights = false;
+};
+
+/// An effect as the frame sees it.
+struct Effect {
+  std::string name;            ///< in FrameSettings::effects and on command lines
+  std::string about;           ///< a few words for --help
+  EffectLibrary library = {};  ///< of `pass`, `trace` and `compose`
+  /// Null: the frame's main lighting, which is no ray tracing pass.
+  std::function<RayPassDesc(rtapi::ShaderLibrary)> pass = {};
+  /// The same rays with nothing shaded, for measuring. The volume is then empty. May be null.
+  std::function<RayPassDesc(rtapi::ShaderLibrary)> trace = {};
+  /// A compute shader of the library, [numthreads(8, 8, 1)], that adds the effect to the finished
+  /// radiance; it has the pass's views and constants. Empty: none.
+  std::string compose = {};
+  std::vector<EffectSignal> signals = {};  ///< at least one
+  EffectSettings defaults = {};            ///< what FrameSettings start from
+  EffectNeeds needs = {};                  ///< what it reads, and what scenes must have
+  std::string includes = {};        ///< another effect that this one changes and so brings along
+  std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
+};
+
+/// Northlight's effects in the order in which they are rendered.
+const std::vector<Effect>& northlight_effects();
+
+/// Null: there is none of that name.
+const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name);
+/// "ao, sun, ...".
+std::string effect_names(const std::vector<Effect>& effects);
+
+}  // namespace kaamos::effects

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The registry: a row for each of Northlight's effects.
+#include <algorithm>
+
+#include "effects/ambient_occlusion/ambient_occlusion.h"
+#include "effects/contact_shadow/contact_shadow.h"
+#include "effects/indirect_diffuse/indirect_diffuse.h"
+#include "effects/northlight/effect.h"
+#include "effects/reflections/reflections.h"
+#include "effects/sun_shadow/sun_shadow.h"
+#include "effects/transparent/transparent.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+template <class T>
+EffectSettings with_constants(const T& constants) {
+  return EffectSettings().set_constants(constants);
+}
+
+std::vector<Effect> make_effects() {
+  return {
+      {
+          .name = "ao",
+          .about = "ambient occlusion",
+          .library = {"ambient_occlusion/ambient_occlusion", ambient_occlusion_library},
+          .pass = ambient_occlusion_pass,
+          .signals = {{.name = "ao",
+                       .channels = 1,
+                       .picture = kAmbientOcclusionSum,
+                       .part = &FrameParts::ambient}},
+          .defaults = {.samples = kDefaultAmbientOcclusionSamples,
+                       .radius = kDefaultAmbientOcclusionRadius},
+          .samples_option = "ao-samples",
+      },
+      {
+          .name = "sun",
+          .about = "sun shadow",
+          .library = {"sun_shadow/sun_shadow", sun_shadow_library},
+          .pass = sun_shadow_pass,
+          .signals = {{.name = "sun",
+                       .channels = 1,
+                       .picture = kSunVisibilitySum,
+                       .part = &FrameParts::sun_visibility}},
+          .defaults = {.samples = kDefaultSunSamples},
+          .needs = {.sun = true},
+          .samples_option = "sun-samples",
+      },
+      {
+          .name = "local",
+          .about = "local lights",
+          .signals = {{.name = "local_lights", .is_sum = false, .part = &FrameParts::local_lights}},
+          .needs = {.local_lights = true, .lights = true},
+      },
+      {
+          .name = "contact",
+          .about = "contact shadows of local lights",
+          .library = {"contact_shadow/contact_shadow", contact_shadow_library},
+          .pass = contact_shadow_pass,
+          .signals = {{.name = "contact", .channels = 2, .output = 1}},
+          .defaults = with_constants(ContactShadowConstants{}),
+          .needs = {.local_lights = true, .strongest_lights = true},
+          .includes = "local",
+          .samples_option = "contact-samples",
+      },
+      {
+          .name = "gi",
+          .about = "indirect diffuse light",
+          .library = {"indirect_diffuse/indirect_diffuse", indirect_diffuse_library},
+          .pass = indirect_diffuse_pass,
+          .trace = indirect_diffuse_pass,
+          .signals = {{.name = "indirect", .part = &FrameParts::indirect}},
+          .defaults = with_constants(IndirectConstants{}),
+          .needs = {.lights = true, .volume = true},
+          .samples_option = "gi-samples",
+      },
+      {
+          .name = "reflections",
+          .about = "opaque reflections",
+          .library = {"reflections/reflections", reflections_library},
+          .pass = reflections_pass,
+          .trace = reflections_trace_pass,
+          .signals = {{.name = "reflection", .of_lobe = true, .part = &FrameParts::reflection}},
+          .defaults = with_constants(ReflectionConstants{}),
+          .needs = {.lights = true, .volume = true},
+          .samples_option = "reflection-samples",
+      },
+      {
+          // One ray a pixel and no noise: there is nothing to denoise.
+          .name = "transparent",
+          .about = "glass",
+          .library = {"transparent/transparent", transparent_library},
+          .pass = transparent_pass,
+          .compose = "TransparentCompose",
+          .signals = {{.name = "glass", .is_sum = false},
+                      {.name = "glass_transmittance", .output = 1, .is_sum = false}},
+          .defaults = with_constants(TransparentConstants{}),
+          .needs = {.glass = true, .lights = true, .volume = true},
+      },
+  };
+}
+
+}  // namespace
+
+const std::vector<Effect>& northlight_effects() {
+  static const std::vector<Effect> effects = make_effects();
+  return effects;
+}
+
+const Effect* find_effect(const std::vector<Effect>& effects, const std::string& name) {
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [&](const Effect& effect) { return effect.name == name; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+std::string effect_names(const std::vector<Effect>& effects) {
+  std::string out;
+  for (const Effect& effect : effects) out += (out.empty() ? "" : ", ") + effect.name;
+  return out;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// The Northlight frame of a scene: the G-buffer, the effects of a registry, denoising,
+/// composition. Renders whole frames, one or a sequence of them, or runs single effects again and
+/// again.
+#pragma once
+
+#include <rtapi/rtapi.h>
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "effects/composite/composite.h"
+#include "effects/direct/direct.h"
+#include "effects/frame/frame.h"
+#include "effects/frame/outcome.h"
+#include "effects/frame/ray_pass.h"
+#include "effects/indirect_diffuse/volume.h"
+#include "effects/lights/lighting.h"
+#include "effects/northlight/effect.h"
+#include "effects/northlight/libraries.h"
+#include "effects/northlight/settings.h"
+#include "effects/northlight/signal_filters.h"
+#include "effects/ray_order/ray_order.h"
+#include "effects/structures/structures.h"
+#include "effects/taa/taa.h"
+
+namespace kaamos::effects {
+
+/// Takes what is being done and its done part, from 0 to 1; returning false stops the work at the
+/// next step. Empty: nobody watches.
+using Progress = std::function<bool(const std::string& what, double done)>;
+
+/// What one pass of a frame took.
+struct PassStatistics {
+  std::string name;                  ///< "ambient occlusion"
+  double ms = 0;                     ///< from recording to the end of execution
+  rtapi::RaytracingStatistics rays;  ///< those of the pass
+  std::uint64_t bytes = 0;           ///< of the pictures and buffers that it writes or alone reads
+};
+
+/// What one run of a single effect took.
+struct RunStatistics {
+  double ms = 0;           ///< of execution
+  std::uint64_t rays = 0;  ///< traced, those of hit shading included
+};
+
+/// A frame of a sequence.
+struct FrameMoment {
+  std::uint32_t index = 0;  ///< from 0 on
+  double seconds = 0;       ///< on the scene's clock
+  Camera camera;            ///< where it is seen from
+  bool cut = false;         ///< the frame before has nothing to do with this one
+};
+
+/// Executes a band of rows of a pass; replaces CommandQueue::ExecuteAndWait, to look at it.
+using BandExecutor = std::function<rtapi::Status(rtapi::CommandQueue& queue,
+                                                 rtapi::CommandList& list, const std::string& pass,
+                                                 std::uint32_t first_row, std::uint32_t row_count)>;
+
+/// A scene on a device with all that its frames need. Not for several threads at once.
+class FrameRenderer {
+ public:
+  /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
+  /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
+  /// registry.
+  /// @errors those of the device; a name among settings.effects that is none; an effect with
+  /// pictures of its own without settings.whole_frame.
+  static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
+      const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
+      std::vector<Effect> effects = northlight_effects());
+  FrameRenderer(const FrameRenderer&) = delete;  // its passes point into it
+  FrameRenderer& operator=(const FrameRenderer&) = delete;
+
+  /// Takes these shaders from the next frame on, instead of those that are built in.
+  void set_libraries(ShaderLibraries libraries);
+  /// Executes the bands of rows of every pass by this, to look at them.
+  void set_band_executor(BandExecutor executor) { execute_band_ = std::move(executor); }
+  /// Milliseconds of the clock that times passes and runs; by default the time that passes.
+  void set_clock(std::function<double()> milliseconds) { clock_ms_ = std::move(milliseconds); }
+
+  /// Makes pipelines and pictures, and bakes or reads the volume of indirect light; render and run
+  /// call it where it has not been done. After kStopped it can be called again.
+  /// @errors those of the device; more than 4,096 local lights; a volume file that cannot be read
+  /// or written.
+  rtapi::Result<Outcome> prepare(const Progress& progress = {});
+  /// Goes on to another frame of a sequence: poses, structures, camera.
+  /// @errors those of the device.
+  rtapi::Status begin_frame(const FrameMoment& moment);
+  /// Renders the frame.
+  /// @errors those of prepare and of the device.
+  rtapi::Result<Outcome> render(const Progress& progress = {});
+
+  /// Runs a chosen effect alone, over the G-buffer and the lights of the frame; its sums begin
+  /// anew. One dispatch.
+  /// @errors those of prepare and of the device; an effect that this frame does not have.
+  rtapi::Result<RunStatistics> run(const std::string& effect, std::uint32_t samples);
+  /// The same with all settings. `first_sample`: of each pixel's sequence.
+  /// @errors as above; settings.trace_only of an effect without Effect::trace.
+  rtapi::Result<RunStatistics> run(const std::string& effect, const EffectSettings& settings,
+                                   std::uint32_t first_sample = 0);
+  /// The same for many samples, in dispatches short enough to be stopped between them.
+  /// @errors as above.
+  rtapi::Result<Outcome> accumulate(const std::string& effect, const EffectSettings& settings,
+                                    const Progress& progress);
+  /// The samples of what runs from here on, as if the frame had had this seed.
+  /// @errors those of the device.
+  rtapi::Status set_seed(std::uint32_t seed);
+
+  /// A layer by its name, as layers() lists them: sums as the mean of their samples. As many
+  /// channels as its picture has.
+  /// @errors those of the device; a name that is none.
+  rtapi::Result<FloatImage> read(const std::string& layer);
+  /// Any picture of the frame. [read_picture]
+  /// @errors those of the device.
+  rtapi::Result<FloatImage> read(const rtapi::Texture& picture);
+  /// What can be read: the G-buffer, each effect's signals, raw and denoised, and "radiance".
+  std::vector<std::string> layers() const;
+  /// The picture that an effect adds its samples to. Null: no such signal.
+  rtapi::Texture sum(const std::string& signal) const;
+
+  /// Executes what `record` records; milliseconds.
+  /// @errors those of the device.
+  rtapi::Result<double> execute(const std::function<void(rtapi::CommandList&)>& record);
+
+  // For whoever records a frame into lists of their own: prepare first.
+  /// What is traced and shaded, in order: "gbuffer", "lights" and the effects' names.
+  std::vector<std::string> parts() const;
+  /// How record() takes a part.
+  struct PartOptions {
+    std::uint32_t first_sample = 0;  ///< of each pixel's sequence
+    std::uint32_t samples = 0;       ///< 0: as settings() have them
+    bool is_sorted = false;          ///< in the order that record_sort made
+  };
+  /// Records one of them over the whole picture. Sums begin anew.
+  void record(rtapi::CommandList& list, const std::string& part, const PartOptions& options);
+  /// Records the sorting of an effect's rays by settings().order.
+  void record_sort(rtapi::CommandList& list, const std::string& effect) const;
+  /// Records the denoising of all signals.
+  void record_filters(rtapi::CommandList& list) { filters_.record_all(list, frame_); }
+  /// Records what puts the frame together.
+  void record_compose(rtapi::CommandList& list) const;
+  /// The strongest lights, added with the visibility that was summed up last.
+  void record_strongest_lights(rtapi::CommandList& list) const;
+
+  /// Of the last frame, in order.
+  const std::vector<PassStatistics>& passes() const { return statistics_; }
+  /// Of prepare; none where there was nothing to bake or to load.
+  const std::optional<PassStatistics>& set_up() const { return set_up_; }
+  /// Parts of the frame that this scene or these settings have no use for, and why.
+  const std::vector<std::string>& left_out() const { return left_out_; }
+
+  /// What create was given, with the effects that the chosen ones include.
+  const FrameSettings& settings() const { return settings_; }
+  /// What create was given.
+  const Scene& scene() const { return scene_; }
+  /// The registry.
+  const std::vector<Effect>& effects() const { return effects_; }
+  /// Whether an effect is rendered: chosen, and of use in this scene.
+  bool renders(const std::string& effect) const { return active(effect) != nullptr; }
+  /// What create was given.
+  const rtapi::Device& device() const { return device_; }
+  /// Where everything is executed.
+  rtapi::CommandQueue& queue() { return queue_; }
+  /// The pictures and root table that all passes share.
+  const Frame& frame() const { return frame_; }
+  /// The scene's resources.
+  const GpuScene& gpu_scene() const { return gpu_; }
+  /// Those that prepare took.
+  const ShaderLibraries& libraries() const { return libraries_; }
+  /// The signals and their denoisers; none before prepare.
+  const SignalFilters& filters() const { return filters_; }
+  /// Null: no local lights.
+  const DirectLighting* main_lighting() const { return direct_ ? &*direct_ : nullptr; }
+  /// Null: no antialiasing over frames.
+  const TemporalAntialiasing* taa() const { return taa_ ? &*taa_ : nullptr; }
+  /// Null: nothing moves.
+  const StructureStatistics* structures() const {
+    return structures_ ? &structures_->statistics() : nullptr;
+  }
+  /// The pipelines of the G-buffer and of the effects, for their shader tables. They are made
+  /// without preparing anything else.
+  /// @errors those of rtapi::LoadShaderLibrary and of RayPass::create.
+  rtapi::Result<std::vector<std::pair<std::string, RayPass>>> ray_passes() const;
+
+ private:
+  // An effect of this frame.
+  struct Active {
+    const Effect* row = nullptr;
+    EffectSettings settings;
+    std::string title;  // of its pass
+    RayPass pass, trace;
+    std::optional<RayPass> keys;  // its rays are sorted
+    std::optional<PassViews> views, trace_views;
+    std::optional<ComputePass> compose;
+    std::vector<rtapi::Texture> pictures;  // by signal
+    std::uint32_t samples = 0;             // that the sums hold
+  };
+
+  FrameRenderer(const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
+                std::vector<Effect> effects);
+  // frame_renderer_prepare.cpp
+  rtapi::Status create_scene();
+  rtapi::Status check_effects() const;
+  bool is_of_use(const Effect& effect, const EffectSettings& settings) const;
+  void find_active();
+  rtapi::Result<Outcome> prepare_whole(const Progress& progress);
+  rtapi::Status create_lighting();
+  rtapi::Result<Outcome> create_volume(const Progress& progress);
+  rtapi::Result<Outcome> bake(IndirectVolume& volume, const Progress& progress);
+  rtapi::Status create_effect(Active& effect);
+  rtapi::Status create_views(Active& effect, const GpuVolume& volume,
+                             std::optional<PassViews>& views) const;
+  rtapi::Status create_filters();
+  rtapi::Status create_compose();
+  void list_left_out();
+  // frame_renderer.cpp
+  rtapi::Result<Outcome> run_pass(const std::string& title, const RayPass& pass, Active* effect,
+                                  const Progress& progress);
+  rtapi::Status sort_rays(const Active& effect, const PassConstants& constants, double& ms);
+  rtapi::Status run_compute(const std::string& name, std::uint64_t bytes,
+                            const std::function<void(rtapi::CommandList&)>& record);
+  rtapi::Result<Outcome> finish_whole(const Progress& progress);
+  void record_lights(rtapi::CommandList& list) const;
+  std::vector<InstanceState> states_at(const FrameMoment& moment) const;
+  std::uint64_t bytes_of(const Active& effect) const;
+  std::uint64_t compose_bytes() const;
+  // frame_renderer_run.cpp
+  void set_samples(Active& effect, std::uint32_t samples);
+  rtapi::Status draw_surfaces();
+  rtapi::Result<Active*> runnable(const std::string& effect, const EffectSettings& settings);
+  PassArguments arguments(const Active& effect, const EffectSettings& settings) const;
+  void record_pass(rtapi::CommandList& list, const Active& effect, const EffectSettings& settings,
+                   PassConstants constants) const;
+  struct Layer {
+    std::string name;
+    rtapi::Texture picture;
+    float scale = 1;
+    bool is_encoded_color = false;
+  };
+  std::vector<Layer> find_layers() const;
+
+  const Active* active(const std::string& effect) const;
+  // Effects whose sums every frame has come before local lights, the others after them.
+  bool comes_first(const Active& effect) const;
+  bool has_strongest_effect() const;
+
+  FrameSettings settings_;
+  const Scene& scene_;
+  std::vector<Effect> effects_;
+  rtapi::Device device_;
+  rtapi::CommandQueue queue_;
+  GpuScene gpu_;
+  Frame frame_;
+  std::optional<StructureManager> structures_;
+  FrameMoment moment_;
+  glm::vec2 jitter_{0.0f};
+  BandExecutor execute_band_;
+  std::function<double()> clock_ms_;
+  std::vector<PassStatistics> statistics_;
+  std::optional<PassStatistics> set_up_;
+  std::vector<std::string> left_out_;
+  bool has_begun_ = false;     // begin_frame was called since the last frame
+  bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there
+  // What prepare makes.
+  bool is_prepared_ = false;
+  bool has_own_libraries_ = false;
+  ShaderLibraries libraries_;
+  RayPass gbuffer_;
+  std::optional<RaySorter> sorter_;
+  std::optional<Lighting> lighting_;
+  std::optional<DirectLighting> direct_;
+  GpuVolume gpu_volume_, no_volume_;
+  std::vector<std::unique_ptr<Active>> active_;
+  SignalFilters filters_;
+  CompositePass composite_;
+  std::optional<ComposePass> compose_;
+  std::optional<TemporalAntialiasing> taa_;
+};
+
+}  // namespace kaamos::effects

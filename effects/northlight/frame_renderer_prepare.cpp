@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: MIT
+// What is made before the first frame: scene, pipelines, pictures, the volume of indirect light.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <sstream>
+#include <utility>
+
+#include "effects/frame/picture.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/lights/light_constants.h"
+#include "effects/northlight/frame_renderer.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+constexpr rtapi::Format kSignalFormat = rtapi::Format::kR32G32B32A32Float;
+
+rtapi::Error failure(const std::string& text) {
+  return {{}, rtapi::ErrorCode::kFailed, text};
+}
+
+bool has_glass(const Scene& scene) {
+  return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) {
+    return (instance.mask & kMaskTransparent) != 0;
+  });
+}
+
+std::uint32_t count_local_lights(const Scene& scene) {
+  const glm::dvec3 origin = scene.cameras.front().position();
+  return static_cast<std::uint32_t>(light_constants(scene, origin).size());
+}
+
+bool has_own_pictures(const Effect& effect) {
+  return std::any_of(effect.signals.begin(), effect.signals.end(),
+                     [](const EffectSignal& signal) { return !signal.picture; });
+}
+
+bool needs_views(const Effect& effect, const EffectSettings& settings) {
+  return has_own_pictures(effect) || effect.needs.lights || effect.needs.volume ||
+         std::any_of(settings.constants.begin(), settings.constants.end(),
+                     [](std::uint32_t word) { return word != 0; });
+}
+
+// Brings along what the chosen effects include.
+void add_included(std::map<std::string, EffectSettings>& chosen,
+                  const std::vector<Effect>& effects) {
+  for (const Effect& effect : effects) {
+    if (effect.includes.empty() || chosen.count(effect.name) == 0) continue;
+    const Effect* included = find_effect(effects, effect.includes);
+    if (included != nullptr) chosen.try_emplace(included->name, included->defaults);
+  }
+}
+
+}  // namespace
+
+std::map<std::string, EffectSettings> choose_effects(const std::vector<std::string>& names,
+                                                     const std::vector<Effect>& effects) {
+  std::map<std::string, EffectSettings> out;
+  for (const std::string& name : names) {
+    const Effect* effect = find_effect(effects, name);
+    if (effect != nullptr) {
+      out[name] = effect->defaults;
+    } else if (name == "all") {
+      for (const Effect& each : effects) out[each.name] = each.defaults;
+    } else {
+      out[name] = {};
+    }
+  }
+  add_included(out, effects);
+  return out;
+}
+
+bool scene_offers(const Scene& scene, const EffectNeeds& needs) {
+  return (!needs.sun || scene.sun) && (!needs.glass || has_glass(scene)) &&
+         (!needs.local_lights || count_local_lights(scene) > 0);
+}
+
+bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
+                      const std::vector<Effect>& effects) {
+  return std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
+    return chosen.count(effect.name) != 0 && has_own_pictures(effect);
+  });
+}
+
+FrameRenderer::FrameRenderer(const rtapi::Device& device, const Scene& scene,
+                             const FrameSettings& settings, std::vector<Effect> effects)
+    : settings_(settings),
+      scene_(scene),
+      effects_(std::move(effects)),
+      device_(device),
+      clock_ms_([] {
+        const auto now = std::chrono::steady_clock::now().time_since_epoch();
+        return std::chrono::duration<double, std::milli>(now).count();
+      }) {
+  add_included(settings_.effects, effects_);
+}
+
+rtapi::Result<std::unique_ptr<FrameRenderer>> FrameRenderer::create(const rtapi::Device& device,
+                                                                    const Scene& scene,
+                                                                    const FrameSettings& settings,
+                                                                    std::vector<Effect> effects) {
+  std::unique_ptr<FrameRenderer> out(
+      new FrameRenderer(device, scene, settings, std::move(effects)));
+  if (const auto s = out->check_effects(); !s) return s.error();
+  const auto queue = device.CreateCommandQueue();
+  if (!queue) return queue.error();
+  out->queue_ = *queue;
+  if (const auto s = out->create_scene(); !s) return s.error();
+  return out;
+}
+
+rtapi::Status FrameRenderer::check_effects() const {
+  for (const auto& [name, ignored] : settings_.effects) {
+    const Effect* effect = find_effect(effects_, name);
+    if (effect == nullptr) {
+      return failure("there is no effect \"" + name + "\" but " + effect_names(effects_));
+    }
+    if (!settings_.whole_frame && has_own_pictures(*effect)) {
+      return failure("effect \"" + name +
+                     "\" has pictures of its own: set FrameSettings::whole_frame");
+    }
+  }
+  return {};
+}
+
+rtapi::Status FrameRenderer::create_scene() {
+  const Camera& camera = scene_.cameras.front();
+  moment_.camera = camera;
+  if (settings_.moving || !scene_.skins.empty()) {
+    auto manager = StructureManager::create(device_, queue_, scene_);
+    if (!manager) return manager.error();
+    structures_ = std::move(*manager);
+    gpu_ = structures_->scene();
+  } else {
+    auto gpu = create_gpu_scene(device_, queue_, scene_, camera.position());
+    if (!gpu) return gpu.error();
+    gpu_ = std::move(*gpu);
+  }
+  FrameDesc desc;
+  desc.width = settings_.width;
+  desc.height = settings_.height;
+  desc.seed = settings_.seed;
+  desc.ray_cones = settings_.ray_cones;
+  desc.sun_angular_radius = settings_.sun_angular_radius;
+  desc.max_pass_views = settings_.max_pass_views;
+  auto frame = Frame::create(device_, queue_, scene_, gpu_, camera, desc);
+  if (!frame) return frame.error();
+  frame_ = std::move(*frame);
+  if (!structures_) return {};
+  // What is baked later sees the scene as it is at the beginning.
+  const auto begun = begin_frame(moment_);
+  has_begun_ = false;
+  return begun;
+}
+
+void FrameRenderer::set_libraries(ShaderLibraries libraries) {
+  libraries_ = std::move(libraries);
+  has_own_libraries_ = true;
+  is_prepared_ = false;
+}
+
+bool FrameRenderer::is_of_use(const Effect& effect, const EffectSettings& settings) const {
+  if (settings.keep) return true;
+  return scene_offers(scene_, effect.needs) && (!effect.needs.motion || settings_.moving);
+}
+
+void FrameRenderer::find_active() {
+  active_.clear();
+  for (const Effect& effect : effects_) {
+    const auto chosen = settings_.effects.find(effect.name);
+    if (chosen == settings_.effects.end() || !is_of_use(effect, chosen->second)) continue;
+    active_.push_back(std::make_unique<Active>());
+    active_.back()->row = &effect;
+    active_.back()->settings = chosen->second;
+    // Without a denoiser nothing would fill the other pixels.
+    if (!settings_.whole_frame) active_.back()->settings.pixel_step = 1;
+  }
+}
+
+rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
+  if (is_prepared_) return Outcome::kDone;
+  frame_.release_pass_views();  // those of earlier shaders
+  filters_ = {};
+  compose_.reset();
+  taa_.reset();
+  left_out_.clear();
+  set_up_.reset();
+  has_surfaces_ = false;
+  if (!has_own_libraries_) {
+    auto loaded = load_libraries(frame_libraries(settings_, effects_));
+    if (!loaded) return loaded.error();
+    libraries_ = std::move(*loaded);
+  }
+  if (settings_.order != RayOrder::kPixels) {
+    auto sorter = RaySorter::create(device_, frame_, libraries_.at("ray_order/ray_order"));
+    if (!sorter) return sorter.error();
+    sorter_ = std::move(*sorter);
+  }
+  const auto gbuffer =
+      RayPass::create(device_, frame_, gpu_, gbuffer_pass(libraries_.at("gbuffer/gbuffer")));
+  if (!gbuffer) return gbuffer.error();
+  gbuffer_ = *gbuffer;
+  find_active();
+  if (settings_.whole_frame) {
+    const double start = clock_ms_();
+    if (const auto done = prepare_whole(progress); !is_done(done)) return done;
+    set_up_ = {"set-up and bake", clock_ms_() - start, device_.GetStatistics()};
+  } else {
+    const auto composite =
+        CompositePass::create(device_, frame_, libraries_.at("composite/composite"));
+    if (!composite) return composite.error();
+    composite_ = *composite;
+    for (const auto& effect : active_) {
+      if (const auto s = create_effect(*effect); !s) return s.error();
+    }
+  }
+  if (settings_.taa) {
+    const auto taa = TemporalAntialiasing::create(device_, frame_, libraries_.at("taa/taa"));
+    if (!taa) return taa.error();
+    taa_ = *taa;
+  }
+  list_left_out();
+  is_prepared_ = true;
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> FrameRenderer::prepare_whole(const Progress& progress) {
+  if (const auto s = create_lighting(); !s) return s.error();
+  if (const auto s = create_volume(progress); !is_done(s)) return s;
+  for (const auto& effect : active_) {
+    if (const auto s = create_effect(*effect); !s) return s.error();
+  }
+  if (const auto s = create_filters(); !s) return s.error();
+  if (const auto s = create_compose(); !s) return s.error();
+  return Outcome::kDone;
+}
+
+rtapi::Status FrameRenderer::create_lighting() {
+  const std::uint32_t lights = count_local_lights(scene_);
+  const auto lighting =
+      Lighting::create(device_, frame_, gpu_, libraries_.at("lights/lighting"), lights);
+  if (!lighting) return lighting.error();
+  lighting_ = *lighting;
+  direct_.reset();
+  const bool has_main_lighting = std::any_of(active_.begin(), active_.end(),
+                                             [](const auto& effect) { return !effect->row->pass; });
+  if (has_main_lighting) {
+    const auto direct =
+        DirectLighting::create(device_, frame_, *lighting_, libraries_.at("direct/direct"));
+    if (!direct) return direct.error();
+    direct_ = *direct;
+  } else if (lights == 0) {
+    left_out_.push_back("local lights and contact shadows: the scene has no local light");
+  }
+  for (const Effect& effect : effects_) {
+    if (effect.needs.glass && settings_.effects.count(effect.name) != 0 &&
+        active(effect.name) == nullptr) {
+      left_out_.push_back(effect.about + ": the scene has none");
+    }
+  }
+  // Baking reads the shadow maps.
+  const auto updated = execute([&](rtapi::CommandList& list) { lighting_->update(list, frame_); });
+  if (!updated) return updated.error();
+  return {};
+}
+
+rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
+  const VolumeSettings& wanted = settings_.volume;
+  IndirectVolume volume;
+  if (std::none_of(active_.begin(), active_.end(),
+                   [](const auto& effect) { return effect->row->needs.volume; })) {
+    left_out_.push_back("the volume of indirect light: no effect reads it");
+  } else if (wanted.given) {
+    volume = *wanted.given;
+  } else if (!wanted.file.empty() && std::filesystem::exists(wanted.file)) {
+    auto loaded = load_volume(wanted.file);
+    if (!loaded.ok()) return failure(loaded.error());
+    volume = std::move(loaded.value());
+  } else if (const auto baked = bake(volume, progress); !is_done(baked)) {
+    return baked;
+  }
+  const glm::dvec3 origin = moment_.camera.position();
+  const auto uploaded = GpuVolume::create(device_, volume, origin);
+  if (!uploaded) return uploaded.error();
+  gpu_volume_ = *uploaded;
+  const auto none = GpuVolume::create(device_, {}, origin);
+  if (!none) return none.error();
+  no_volume_ = *none;
+  return Outcome::kDone;
+}
+
+rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progress& progress) {
+  const VolumeSettings& wanted = settings_.volume;
+  auto laid_out = layout_volume(scene_, wanted.cell);
+  if (!laid_out.ok()) return failure(laid_out.error());
+  volume = std::move(laid_out.value());
+  if (!wanted.cell && volume.cell != kVolumeCell) {
+    std::ostringstream text;
+    text << "cells of " << kVolumeCell << " m in the volume of indirect light: the scene is large, "
+         << volume.cells.size() << " cells of " << volume.cell << " m bake faster (--gi-cell "
+         << kVolumeCell << ")";
+    left_out_.push_back(text.str());
+  }
+  const BakeDesc desc = {wanted.samples, wanted.bounces, wanted.seed.value_or(settings_.seed)};
+  const auto step = [&](double done) { return !progress || progress("indirect light", done); };
+  const auto baked =
+      bake_volume(device_, queue_, frame_, gpu_, *lighting_, moment_.camera.position(),
+                  libraries_.at("indirect_diffuse/volume_bake"), desc, volume, step);
+  if (!is_done(baked) || wanted.file.empty()) return baked;
+  if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
+    return failure(saved.error());
+  }
+  return Outcome::kDone;
+}
+
+rtapi::Status FrameRenderer::create_views(Active& effect, const GpuVolume& volume,
+                                          std::optional<PassViews>& views) const {
+  const EffectNeeds& needs = effect.row->needs;
+  const auto created = frame_.create_pass_views(device_);
+  if (!created) return created.error();
+  views = *created;
+  if (needs.strongest_lights) {
+    if (const auto s = views->set_unordered_access(0, direct_->strongest()); !s) return s;
+  }
+  for (std::size_t i = 0; i < effect.pictures.size(); ++i) {
+    const EffectSignal& signal = effect.row->signals[i];
+    if (signal.picture) continue;
+    if (const auto s = views->set_unordered_access(signal.output, effect.pictures[i]); !s) return s;
+  }
+  if (needs.lights) {
+    if (const auto s = lighting_->bind(*views); !s) return s;
+  }
+  return needs.volume ? volume.bind(*views) : rtapi::Status{};
+}
+
+rtapi::Status FrameRenderer::create_effect(Active& effect) {
+  const Effect& row = *effect.row;
+  effect.samples = effect.settings.samples;
+  if (!row.pass) return {};
+  if (row.needs.strongest_lights && !direct_) {
+    return failure("effect \"" + row.name + "\" needs local lights, which are not rendered");
+  }
+  for (const EffectSignal& signal : row.signals) {
+    if (signal.picture) {
+      effect.pictures.push_back(frame_.texture(*signal.picture));
+      continue;
+    }
+    const auto created = frame_.create_picture(
+        device_, signal.is_sum ? signal.name + " sum" : signal.name, kSignalFormat);
+    if (!created) return created.error();
+    effect.pictures.push_back(*created);
+  }
+  if (needs_views(row, effect.settings)) {
+    if (const auto s = create_views(effect, gpu_volume_, effect.views); !s) return s;
+  }
+  const rtapi::ShaderLibrary& library = libraries_.at(row.library.file);
+  const RayPassDesc desc = row.pass(library);
+  effect.title = desc.name;
+  const auto pass = RayPass::create(device_, frame_, gpu_, desc);
+  if (!pass) return pass.error();
+  effect.pass = *pass;
+  if (sorter_ && !desc.key_generation.empty()) {
+    const auto keys = RayPass::create(device_, frame_, gpu_, key_pass(desc));
+    if (!keys) return keys.error();
+    effect.keys = *keys;
+  }
+  if (row.compose.empty()) return {};
+  const auto compose = ComputePass::create(device_, frame_, library, row.compose);
+  if (!compose) return compose.error();
+  effect.compose = *compose;
+  return {};
+}
+
+rtapi::Status FrameRenderer::create_filters() {
+  for (const auto& effect : active_) {
+    for (std::size_t i = 0; i < effect->pictures.size(); ++i) {
+      const EffectSignal& signal = effect->row->signals[i];
+      if (!signal.is_sum) continue;
+      const auto s = filters_.add(device_, frame_, signal, effect->pictures[i], effect->settings);
+      if (!s) return s;
+    }
+  }
+  return filters_.create(device_, frame_, denoise_libraries(libraries_), settings_.denoise);
+}
+
+rtapi::Status FrameRenderer::create_compose() {
+  FrameParts parts;
+  for (const auto& effect : active_) {
+    for (std::size_t i = 0; i < effect->row->signals.size(); ++i) {
+      const EffectSignal& signal = effect->row->signals[i];
+      const SignalFilters::Signal* filtered = filters_.find(signal.name);
+      if (effect->row->needs.strongest_lights && filtered != nullptr) {
+        if (const auto s = direct_->set_contact(filters_.denoised(*filtered)); !s) return s;
+      }
+      if (signal.part == nullptr) continue;
+      parts.*signal.part = filtered != nullptr         ? &filters_.denoised(*filtered)
+                           : !effect->pictures.empty() ? &effect->pictures[i]
+                           : has_strongest_effect()    ? &direct_->total()
+                                                       : &direct_->direct();
+    }
+  }
+  const auto compose =
+      ComposePass::create(device_, frame_, libraries_.at("composite/composite"), parts);
+  if (!compose) return compose.error();
+  compose_ = *compose;
+  return {};
+}
+
+void FrameRenderer::list_left_out() {
+  if (std::none_of(gpu_.geometries.begin(), gpu_.geometries.end(),
+                   [](const GpuGeometry& geometry) { return geometry.alpha_tested; })) {
+    left_out_.push_back("any-hit shaders: nothing is alpha-tested");
+  }
+  if (scene_.skins.empty()) left_out_.push_back("skinning: the scene has no skin");
+}
+
+rtapi::Result<std::vector<std::pair<std::string, RayPass>>> FrameRenderer::ray_passes() const {
+  std::vector<RayPassDesc> descs;
+  const auto gbuffer = gbuffer_library();
+  if (!gbuffer) return gbuffer.error();
+  descs.push_back(gbuffer_pass(*gbuffer));
+  for (const Effect& effect : effects_) {
+    const auto chosen = settings_.effects.find(effect.name);
+    if (chosen == settings_.effects.end() || !effect.pass) continue;
+    if (!is_of_use(effect, chosen->second)) continue;
+    const auto library = effect.library.built_in();
+    if (!library) return library.error();
+    descs.push_back(effect.pass(*library));
+  }
+  std::vector<std::pair<std::string, RayPass>> out;
+  for (const RayPassDesc& desc : descs) {
+    const auto pass = RayPass::create(device_, frame_, gpu_, desc);
+    if (!pass) return pass.error();
+    out.emplace_back(desc.name, *pass);
+  }
+  return out;
+}
+
+}  // namespace kaamos::effects

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// Single effects, run again and again with any settings, and what can be read of a frame.
+#include <algorithm>
+#include <utility>
+
+#include "effects/frame/picture.h"
+#include "effects/northlight/frame_renderer.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+constexpr double kDispatchMs = 300;
+constexpr std::uint32_t kMostSamplesPerDispatch = 1024;
+
+rtapi::Error failure(const std::string& text) {
+  return {{}, rtapi::ErrorCode::kInvalidArgument, text};
+}
+
+}  // namespace
+
+void FrameRenderer::set_samples(Active& effect, std::uint32_t samples) {
+  effect.samples = samples;
+  for (const EffectSignal& signal : effect.row->signals) {
+    if (auto* filtered = filters_.find(signal.name)) filtered->samples = samples;
+  }
+}
+
+rtapi::Status FrameRenderer::set_seed(std::uint32_t seed) {
+  frame_.set_seed(seed);
+  return frame_.set_camera(device_, scene_, moment_.camera,
+                           {.index = moment_.index, .previous_camera = moment_.camera});
+}
+
+rtapi::Status FrameRenderer::draw_surfaces() {
+  const auto prepared = prepare();
+  if (!prepared) return prepared.error();
+  if (has_surfaces_) return {};
+  const auto drawn = execute([&](rtapi::CommandList& list) {
+    gbuffer_.dispatch(list, frame_, {.sample_count = 1}, frame_.height());
+    if (settings_.whole_frame) record_lights(list);
+  });
+  if (!drawn) return drawn.error();
+  has_surfaces_ = true;
+  return {};
+}
+
+PassArguments FrameRenderer::arguments(const Active& effect, const EffectSettings& settings) const {
+  const auto& views = settings.trace_only ? effect.trace_views : effect.views;
+  return views ? PassArguments(*views, settings.constants) : PassArguments{};
+}
+
+rtapi::Result<FrameRenderer::Active*> FrameRenderer::runnable(const std::string& name,
+                                                              const EffectSettings& settings) {
+  if (const auto s = draw_surfaces(); !s) return s.error();
+  auto* effect = const_cast<Active*>(active(name));
+  if (effect == nullptr || !effect->row->pass) {
+    return failure("effect \"" + name +
+                   "\" cannot be run: it is not chosen, traces no rays, or the scene has no use "
+                   "for it");
+  }
+  if (!settings.trace_only || effect->trace_views) return effect;
+  if (!effect->row->trace) return failure("effect \"" + name + "\" has no pass that only traces");
+  if (const auto s = create_views(*effect, no_volume_, effect->trace_views); !s) return s.error();
+  const RayPassDesc desc = effect->row->trace(libraries_.at(effect->row->library.file));
+  const auto pass = RayPass::create(device_, frame_, gpu_, desc);
+  if (!pass) return pass.error();
+  effect->trace = *pass;
+  return effect;
+}
+
+void FrameRenderer::record_pass(rtapi::CommandList& list, const Active& effect,
+                                const EffectSettings& settings, PassConstants constants) const {
+  const PassArguments words = arguments(effect, settings);
+  constants.radius = settings.radius;
+  constants.pixel_step = settings.pixel_step;
+  const std::uint32_t step = settings.pixel_step;
+  const RayPass& pass = settings.trace_only ? effect.trace : effect.pass;
+  pass.dispatch(list, frame_, constants, (frame_.height() + step - 1) / step, words);
+}
+
+rtapi::Result<RunStatistics> FrameRenderer::run(const std::string& effect, std::uint32_t samples) {
+  const auto chosen = settings_.effects.find(effect);
+  EffectSettings settings;
+  if (chosen != settings_.effects.end()) settings = chosen->second;
+  settings.samples = samples;
+  return run(effect, settings);
+}
+
+rtapi::Result<RunStatistics> FrameRenderer::run(const std::string& name,
+                                                const EffectSettings& settings,
+                                                std::uint32_t first_sample) {
+  const auto effect = runnable(name, settings);
+  if (!effect) return effect.error();
+  device_.ResetStatistics();
+  const auto ms = execute([&](rtapi::CommandList& list) {
+    record_pass(list, **effect, settings,
+                {.first_sample = first_sample, .sample_count = settings.samples, .accumulate = 0});
+    if (!(*effect)->compose) return;
+    (*effect)->compose->dispatch(list, frame_, {}, arguments(**effect, settings), frame_.width(),
+                                 frame_.height());
+  });
+  if (!ms) return ms.error();
+  set_samples(**effect, settings.samples);
+  return RunStatistics{*ms, device_.GetStatistics().TraceRayCalls};
+}
+
+rtapi::Result<Outcome> FrameRenderer::accumulate(const std::string& name,
+                                                 const EffectSettings& settings,
+                                                 const Progress& progress) {
+  if (const auto s = prepare(progress); !is_done(s)) return s;
+  const auto effect = runnable(name, settings);
+  if (!effect) return effect.error();
+  std::uint32_t step = 1;
+  for (std::uint32_t sample = 0; sample < settings.samples;) {
+    const std::uint32_t count = std::min(step, settings.samples - sample);
+    const auto ms = execute([&](rtapi::CommandList& list) {
+      record_pass(
+          list, **effect, settings,
+          {.first_sample = sample, .sample_count = count, .accumulate = sample > 0 ? 1u : 0u});
+    });
+    if (!ms) return ms.error();
+    sample += count;
+    set_samples(**effect, sample);
+    const double done = static_cast<double>(sample) / settings.samples;
+    if (progress && !progress(name, done)) return Outcome::kStopped;
+    const double fit = step * std::clamp(kDispatchMs / std::max(*ms, 0.1), 0.5, 2.0);
+    step = static_cast<std::uint32_t>(
+        std::clamp(fit, 1.0, static_cast<double>(kMostSamplesPerDispatch)));
+  }
+  return Outcome::kDone;
+}
+
+std::vector<std::string> FrameRenderer::parts() const {
+  std::vector<std::string> out = {"gbuffer"};
+  for (const auto& effect : active_) {
+    if (comes_first(*effect)) out.push_back(effect->row->name);
+  }
+  if (settings_.whole_frame) out.push_back("lights");
+  for (const auto& effect : active_) {
+    if (effect->row->pass && !comes_first(*effect)) out.push_back(effect->row->name);
+  }
+  return out;
+}
+
+void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
+                           const PartOptions& options) {
+  if (part == "gbuffer") {
+    gbuffer_.dispatch(list, frame_, {.sample_count = 1, .accumulate = 0}, frame_.height());
+  } else if (part == "lights") {
+    record_lights(list);
+  } else if (auto* effect = const_cast<Active*>(active(part)); effect && effect->row->pass) {
+    const std::uint32_t samples = options.samples > 0 ? options.samples : effect->settings.samples;
+    record_pass(list, *effect, effect->settings,
+                {.first_sample = options.first_sample,
+                 .sample_count = samples,
+                 .sorted = options.is_sorted ? 1u : 0u,
+                 .accumulate = 0});
+    set_samples(*effect, samples);
+  }
+}
+
+void FrameRenderer::record_sort(rtapi::CommandList& list, const std::string& part) const {
+  const Active* effect = active(part);
+  if (effect == nullptr || !effect->keys) return;
+  const PassConstants constants = {.sample_count = 1, .radius = effect->settings.radius};
+  effect->keys->dispatch(list, frame_, constants, frame_.height(),
+                         arguments(*effect, effect->settings));
+  sorter_->sort(list, frame_, settings_.order);
+}
+
+rtapi::Texture FrameRenderer::sum(const std::string& signal) const {
+  for (const auto& effect : active_) {
+    for (std::size_t i = 0; i < effect->pictures.size(); ++i) {
+      if (effect->row->signals[i].name == signal) return effect->pictures[i];
+    }
+  }
+  return {};
+}
+
+std::vector<FrameRenderer::Layer> FrameRenderer::find_layers() const {
+  constexpr std::pair<const char*, FrameTexture> kSurfaces[] = {
+      {"depth", kDepth},          {"view_z", kViewZ},
+      {"normal", kNormal},        {"shading_normal", kShadingNormal},
+      {"base_color", kBaseColor}, {"emissive", kEmissive},
+      {"material", kMaterial},    {"ids", kIds},
+      {"position", kPosition}};
+  std::vector<Layer> out;
+  for (const auto& [name, texture] : kSurfaces) {
+    out.push_back({name, frame_.texture(texture), 1, texture == kBaseColor});
+  }
+  for (const auto& effect : active_) {
+    for (std::size_t i = 0; i < effect->row->signals.size(); ++i) {
+      const EffectSignal& signal = effect->row->signals[i];
+      if (!effect->row->pass) {
+        if (!direct_) continue;
+        out.push_back({signal.name, has_strongest_effect() ? direct_->total() : direct_->direct()});
+        continue;
+      }
+      if (!signal.is_sum) {
+        out.push_back({signal.name, effect->pictures[i]});
+        continue;
+      }
+      const SignalFilters::Signal* filtered = filters_.find(signal.name);
+      const float scale = 1.0f / static_cast<float>(std::max(effect->samples, 1u));
+      // A sum of every other pixel has holes, which the denoiser's input has not.
+      if (filtered != nullptr && !signal.picture && filtered->pixel_step != 1) {
+        out.push_back({signal.name, filtered->mean});
+      } else {
+        out.push_back({signal.name, effect->pictures[i], scale});
+      }
+      if (filtered != nullptr) {
+        out.push_back({signal.name + "_denoised", filters_.denoised(*filtered)});
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> FrameRenderer::layers() const {
+  std::vector<std::string> out;
+  for (const Layer& layer : find_layers()) out.push_back(layer.name);
+  out.push_back("radiance");
+  return out;
+}
+
+rtapi::Result<FloatImage> FrameRenderer::read(const rtapi::Texture& picture) {
+  return read_picture(device_, queue_, picture);
+}
+
+rtapi::Result<FloatImage> FrameRenderer::read(const std::string& name) {
+  if (name == "radiance") return read(taa_ ? taa_->result() : frame_.texture(kRadiance));
+  for (const Layer& layer : find_layers()) {
+    if (layer.name != name) continue;
+    auto image = read(layer.picture);
+    if (!image) return image;
+    if (layer.scale != 1) {
+      for (float& value : image->values) value *= layer.scale;
+    }
+    // As EncodeColor stores it; alpha is 1. [effects/shaders/encoding.hlsli]
+    if (layer.is_encoded_color) {
+      for (float& value : image->values) value *= value;
+    }
+    return image;
+  }
+  std::string known;
+  for (const std::string& layer : layers()) known += (known.empty() ? "" : ", ") + layer;
+  return failure("the frame has no layer \"" + name + "\" but " + known);
+}
+
+}  // namespace kaamos::effects

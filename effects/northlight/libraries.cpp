@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "effects/northlight/libraries.h"
+
+#include <shaders/control.h>
+#include <shaders/spatial.h>
+#include <shaders/svgf.h>
+#include <shaders/upscale.h>
+
+#include "effects/composite/composite.h"
+#include "effects/direct/direct.h"
+#include "effects/gbuffer/gbuffer.h"
+#include "effects/indirect_diffuse/volume.h"
+#include "effects/lights/lighting.h"
+#include "effects/taa/taa.h"
+
+namespace kaamos::effects {
+
+namespace {
+
+rtapi::Result<rtapi::ShaderLibrary> spatial_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_spatial());
+}
+rtapi::Result<rtapi::ShaderLibrary> svgf_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_svgf());
+}
+rtapi::Result<rtapi::ShaderLibrary> control_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_control());
+}
+rtapi::Result<rtapi::ShaderLibrary> upscale_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_upscale());
+}
+
+// What a frame has besides its effects, and which frames do.
+struct PartRow {
+  EffectLibrary library;
+  bool (*is_needed)(const FrameSettings&);
+};
+
+const std::vector<PartRow>& parts() {
+  constexpr auto kAlways = [](const FrameSettings&) { return true; };
+  constexpr auto kWhole = [](const FrameSettings& s) { return s.whole_frame; };
+  static const std::vector<PartRow> rows = {
+      {{"gbuffer/gbuffer", gbuffer_library}, kAlways},
+      {{"composite/composite", composite_library}, kAlways},
+      {{"lights/lighting", lighting_library}, kWhole},
+      {{"direct/direct", direct_library}, kWhole},
+      {{"indirect_diffuse/volume_bake", volume_bake_library}, kWhole},
+      {{"denoise/spatial", spatial_library}, kWhole},
+      {{"denoise/svgf", svgf_library}, kWhole},
+      {{"denoise/control", control_library}, kWhole},
+      {{"denoise/upscale", upscale_library}, kWhole},
+      {{"ray_order/ray_order", ray_order_library},
+       [](const FrameSettings& s) { return s.order != RayOrder::kPixels; }},
+      {{"taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
+  return rows;
+}
+
+}  // namespace
+
+std::vector<EffectLibrary> frame_libraries(const FrameSettings& settings,
+                                           const std::vector<Effect>& effects) {
+  std::vector<EffectLibrary> out;
+  for (const PartRow& row : parts()) {
+    if (row.is_needed(settings)) out.push_back(row.library);
+  }
+  for (const Effect& effect : effects) {
+    if (settings.effects.count(effect.name) != 0 && !effect.library.file.empty()) {
+      out.push_back(effect.library);
+    }
+  }
+  return out;
+}
+
+rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& libraries) {
+  ShaderLibraries out;
+  for (const EffectLibrary& library : libraries) {
+    const auto loaded = library.built_in();
+    if (!loaded) return loaded.error();
+    out[library.file] = *loaded;
+  }
+  return out;
+}
+
+DenoiseLibraries denoise_libraries(const ShaderLibraries& libraries) {
+  return {libraries.at("denoise/spatial"), libraries.at("denoise/svgf"),
+          libraries.at("denoise/control"), libraries.at("denoise/upscale")};
+}
+
+}  // namespace kaamos::effects

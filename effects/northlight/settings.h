@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// What can be chosen about a frame.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/denoise/denoise.h"
+#include "effects/indirect_diffuse/volume.h"
+#include "effects/northlight/effect.h"
+#include "effects/ray_order/ray_order.h"
+
+namespace kaamos::effects {
+
+/// The volume of indirect light, which effects read that need it.
+struct VolumeSettings {
+  std::optional<float> cell;          ///< metres; none: by the size of the scene
+  std::uint32_t samples = 256;        ///< paths per cell
+  std::uint32_t bounces = 3;          ///< after the first hit
+  std::optional<std::uint32_t> seed;  ///< of the paths; none: the frame's
+  std::string file;                   ///< read if it is there, else baked and written; empty: baked
+  std::shared_ptr<const IndirectVolume> given;  ///< instead of a file and of baking
+};
+
+/// The size of a frame, its effects and how good they are.
+struct FrameSettings {
+  std::uint32_t width = 1280;  ///< pixels, 1 to 16384
+  std::uint32_t height = 720;  ///< pixels, 1 to 16384
+  std::uint32_t seed = 0;      ///< the same seed gives the same frame
+  /// What is rendered, by the names of the registry. [choose_effects]
+  std::map<std::string, EffectSettings> effects;
+  /// Signals are denoised and put together with local lights and glass. false: only ambient
+  /// occlusion and the sun, as they are; an effect with pictures of its own is then an error.
+  bool whole_frame = true;
+  DenoiseDesc denoise;    ///< of a whole frame
+  VolumeSettings volume;  ///< for effects that read it
+  bool taa = false;       ///< antialiasing over the frames of a sequence
+  bool moving = false;    ///< frames of a sequence: structures are kept up with what moves
+  RayOrder order = RayOrder::kPixels;  ///< of rays; the frame stays the same
+  bool ray_cones = true;               ///< [FrameDesc]
+  float sun_angular_radius = -1.0f;    ///< [FrameDesc]
+  std::uint32_t max_pass_views = 256;  ///< [FrameDesc]
+  /// Of a dispatch. 0: as many as take a quarter of a second.
+  std::uint32_t rows = 0;
+};
+
+/// These effects with their defaults, and those that they include. "all": every one. A name that is
+/// none is kept; FrameRenderer::create says so.
+std::map<std::string, EffectSettings> choose_effects(
+    const std::vector<std::string>& names,
+    const std::vector<Effect>& effects = northlight_effects());
+
+/// Whether the scene has what an effect is about: a sun, local lights, glass.
+bool scene_offers(const Scene& scene, const EffectNeeds& needs);
+
+/// Whether an effect among these has pictures of its own and so needs a whole frame.
+bool need_whole_frame(const std::map<std::string, EffectSettings>& chosen,
+                      const std::vector<Effect>& effects = northlight_effects());
+
+}  // namespace kaamos::effects

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/backend/executor.h"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "runtime/backend/indirect.h"
+
+namespace kaamos::runtime {
+namespace {
+
+class Executor {
+ public:
+  Executor(CommandTarget& target, const Context& context) : target_(target), context_(context) {}
+
+  // With checked mode's layer around it.
+  rtapi::Status run(const Command& command);
+  void next() { ++index_; }
+
+  rtapi::Status operator()(const DispatchRaysCommand& command) {
+    return take(target_.dispatch_rays(command, label("DispatchRays")));
+  }
+  rtapi::Status operator()(const DispatchCommand& command) {
+    return take(target_.dispatch(command, label("Dispatch")));
+  }
+  rtapi::Status operator()(const ExecuteIndirectCommand& command);
+  rtapi::Status operator()(const BuildCommand& command) { return target_.build(command); }
+  rtapi::Status operator()(const EmitPostbuildInfoCommand& command) {
+    return target_.emit_postbuild_info(command);
+  }
+  rtapi::Status operator()(const CopyAccelerationStructureCommand& command) {
+    return target_.copy_structure(command);
+  }
+  rtapi::Status operator()(const CopyBufferCommand& command) {
+    return target_.copy_buffer(command, label("CopyBufferRegion"));
+  }
+  rtapi::Status operator()(const CopyTextureCommand& command) {
+    return target_.copy_texture(command);
+  }
+  rtapi::Status operator()(const ClearUavCommand& command) { return target_.clear(command); }
+  rtapi::Status operator()(const BarrierCommand&) {
+    target_.barrier();
+    return {};
+  }
+  rtapi::Status operator()(const EventCommand& command) {
+    if (command.begin) {
+      events_.push_back(command.name);
+    } else if (!events_.empty()) {
+      events_.pop_back();
+    }
+    return {};
+  }
+
+ private:
+  std::string label(const char* what) const {
+    std::string text =
+        std::string(indirect_ ? "ExecuteIndirect" : what) + ", command " + std::to_string(index_);
+    if (!events_.empty()) text += " in \"" + events_.back() + "\"";
+    return indirect_ ? indirect_label(what, *indirect_, text) : text;
+  }
+  rtapi::Status take(DispatchOutcome outcome);
+
+  CommandTarget& target_;
+  const Context& context_;
+  const Command* running_ = nullptr;
+  size_t index_ = 0;
+  std::optional<uint32_t> indirect_;  // which dispatch of an ExecuteIndirect is running
+  std::vector<std::string> events_;
+  // Of the running dispatch. They follow what checked mode reports, which knows the cause.
+  std::vector<DispatchOutcome::Warning> warnings_;
+};
+
+rtapi::Status Executor::take(DispatchOutcome outcome) {
+  if (auto* observer = context_.observer) {
+    if (!outcome.reached.empty()) observer->reached(*running_, outcome.reached);
+    observer->missed(*running_, outcome.missing);
+  }
+  warnings_ = std::move(outcome.warnings);
+  return std::move(outcome.status);
+}
+
+rtapi::Status Executor::run(const Command& command) {
+  running_ = &command;
+  CommandObserver* observer = context_.observer;
+  rtapi::Status status;
+  if (observer != nullptr) {
+    if (observer->needs_memory(command)) status = target_.finish();
+    if (status) observer->before(command, label(command_name(command)));
+  }
+  if (status) status = std::visit(*this, command);
+  if (observer != nullptr) {
+    if (status && observer->needs_memory_after(command)) status = target_.finish();
+    observer->after(command, status.ok());
+  }
+  for (const auto& warning : std::exchange(warnings_, {})) {
+    context_.message(make_message(warning.id, warning.text));
+  }
+  return status;
+}
+
+rtapi::Status Executor::operator()(const ExecuteIndirectCommand& command) {
+  // Earlier commands may write the arguments.
+  if (auto s = target_.finish(); !s) return s;
+  const auto run_one = [&](const Command& dispatch, uint32_t index) {
+    indirect_ = index;
+    auto status = run(dispatch);
+    indirect_.reset();
+    return status;
+  };
+  return execute_indirect(*context_.addresses, command, label("ExecuteIndirect"), run_one);
+}
+
+}  // namespace
+
+rtapi::Status execute(std::span<const Command> commands, CommandTarget& target,
+                      const Context& context) {
+  Executor executor(target, context);
+  for (const Command& command : commands) {
+    if (auto s = executor.run(command); !s) return s;
+    executor.next();
+  }
+  return {};
+}
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs a recorded command list on a backend: the labels of messages, events, ExecuteIndirect,
+// checked mode's layer around each command, and the order in which findings are reported are the
+// same for all backends.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <rtapi/result.h>
+
+#include "runtime/backend/backend.h"
+#include "runtime/backend/commands.h"
+#include "runtime/backend/errors.h"
+
+namespace kaamos::runtime {
+
+// What came of a dispatch. An error removes the device.
+struct DispatchOutcome {
+  rtapi::Status status;
+  // What ran, or did not, unlike what the application may have meant.
+  struct Warning {
+    Id id;
+    std::string text;
+  };
+  std::vector<Warning> warnings = {};
+  // Only on checked devices.
+  std::vector<ReachedFrom> reached = {};
+  MissingRecords missing = {};
+};
+
+// What a backend does for each command. `label` names the command in messages.
+class CommandTarget {
+ public:
+  virtual ~CommandTarget() = default;
+  virtual DispatchOutcome dispatch_rays(const DispatchRaysCommand& command,
+                                        const std::string& label) = 0;
+  virtual DispatchOutcome dispatch(const DispatchCommand& command, const std::string& label) = 0;
+  virtual rtapi::Status build(const BuildCommand& command) = 0;
+  virtual rtapi::Status emit_postbuild_info(const EmitPostbuildInfoCommand& command) = 0;
+  virtual rtapi::Status copy_structure(const CopyAccelerationStructureCommand& command) = 0;
+  virtual rtapi::Status copy_buffer(const CopyBufferCommand& command, const std::string& label) = 0;
+  virtual rtapi::Status copy_texture(const CopyTextureCommand& command) = 0;
+  virtual rtapi::Status clear(const ClearUavCommand& command) = 0;
+  virtual void barrier() = 0;
+  // Returns when all earlier commands are done, so that the host sees what they wrote.
+  virtual rtapi::Status finish() = 0;
+};
+
+// The commands in order, up to the first error. The last ones need not be done yet: see finish().
+rtapi::Status execute(std::span<const Command> commands, CommandTarget& target,
+                      const Context& context);
+
+}  // namespace kaamos::runtime
