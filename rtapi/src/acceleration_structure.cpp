@@ -56,33 +56,34 @@ Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTriangle
     return MakeError(Id::kVertexFormat, where, ": vertex format ",
                      static_cast<uint32_t>(t.VertexFormat),
                      format ? " needs tier 1.1; this device was created with tier 1.0"
-                            : " is none of DXR's vertex formats");
+                            : " is not one of DXR's vertex formats");
   }
   // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
   const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
   const uint32_t unit = format->component_bytes;
   if (t.VertexBuffer.StartAddress % unit != 0 || stride % unit != 0 ||
       (format->stride && t.VertexCount > 1 && stride != format->stride)) {
-    return MakeError(Id::kVertexBufferAlignment, where, ": vertices at ",
+    return MakeError(Id::kVertexBufferAlignment, where, ": vertices are at ",
                      Hex(t.VertexBuffer.StartAddress), " with stride ", stride,
-                     "; for this format address and stride are multiples of ", unit,
-                     format->stride ? ", and the stride is 4" : "");
+                     "; this format needs an address and a stride that are multiples of ", unit,
+                     format->stride ? ", and a stride of 4" : "");
   }
   const bool none = t.IndexFormat == Format::kUnknown;
   if (!none && t.IndexFormat != Format::kR16Uint && t.IndexFormat != Format::kR32Uint) {
     return MakeError(Id::kIndexBuffer, where, ": index format ",
                      static_cast<uint32_t>(t.IndexFormat),
-                     "; allowed are kR16Uint, kR32Uint, and kUnknown without an index buffer");
+                     "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
   }
   if (none && (t.IndexBuffer != 0 || t.IndexCount != 0)) {
-    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but there ",
-                     t.IndexBuffer ? "is an index buffer" : "are ",
-                     t.IndexBuffer ? "" : Text(t.IndexCount, " indices"));
+    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
+                     t.IndexBuffer ? std::string("an index buffer is given")
+                                   : Text("IndexCount is ", t.IndexCount));
   }
   if (!none && t.IndexBuffer == 0) {
-    return MakeError(Id::kIndexBuffer, where, ": ", t.IndexCount, " indices of format ",
+    return MakeError(Id::kIndexBuffer, where, ": IndexCount is ", t.IndexCount, " and the format ",
                      static_cast<uint32_t>(t.IndexFormat),
-                     " and no index buffer; without one the format is kUnknown and the count 0");
+                     ", but there is no index buffer; without one the format must be kUnknown and "
+                     "the count 0");
   }
   const uint32_t index_bytes = t.IndexFormat == Format::kR16Uint ? 2 : 4;
   if (!none && t.IndexBuffer % index_bytes != 0) {
@@ -91,7 +92,7 @@ Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTriangle
   }
   if (t.Transform3x4 % kRaytracingTransform3x4ByteAlignment != 0) {
     return MakeError(Id::kTransformAlignment, where, ": Transform3x4 is at ", Hex(t.Transform3x4),
-                     "; it must be a multiple of 16");
+                     "; its address must be a multiple of 16");
   }
   return {};
 }
@@ -121,11 +122,11 @@ const RaytracingGeometryDesc* GeometryAt(const BuildRaytracingAccelerationStruct
 Status CheckGeometries(const DeviceImpl& device,
                        const BuildRaytracingAccelerationStructureInputs& inputs) {
   if (inputs.NumDescs > kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; allowed are 2^24");
+    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; at most 2^24 are allowed");
   }
   if (inputs.NumDescs != 0 && inputs.pGeometryDescs == nullptr) {
     return MakeError(Id::kGeometryDescsNull, "NumDescs is ", inputs.NumDescs,
-                     " and the pointer to the geometry descs is null");
+                     ", but the pointer to the geometry descs is null");
   }
   uint64_t primitives = 0;
   RaytracingGeometryType type = RaytracingGeometryType::kTriangles;
@@ -134,14 +135,15 @@ Status CheckGeometries(const DeviceImpl& device,
     if (!g) return MakeError(Id::kGeometryDescsNull, GeometryText(i), " is a null pointer");
     if (g->Type > RaytracingGeometryType::kProceduralPrimitiveAabbs) {
       return MakeError(Id::kBuildInputs, GeometryText(i), " has type ",
-                       static_cast<uint32_t>(g->Type), "; allowed are 0 and 1");
+                       static_cast<uint32_t>(g->Type), "; it must be 0 or 1");
     }
     if (i == 0) type = g->Type;
     if (g->Type != type) {
-      return MakeError(Id::kGeometryMixed, GeometryText(i), " is ",
-                       type == RaytracingGeometryType::kTriangles ? "AABBs, geometry 0 triangles"
-                                                                  : "triangles, geometry 0 AABBs",
-                       "; a bottom level holds one kind");
+      return MakeError(Id::kGeometryMixed, GeometryText(i), " holds ",
+                       type == RaytracingGeometryType::kTriangles
+                           ? "AABBs but geometry 0 holds triangles"
+                           : "triangles but geometry 0 holds AABBs",
+                       "; all geometries of a bottom level must be of one kind");
     }
     const auto known =
         RaytracingGeometryFlags::kOpaque | RaytracingGeometryFlags::kNoDuplicateAnyHitInvocation;
@@ -156,7 +158,7 @@ Status CheckGeometries(const DeviceImpl& device,
     primitives = std::min(primitives, UINT64_MAX - count) + count;
   }
   if (primitives > kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, primitives, " primitives; allowed are 2^29");
+    return MakeError(Id::kGeometryLimits, primitives, " primitives; at most 2^29 are allowed");
   }
   return {};
 }
@@ -167,12 +169,13 @@ Status CheckLive(const DeviceImpl& device, GpuVirtualAddress address, uint64_t b
   if (bytes == 0) return {};
   const uint64_t available = device.addresses.bytes_from(address);
   if (available == 0) {
-    return MakeError(Id::kBuildAddress, what, ": ", bytes, " bytes at ",
+    return MakeError(Id::kBuildAddress, what, ": needs ", bytes, " bytes at ",
                      device.DescribeAddress(address));
   }
   if (available < bytes) {
-    return MakeError(Id::kBuildMemoryTooSmall, what, ": ", bytes, " bytes from ",
-                     device.DescribeAddress(address), ", which has ", available, " from there");
+    return MakeError(Id::kBuildMemoryTooSmall, what, ": needs ", bytes, " bytes from ",
+                     device.DescribeAddress(address), ", but the buffer has only ", available,
+                     " left there");
   }
   return {};
 }
@@ -224,7 +227,7 @@ Status CheckScratch(const DeviceImpl& device, const BuildRaytracingAccelerationS
   const GpuVirtualAddress scratch = desc.ScratchAccelerationStructureData;
   if (scratch % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, "scratch is at ",
-                     device.DescribeAddress(scratch), "; it must be a multiple of 256");
+                     device.DescribeAddress(scratch), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(scratch);
   if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
@@ -241,15 +244,15 @@ Status CheckBuildInputs(const DeviceImpl& device,
                         const BuildRaytracingAccelerationStructureInputs& inputs) {
   if (inputs.Type > StructureType::kBottomLevel) {
     return MakeError(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
-                     "; allowed are kTopLevel (0) and kBottomLevel (1)");
+                     "; it must be kTopLevel (0) or kBottomLevel (1)");
   }
   if (inputs.DescsLayout > ElementsLayout::kArrayOfPointers) {
     return MakeError(Id::kBuildInputs, "DescsLayout is ", static_cast<uint32_t>(inputs.DescsLayout),
-                     "; allowed are 0 and 1");
+                     "; it must be 0 or 1");
   }
   if (static_cast<uint32_t>(inputs.Flags) & ~0x3Fu) {
     return MakeError(Id::kBuildInputs, "Flags are ", Hex(static_cast<uint32_t>(inputs.Flags)),
-                     "; defined are the bits of 0x3f");
+                     "; only the bits of 0x3f are defined");
   }
   if (HasAny(inputs.Flags, BuildFlags::kPreferFastTrace) &&
       HasAny(inputs.Flags, BuildFlags::kPreferFastBuild)) {
@@ -258,7 +261,7 @@ Status CheckBuildInputs(const DeviceImpl& device,
   }
   if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
-    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; allowed are 2^24");
+    return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
   }
   return {};
 }
@@ -276,7 +279,8 @@ Status CheckStructureAddress(const DeviceImpl& device, GpuVirtualAddress address
                              std::string_view what) {
   if (address == 0 || address % kRaytracingAccelerationStructureByteAlignment != 0) {
     return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
-                     device.DescribeAddress(address), "; it must be a multiple of 256 and not 0");
+                     device.DescribeAddress(address),
+                     "; its address must be a multiple of 256 and not 0");
   }
   const auto allocation = device.addresses.find(address);
   if (!allocation) {
@@ -300,7 +304,7 @@ Status CheckBuildAddresses(const DeviceImpl& device,
   if (!update && desc.SourceAccelerationStructureData != 0) {
     return MakeError(Id::kBuildUpdate, "source is ",
                      device.DescribeAddress(desc.SourceAccelerationStructureData),
-                     "; without kPerformUpdate it must be 0");
+                     ", but it must be 0 without kPerformUpdate");
   }
   if (update) {
     s = CheckStructureAddress(device, desc.SourceAccelerationStructureData, "source");
@@ -328,15 +332,15 @@ Status CheckBuildAddresses(const DeviceImpl& device,
 Status CheckStructureBytes(const DeviceImpl& device, GpuVirtualAddress address, uint64_t bytes,
                            bool written, std::string_view what) {
   if (address % kRaytracingAccelerationStructureByteAlignment != 0) {
-    return MakeError(Id::kAccelerationStructureAlignment, what, " is ",
-                     device.DescribeAddress(address), "; it must be a multiple of 256");
+    return MakeError(Id::kAccelerationStructureAlignment, what, " is at ",
+                     device.DescribeAddress(address), "; its address must be a multiple of 256");
   }
   const auto allocation = device.addresses.find(address);
   if (allocation && allocation->acceleration_structure) {
     return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
                      Named("buffer", allocation->name),
-                     ", which holds acceleration structures; serialized and decoded data lie in "
-                     "plain buffers");
+                     ", which holds acceleration structures; serialized and decoded data need a "
+                     "plain buffer");
   }
   if (allocation && written && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {
     return MakeError(Id::kAccelerationStructureMemory, what, " is in ",
@@ -352,11 +356,12 @@ Status CheckPostbuildInfo(const DeviceImpl& device,
   using Type = RaytracingAccelerationStructurePostbuildInfoType;
   if (desc.InfoType > Type::kCurrentSize) {
     return MakeError(Id::kPostbuildInfo, "InfoType is ", static_cast<uint32_t>(desc.InfoType),
-                     "; allowed is 0 to 3");
+                     "; it must be 0 to 3");
   }
   if (desc.DestBuffer % 8 != 0) {
-    return MakeError(Id::kPostbuildInfo, "DestBuffer is ", device.DescribeAddress(desc.DestBuffer),
-                     "; it must be a multiple of 8");
+    return MakeError(Id::kPostbuildInfo, "DestBuffer is at ",
+                     device.DescribeAddress(desc.DestBuffer),
+                     "; its address must be a multiple of 8");
   }
   const auto allocation = device.addresses.find(desc.DestBuffer);
   if (allocation && !HasAny(allocation->flags, ResourceFlags::kAllowUnorderedAccess)) {

@@ -151,7 +151,7 @@ TEST_F(BuildTest, AS_11_VertexAlignmentAndStride) {
   EXPECT_ERROR(Build(), "KA0705", "multiples of 4");
   v.StartAddress -= 2;
   geometry_.Triangles.VertexFormat = Format::kR10G10B10A2Unorm;
-  EXPECT_ERROR(Build(), "KA0705", "stride is 4");
+  EXPECT_ERROR(Build(), "KA0705", "stride of 4");
 }
 
 TEST_F(BuildTest, AS_12_Transform) {

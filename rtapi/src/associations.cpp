@@ -79,10 +79,10 @@ Result<Associated> Resolve(const Parts& parts,
   const Associated& given = subject.associations[static_cast<size_t>(category)];
   if (given.definition) {  // set by its collection, so final
     if (*own && !SameDefinition(**own, *given.definition)) {
-      return MakeError(Id::kAssociationConflict, Quoted(subject.name), " got its ",
-                       CategoryName(category), " (", given.definition->where,
-                       ") in its collection, which ", (*own)->where,
-                       " cannot replace; associate it when the collection is made");
+      return MakeError(Id::kAssociationConflict, "the collection of ", Quoted(subject.name),
+                       " already set its ", CategoryName(category), " (", given.definition->where,
+                       "), so ", (*own)->where,
+                       " cannot replace it; associate it when you create the collection");
     }
     return given;
   }
@@ -117,7 +117,7 @@ Status CheckNamesExist(const Parts& parts) {
       }
       return MakeError(Id::kAssociationUnknownExport, a.where, " associates ",
                        CategoryName(a.definition->category), " with ", Quoted(name),
-                       ", which is no export of this state object");
+                       ", which this state object does not export");
     }
   }
   return {};

@@ -75,9 +75,9 @@ Status FillTable(const BindingDesc& binding, const RegisterRange& range,
   const uint64_t available = range.end - binding.register_index;
   const bool unbounded = binding.count == shader::kUnbounded;
   if (!unbounded && binding.count > available) {
-    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding), " takes ",
-                     binding.count, " registers; parameter ", range.parameter, " has ", available,
-                     " from there");
+    return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding), " needs ",
+                     binding.count, " registers, but parameter ", range.parameter, " has only ",
+                     available, " from there on");
   }
   slot.source = SlotSource::kDescriptorTable;
   slot.descriptor_index =
@@ -98,8 +98,8 @@ Status FillRootDescriptor(const BindingDesc& binding, const RegisterRange& range
   if (!buffer || binding.count != 1) {
     return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
                      binding.count != 1 ? " is an array" : " is a texture or typed buffer",
-                     "; parameter ", range.parameter,
-                     " is a root descriptor. Bind it through a descriptor table");
+                     ", which root descriptor ", range.parameter,
+                     " cannot hold; bind it through a descriptor table");
   }
   slot.source = SlotSource::kRootDescriptor;
   if (binding.type == BindingType::kConstantBuffer) slot.size_bytes = binding.size_bytes;
@@ -125,7 +125,7 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
   if (range.static_sampler) {
     if (binding.count != 1) {
       return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
-                       " is an array; a static sampler feeds one register");
+                       " is an array, but a static sampler covers a single register");
     }
     slot.source = SlotSource::kStaticSampler;
     slot.static_sampler = &signature.impl()->static_samplers[range.parameter];
@@ -140,7 +140,8 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
     case RootParameterType::k32BitConstants:
       if (binding.count != 1) {
         return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),
-                         " is an array; parameter ", range.parameter, " holds root constants");
+                         " is an array, which root constants (parameter ", range.parameter,
+                         ") cannot hold");
       }
       slot.source = SlotSource::kRootConstants;
       slot.size_bytes = parameter.Constants.Num32BitValues * 4;
@@ -156,14 +157,14 @@ Status CheckHeapAccess(const shader::ExportDesc& code, const RootSignature& glob
   if ((code.flags & shader::kExportUsesViewHeap) &&
       !HasAny(flags, RootSignatureFlags::kCbvSrvUavHeapDirectlyIndexed)) {
     return MakeError(Id::kBindingMissing, where,
-                     ": uses ResourceDescriptorHeap; its global root "
-                     "signature needs the flag kCbvSrvUavHeapDirectlyIndexed");
+                     ": uses ResourceDescriptorHeap, so its global root signature needs the flag "
+                     "kCbvSrvUavHeapDirectlyIndexed");
   }
   if ((code.flags & shader::kExportUsesSamplerHeap) &&
       !HasAny(flags, RootSignatureFlags::kSamplerHeapDirectlyIndexed)) {
     return MakeError(Id::kBindingMissing, where,
-                     ": uses SamplerDescriptorHeap; its global root "
-                     "signature needs the flag kSamplerHeapDirectlyIndexed");
+                     ": uses SamplerDescriptorHeap, so its global root signature needs the flag "
+                     "kSamplerHeapDirectlyIndexed");
   }
   return {};
 }
@@ -224,7 +225,7 @@ Status CheckTier(const DeviceImpl& device, const shader::ExportDesc& code,
   if (device.desc.Tier >= RaytracingTier::kTier1_1) return {};
   if ((code.flags & shader::kExportUsesRayQuery) != 0) {
     return MakeError(Id::kShaderTier, where,
-                     " uses RayQuery; the device was created with tier 1.0");
+                     " uses RayQuery, but the device was created with tier 1.0");
   }
   constexpr uint32_t kSkipFlags = 0x300;
   for (uint32_t i = 0; i < code.trace_call_count; ++i) {
@@ -232,8 +233,8 @@ Status CheckTier(const DeviceImpl& device, const shader::ExportDesc& code,
     if ((call.known & shader::kKnowsRayFlags) == 0 || (call.ray_flags & kSkipFlags) == 0) continue;
     return MakeError(Id::kShaderTier, where, " calls TraceRay with ray flags ", Hex(call.ray_flags),
                      " (", call.file ? call.file : "", ":", call.line,
-                     "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES are of "
-                     "tier 1.1, the device was created with tier 1.0");
+                     "); RAY_FLAG_SKIP_TRIANGLES and RAY_FLAG_SKIP_PROCEDURAL_PRIMITIVES "
+                     "need tier 1.1, but the device was created with tier 1.0");
   }
   return {};
 }

@@ -10,7 +10,7 @@ Status Gatherer::Gather(const ExistingCollectionDesc& sub, size_t i) {
   const std::string where = Where(i);
   if (parts_.is_collection()) {
     return MakeError(Id::kCollectionNested, where,
-                     " is an existing collection; only pipelines may hold collections");
+                     " is an existing collection; only a pipeline may include collections");
   }
   if (!sub.pExistingCollection) {
     return MakeError(Id::kNullHandle, where, ": pExistingCollection is empty");

@@ -223,7 +223,7 @@ TEST_F(AddToStateObjectTest, SO_61_AdditionSeesNothingOfItsParent) {
 TEST_F(AddToStateObjectTest, SO_62_ConfigsEqualTheParents) {
   StateObjectDesc desc = Addition();
   std::get<RaytracingPipelineConfig>(desc.Subobjects[2]).MaxTraceRecursionDepth = 2;
-  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0534", "recursion 2; the parent has");
+  EXPECT_ERROR(device_.AddToStateObject(desc, parent_), "KA0534", "recursion 2, but the parent has");
 }
 
 TEST_F(AddToStateObjectTest, SO_63_NewEntryNamesOnly) {

@@ -58,10 +58,11 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
       });
   if (fits) return &pipeline;
   Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
-                 root_signature ? "the compute root signature that is set"
-                                : "no compute root signature is set; it",
-                 " is that of no ray generation shader of the pipeline. Call "
-                 "SetComputeRootSignature with the state object's global root signature"));
+                 root_signature
+                     ? "the compute root signature does not match any ray generation shader of the "
+                       "pipeline"
+                     : "no compute root signature is set",
+                 "; call SetComputeRootSignature with the state object's global root signature"));
   return nullptr;
 }
 
@@ -73,8 +74,10 @@ const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
   }
   const PipelineStateImpl& pipeline = *compute_pipeline.impl();
   if (SameDefinition(pipeline.root_signature, root_signature)) return &pipeline;
-  Fail(MakeError(Id::kPipelineRootSignature, call, ": the compute root signature ",
-                 root_signature ? "that is set" : "is not set; it", " is not that of pipeline ",
+  Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
+                 root_signature
+                     ? "the compute root signature is not that of pipeline "
+                     : "no compute root signature is set, but one is needed by pipeline ",
                  Quoted(pipeline.name)));
   return nullptr;
 }
@@ -92,13 +95,14 @@ const RootParameter* FindParameter(CommandListImpl& list, const char* call, uint
   const auto& parameters = list.root_signature.GetDesc().Parameters;
   if (index >= parameters.size()) {
     list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
-                        "; the root signature has ", parameters.size()));
+                        " does not exist; the root signature has ", parameters.size(),
+                        " parameters"));
     return nullptr;
   }
   if (parameters[index].ParameterType != type) {
-    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " has type ",
+    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
                         static_cast<uint32_t>(parameters[index].ParameterType),
-                        ", this call sets type ", static_cast<uint32_t>(type)));
+                        ", but this call sets one of type ", static_cast<uint32_t>(type)));
     return nullptr;
   }
   return &parameters[index];
@@ -151,7 +155,7 @@ const std::vector<Error> kNoErrors;
 }
 
 Status CommandList::Reset() {
-  if (!impl_) return MakeError(Id::kNullHandle, "Reset of an empty command list handle");
+  if (!impl_) return MakeError(Id::kNullHandle, "Reset on an empty command list handle");
   if (Status s = impl_->device->removed(); !s.ok()) return s;
   CommandListImpl fresh;
   fresh.device = impl_->device;
@@ -160,10 +164,11 @@ Status CommandList::Reset() {
 }
 
 Status CommandList::Close() {
-  if (!impl_) return MakeError(Id::kNullHandle, "Close of an empty command list handle");
-  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close of a closed command list");
+  if (!impl_) return MakeError(Id::kNullHandle, "Close on an empty command list handle");
+  if (!impl_->open) return MakeError(Id::kListNotOpen, "Close on a closed command list");
   if (impl_->open_events > 0) {
-    impl_->Fail(MakeError(Id::kEvents, impl_->open_events, " BeginEvent without EndEvent"));
+    impl_->Fail(
+        MakeError(Id::kEvents, impl_->open_events, " calls of BeginEvent have no EndEvent"));
   }
   impl_->open = false;
   if (impl_->errors.empty()) return {};
@@ -191,8 +196,9 @@ void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
     }
     DescriptorHeap& slot = desc.Type == DescriptorHeapType::kSampler ? samplers : views;
     if (slot) {
-      return impl_->Fail(MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
-                                   " is the second of its type; one of each can be set"));
+      return impl_->Fail(
+          MakeError(Id::kSetHeaps, Named("descriptor heap", desc.Name),
+                    " is the second heap of its type; only one of each type can be set"));
     }
     slot = heap;
   }
@@ -207,9 +213,10 @@ void CommandList::SetComputeRootSignature(const RootSignature& signature) {
     return impl_->Fail(s.error());
   }
   if (signature.is_local()) {
-    return impl_->Fail(MakeError(Id::kRootSignatureKind,
-                                 "SetComputeRootSignature takes a global root signature; local "
-                                 "arguments stand in shader records"));
+    return impl_->Fail(
+        MakeError(Id::kRootSignatureKind,
+                  "SetComputeRootSignature takes a global root signature, but this one "
+                  "is local; local arguments belong in shader records"));
   }
   if (impl_->root_signature && SameDefinition(impl_->root_signature, signature)) return;
   impl_->root_signature = signature;
@@ -228,11 +235,16 @@ void CommandList::SetComputeRoot32BitConstants(uint32_t parameter, uint32_t coun
                                 RootParameterType::k32BitConstants);
   if (!p) return;
   const uint32_t total = p->Constants.Num32BitValues;
-  if ((count != 0 && !values) || dest_offset > total || count > total - dest_offset) {
+  if (dest_offset > total || count > total - dest_offset) {
     return impl_->Fail(MakeError(Id::kRootConstantsRange, "SetComputeRoot32BitConstants: values ",
                                  dest_offset, "..", uint64_t{dest_offset} + count, " of parameter ",
-                                 parameter, ", which has ", total,
-                                 values ? "" : "; the pointer is null"));
+                                 parameter, ", which has only ", total));
+  }
+  if (count != 0 && !values) {
+    return impl_->Fail(MakeError(Id::kRootConstantsRange,
+                                 "SetComputeRoot32BitConstants: the pointer to the values of "
+                                 "parameter ",
+                                 parameter, " is null"));
   }
   if (count == 0) return;
   WriteArgument(*impl_, parameter, dest_offset * 4, values, size_t{count} * 4);
@@ -265,8 +277,8 @@ void CommandList::SetComputeRootDescriptorTable(uint32_t parameter, GpuDescripto
                       offset / kDescriptorHandleIncrementSize < heap.GetDesc().NumDescriptors;
   if (!inside) {
     return impl_->Fail(MakeError(
-        Id::kDescriptorTableHandle, "SetComputeRootDescriptorTable: parameter ", parameter,
-        " is handle ", Hex(base.ptr), ", which is in no ", samplers ? "sampler" : "CBV/SRV/UAV",
+        Id::kDescriptorTableHandle, "SetComputeRootDescriptorTable: handle ", Hex(base.ptr),
+        " for parameter ", parameter, " is not in the ", samplers ? "sampler" : "CBV/SRV/UAV",
         " heap that is set", heap ? "" : "; call SetDescriptorHeaps first"));
   }
   WriteArgument(*impl_, parameter, 0, &base.ptr, sizeof base.ptr);
@@ -289,7 +301,7 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
   }
   if (pipeline.GetType() != StateObjectType::kRaytracingPipeline) {
     return impl_->Fail(MakeError(Id::kPipelineNotSet,
-                                 "SetPipelineState1 takes a ray tracing pipeline, this is a "
+                                 "SetPipelineState1 takes a ray tracing pipeline, but this is a "
                                  "collection"));
   }
   impl_->raytracing_pipeline = pipeline;

@@ -40,16 +40,17 @@ Status CheckTransition(const ResourceBarrier& barrier) {
   const bool holds_structures = buffer && buffer->GetDesc().InitialState == structure;
   if (holds_structures || HasAny(barrier.StateBefore | barrier.StateAfter, structure)) {
     return MakeError(Id::kAccelerationStructureTransition, name,
-                     ": the state kRaytracingAccelerationStructure is for the whole life of a "
-                     "buffer. Order builds and traces by UAV barriers");
+                     ": a buffer keeps the state kRaytracingAccelerationStructure for life; order "
+                     "builds and traces with UAV barriers");
   }
   if (buffer && buffer->GetDesc().Heap != HeapType::kDefault) {
-    return MakeError(Id::kBarrier, name, ": upload and readback buffers have one state only");
+    return MakeError(Id::kBarrier, name, ": upload and readback buffers cannot leave their state");
   }
   const auto* texture = std::get_if<Texture>(&barrier.Resource);
   const uint32_t count = texture ? texture->subresource_count() : 1;
   if (barrier.Subresource != kResourceBarrierAllSubresources && barrier.Subresource >= count) {
-    return MakeError(Id::kBarrier, name, ": subresource ", barrier.Subresource, " of ", count);
+    return MakeError(Id::kBarrier, name, ": subresource ", barrier.Subresource,
+                     " does not exist; there are ", count);
   }
   return {};
 }
@@ -68,8 +69,8 @@ Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const c
   CopySide side;
   side.name = Text(which, " ", Named("texture", desc.Name));
   if (location.SubresourceIndex >= texture.subresource_count()) {
-    return MakeError(Id::kCopyRange, side.name, ": subresource ", location.SubresourceIndex, " of ",
-                     texture.subresource_count());
+    return MakeError(Id::kCopyRange, side.name, ": subresource ", location.SubresourceIndex,
+                     " does not exist; there are ", texture.subresource_count());
   }
   side.place.texture = texture.impl()->memory;
   side.place.mip = location.SubresourceIndex % desc.MipLevels;
@@ -90,14 +91,18 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
   const uint64_t offset = location.PlacedFootprint.Offset;
   const uint64_t texel = GetFormatInfo(f.Format).bytes;
   if (texel == 0 || f.Width == 0 || f.Height == 0 || f.Depth == 0) {
-    return MakeError(Id::kCopyFootprint, side.name, ": a footprint of ", f.Width, "x", f.Height,
-                     "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format));
+    return MakeError(Id::kCopyFootprint, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                     "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format),
+                     texel == 0 ? ", which cannot be copied" : "; no size may be 0");
   }
   if (offset % kTextureDataPlacementAlignment != 0 ||
       f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < f.Width * texel) {
-    return MakeError(Id::kCopyFootprint, side.name, ": offset ", offset, ", row pitch ", f.RowPitch,
-                     " for rows of ", f.Width * texel,
-                     " bytes; the offset is a multiple of 512, the pitch of 256");
+    return MakeError(
+        Id::kCopyFootprint, side.name, ": offset ", offset, " and row pitch ", f.RowPitch,
+        " for rows of ", f.Width * texel,
+        " bytes; the offset must be a multiple of 512, the pitch a multiple of 256 and "
+        "at least ",
+        f.Width * texel);
   }
   // Each factor is checked by itself, so that the product cannot overflow.
   const uint64_t rows = uint64_t{f.Height} * f.Depth;
@@ -157,7 +162,7 @@ void CommandList::ResourceBarrier(std::span<const rtapi::ResourceBarrier> barrie
     const bool uav = barrier.Type == ResourceBarrierType::kUav;
     if (!uav && barrier.Type != ResourceBarrierType::kTransition) {
       impl_->Fail(MakeError(Id::kBarrier, "type ", static_cast<uint32_t>(barrier.Type),
-                            "; allowed are kTransition and kUav"));
+                            "; it must be kTransition or kUav"));
       continue;
     }
     Status s;
@@ -200,9 +205,9 @@ void CommandList::CopyBufferRegion(const Buffer& dest, uint64_t dest_offset, con
     const bool at_dest = outside(dest, dest_offset);
     const Buffer& b = at_dest ? dest : source;
     return impl_->Fail(MakeError(Id::kCopyRange, "CopyBufferRegion: ", size, " bytes from byte ",
-                                 at_dest ? dest_offset : source_offset, " of ",
-                                 at_dest ? "dest " : "source ", Named("buffer", b.name()), " (",
-                                 b.size(), " bytes)"));
+                                 at_dest ? dest_offset : source_offset, " on do not fit in ",
+                                 at_dest ? "dest " : "source ", Named("buffer", b.name()),
+                                 ", which has ", b.size(), " bytes"));
   }
   const bool overlap =
       dest == source && dest_offset < source_offset + size && source_offset < dest_offset + size;
@@ -230,9 +235,9 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   }
   if (FormatFamily(to->format) != FormatFamily(from->format)) {
     return impl_->Fail(MakeError(Id::kCopyFormat, "CopyTextureRegion: ", from->name, " has format ",
-                                 static_cast<uint32_t>(from->format), ", ", to->name, " ",
-                                 static_cast<uint32_t>(to->format),
-                                 "; they must be of one family"));
+                                 static_cast<uint32_t>(from->format), " and ", to->name,
+                                 " has format ", static_cast<uint32_t>(to->format),
+                                 "; both must belong to one format family"));
   }
   const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
   const Box& b = box ? *box : whole;
@@ -245,9 +250,10 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
     command.extent[i] = last[i] - first[i];
     if (last[i] > from->size[i] || target[i] > to->size[i] ||
         command.extent[i] > to->size[i] - target[i]) {
-      return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: axis ", i, ": texels ",
-                                   first[i], "..", last[i], " of ", from->name, " (", from->size[i],
-                                   ") to ", target[i], " of ", to->name, " (", to->size[i], ")"));
+      return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
+                                   first[i], "..", last[i], " of ", from->name, " (size ",
+                                   from->size[i], ") do not fit at ", target[i], " of ", to->name,
+                                   " (size ", to->size[i], ")"));
     }
     from->place.origin[i] = first[i];
     to->place.origin[i] = target[i];
@@ -255,7 +261,7 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   if (to->place.texture && to->place.texture == from->place.texture &&
       to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
     return impl_->Fail(MakeError(Id::kCopyOverlap, "CopyTextureRegion: ", to->name,
-                                 ": source and dest are one subresource"));
+                                 ": source and dest are the same subresource"));
   }
   command.dest = std::move(to->place);
   command.source = std::move(from->place);
@@ -276,13 +282,13 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
     const Buffer& from = std::get<Buffer>(source);
     if (to.size() != from.size()) {
       return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " has ",
-                                   to.size(), " bytes, ", Name(source), " ", from.size()));
+                                   to.size(), " bytes, but ", Name(source), " has ", from.size()));
     }
     return CopyBufferRegion(to, 0, from, 0, to.size());
   }
   if (!Is<Texture>(dest) || !Is<Texture>(source)) {
     return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
-                                 Name(source), " are not of one kind"));
+                                 Name(source), " must both be buffers or both be textures"));
   }
   const TextureDesc& a = std::get<Texture>(dest).GetDesc();
   const TextureDesc& b = std::get<Texture>(source).GetDesc();
@@ -305,7 +311,7 @@ Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescript
   const auto slot = list.device->FindSlot(cpu);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
     return MakeError(Id::kClearView, "the CPU handle ", Hex(cpu.ptr),
-                     " is in no live CBV/SRV/UAV heap");
+                     " is not in a live CBV/SRV/UAV heap");
   }
   const uint64_t start = list.view_heap.GetGPUDescriptorHandleForHeapStart().ptr;
   const uint64_t index = (gpu.ptr - start) / kDescriptorHandleIncrementSize;
@@ -313,12 +319,12 @@ Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescript
       (gpu.ptr - start) % kDescriptorHandleIncrementSize != 0 ||
       index >= list.view_heap.GetDesc().NumDescriptors) {
     return MakeError(Id::kClearView, "the GPU handle ", Hex(gpu.ptr),
-                     " is in no CBV/SRV/UAV heap that is set");
+                     " is not in the CBV/SRV/UAV heap that is set");
   }
   runtime::ClearUavCommand command;
   std::memcpy(&command.view, slot->slot, sizeof command.view);
   if (command.view.access != shader::DescriptorAccess::kUnorderedAccess) {
-    return MakeError(Id::kClearView, "the descriptor is no unordered access view");
+    return MakeError(Id::kClearView, "the descriptor is not an unordered access view");
   }
   if (Status s = CheckResource(list.device, resource, "the cleared resource"); !s.ok()) {
     return s.error();
@@ -326,7 +332,7 @@ Result<runtime::ClearUavCommand> ResolveClear(CommandListImpl& list, GpuDescript
   const bool texture_view = command.view.kind == shader::DescriptorKind::kTexture;
   if (texture_view != Is<Texture>(resource)) {
     return MakeError(Id::kClearView, "the descriptor is a view of a ",
-                     texture_view ? "texture" : "buffer", ", the resource is ", Name(resource));
+                     texture_view ? "texture" : "buffer", ", but the resource is ", Name(resource));
   }
   if (const auto* buffer = std::get_if<Buffer>(&resource)) {
     const uint64_t offset = command.view.address - buffer->GetGPUVirtualAddress();

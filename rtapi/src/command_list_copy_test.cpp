@@ -164,7 +164,7 @@ TEST_F(CommandListTest, ClearsNeedTheSameViewTwice) {
   EXPECT_ERROR(clear(gpu, cpu, other, values), "KA0822", "\"other\"");
   EXPECT_ERROR(clear(gpu, cpu, buffer, nullptr), "KA0822", "null");
   EXPECT_ERROR(clear(gpu, heap.GetCPUDescriptorHandle(1), buffer, values), "KA0822",
-               "no unordered access view");
+               "not an unordered access view");
 }
 
 TEST_F(CommandListTest, EventsAreBalanced) {

@@ -27,7 +27,7 @@ Status CheckRange(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffe
   if (offset > desc.SizeInBytes || bytes > desc.SizeInBytes - offset) {
     return MakeError(Id::kIndirectArguments, "the ", what, " needs bytes ", offset, "..",
                      offset + bytes, " of ", Named("buffer", desc.Name), ", which has ",
-                     desc.SizeInBytes, ". Are max_command_count and the offset right?");
+                     desc.SizeInBytes, " bytes; check max_command_count and the offset");
   }
   return {};
 }
@@ -59,9 +59,9 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   }
   const CommandSignatureImpl& given = *signature.impl();
   if (given.root_signature && !SameDefinition(given.root_signature, impl_->root_signature)) {
-    return impl_->Fail(MakeError(
-        Id::kIndirectArguments, Named("command signature", given.desc.Name),
-        " sets arguments of another root signature than the one that is set on the list"));
+    return impl_->Fail(
+        MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
+                  " was made for another root signature than the one that is set on the list"));
   }
   runtime::ExecuteIndirectCommand command;
   if (given.layout->dispatch_rays) {

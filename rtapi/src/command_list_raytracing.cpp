@@ -26,7 +26,7 @@ void CommandList::BuildRaytracingAccelerationStructure(
     if (seen & bit) {
       return impl_->Fail(MakeError(Id::kPostbuildInfo, kCall, ": InfoType ",
                                    static_cast<uint32_t>(info.InfoType),
-                                   " is asked for twice; once per build"));
+                                   " is requested twice; each may be requested once per build"));
     }
     seen |= bit;
   }
@@ -69,7 +69,7 @@ void CommandList::CopyRaytracingAccelerationStructure(
   const DeviceImpl& device = *impl_->device;
   if (mode > Mode::kDeserialize) {
     return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
-                                 static_cast<uint32_t>(mode), " is undefined; defined are 0 to 4"));
+                                 static_cast<uint32_t>(mode), " is undefined; it must be 0 to 4"));
   }
   const bool writes_bytes = mode == Mode::kSerialize || mode == Mode::kVisualizationDecodeForTools;
   Status s = mode == Mode::kDeserialize
@@ -83,8 +83,9 @@ void CommandList::CopyRaytracingAccelerationStructure(
   }
   if (!s.ok()) return impl_->Fail(s.error());
   if (source == dest) {
-    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "source and dest are both ",
-                                 device.DescribeAddress(dest), "; they must not overlap"));
+    return impl_->Fail(MakeError(Id::kAccelerationStructureCopy,
+                                 "source and dest are the same address (",
+                                 device.DescribeAddress(dest), "); they must not overlap"));
   }
   impl_->Record(runtime::CopyAccelerationStructureCommand{dest, source, mode});
 }

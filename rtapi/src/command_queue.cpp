@@ -88,13 +88,13 @@ uint64_t Fence::GetCompletedValue() const {
 }
 
 Status Fence::Signal(uint64_t value) {
-  if (!impl_) return MakeError(Id::kNullHandle, "Signal of an empty fence handle");
+  if (!impl_) return MakeError(Id::kNullHandle, "Signal on an empty fence handle");
   impl_->Signal(value);
   return {};
 }
 
 Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Wait for an empty fence handle");
+  if (!impl_) return MakeError(Id::kNullHandle, "Wait on an empty fence handle");
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(timeout_ms);
   std::unique_lock lock(impl_->mutex);
@@ -104,8 +104,8 @@ Status Fence::Wait(uint64_t value, uint32_t timeout_ms) const {
     if (impl_->current >= value) break;
     if (Status removed = impl_->device->removed(); !removed.ok()) return removed;
     if (timeout_ms != 0 && Clock::now() >= end) {
-      return MakeError(Id::kFenceWait, "the fence is at ", impl_->current, " after ", timeout_ms,
-                       " ms, waited for was ", value);
+      return MakeError(Id::kFenceWait, "the fence is still at ", impl_->current, " after ",
+                       timeout_ms, " ms; the wait is for ", value);
     }
   }
   return {};
@@ -139,7 +139,7 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
     }
     if (!list.GetErrors().empty()) {
       return MakeError(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),
-                       " errors, the first: ", list.GetErrors().front().message);
+                       " errors; the first is: ", list.GetErrors().front().message);
     }
   }
   for (const CommandList& list : lists) {

@@ -39,13 +39,14 @@ class LayoutMaker {
 
 Status LayoutMaker::AddDispatch(const std::string& where, bool rays, size_t index) {
   if (index + 1 != desc_.ArgumentDescs.size()) {
-    return MakeError(Id::kCommandSignature, where, " is a dispatch, and ",
+    return MakeError(Id::kCommandSignature, where, " is a dispatch, but ",
                      desc_.ArgumentDescs.size() - 1 - index,
-                     " arguments follow it; it must be the last, and the only one");
+                     " arguments follow it; the dispatch must be the last argument, and there must "
+                     "be only one");
   }
   if (rays && device_.desc.Tier < RaytracingTier::kTier1_1) {
     return MakeError(Id::kCommandSignatureTier, where,
-                     ": kDispatchRays; the device was created with tier 1.0");
+                     ": kDispatchRays needs tier 1.1, but the device was created with tier 1.0");
   }
   complete_ = true;
   layout_.dispatch_rays = rays;
@@ -63,25 +64,29 @@ Status LayoutMaker::AddRoot(const std::string& where, uint32_t parameter, RootPa
   const auto& parameters = root_signature_.GetDesc().Parameters;
   if (parameter >= parameters.size()) {
     return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter,
-                     "; the root signature has ", parameters.size());
+                     " does not exist; the root signature has ", parameters.size());
   }
   if (parameters[parameter].ParameterType != type) {
-    return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter, " has type ",
+    return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter, " is of type ",
                      static_cast<uint32_t>(parameters[parameter].ParameterType),
-                     ", this argument sets type ", static_cast<uint32_t>(type));
+                     ", but this argument sets one of type ", static_cast<uint32_t>(type));
   }
   const bool constants = type == RootParameterType::k32BitConstants;
   const uint64_t total = constants ? parameters[parameter].Constants.Num32BitValues : 1;
-  if (values == 0 || uint64_t{first_value} + values > total) {
+  if (values == 0) {
+    return MakeError(Id::kCommandSignature, where,
+                     ": Num32BitValuesToSet is 0; it must be at least 1");
+  }
+  if (uint64_t{first_value} + values > total) {
     return MakeError(Id::kCommandSignature, where, ": values ", first_value, "..",
                      uint64_t{first_value} + values, " of root parameter ", parameter,
-                     ", which has ", total, "; at least one must be set");
+                     ", which has only ", total);
   }
   const uint64_t key = uint64_t{parameter} << 32 | first_value;
   if (key < next_root_) {
-    return MakeError(Id::kCommandSignature, where, ": root parameter ", parameter, ", value ",
-                     first_value,
-                     ", comes after one that is later or the same; sort them, and set each once");
+    return MakeError(
+        Id::kCommandSignature, where, ": root parameter ", parameter, ", value ", first_value,
+        ", is out of order; sort the arguments by parameter and value, and set each value once");
   }
   next_root_ = constants ? key + values : (uint64_t{parameter} + 1) << 32;
   runtime::IndirectArgument out;
@@ -117,8 +122,8 @@ Status LayoutMaker::Add(const IndirectArgumentDesc& argument, size_t index) {
     default:
       return MakeError(Id::kCommandSignature, where, " has type ",
                        static_cast<uint32_t>(argument.Type),
-                       "; allowed are kDispatch (2), kConstant (5), the root views (6 to 8) and "
-                       "kDispatchRays (9): compute lists do not draw");
+                       "; it must be kDispatch (2), kConstant (5), a root view (6 to 8) or "
+                       "kDispatchRays (9)");
   }
 }
 
@@ -134,8 +139,8 @@ Result<runtime::IndirectLayout> LayoutMaker::Run() {
   }
   if (desc_.ByteStride % 4 != 0 || desc_.ByteStride < layout_.packed_bytes) {
     return MakeError(Id::kCommandSignature, "ByteStride is ", desc_.ByteStride,
-                     "; it must be a multiple of 4, and the arguments take ", layout_.packed_bytes,
-                     " bytes");
+                     "; it must be a multiple of 4 and at least ", layout_.packed_bytes,
+                     ", the size of the arguments");
   }
   layout_.stride_bytes = desc_.ByteStride;
   return std::move(layout_);
@@ -162,8 +167,8 @@ Result<CommandSignature> Device::CreateCommandSignature(const CommandSignatureDe
     }
     if (root_signature.is_local()) {
       return MakeError(Id::kRootSignatureKind,
-                       "CreateCommandSignature takes a global root signature; local arguments "
-                       "stand in shader records");
+                       "CreateCommandSignature takes a global root signature, but this one is "
+                       "local; local arguments belong in shader records");
     }
   }
   auto layout = LayoutMaker(*impl_, desc, root_signature).Run();

@@ -46,7 +46,7 @@ TEST_F(CommandSignatureTest, DSP_09_OneDispatchAtTheEnd) {
   EXPECT_ERROR(Create({Plain(Type::kDispatchRays), Constant(0, 0, 4)}), "KA0540", "argument 0",
                "must be the last");
   EXPECT_ERROR(Create({Plain(Type::kDispatch), Plain(Type::kDispatchRays)}), "KA0540",
-               "the only one");
+               "only one");
   for (Type type : {Type::kDraw, Type::kDrawIndexed, Type::kVertexBufferView,
                     Type::kIndexBufferView, Type::kDispatchMesh, static_cast<Type>(77)}) {
     EXPECT_ERROR(Create({Plain(type), Plain(Type::kDispatchRays)}), "KA0540", "argument 0");

@@ -33,7 +33,7 @@ Status Gatherer::DefineRootSignature(const RootSignature& signature, bool local,
   }
   if (signature.is_local() != local) {
     return MakeError(Id::kRootSignatureKind, where, " takes a ", local ? "local" : "global",
-                     " root signature; this one was created ", local ? "without" : "with",
+                     " root signature, but this one was created ", local ? "without" : "with",
                      " the flag kLocalRootSignature");
   }
   Definition d;
@@ -48,7 +48,7 @@ Status Gatherer::DefineShaderConfig(const RaytracingShaderConfig& config, const 
                                     DefinitionPtr& out) {
   if (config.MaxAttributeSizeInBytes > kRaytracingMaxAttributeSizeInBytes) {
     return MakeError(Id::kAttributeSizeLimit, where, ": MaxAttributeSizeInBytes is ",
-                     config.MaxAttributeSizeInBytes, "; allowed is 0 to 32");
+                     config.MaxAttributeSizeInBytes, "; it must be 0 to 32");
   }
   Definition d;
   d.category = Category::kShaderConfig;
@@ -62,21 +62,22 @@ Status Gatherer::DefinePipelineConfig(const RaytracingPipelineConfig1& config, b
                                       const std::string& where, DefinitionPtr& out) {
   if (config.MaxTraceRecursionDepth > kRaytracingMaxDeclarableTraceRecursionDepth) {
     return MakeError(Id::kRecursionDepth, where, ": MaxTraceRecursionDepth is ",
-                     config.MaxTraceRecursionDepth, "; allowed is 0 to 31");
+                     config.MaxTraceRecursionDepth, "; it must be 0 to 31");
   }
   if (config1 && parts_.device->desc.Tier < RaytracingTier::kTier1_1) {
     return MakeError(Id::kPipelineConfig1Tier, where,
-                     " is a RaytracingPipelineConfig1; this device was created with tier 1.0");
+                     " is a RaytracingPipelineConfig1, but this device was created with tier 1.0");
   }
   const auto known =
       RaytracingPipelineFlags::kSkipTriangles | RaytracingPipelineFlags::kSkipProceduralPrimitives;
   if ((config.Flags & ~known) != RaytracingPipelineFlags::kNone) {
-    return MakeError(Id::kConfigFlags, where, ": pipeline flags ",
-                     Hex(static_cast<uint32_t>(config.Flags)), "; defined are 0x100 and 0x200");
+    return MakeError(Id::kConfigFlags, where, ": undefined pipeline flags ",
+                     Hex(static_cast<uint32_t>(config.Flags)),
+                     "; only 0x100 and 0x200 are defined");
   }
   if (config.Flags == known) {
     return MakeError(Id::kConfigFlags, where,
-                     ": kSkipTriangles and kSkipProceduralPrimitives exclude each other");
+                     ": kSkipTriangles and kSkipProceduralPrimitives cannot both be set");
   }
   Definition d;
   d.category = Category::kPipelineConfig;
@@ -94,12 +95,12 @@ Status Gatherer::AddHitGroup(const HitGroupDesc& group, int scope, const std::st
   const bool has_intersection = !group.IntersectionShaderImport.empty();
   if (group.Type != HitGroupType::kTriangles && group.Type != HitGroupType::kProceduralPrimitive) {
     return MakeError(Id::kHitGroupShape, name, ": type ", static_cast<uint32_t>(group.Type),
-                     "; allowed are kTriangles (0) and kProceduralPrimitive (1)");
+                     "; it must be kTriangles (0) or kProceduralPrimitive (1)");
   }
   if (group.Type == HitGroupType::kTriangles && has_intersection) {
     return MakeError(Id::kHitGroupShape, name,
-                     ": a triangle hit group has no intersection "
-                     "shader, this one imports ",
+                     ": a triangle hit group cannot have an intersection shader, but this one "
+                     "imports ",
                      Quoted(group.IntersectionShaderImport));
   }
   if (group.Type == HitGroupType::kProceduralPrimitive && !has_intersection) {

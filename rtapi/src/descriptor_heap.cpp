@@ -20,7 +20,7 @@ Status CheckHeap(const DescriptorHeapDesc& desc) {
   const bool samplers = desc.Type == DescriptorHeapType::kSampler;
   if (!samplers && desc.Type != DescriptorHeapType::kCbvSrvUav) {
     return MakeError(Id::kHeapType, name, " has type ", static_cast<uint32_t>(desc.Type),
-                     "; allowed are kCbvSrvUav and kSampler");
+                     "; it must be kCbvSrvUav or kSampler");
   }
   const bool visible = HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible);
   if ((desc.Flags & ~DescriptorHeapFlags::kShaderVisible) != DescriptorHeapFlags::kNone) {
@@ -30,7 +30,7 @@ Status CheckHeap(const DescriptorHeapDesc& desc) {
   const uint32_t limit = samplers && visible ? kMaxShaderVisibleSamplerHeapSize : kMaxViews;
   if (desc.NumDescriptors == 0 || desc.NumDescriptors > limit) {
     return MakeError(Id::kHeapSize, name, " has ", desc.NumDescriptors,
-                     " descriptors; allowed is 1 to ", limit);
+                     " descriptors; it must have 1 to ", limit);
   }
   return {};
 }
@@ -78,12 +78,12 @@ Status Device::CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest,
   const auto from = impl_->FindSlot(source);
   if (!to || !from) {
     return MakeError(Id::kDescriptorHandle, to ? "source " : "dest ",
-                     Hex(to ? source.ptr : dest.ptr), " is in no live descriptor heap");
+                     Hex(to ? source.ptr : dest.ptr), " is not in a live descriptor heap");
   }
   if (to->type != type || from->type != type) {
-    return MakeError(Id::kDescriptorCopy, "type is ", static_cast<uint32_t>(type),
-                     ", dest is in a heap of type ", static_cast<uint32_t>(to->type),
-                     ", source in one of type ", static_cast<uint32_t>(from->type));
+    return MakeError(Id::kDescriptorCopy, "the copy is of type ", static_cast<uint32_t>(type),
+                     ", but dest is in a heap of type ", static_cast<uint32_t>(to->type),
+                     " and source in one of type ", static_cast<uint32_t>(from->type));
   }
   if (from->shader_visible) {
     return MakeError(Id::kDescriptorCopy,
@@ -91,9 +91,9 @@ Status Device::CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest,
                      "keep a copy in a heap without that flag");
   }
   if (count > to->count_from_here || count > from->count_from_here) {
-    return MakeError(Id::kDescriptorCopy, count, " descriptors; dest has ", to->count_from_here,
-                     " from slot ", to->index, ", source ", from->count_from_here, " from slot ",
-                     from->index);
+    return MakeError(Id::kDescriptorCopy, count, " descriptors do not fit: dest has ",
+                     to->count_from_here, " from slot ", to->index, " on, source ",
+                     from->count_from_here, " from slot ", from->index, " on");
   }
   std::memmove(to->slot, from->slot, size_t{count} * kDescriptorHandleIncrementSize);
   return {};

@@ -130,15 +130,15 @@ Status CheckDesc(const DeviceDesc& desc) {
   if (desc.Precision > TraversalPrecision::kExact) {
     return detail::MakeError(Id::kDeviceDesc, "Precision is ",
                              static_cast<uint32_t>(desc.Precision),
-                             "; allowed are kFast, kRobust and kExact");
+                             "; it must be kFast, kRobust or kExact");
   }
   if (desc.Tier != RaytracingTier::kTier1_0 && desc.Tier != RaytracingTier::kTier1_1) {
     return detail::MakeError(Id::kDeviceDesc, "Tier is ", static_cast<uint32_t>(desc.Tier),
-                             "; allowed are kTier1_0 and kTier1_1");
+                             "; it must be kTier1_0 or kTier1_1");
   }
   if (desc.Threads > 4096) {
     return detail::MakeError(Id::kDeviceDesc, "Threads is ", desc.Threads,
-                             "; allowed is 0 (all of them) to 4096");
+                             "; it must be 0 (all threads of the machine) to 4096");
   }
   return {};
 }
@@ -159,7 +159,7 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   const auto known = detail::backends();
   if (known.empty()) {
     return MakeError(Id::kNoBackend,
-                     "this build has none; install libembree-dev and configure again");
+                     "this build has no backend; install libembree-dev and run CMake again");
   }
   auto it = std::find_if(known.begin(), known.end(),
                          [&](const runtime::BackendFactory* f) { return desc.Backend == f->name; });

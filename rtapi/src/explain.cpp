@@ -68,7 +68,7 @@ Result<Found> FindDispatch(const CommandVector& commands, const ExplainDesc& des
     const auto* command = std::get_if<runtime::DispatchRaysCommand>(&commands[i]);
     if (command != nullptr && seen++ == desc.Dispatch) return Found{command, i};
   }
-  return MakeError(Id::kExplain, "Dispatch is ", desc.Dispatch, "; the list has ", seen,
+  return MakeError(Id::kExplain, "Dispatch is ", desc.Dispatch, ", but the list has only ", seen,
                    " calls of DispatchRays");
 }
 
@@ -76,7 +76,7 @@ Status CheckMemory(const DeviceImpl& device) {
   for (const runtime::Allocation& allocation : device.addresses.all()) {
     if (allocation.host != nullptr) continue;
     Error error = MakeError(Id::kExplain, Named("buffer", allocation.name),
-                            " is in memory that the host cannot reach, where shaders cannot be "
+                            " is in memory that the host cannot read, so its shaders cannot be "
                             "replayed; use the embree backend");
     error.code = ErrorCode::kUnsupported;
     return error;
@@ -95,7 +95,7 @@ Status Execute(DeviceImpl& device, std::span<const runtime::Command> commands) {
 template <class Use>
 Status ExecuteWith(CommandQueue& queue, CommandList& list, const ExplainDesc& desc,
                    const char* call, Use&& use) {
-  if (!queue) return MakeError(Id::kNullHandle, call, ": the queue");
+  if (!queue) return MakeError(Id::kNullHandle, call, ": the queue is an empty handle");
   const std::shared_ptr<DeviceImpl>& device = queue.impl()->device;
   if (Status s = CheckHandle(device, list, Text(call, ": the list")); !s.ok()) return s;
   if (list.is_open()) {
@@ -136,8 +136,8 @@ Result<PixelExplanation> ExplainPixel(CommandQueue& queue, CommandList& list,
         const DispatchRaysDesc& d = command.desc;
         if (desc.X >= d.Width || desc.Y >= d.Height || desc.Z >= d.Depth) {
           return MakeError(Id::kExplain, "index (", desc.X, ", ", desc.Y, ", ", desc.Z,
-                           ") is outside of the dispatch (", d.Width, " x ", d.Height, " x ",
-                           d.Depth, ")");
+                           ") is outside the dispatch (", d.Width, " x ", d.Height, " x ", d.Depth,
+                           ")");
         }
         out.Backend = queue.impl()->device->backend->info().Name;
         out.Executor = kReplayed;

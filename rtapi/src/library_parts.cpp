@@ -39,7 +39,7 @@ Status Gatherer::Gather(const DxilLibraryDesc& sub, size_t i) {
   const bool lib = std::sscanf(target.c_str(), "lib_%u_%u", &major, &minor) == 2;
   if (!lib || major < 6 || (major == 6 && minor < 3)) {
     return MakeError(Id::kLibraryTarget, where, ": ", Quoted(sub.DXILLibrary.name()),
-                     " was compiled for ", Quoted(target), "; allowed is lib_6_3 and later");
+                     " was compiled for ", Quoted(target), "; it must be lib_6_3 or later");
   }
   const int scope = static_cast<int>(parts_.libraries.size());
   parts_.libraries.push_back(sub.DXILLibrary);
@@ -94,7 +94,7 @@ Status Gatherer::GatherExports(const DxilLibraryDesc& sub, int scope, const std:
     if (found.size() > 1 && renames) {
       return MakeError(Id::kExportAmbiguous, where, ": ", Quoted(source), " of ",
                        Quoted(sub.DXILLibrary.name()), " has ", found.size(),
-                       " overloads; rename by the mangled name");
+                       " overloads; use the mangled name to rename one");
     }
     if (found.empty() && !IsSubobject(table, source)) {
       return MakeError(Id::kExportNotFound, where, ": ", Quoted(sub.DXILLibrary.name()),

@@ -24,15 +24,14 @@ Result<const shader::ExportDesc*> FindKernel(const ComputePipelineStateDesc& des
     known += Text(known.empty() ? "" : ", ", Quoted(e.name));
     if (!desc.EntryPoint.empty() && desc.EntryPoint != e.name) continue;
     if (found) {
-      return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), "; ",
-                       Quoted(desc.CS.name()), " has several: name one");
+      return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), ", but ",
+                       Quoted(desc.CS.name()), " has several compute shaders; name one of them");
     }
     found = &e;
   }
   if (found) return found;
-  return MakeError(Id::kComputeEntryPoint, "EntryPoint is ", Quoted(desc.EntryPoint), "; ",
-                   Quoted(desc.CS.name()), " has the compute shaders ",
-                   known.empty() ? "(none)" : known);
+  return MakeError(Id::kComputeEntryPoint, Quoted(desc.CS.name()), " has no compute shader ",
+                   Quoted(desc.EntryPoint), "; it has ", known.empty() ? "none" : known);
 }
 
 Status CheckThreadGroup(const shader::ExportDesc& kernel) {
@@ -41,7 +40,8 @@ Status CheckThreadGroup(const shader::ExportDesc& kernel) {
                   n[2] <= 64 && uint64_t{n[0]} * n[1] * n[2] <= 1024;
   if (ok) return {};
   return MakeError(Id::kComputeEntryPoint, Quoted(kernel.name), " has [numthreads(", n[0], ", ",
-                   n[1], ", ", n[2], ")]; allowed is 1 to 1024, 1024 and 64, at most 1024 in all");
+                   n[1], ", ", n[2],
+                   ")]; x and y may be 1 to 1024, z 1 to 64, and their product at most 1024");
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Result<PipelineState> Device::CreateComputePipelineState(
   }
   if (desc.pRootSignature.is_local()) {
     return MakeError(Id::kRootSignatureKind,
-                     "a compute pipeline takes a global root signature, this one is local");
+                     "a compute pipeline needs a global root signature, but this one is local");
   }
   auto kernel = FindKernel(desc);
   if (!kernel.ok()) return kernel.error();

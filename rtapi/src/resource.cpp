@@ -17,14 +17,13 @@ Status CheckBuffer(const BufferDesc& desc) {
   const std::string name = Named("buffer", desc.Name);
   if (desc.SizeInBytes == 0 || desc.SizeInBytes > kMaxBufferBytes) {
     return MakeError(Id::kBufferSize, name, " has ", desc.SizeInBytes,
-                     " bytes; allowed is 1 to 2^40");
+                     " bytes; it must have 1 to 2^40");
   }
   const bool known_heap = desc.Heap == HeapType::kDefault || desc.Heap == HeapType::kUpload ||
                           desc.Heap == HeapType::kReadback;
   if (!known_heap) {
-    return MakeError(Id::kBufferHeap, name, " asks for heap type ",
-                     static_cast<uint32_t>(desc.Heap),
-                     "; allowed are kDefault, kUpload and kReadback");
+    return MakeError(Id::kBufferHeap, name, " has heap type ", static_cast<uint32_t>(desc.Heap),
+                     "; it must be kDefault, kUpload or kReadback");
   }
   const bool unordered = HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess);
   if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
@@ -34,7 +33,7 @@ Status CheckBuffer(const BufferDesc& desc) {
   const bool on_default = desc.Heap == HeapType::kDefault;
   if (unordered && !on_default) {
     return MakeError(Id::kBufferHeap, name,
-                     " allows unordered access; that needs the default heap");
+                     " has kAllowUnorderedAccess, which needs the default heap");
   }
   if (desc.InitialState == ResourceStates::kRaytracingAccelerationStructure) {
     if (!on_default || !unordered) {
@@ -74,7 +73,7 @@ Status CheckTexture(const TextureDesc& desc) {
   if (d != ResourceDimension::kTexture1D && d != ResourceDimension::kTexture2D &&
       d != ResourceDimension::kTexture3D) {
     return MakeError(Id::kTextureSize, name, " has dimension ", static_cast<uint32_t>(d),
-                     "; allowed are kTexture1D, kTexture2D and kTexture3D");
+                     "; it must be kTexture1D, kTexture2D or kTexture3D");
   }
   const uint32_t limit = AxisLimit(desc);
   const uint32_t depth_limit = d == ResourceDimension::kTexture3D ? kReqTexture3DUVOrWDimension
@@ -83,17 +82,17 @@ Status CheckTexture(const TextureDesc& desc) {
   if (desc.Width == 0 || desc.Height == 0 || desc.DepthOrArraySize == 0 || desc.Width > limit ||
       desc.Height > height_limit || desc.DepthOrArraySize > depth_limit) {
     return MakeError(Id::kTextureSize, name, " is ", desc.Width, "x", desc.Height, "x",
-                     desc.DepthOrArraySize, "; allowed is 1x1x1 to ", limit, "x", height_limit, "x",
+                     desc.DepthOrArraySize, "; it must be 1x1x1 to ", limit, "x", height_limit, "x",
                      depth_limit);
   }
   if (desc.MipLevels > FullMipCount(desc)) {
-    return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels; ", desc.Width,
-                     "x", desc.Height, " has at most ", FullMipCount(desc));
+    return MakeError(Id::kTextureSize, name, " has ", desc.MipLevels, " mip levels, but ",
+                     desc.Width, "x", desc.Height, " texels allow at most ", FullMipCount(desc));
   }
   if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
     return MakeError(Id::kTextureFormat, name, " has DXGI format ",
                      static_cast<uint32_t>(desc.Format),
-                     "; supported are the uncompressed colour formats of rtapi/format.h");
+                     "; only the uncompressed colour formats of rtapi/format.h are supported");
   }
   if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
     return MakeError(Id::kTextureFormat, name, " has undefined flags ",
@@ -177,10 +176,10 @@ void Buffer::SetName(std::string name) {
 }
 
 Result<std::span<std::byte>> Buffer::Map() const {
-  if (!impl_) return MakeError(Id::kNullHandle, "Map of an empty buffer handle");
+  if (!impl_) return MakeError(Id::kNullHandle, "Map on an empty buffer handle");
   if (impl_->desc.Heap == HeapType::kDefault) {
     return MakeError(Id::kMapDefaultHeap, Named("buffer", impl_->desc.Name),
-                     "; copy it to or from an upload or readback buffer");
+                     " is on the default heap; copy through an upload or readback buffer");
   }
   return mapped_bytes();
 }
@@ -243,8 +242,8 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
   const uint32_t mips = desc.MipLevels ? desc.MipLevels : FullMipCount(desc);
   const uint64_t total = uint64_t{mips} * detail::ArraySize(desc);
   if (uint64_t{first} + count > total) {
-    return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count, " of ",
-                     Named("texture", desc.Name), ", which has ", total);
+    return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
+                     " do not exist in ", Named("texture", desc.Name), ", which has ", total);
   }
   const uint64_t texel = GetFormatInfo(desc.Format).bytes;
   uint64_t offset = base_offset;

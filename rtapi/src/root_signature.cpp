@@ -46,7 +46,7 @@ RegisterClass ClassOf(RootParameterType type) {
 Status CheckSpace(uint32_t space, const std::string& where) {
   if (space < kReservedSpaces) return {};
   return MakeError(Id::kRootParameterInvalid, where, ": space ", space,
-                   " is reserved; allowed is 0 to 4294967279");
+                   " is reserved; it must be 0 to 4294967279");
 }
 
 // Checks the ranges of a table and replaces append offsets by real ones.
@@ -62,7 +62,7 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
     const std::string here = Text(where, ", range ", i);
     if (range.RangeType > DescriptorRangeType::kSampler) {
       return MakeError(Id::kRangeInvalid, here, ": type ", static_cast<uint32_t>(range.RangeType),
-                       "; allowed is 0 to 3");
+                       "; it must be 0 to 3");
     }
     (range.RangeType == DescriptorRangeType::kSampler ? samplers : views) = true;
     if (Status s = CheckSpace(range.RegisterSpace, here); !s.ok()) return s;
@@ -71,7 +71,7 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
         (!unbounded && uint64_t{range.BaseShaderRegister} + range.NumDescriptors > kRegisterEnd)) {
       return MakeError(Id::kRangeInvalid, here, ": ", range.NumDescriptors,
                        " descriptors from register ", range.BaseShaderRegister,
-                       "; there must be at least one, and none past register 2^32-1");
+                       "; a range needs at least one, and must end by register 2^32-1");
     }
     if (range.OffsetInDescriptorsFromTableStart == kDescriptorRangeOffsetAppend) {
       if (after_unbounded || next > 0xFFFFFFFEu) {
@@ -88,7 +88,7 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
   }
   if (samplers && views) {
     return MakeError(Id::kTableMixesSamplers, where,
-                     " holds samplers and other descriptors; make two tables of it");
+                     " mixes samplers with other descriptors; split it into two tables");
   }
   return {};
 }
@@ -105,7 +105,8 @@ Status CheckParameter(RootParameter& parameter, uint32_t index) {
       return CheckTable(parameter.DescriptorTable, where);
     case RootParameterType::k32BitConstants:
       if (parameter.Constants.Num32BitValues == 0) {
-        return MakeError(Id::kRootConstantsCount, where, " has Num32BitValues 0; at least 1");
+        return MakeError(Id::kRootConstantsCount, where,
+                         " has Num32BitValues 0; it must be at least 1");
       }
       return CheckSpace(parameter.Constants.RegisterSpace, where);
     case RootParameterType::kCbv:
@@ -114,18 +115,18 @@ Status CheckParameter(RootParameter& parameter, uint32_t index) {
       return CheckSpace(parameter.Descriptor.RegisterSpace, where);
   }
   return MakeError(Id::kRootParameterInvalid, where, " has type ",
-                   static_cast<uint32_t>(parameter.ParameterType), "; allowed is 0 to 4");
+                   static_cast<uint32_t>(parameter.ParameterType), "; it must be 0 to 4");
 }
 
 Status CheckFlags(RootSignatureFlags flags) {
   const auto bits = static_cast<uint32_t>(flags);
   if (bits & ~kDefinedFlags) {
-    return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits), " hold undefined bits");
+    return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits), " have undefined bits");
   }
   if (HasAny(flags, RootSignatureFlags::kLocalRootSignature) &&
       flags != RootSignatureFlags::kLocalRootSignature) {
     return MakeError(Id::kLocalRootSignatureFlags, "flags ", Hex(bits),
-                     ": kLocalRootSignature (0x80) goes with no other flag");
+                     ": kLocalRootSignature (0x80) cannot be combined with other flags");
   }
   return {};
 }
@@ -141,7 +142,7 @@ Status CheckStaticSamplers(const RootSignatureDesc& desc) {
     }
     if (sampler.BorderColor > StaticBorderColor::kOpaqueWhite) {
       return MakeError(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
-                       static_cast<uint32_t>(sampler.BorderColor), "; allowed is 0 to 2");
+                       static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
     }
     if (Status s = CheckSpace(sampler.RegisterSpace, where); !s.ok()) return s;
     if (Status s = CheckSampler(ToSamplerDesc(sampler), Id::kStaticSamplerInvalid, where);
@@ -209,12 +210,12 @@ Status CheckSize(const RootSignatureDesc& desc, uint64_t argument_bytes) {
   if (HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature)) {
     if (argument_bytes <= kMaxLocalRootArgumentBytes) return {};
     return MakeError(Id::kLocalRootSignatureTooLarge, "its arguments take ", argument_bytes,
-                     " bytes; allowed is 4064, so that a record fits a stride of 4096");
+                     " bytes; at most 4064 fit in a record, whose stride is at most 4096");
   }
   const uint64_t cost = RootCost(desc);
   if (cost <= kMaxRootCost) return {};
   return MakeError(Id::kRootSignatureTooLarge, "it costs ", cost,
-                   " DWORDs; allowed are 64 (table 1, root descriptor 2, constants 1 each)");
+                   " DWORDs of at most 64 (a table costs 1, a root descriptor 2, each constant 1)");
 }
 
 }  // namespace

@@ -29,29 +29,29 @@ bool IsFilter(Filter filter) {
 Status CheckSampler(const SamplerDesc& desc, Id id, std::string_view what) {
   if (!IsFilter(desc.Filter)) {
     return MakeError(id, what, ": Filter is ", Hex(static_cast<uint32_t>(desc.Filter)),
-                     ", which is no D3D12_FILTER");
+                     ", which is not a D3D12_FILTER");
   }
   for (auto mode : {desc.AddressU, desc.AddressV, desc.AddressW}) {
     if (!IsAddressMode(mode)) {
       return MakeError(id, what, ": an address mode is ", static_cast<uint32_t>(mode),
-                       "; allowed is 1 to 5");
+                       "; it must be 1 to 5");
     }
   }
   if (!(desc.MipLODBias >= -16.0f && desc.MipLODBias <= 15.99f)) {
-    return MakeError(id, what, ": MipLODBias is ", desc.MipLODBias, "; allowed is -16 to 15.99");
+    return MakeError(id, what, ": MipLODBias is ", desc.MipLODBias, "; it must be -16 to 15.99");
   }
   if (desc.MaxAnisotropy > 16) {
-    return MakeError(id, what, ": MaxAnisotropy is ", desc.MaxAnisotropy, "; allowed is 0 to 16");
+    return MakeError(id, what, ": MaxAnisotropy is ", desc.MaxAnisotropy, "; it must be 0 to 16");
   }
   if (desc.ComparisonFunc > ComparisonFunc::kAlways) {
     return MakeError(id, what, ": ComparisonFunc is ", static_cast<uint32_t>(desc.ComparisonFunc),
-                     "; allowed is 0 to 8");
+                     "; it must be 0 to 8");
   }
   if (std::isnan(desc.MinLOD) || std::isnan(desc.MaxLOD)) {
     return MakeError(id, what, ": MinLOD or MaxLOD is NaN");
   }
   for (float c : desc.BorderColor) {
-    if (std::isnan(c)) return MakeError(id, what, ": BorderColor holds NaN");
+    if (std::isnan(c)) return MakeError(id, what, ": BorderColor is NaN");
   }
   return {};
 }
@@ -83,7 +83,7 @@ Status Device::CreateSampler(const SamplerDesc& desc, CpuDescriptorHandle dest) 
   const auto slot = impl_->FindSlot(dest);
   if (!slot || slot->type != DescriptorHeapType::kSampler) {
     return MakeError(Id::kDescriptorHandle, "CreateSampler: ", Hex(dest.ptr),
-                     slot ? " is in a CBV/SRV/UAV heap" : " is in no live descriptor heap");
+                     slot ? " is in a CBV/SRV/UAV heap" : " is not in a live descriptor heap");
   }
   auto object = impl_->backend->create_sampler(desc);
   if (!object.ok()) return object.error();

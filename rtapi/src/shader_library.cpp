@@ -27,20 +27,23 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
   auto broken = [&name](const auto&... parts) {
     return MakeError(Id::kShaderLibrary, Quoted(name), ": ", parts...);
   };
-  if ((desc.export_count && !desc.exports) || (desc.binding_count && !desc.bindings) ||
-      (desc.subobject_count && !desc.subobjects)) {
-    return broken("a table is missing");
+  if (desc.export_count && !desc.exports) return broken("its table of exports is missing");
+  if (desc.binding_count && !desc.bindings) return broken("its table of bindings is missing");
+  if (desc.subobject_count && !desc.subobjects) {
+    return broken("its table of subobjects is missing");
   }
   for (uint32_t i = 0; i < desc.binding_count; ++i) {
     const auto& binding = desc.bindings[i];
     if (!binding.name || binding.count == 0 || static_cast<uint32_t>(binding.register_class) > 3 ||
         binding.type > shader::BindingType::kAccelerationStructure) {
-      return broken("binding ", i, " is broken");
+      return broken("binding ", i, " has no name or count, or an invalid register class or type");
     }
   }
   for (uint32_t i = 0; i < desc.export_count; ++i) {
     const auto& e = desc.exports[i];
-    if (!e.name || !*e.name || !IsStage(e.stage)) return broken("export ", i, " is broken");
+    if (!e.name || !*e.name || !IsStage(e.stage)) {
+      return broken("export ", i, " has no name or an invalid stage");
+    }
     const bool needs_entry =
         e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute;
     if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
@@ -48,11 +51,13 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
         (!e.compute || (!e.compute->group && !e.compute->thread))) {
       return broken("compute export ", Quoted(e.name), " has no code");
     }
-    if (e.binding_count && !e.bindings) return broken("export ", Quoted(e.name), " is broken");
+    if (e.binding_count && !e.bindings) {
+      return broken("export ", Quoted(e.name), " has no list of its bindings");
+    }
     for (uint32_t b = 0; b < e.binding_count; ++b) {
       if (e.bindings[b] >= desc.binding_count) {
-        return broken("export ", Quoted(e.name), " uses binding ", e.bindings[b], " of ",
-                      desc.binding_count);
+        return broken("export ", Quoted(e.name), " uses binding ", e.bindings[b],
+                      ", but the library has only ", desc.binding_count);
       }
     }
   }
@@ -81,9 +86,10 @@ Result<ShaderLibrary> Load(const shader::LibraryDesc* desc, std::shared_ptr<cons
   if (!desc) return MakeError(Id::kShaderLibrary, where, ": the library table is null");
   if (desc->abi_version != shader::kAbiVersion ||
       desc->struct_bytes != sizeof(shader::LibraryDesc)) {
-    return MakeError(Id::kShaderLibrary, where, ": made for ABI version ", desc->abi_version, " (",
-                     desc->struct_bytes, " bytes), this program has version ", shader::kAbiVersion,
-                     " (", sizeof(shader::LibraryDesc), " bytes); compile the shaders again");
+    return MakeError(Id::kShaderLibrary, where, " was compiled for ABI version ", desc->abi_version,
+                     " (", desc->struct_bytes, " bytes), but this program has version ",
+                     shader::kAbiVersion, " (", sizeof(shader::LibraryDesc),
+                     " bytes); recompile the shaders");
   }
   auto impl = std::make_shared<ShaderLibraryImpl>();
   impl->name = desc->name ? desc->name : where;
@@ -139,7 +145,8 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
       reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
   if (!entry) {
     return MakeError(Id::kShaderLibrary, Quoted(path), " has no symbol ",
-                     shader::kLibraryEntryPoint, "; it is no shader library of kaamos-hlsl");
+                     shader::kLibraryEntryPoint,
+                     ", so it is not a shader library made by kaamos-hlsl");
   }
   return Load(entry(), std::move(owner), path);
 }

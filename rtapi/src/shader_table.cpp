@@ -32,7 +32,7 @@ Status WriteArgument(const RootSignature& signature, uint32_t index, const Local
   const size_t wanted = WantedKind(parameter.ParameterType);
   if (argument.value().index() != wanted) {
     return MakeError(Id::kTableArgumentKind, where, ": argument ", index, " is ",
-                     kKinds[argument.value().index()], ", the local root signature has ",
+                     kKinds[argument.value().index()], ", but the local root signature expects ",
                      kKinds[wanted]);
   }
   const void* source = nullptr;
@@ -42,7 +42,7 @@ Status WriteArgument(const RootSignature& signature, uint32_t index, const Local
     source = constants->data();
     if (bytes != size_t{parameter.Constants.Num32BitValues} * 4) {
       return MakeError(Id::kTableArgumentSize, where, ": argument ", index, " has ", bytes,
-                       " bytes, the local root signature has ",
+                       " bytes, but the local root signature expects ",
                        size_t{parameter.Constants.Num32BitValues} * 4);
     }
   } else if (const auto* address = std::get_if<GpuVirtualAddress>(&argument.value())) {

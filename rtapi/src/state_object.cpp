@@ -48,9 +48,8 @@ Status StateObject::SetPipelineStackSize(uint64_t bytes) {
   }
   if (bytes >= 0xFFFFFFFFu) {
     return MakeError(Id::kPipelineStackSize, bytes,
-                     " bytes; allowed is less than 0xFFFFFFFF. It "
-                     "stays ",
-                     impl_->stack_bytes.load());
+                     " bytes is too large; it must be below 0xFFFFFFFF. The stack stays at ",
+                     impl_->stack_bytes.load(), " bytes");
   }
   impl_->stack_bytes = bytes;
   return {};
@@ -88,7 +87,7 @@ Status CheckAddition(const std::shared_ptr<DeviceImpl>& device, const StateObjec
   if (Status s = CheckHandle(device, parent, "the parent"); !s.ok()) return s;
   if (parent.impl()->type != StateObjectType::kRaytracingPipeline ||
       addition.Type != StateObjectType::kRaytracingPipeline) {
-    return MakeError(Id::kAdditionNotAllowed, "parent and addition must be pipelines, the ",
+    return MakeError(Id::kAdditionNotAllowed, "parent and addition must be pipelines, but the ",
                      parent.impl()->type == StateObjectType::kCollection ? "parent" : "addition",
                      " is a collection");
   }
@@ -111,9 +110,8 @@ Status CheckAddedNames(const StateObjectImpl& added, const StateObjectImpl& pare
   }
   for (const SubjectPtr& s : added.subjects) {
     if (!counts(*s) || taken.count(s->name) == 0) continue;
-    return MakeError(Id::kAdditionDuplicate, Quoted(s->name),
-                     " is an export of the parent already; rename it, or leave it out of the "
-                     "export list");
+    return MakeError(Id::kAdditionDuplicate, "the parent already exports ", Quoted(s->name),
+                     "; rename it, or leave it out of the export list");
   }
   return {};
 }
@@ -130,10 +128,10 @@ Status CheckAdded(const StateObjectImpl& added, const StateObjectImpl& parent) {
       (a.max_payload_bytes != p.max_payload_bytes ||
        a.max_attribute_bytes != p.max_attribute_bytes ||
        a.max_recursion_depth != p.max_recursion_depth || a.flags != p.flags)) {
-    return MakeError(Id::kAdditionConfigsDiffer, "payload ", a.max_payload_bytes, ", attributes ",
-                     a.max_attribute_bytes, ", recursion ", a.max_recursion_depth,
-                     "; the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes, ", ",
-                     p.max_recursion_depth);
+    return MakeError(Id::kAdditionConfigsDiffer, "the addition has payload ", a.max_payload_bytes,
+                     ", attributes ", a.max_attribute_bytes, ", recursion ", a.max_recursion_depth,
+                     ", but the parent has ", p.max_payload_bytes, ", ", p.max_attribute_bytes,
+                     ", ", p.max_recursion_depth);
   }
   return CheckAddedNames(added, parent);
 }

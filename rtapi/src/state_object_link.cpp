@@ -108,7 +108,7 @@ class Linker {
       if (!found.ok()) return found.error();
       if ((*found)->code->stage != kStages[i]) {
         return MakeError(Id::kHitGroupStage, Describe(group), " imports ", Quoted(*names[i]),
-                         " as ", StageName(kStages[i]), " shader; it is a ",
+                         " as its ", StageName(kStages[i]), " shader, but it is a ",
                          StageName((*found)->code->stage), " shader");
       }
       group.members[i] = *found;
@@ -133,11 +133,11 @@ class Linker {
     }
     if (!found) {
       return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(name),
-                       ", which is no export of this state object");
+                       ", which this state object does not export");
     }
     if (!found->referable && found->collection_scope != group.collection_scope) {
       return MakeError(Id::kCollectionNotReferable, Describe(group), " imports ", Quoted(name),
-                       " of a collection without flag 0x2 "
+                       " from a collection that lacks flag 0x2 "
                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
     return found;
@@ -150,13 +150,13 @@ class Linker {
       if (group.group.Type == HitGroupType::kTriangles && m->code->attribute_bytes != 8) {
         return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
                          m->code->attribute_bytes,
-                         " bytes of attributes; those of triangles are "
-                         "BuiltInTriangleIntersectionAttributes, 8 bytes");
+                         " bytes of attributes, but triangles pass "
+                         "BuiltInTriangleIntersectionAttributes (8 bytes)");
       }
       if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
         return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*first), " has ",
-                         first->code->attribute_bytes, " bytes of attributes, ", Describe(*m), " ",
-                         m->code->attribute_bytes);
+                         first->code->attribute_bytes, " bytes of attributes, but ", Describe(*m),
+                         " has ", m->code->attribute_bytes);
       }
       first = m.get();
     }
@@ -187,10 +187,10 @@ class Linker {
         continue;
       }
       if (result && !SameDefinition(*result, *associated.definition)) {
-        return MakeError(Id::kHitGroupAssociationMismatch, Describe(group), ": the ",
-                         CategoryName(static_cast<Category>(category)), " of ", Describe(*first),
-                         " is ", result->where, ", that of ", Describe(*subject), " ",
-                         associated.definition->where, "; all must have the same");
+        return MakeError(Id::kHitGroupAssociationMismatch, Describe(group), ": ", Describe(*first),
+                         " has ", CategoryName(static_cast<Category>(category)), " ", result->where,
+                         ", but ", Describe(*subject), " has ", associated.definition->where,
+                         "; a hit group and its shaders must have the same");
       }
       if (!result) {
         result = associated.definition;
@@ -246,7 +246,7 @@ class Linker {
     if (candidates.size() > 1) {
       return MakeError(Id::kDefaultAmbiguous, Describe(s), " has no ", CategoryName(c), ": ",
                        candidates[0]->where, " and ", candidates[1]->where,
-                       " differ, so that neither is the default; associate one of them");
+                       " differ, so neither is the default; associate one of them explicitly");
     }
     return MakeError(
         c == Category::kShaderConfig ? Id::kShaderConfigMissing : Id::kPipelineConfigMissing,
@@ -256,17 +256,17 @@ class Linker {
   Status DifferentConfigs(const Subject& s, Category c, const Definition& a,
                           const Definition& b) const {
     if (c == Category::kShaderConfig) {
-      return MakeError(Id::kShaderConfigsDiffer, Describe(s), " has payload ",
-                       b.shader_config.MaxPayloadSizeInBytes, " and attributes ",
+      return MakeError(Id::kShaderConfigsDiffer, Describe(s), " has a payload of ",
+                       b.shader_config.MaxPayloadSizeInBytes, " and attributes of ",
                        b.shader_config.MaxAttributeSizeInBytes, " bytes (", b.where,
-                       "), another export ", a.shader_config.MaxPayloadSizeInBytes, " and ",
+                       "), but another export has ", a.shader_config.MaxPayloadSizeInBytes, " and ",
                        a.shader_config.MaxAttributeSizeInBytes, " (", a.where,
                        "); all exports must have the same");
     }
     return MakeError(Id::kPipelineConfigsDiffer, Describe(s), " has recursion depth ",
                      b.pipeline_config.MaxTraceRecursionDepth, ", flags ",
                      Hex(static_cast<uint32_t>(b.pipeline_config.Flags)), " (", b.where,
-                     "), another export ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
+                     "), but another export has ", a.pipeline_config.MaxTraceRecursionDepth, ", ",
                      Hex(static_cast<uint32_t>(a.pipeline_config.Flags)), " (", a.where,
                      "); all exports must have the same");
   }
@@ -326,7 +326,7 @@ class Linker {
       if (!group.members[i]) {
         if (names[i]->empty()) continue;
         return MakeError(Id::kHitGroupUnresolved, Describe(group), " imports ", Quoted(*names[i]),
-                         ", which is no export of this state object");
+                         ", which this state object does not export");
       }
       const Subject& member = *group.members[i];
       auto linked = LinkShader(member, effective, Text(Describe(member), " in ", Describe(group)));
@@ -344,12 +344,12 @@ class Linker {
     const bool bounded = !(s.code->flags & shader::kExportQualifiedPayload);
     if (bounded && s.code->payload_bytes > config.MaxPayloadSizeInBytes) {
       return MakeError(Id::kPayloadTooLarge, where, " has a payload of ", s.code->payload_bytes,
-                       " bytes; MaxPayloadSizeInBytes of ", d->where, " is ",
+                       " bytes, but MaxPayloadSizeInBytes of ", d->where, " is ",
                        config.MaxPayloadSizeInBytes);
     }
     if (s.code->attribute_bytes > config.MaxAttributeSizeInBytes) {
       return MakeError(Id::kAttributesTooLarge, where, " has attributes of ",
-                       s.code->attribute_bytes, " bytes; MaxAttributeSizeInBytes of ", d->where,
+                       s.code->attribute_bytes, " bytes, but MaxAttributeSizeInBytes of ", d->where,
                        " is ", config.MaxAttributeSizeInBytes);
     }
     return {};
@@ -372,10 +372,10 @@ class Linker {
         if (own.strength != Strength::kExplicit || !own.definition) continue;
         const DefinitionPtr& callers_own = effective[static_cast<size_t>(c)];
         if (callers_own && SameDefinition(*callers_own, *own.definition)) continue;
-        return MakeError(Id::kCallGraphSignatures, where, " calls function ", Quoted(f->name),
-                         ", whose ", CategoryName(c), " is ", own.definition->where,
-                         "; its own is ", callers_own ? callers_own->where : "none",
-                         ". Functions take that of their callers: associate both or neither");
+        return MakeError(Id::kCallGraphSignatures, "function ", Quoted(f->name), " has ",
+                         CategoryName(c), " ", own.definition->where, ", but its caller ", where,
+                         " has ", callers_own ? callers_own->where : "none",
+                         "; a function must have the same as its callers, or none of its own");
       }
     }
     return {};
@@ -424,11 +424,11 @@ class Linker {
             auto [it, is_new] = local_samplers.emplace(
                 std::pair(sampler.RegisterSpace, sampler.ShaderRegister), &sampler);
             if (!is_new && !SameSampler(*it->second, sampler)) {
-              return MakeError(Id::kStaticSamplerConflict, "two local root signatures define ",
+              return MakeError(Id::kStaticSamplerConflict,
+                               "two local root signatures define static sampler ",
                                RegisterText(shader::RegisterClass::kSampler, sampler.ShaderRegister,
                                             sampler.RegisterSpace),
-                               " differently (one of them for ", Quoted(s->name),
-                               "); static samplers of one register must be the same");
+                               " differently (one is for ", Quoted(s->name), "); they must agree");
             }
           }
           const bool known = std::any_of(unique.begin(), unique.end(),
@@ -439,7 +439,7 @@ class Linker {
     }
     if (unique.size() <= kMaxStaticSamplers) return {};
     return MakeError(Id::kStaticSamplerCount, "the state object has ", unique.size(),
-                     " static samplers; allowed are ", kMaxStaticSamplers);
+                     " static samplers; at most ", kMaxStaticSamplers, " are allowed");
   }
 
   // --- the result ---

@@ -50,8 +50,7 @@ Result<Parts> Gatherer::Run() {
       desc_.Type != StateObjectType::kRaytracingPipeline) {
     return MakeError(Id::kStateObjectInvalidSubobject, "state object type ",
                      static_cast<uint32_t>(desc_.Type),
-                     "; allowed are kCollection (0) and "
-                     "kRaytracingPipeline (3)");
+                     "; it must be kCollection (0) or kRaytracingPipeline (3)");
   }
   definitions_.resize(desc_.Subobjects.size());
   // Read the flags first: they decide whether a collection may be included.
@@ -100,12 +99,12 @@ Status Gatherer::GatherConfigs() {
 Status Gatherer::TakeFlags(StateObjectFlags value, const std::string& where,
                            std::optional<StateObjectFlags>& flags) {
   if ((value & ~kDefinedObjectFlags) != StateObjectFlags::kNone) {
-    return MakeError(Id::kConfigFlags, where, ": state object flags ",
-                     Hex(static_cast<uint32_t>(value)), "; defined are 0x1, 0x2 and 0x4");
+    return MakeError(Id::kConfigFlags, where, ": undefined state object flags ",
+                     Hex(static_cast<uint32_t>(value)), "; only 0x1, 0x2 and 0x4 are defined");
   }
   if (flags && *flags != value) {
     return MakeError(Id::kAssociationConflict, where, ": a second state object config has flags ",
-                     Hex(static_cast<uint32_t>(value)), ", the first ",
+                     Hex(static_cast<uint32_t>(value)), ", but the first has ",
                      Hex(static_cast<uint32_t>(*flags)));
   }
   flags = value;
@@ -115,7 +114,7 @@ Status Gatherer::TakeFlags(StateObjectFlags value, const std::string& where,
 Status Gatherer::Gather(const NodeMask& mask, size_t i) {
   if (mask.Mask <= 1) return {};
   return MakeError(Id::kStateObjectInvalidSubobject, Where(i), ": node mask ", Hex(mask.Mask),
-                   "; there is one node, allowed is 0 or 1");
+                   "; there is a single node, so it must be 0 or 1");
 }
 
 Status Gatherer::Gather(const GlobalRootSignature& sub, size_t i) {
@@ -162,7 +161,7 @@ Status Gatherer::CheckNames() {
     if (s->hidden || !s->is_group()) continue;
     if (auto it = shaders.find(s->name); it != shaders.end()) {
       return MakeError(Id::kExportDuplicate, "hit group ", Quoted(s->name),
-                       " has the name of a shader", Origin(*it->second));
+                       " has the same name as a shader", Origin(*it->second));
     }
   }
   return {};
@@ -177,7 +176,7 @@ Status Gatherer::GatherAssociation(const StateSubobject& sub, size_t i) {
   if (const auto* a = std::get_if<SubobjectToExportsAssociation>(&sub)) {
     if (a->SubobjectToAssociate >= desc_.Subobjects.size()) {
       return MakeError(Id::kAssociationBadSubobject, Where(i), " associates subobject ",
-                       a->SubobjectToAssociate, " of ", desc_.Subobjects.size());
+                       a->SubobjectToAssociate, ", but there are only ", desc_.Subobjects.size());
     }
     const auto type = GetSubobjectType(desc_.Subobjects[a->SubobjectToAssociate]);
     if (type == StateSubobjectType::kNodeMask || type == StateSubobjectType::kStateObjectConfig) {

@@ -322,9 +322,9 @@ Status Describer::AddHitReaches() {
   if (desc_.TopLevel == 0) return {};
   const auto top = device_.backend->find_structure(desc_.TopLevel);
   if (top == nullptr || top->instances == nullptr) {
-    return MakeError(Id::kTableDescription, "no top level stands at ",
+    return MakeError(Id::kTableDescription, "there is no top level at ",
                      ToText(DescribeWhere(device_, desc_.TopLevel)),
-                     "; was it built, and not overwritten since?");
+                     "; it was never built, or has been overwritten");
   }
   DescribedTable* table = Find(kHitGroup.name);
   if (table == nullptr) return {};
@@ -357,7 +357,8 @@ Status Describer::AddHitReaches() {
 
 Result<TableDescription> DescribeShaderTables(const Device& device, const StateObject& state_object,
                                               const TableDescriptionDesc& desc) {
-  if (!device) return MakeError(Id::kNullHandle, "DescribeShaderTables: the device");
+  if (!device)
+    return MakeError(Id::kNullHandle, "DescribeShaderTables: the device is an empty handle");
   if (Status s = CheckHandle(device.impl(), state_object, "DescribeShaderTables: the state object");
       !s.ok()) {
     return s.error();
@@ -365,7 +366,7 @@ Result<TableDescription> DescribeShaderTables(const Device& device, const StateO
   const StateObjectImpl& state = *state_object.impl();
   if (state.linked == nullptr || state.type != StateObjectType::kRaytracingPipeline) {
     return MakeError(Id::kTableDescription,
-                     "the state object is a collection; tables hold identifiers of a pipeline");
+                     "the state object is a collection, but tables hold identifiers of a pipeline");
   }
   const std::lock_guard lock(device.impl()->execute_mutex);
   return Describer(*device.impl(), *state.linked, desc).Run();

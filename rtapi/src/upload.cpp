@@ -80,7 +80,7 @@ Result<Buffer> CreateDefaultBuffer(const Device& device, CommandQueue& queue,
 Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue& queue,
                                               const Buffer& buffer) {
   if (Status s = CheckQueue(device, queue); !s.ok()) return s.error();
-  if (!buffer) return MakeError(Id::kNullHandle, "ReadbackBuffer of an empty buffer handle");
+  if (!buffer) return MakeError(Id::kNullHandle, "ReadbackBuffer on an empty buffer handle");
   Buffer readable = buffer;
   if (buffer.GetDesc().Heap == HeapType::kDefault) {
     auto staging = device.CreateBuffer({.SizeInBytes = buffer.size(),

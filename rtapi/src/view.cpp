@@ -30,7 +30,7 @@ Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descr
   const auto slot = device.FindSlot(dest);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
     return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr),
-                     slot ? " is in a sampler heap" : " is in no live descriptor heap");
+                     slot ? " is in a sampler heap" : " is not in a live descriptor heap");
   }
   std::memcpy(slot->slot, &value, sizeof value);
   return {};
@@ -44,7 +44,7 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
     if (view.format != Format::kR32Typeless || view.stride != 0) {
       return MakeError(Id::kViewFormat, "raw view of ", name, " has format ",
                        static_cast<uint32_t>(view.format), " and stride ", view.stride,
-                       "; a raw view has kR32Typeless and no stride");
+                       "; it must have format kR32Typeless and no stride");
     }
     if (view.first * 4 % kRawUavSrvByteAlignment != 0) {
       return MakeError(Id::kViewStride, "raw view of ", name, " starts at byte ", view.first * 4,
@@ -60,7 +60,7 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
     }
     if (view.stride % 4 != 0 || view.stride > 2048) {
       return MakeError(Id::kViewStride, "structured view of ", name, " has a stride of ",
-                       view.stride, " bytes; allowed are multiples of 4 up to 2048");
+                       view.stride, " bytes; it must be a multiple of 4, at most 2048");
     }
     out.kind = DescriptorKind::kStructuredBuffer;
     out.stride_bytes = view.stride;
@@ -97,8 +97,9 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
   const uint64_t total = buffer.size() / *element;
   const uint64_t count = view.count ? view.count : (view.first < total ? total - view.first : 0);
   if (view.first > total || count > total - view.first) {
-    return MakeError(Id::kViewRange, "elements ", view.first, "..", view.first + count, " of ",
-                     name, ", which has ", total, " elements of ", *element, " bytes");
+    return MakeError(Id::kViewRange, "elements ", view.first, "..", view.first + count,
+                     " are outside ", name, ", which has ", total, " elements of ", *element,
+                     " bytes");
   }
   descriptor.access = view.access;
   descriptor.address = buffer.GetGPUVirtualAddress() + view.first * *element;
@@ -146,7 +147,7 @@ Status CheckViewFormat(const DeviceImpl& device, const Texture& texture, const T
                      "; it must be the same, or a typed member of a typeless format's family");
   }
   if (!device.backend->supports_format(view.format, view.uav)) {
-    return MakeError(Id::kViewFormat, "the backend has no ",
+    return MakeError(Id::kViewFormat, "the backend does not support ",
                      view.uav ? "unordered access" : "shader resource", " views of format ",
                      static_cast<uint32_t>(view.format));
   }
@@ -157,13 +158,13 @@ Status CheckSubresources(const Texture& texture, TextureView& view) {
   const TextureDesc& desc = texture.GetDesc();
   const std::string name = Named("texture", desc.Name);
   if (view.first_mip >= desc.MipLevels) {
-    return MakeError(Id::kViewSubresources, "mip ", view.first_mip, " of ", name, ", which has ",
-                     desc.MipLevels);
+    return MakeError(Id::kViewSubresources, "mip ", view.first_mip, " is outside ", name,
+                     ", which has ", desc.MipLevels, " mips");
   }
   if (view.mips == 0xFFFFFFFFu) view.mips = desc.MipLevels - view.first_mip;
   if (view.mips == 0 || view.mips > desc.MipLevels - view.first_mip) {
-    return MakeError(Id::kViewSubresources, view.mips, " mips from mip ", view.first_mip, " of ",
-                     name, ", which has ", desc.MipLevels);
+    return MakeError(Id::kViewSubresources, view.mips, " mips from mip ", view.first_mip,
+                     " on are outside ", name, ", which has ", desc.MipLevels, " mips");
   }
   const bool volume = view.dimension == SrvDimension::kTexture3D;
   const uint32_t total =
@@ -176,12 +177,12 @@ Status CheckSubresources(const Texture& texture, TextureView& view) {
   }
   if (view.first_slice >= total || view.slices == 0 || view.slices > total - view.first_slice) {
     return MakeError(Id::kViewSubresources, volume ? "w slices " : "array elements ",
-                     view.first_slice, "..", uint64_t{view.first_slice} + view.slices, " of ", name,
-                     ", which has ", total);
+                     view.first_slice, "..", uint64_t{view.first_slice} + view.slices,
+                     " are outside ", name, ", which has ", total);
   }
   if (cube && (view.slices % 6 != 0 || desc.Width != desc.Height)) {
-    return MakeError(Id::kViewSubresources, "cube view of ", view.slices, " faces of ", desc.Width,
-                     "x", desc.Height, "; a cube has 6 square faces");
+    return MakeError(Id::kViewSubresources, "a cube view needs 6 square faces, but this has ",
+                     view.slices, " faces of ", desc.Width, "x", desc.Height);
   }
   return {};
 }
@@ -192,7 +193,7 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   const TextureDesc& desc = texture.GetDesc();
   if (!FitsDimension(view.dimension, desc.Dimension)) {
     return MakeError(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
-                     " of ", Named("texture", desc.Name), " with resource dimension ",
+                     " does not fit ", Named("texture", desc.Name), ", whose dimension is ",
                      static_cast<uint32_t>(desc.Dimension));
   }
   if (view.uav && !HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
@@ -216,7 +217,7 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
     if (resolved.swizzle[i] > 5) {
       return MakeError(Id::kViewFormat, "Shader4ComponentMapping ", Hex(mapping), " of ",
                        Named("texture", desc.Name), " selects component ", int{resolved.swizzle[i]},
-                       "; allowed is 0 to 5");
+                       "; it must be 0 to 5");
     }
   }
   auto object = device->backend->create_texture_view(*texture.impl()->memory, resolved);
@@ -378,7 +379,8 @@ Status Device::CreateShaderResourceView(const Resource& resource,
   const bool wants_buffer = desc.ViewDimension == SrvDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
     return MakeError(Id::kViewResource, "view dimension ",
-                     static_cast<uint32_t>(desc.ViewDimension), " of ", KindName(resource));
+                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                     KindName(resource));
   }
   if (wants_buffer) {
     const BufferSrv& b = desc.Buffer;
@@ -406,13 +408,14 @@ Status Device::CreateUnorderedAccessView(const Resource& resource,
   const bool wants_buffer = desc.ViewDimension == UavDimension::kBuffer;
   if (wants_buffer != std::holds_alternative<Buffer>(resource)) {
     return MakeError(Id::kViewResource, "view dimension ",
-                     static_cast<uint32_t>(desc.ViewDimension), " of ", KindName(resource));
+                     static_cast<uint32_t>(desc.ViewDimension), " does not fit ",
+                     KindName(resource));
   }
   if (wants_buffer) {
     const BufferUav& b = desc.Buffer;
     if (b.CounterOffsetInBytes != 0) {
       return MakeError(Id::kViewStride, "CounterOffsetInBytes is ", b.CounterOffsetInBytes,
-                       "; append and counter buffers are not supported, it must be 0");
+                       "; it must be 0, because append and counter buffers are not supported");
     }
     return WriteBufferView(
         impl_, std::get<Buffer>(resource),
@@ -444,7 +447,8 @@ Status Device::CreateConstantBufferView(const ConstantBufferViewDesc& desc,
     }
     if (!impl_->addresses.contains(desc.BufferLocation, desc.SizeInBytes)) {
       return MakeError(Id::kConstantBufferView, desc.SizeInBytes, " bytes at ",
-                       impl_->DescribeAddress(desc.BufferLocation), " do not lie in one buffer");
+                       impl_->DescribeAddress(desc.BufferLocation),
+                       " are not inside one live buffer");
     }
     descriptor.kind = DescriptorKind::kConstantBuffer;
     descriptor.address = desc.BufferLocation;

@@ -27,13 +27,13 @@ DispatchProblem check_table(const AddressMap& addresses, const char* name,
   if (table.StrideInBytes % rtapi::kRaytracingShaderRecordByteAlignment != 0 ||
       table.StrideInBytes > rtapi::kRaytracingMaxShaderRecordStride) {
     return {DispatchFault::kTableLayout, text(name, " has a stride of ", table.StrideInBytes,
-                                              " bytes; allowed are multiples of 32 up to 4096")};
+                                              " bytes; it must be a multiple of 32, at most 4096")};
   }
   if (table.StartAddress != 0 && table.SizeInBytes != 0 &&
       !addresses.contains(table.StartAddress, table.SizeInBytes)) {
     return {DispatchFault::kTableMemory, text(name, ": ", table.SizeInBytes, " bytes at ",
                                               describe_address(addresses, table.StartAddress),
-                                              " do not lie in one live buffer")};
+                                              " are not inside one live buffer")};
   }
   return {};
 }
@@ -74,7 +74,7 @@ DispatchProblem check_dispatch_rays(const AddressMap& addresses,
   const uint64_t plane = uint64_t{desc.Width} * desc.Height;
   if (desc.Depth != 0 && plane > rtapi::kRaytracingMaxRayGenerationShaderThreads / desc.Depth) {
     return {DispatchFault::kTooLarge, text("DispatchRays of ", desc.Width, "x", desc.Height, "x",
-                                           desc.Depth, "; allowed are 2^30 threads")};
+                                           desc.Depth, "; at most 2^30 threads are allowed")};
   }
   return {};
 }
@@ -84,7 +84,7 @@ DispatchProblem check_dispatch(const uint32_t groups[3]) {
     return {};
   }
   return {DispatchFault::kTooLarge, text("Dispatch of ", groups[0], "x", groups[1], "x", groups[2],
-                                         " groups; allowed are 65535 each")};
+                                         " groups; at most 65535 are allowed on each axis")};
 }
 
 }  // namespace kaamos::runtime

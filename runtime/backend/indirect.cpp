@@ -81,7 +81,7 @@ rtapi::Result<DispatchState> Reader::state(uint32_t index) const {
     if (address % argument.view_alignment != 0 || addresses_.bytes_from(address) == 0) {
       return problem(index, "root parameter " + std::to_string(argument.root_parameter) + " is " +
                                 describe_address(addresses_, address) +
-                                "; it must lie in a live buffer, at a multiple of " +
+                                "; it must be in a live buffer, at a multiple of " +
                                 std::to_string(argument.view_alignment));
     }
   }

@@ -136,9 +136,9 @@ TEST_F(Indirect, DSP_10_RulesOfTablesHold) {
   desc.HitGroupTable = {kTable, 64, 48};
   EXPECT_TRUE(says(refusal_of(0, desc), "stride of 48"));
   desc.HitGroupTable = {kTable, 8192, 64};
-  EXPECT_TRUE(says(refusal_of(0, desc), "do not lie in one live buffer"));
+  EXPECT_TRUE(says(refusal_of(0, desc), "are not inside one live buffer"));
   desc.HitGroupTable = {0xFFFFFFFFFFFFFFC0, ~uint64_t{0}, 64};
-  EXPECT_TRUE(says(refusal_of(0, desc), "do not lie in one live buffer"));
+  EXPECT_TRUE(says(refusal_of(0, desc), "are not inside one live buffer"));
   desc = rays(1);
   desc.RayGenerationShaderRecord.StartAddress = 0;
   EXPECT_TRUE(says(refusal_of(0, desc), "RayGenerationShaderRecord"));

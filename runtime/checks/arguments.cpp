@@ -119,8 +119,8 @@ class ArgumentCheck {
     report(Id::kRecordNeverWritten,
            where_ + ": all " + std::to_string(shader_.local_argument_bytes) +
                " bytes of arguments after the identifier are 0, but the shader reads " + unset +
-               ". Write the arguments of the local root signature behind the identifier, from "
-               "byte 32 of the record.");
+               ". Write the arguments of the local root signature after the identifier, from "
+               "byte 32 of the record on.");
     return true;
   }
 
@@ -139,15 +139,16 @@ class ArgumentCheck {
       report(Id::kRecordArgumentKind, parameter(binding, slot) + ": the root descriptor is " +
                                           address_name(inputs_.addresses, value) + "; " +
                                           (constants ? "a constant buffer" : "a buffer") +
-                                          " starts at a multiple of " + std::to_string(alignment) +
-                                          ".");
+                                          " must start at a multiple of " +
+                                          std::to_string(alignment) + ".");
     }
     if (binding.register_class == RegisterClass::kUnorderedAccess &&
         !rtapi::HasAny(allocation->flags, rtapi::ResourceFlags::kAllowUnorderedAccess)) {
-      report(Id::kRecordArgumentKind,
-             parameter(binding, slot) + ": the root descriptor is " +
-                 address_name(inputs_.addresses, value) +
-                 ", which was created without kAllowUnorderedAccess; the shader may write there.");
+      report(
+          Id::kRecordArgumentKind,
+          parameter(binding, slot) + ": the root descriptor is " +
+              address_name(inputs_.addresses, value) +
+              ", which was created without kAllowUnorderedAccess, but the shader may write there.");
     }
   }
 
@@ -159,19 +160,22 @@ class ArgumentCheck {
     const uint64_t first = offset / sizeof(Descriptor);
     if (heap.begin == nullptr || value < heap.address || first >= heap.count ||
         offset % sizeof(Descriptor) != 0) {
-      return report(Id::kRecordArgument,
-                    parameter(binding, slot) + ": the descriptor table is handle " + hex(value) +
-                        ", which is in no " + heap_kind + " heap that is set" +
-                        (heap.begin == nullptr ? "; none is. Call SetDescriptorHeaps"
-                                               : ". Is it the handle of another heap, or a CPU "
-                                                 "handle?"));
+      return report(
+          Id::kRecordArgument,
+          parameter(binding, slot) + ": the descriptor table is handle " + hex(value) +
+              (heap.begin == nullptr
+                   ? std::string(", but no ") + heap_kind + " heap is set. Call SetDescriptorHeaps."
+                   : std::string(", which is not in the ") + heap_kind +
+                         " heap that is set. Is it the handle of another heap, or a CPU "
+                         "handle?"));
     }
     const uint64_t index = first + slot.descriptor_index;
     if (binding.count != 1) return;  // which elements of an array are read is unknown
     if (index >= heap.count) {
       return report(Id::kRecordArgument, parameter(binding, slot) + ": descriptor " +
-                                             std::to_string(index) + " of a " + heap_kind +
-                                             " heap that has " + std::to_string(heap.count) + ".");
+                                             std::to_string(index) + " is outside the " +
+                                             heap_kind + " heap, which has " +
+                                             std::to_string(heap.count) + ".");
     }
     check_descriptor(binding, slot, heap.begin[index], index);
   }
@@ -183,15 +187,15 @@ class ArgumentCheck {
     const std::string place =
         parameter(binding, slot) + ": descriptor " + std::to_string(index) + " of the heap is ";
     if (descriptor.kind != wanted) {
-      return report(Id::kRecordArgumentKind,
-                    place + kind_name(descriptor.kind) + ", the shader declares " +
-                        kind_name(wanted) + ". Is the table's first descriptor the right one?");
+      return report(Id::kRecordArgumentKind, place + kind_name(descriptor.kind) +
+                                                 ", but the shader declares " + kind_name(wanted) +
+                                                 ". Does the table start at the right descriptor?");
     }
     const bool buffer =
         wanted == DescriptorKind::kConstantBuffer || wanted == DescriptorKind::kRawBuffer ||
         wanted == DescriptorKind::kStructuredBuffer || wanted == DescriptorKind::kTypedBuffer;
     if (buffer && descriptor.address != 0 && !inputs_.addresses.find(descriptor.address)) {
-      report(Id::kRecordArgument, place + "a view of a buffer that was freed since, at address " +
+      report(Id::kRecordArgument, place + "a view of a buffer that has been freed, at address " +
                                       hex(descriptor.address) + ".");
     }
     const bool writable = binding.register_class == RegisterClass::kUnorderedAccess;
@@ -199,10 +203,10 @@ class ArgumentCheck {
         wanted != DescriptorKind::kSampler && wanted != DescriptorKind::kConstantBuffer;
     if (view && writable != (descriptor.access == DescriptorAccess::kUnorderedAccess)) {
       report(Id::kRecordArgumentKind,
-             place + (writable ? "a shader resource view, the shader declares an unordered access "
-                                 "view."
-                               : "an unordered access view, the shader declares a shader resource "
-                                 "view."));
+             place + (writable ? "a shader resource view, but the shader declares an unordered "
+                                 "access view."
+                               : "an unordered access view, but the shader declares a shader "
+                                 "resource view."));
     }
   }
 

@@ -53,10 +53,11 @@ void check_indices(const ProofInputs& inputs, const std::string& where,
       Id::kIndexOutOfRange,
       where + ": index " + std::to_string(first_value) + " of triangle " +
           std::to_string(first / 3) + " (element " + std::to_string(first) + " of the indices at " +
-          address_name(inputs.addresses, desc.Triangles.IndexBuffer) + "), VertexCount is " +
-          std::to_string(t.VertexCount) + (bad > 1 ? "; " + std::to_string(bad) + " such" : "") +
-          ". Their triangles are never hit. Is VertexCount the number of vertices, and IndexFormat "
-          "that of the buffer?");
+          address_name(inputs.addresses, desc.Triangles.IndexBuffer) + "), but VertexCount is " +
+          std::to_string(t.VertexCount) +
+          (bad > 1 ? "; there are " + std::to_string(bad) + " such indices" : "") +
+          ". Their triangles are never hit. Check that VertexCount is the number of vertices and "
+          "IndexFormat that of the buffer.");
 }
 
 void check_vertices(const ProofInputs& inputs, const std::string& where,
@@ -80,8 +81,8 @@ void check_vertices(const ProofInputs& inputs, const std::string& where,
         where + ": vertex " + std::to_string(i) + " (" +
             address_name(inputs.addresses, desc.Triangles.VertexBuffer.StartAddress) + " + " +
             std::to_string(i) + " * " + std::to_string(desc.Triangles.VertexBuffer.StrideInBytes) +
-            ") has NaN in Y or Z and a number in X. Its triangles are taken as inactive here; "
-            "DXR says so only of NaN in X. Write NaN to X, or a number.");
+            ") has NaN in Y or Z but a number in X. Its triangles are treated as inactive here; "
+            "DXR defines that only for NaN in X. Write NaN to X, or numbers to all three.");
     return;
   }
 }
@@ -102,10 +103,11 @@ void check_boxes(const ProofInputs& inputs, const std::string& where,
     const float others[] = {box.MinY, box.MinZ, box.MaxX, box.MaxY, box.MaxZ};
     for (const float value : others) {
       if (!std::isnan(value)) continue;
-      inputs.reporter.report(Id::kVertexNotANumber,
-                             where + ": box " + std::to_string(i) +
-                                 " has NaN in another component than MinX. It is taken as inactive "
-                                 "here; DXR says so only of NaN in MinX.");
+      inputs.reporter.report(
+          Id::kVertexNotANumber,
+          where + ": box " + std::to_string(i) +
+              " has NaN in a component other than MinX. It is treated as inactive "
+              "here; DXR defines that only for NaN in MinX.");
       return;
     }
   }
@@ -145,8 +147,9 @@ void check_instances(const ProofInputs& inputs,
     const std::string where = "instance " + std::to_string(i);
     if ((instance.Flags & 12) == 12 && !flags_told) {
       flags_told = true;
-      inputs.reporter.report(Id::kInstanceFlags,
-                             where + " has kForceOpaque and kForceNonOpaque. Set at most one.");
+      inputs.reporter.report(
+          Id::kInstanceFlags,
+          where + " has both kForceOpaque and kForceNonOpaque. Set at most one.");
     }
     if (instance.AccelerationStructure == 0 || level_told) continue;
     StructureState state;
@@ -158,11 +161,11 @@ void check_instances(const ProofInputs& inputs,
         Id::kInstanceStructure,
         where + " refers to " + address_name(inputs.addresses, instance.AccelerationStructure) +
             ": " +
-            (alive ? std::string("there stands a top level")
+            (alive ? std::string("it is a top level")
                    : "a bottom level " +
                          inputs.structures.history(instance.AccelerationStructure, state)) +
-            ". The instance is never hit. Give the address of a bottom level that was built "
-            "before, or 0.");
+            ". The instance is never hit. Write the address of a bottom level that is built, or "
+            "0.");
   }
 }
 
@@ -180,10 +183,9 @@ void check_update_contents(const ProofInputs& inputs, const runtime::BuildComman
     inputs.reporter.report(
         Id::kUpdateChanges,
         "geometry " + std::to_string(i) + " of the update of " +
-            address_name(inputs.addresses, command.source) + " has other " +
+            address_name(inputs.addresses, command.source) + " has different " +
             (indices ? "indices" : "inactive vertices or boxes (NaN in X)") +
-            " than when it was built. An update may move vertices and boxes and nothing else: "
-            "build anew.");
+            " from its build. An update may only move vertices and boxes; build anew.");
     return;
   }
 }
@@ -195,14 +197,15 @@ void check_ranges(const ProofInputs& inputs, const runtime::BuildCommand& comman
   };
   if (overlap(command.dest, dest_bytes, command.scratch, scratch_bytes)) {
     report("scratch (" + range_name(inputs.addresses, command.scratch, scratch_bytes) +
-           ") lies in the destination (" + range_name(inputs.addresses, command.dest, dest_bytes) +
-           "). Give them memory of their own.");
+           ") overlaps the destination (" + range_name(inputs.addresses, command.dest, dest_bytes) +
+           "). Give each memory of its own.");
   }
   if (command.source != 0 && command.source != command.dest &&
       overlap(command.dest, dest_bytes, command.source, dest_bytes)) {
     report("source " + address_name(inputs.addresses, command.source) + " and destination " +
-           address_name(inputs.addresses, command.dest) + " of the update overlap in a part of " +
-           std::to_string(dest_bytes) + " bytes. Update in place, or to memory of its own.");
+           address_name(inputs.addresses, command.dest) + " of the update, " +
+           std::to_string(dest_bytes) +
+           " bytes each, overlap in part. Update in place, or into memory of its own.");
   }
 }
 

@@ -47,7 +47,7 @@ std::string descriptor_name(uint64_t kind, uint64_t access) {
 // The first of ERR-18's rules that `flags` break.
 std::string flags_problem(uint32_t flags, bool query) {
   if ((flags & ~0x3FFu) != 0) {
-    return "bits " + hex(flags & ~0x3FFu) + " are none of this tier's flags";
+    return "bits " + hex(flags & ~0x3FFu) + " are not ray flags of this tier";
   }
   if (query && (flags & 8) != 0) {
     return "a RayQuery runs no closest-hit shader, so SKIP_CLOSEST_HIT_SHADER (0x8) is not allowed";
@@ -56,9 +56,9 @@ std::string flags_problem(uint32_t flags, bool query) {
     return "only one of FORCE_OPAQUE, FORCE_NON_OPAQUE, CULL_OPAQUE and CULL_NON_OPAQUE is allowed";
   }
   if ((flags & 0x30u) == 0x30u) {
-    return "CULL_BACK_FACING_TRIANGLES and CULL_FRONT_FACING_TRIANGLES exclude each other";
+    return "CULL_BACK_FACING_TRIANGLES and CULL_FRONT_FACING_TRIANGLES cannot both be set";
   }
-  return "SKIP_TRIANGLES excludes the facing culls and SKIP_PROCEDURAL_PRIMITIVES";
+  return "SKIP_TRIANGLES cannot be combined with the facing culls or SKIP_PROCEDURAL_PRIMITIVES";
 }
 
 std::string ray_text(const CheckReport& r) {
@@ -97,18 +97,16 @@ std::string candidate_text(const CheckReport& r) {
     return what + " has no candidate: Proceed() has not returned true, or has returned false since";
   }
   return what + " is for " + (r.values[3] == 0 ? "triangle" : "procedural") +
-         " candidates, and this one is a " +
-         (r.values[2] == 0 ? "triangle" : "procedural primitive") + ". Test CandidateType() before";
+         " candidates, but this one is a " +
+         (r.values[2] == 0 ? "triangle" : "procedural primitive") + ". Test CandidateType() first";
 }
 
 std::string committed_text(const CheckReport& r) {
   const std::string what = query_value_name(r.values[0], true);
   if (r.values[1] == 0) {
-    return what +
-           " was read after a miss: CommittedStatus() is COMMITTED_NOTHING, and there is no hit to "
-           "tell of. Test CommittedStatus() before";
+    return what + " was read without a hit: CommittedStatus() is COMMITTED_NOTHING. Test it first";
   }
-  return what + " is for triangles, and the hit is a procedural one. Test CommittedStatus() before";
+  return what + " is for triangles, but the hit is procedural. Test CommittedStatus() first";
 }
 
 std::string access_text(const runtime::AddressMap& addresses, const CheckReport& r) {
@@ -130,7 +128,7 @@ std::string bounds_text(const runtime::AddressMap& addresses, const CheckReport&
           buffer_name(*allocation);
   if (base != 0) text += ", offset " + text_of(r.values[1]) + " from byte " + text_of(base);
   return text + (r.write == 0 ? "; it reads 0 here" : "; nothing is written here") +
-         ". Is the index right, and the stride in the shader that of the buffer?";
+         ". Check the index, and that the stride in the shader is that of the buffer";
 }
 
 Id id_of(const CheckReport& r) {
@@ -183,67 +181,65 @@ std::string describe(const runtime::AddressMap& addresses, const CheckReport& r)
       return "is set to " +
              (v[0] == 0 ? std::string("address 0")
                         : "address " + hex(v[0]) + ", which is in no live buffer") +
-             ", and the shader goes to its byte " + text_of(v[1]) +
-             ". Was the root argument, or the record, written, and is the buffer alive?";
+             ", but the shader accesses byte " + text_of(v[1]) +
+             " from there. Was the root argument or the record written, and is the buffer alive?";
     case Finding::kMisaligned:
-      return (v[2] == 0 ? "is set to " : "goes to byte " + text_of(v[1]) + " from ") +
-             address_name(addresses, v[0]) + ": " + hex(v[0] + v[1]) + " is no multiple of " +
+      return (v[2] == 0 ? "is set to " : "accesses byte " + text_of(v[1]) + " from ") +
+             address_name(addresses, v[0]) + ": " + hex(v[0] + v[1]) + " is not a multiple of " +
              text_of(v[3]) +
-             (v[2] == 0 ? ". Constant buffers begin at multiples of 256"
-                        : ". The low bits of the offset are ignored or the read is slow; "
+             (v[2] == 0 ? ". Constant buffers start at multiples of 256"
+                        : ". The low bits of the offset are ignored, or the access is slow; "
                           "align it");
     case Finding::kOutsideBinding:
-      return "index " + text_of(v[0]) + " of " + text_of(v[1]) +
+      return "index " + text_of(v[0]) + " is past the end of " + text_of(v[1]) +
              " elements; it reads as a null descriptor";
     case Finding::kOutsideHeap:
       if (v[2] == 0) {
-        return "index " + text_of(v[0]) + " into a heap of " + text_of(v[1]) +
+        return "index " + text_of(v[0]) + " is outside the heap of " + text_of(v[1]) +
                " descriptors; it reads as a null descriptor";
       }
       return "handle " + hex(v[0]) + " (the table starts at " + hex(v[3]) +
-             ") is no slot of the heap that is set, which has " + text_of(v[1]) +
+             ") is not in the heap that is set, which has " + text_of(v[1]) +
              " descriptors. Was the table set, and SetDescriptorHeaps called with its heap?";
     case Finding::kWrongDescriptor:
-      return "the slot holds " + descriptor_name(v[0], v[1]) + ", the shader declares " +
+      return "the slot holds " + descriptor_name(v[0], v[1]) + ", but the shader declares " +
              descriptor_name(v[2], v[3]) +
-             "; it reads as a null descriptor. Is the order of the "
-             "views that of the registers?";
+             "; it reads as a null descriptor. Are the views in the order of the registers?";
     case Finding::kRayNotANumber:
       return ray_text(r) +
-             "; the ray misses everything. A normal of length 0, or one "
-             "that was never written, makes such rays";
+             "; the ray misses everything. Is a normal of length 0, or was it never written?";
     case Finding::kRayInterval:
-      return ray_text(r) + "; TMin must be 0 or more and not above TMax";
+      return ray_text(r) + "; TMin must be at least 0 and at most TMax";
     case Finding::kRayFlags:
       return "flags " + hex(v[0]) + ": " + flags_problem(static_cast<uint32_t>(v[0]), false);
     case Finding::kQueryFlags:
       return "flags " + hex(v[0]) + ": " + flags_problem(static_cast<uint32_t>(v[0]), true);
     case Finding::kRecursion:
-      return "the caller is at depth " + text_of(v[0]) + ", MaxTraceRecursionDepth is " +
-             text_of(v[1]) + ", and the device is removed. Raise it, or end the recursion";
+      return "the caller is at depth " + text_of(v[0]) + ", but MaxTraceRecursionDepth is " +
+             text_of(v[1]) + "; the device is removed. Raise it, or stop the recursion";
     case Finding::kHitKind:
       return "ReportHit with kind " + text_of(v[0]) +
-             "; 0 to 127 are the application's, 254 and 255 mean triangles";
+             "; applications use 0 to 127, and 254 and 255 mean triangles";
     case Finding::kPayloadMismatch:
-      return "the caller gave " + text_of(v[0]) + " bytes, the shader's type has " + text_of(v[1]) +
-             (v[0] == v[1] ? " of other scalars" : "") +
-             ". Caller and shader must have the same type. Is it the record that was meant?";
+      return "the caller passes " + text_of(v[0]) + " bytes, but the shader's type has " +
+             text_of(v[1]) + (v[0] == v[1] ? " with other scalars" : "") +
+             ". Caller and shader must use the same type. Is this the record that was meant?";
     case Finding::kNoCandidate:
       return candidate_text(r);
     case Finding::kNoCommittedHit:
       return committed_text(r);
     case Finding::kCommitOutOfRange:
-      return "t " + float_text(v[0]) + " is outside of TMin " + float_text(v[1]) +
-             " to the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
+      return "t " + float_text(v[0]) + " is not between TMin " + float_text(v[1]) +
+             " and the nearest hit so far " + float_text(v[2]) + "; the hit is dropped";
     case Finding::kStaleView:
       if (v[3] != 0)
         return "element " + text_of(v[2]) + " is a view of " + addresses.wrong_view(v[0]);
       return "element " + text_of(v[2]) + " is " + kind_name(v[1]) +
              (v[1] == 5 ? std::string() : ", at address " + hex(v[0])) +
-             ", which was freed since; it reads as a null descriptor. Write the slot again, or "
-             "keep the resource";
+             ", which has been freed; it reads as a null descriptor. Keep the resource alive, or "
+             "write the slot again";
     default:
-      return "a finding of an unknown kind";
+      return "an unknown kind of finding";
   }
 }
 

@@ -63,10 +63,10 @@ void Hazards::hold_against(Ranges& ranges, uint64_t begin, uint64_t end, const s
     reporter_.report(
         Id::kUavBarrierMissing,
         what + " at " + address_name(addresses_, begin) + " is " + it->second.what +
-            ", and there is no UAV barrier between the two. Record ResourceBarrier::Uav of " +
+            ", but there is no UAV barrier between the two. Record ResourceBarrier::Uav for " +
             (allocation && !allocation->name.empty() ? quoted(allocation->name)
                                                      : std::string("the buffer")) +
-            ", or of no resource for all, after the first.");
+            ", or without a resource for all, after the first.");
     it = ranges.erase(it);
   }
 }
@@ -92,7 +92,7 @@ void Hazards::barrier(const runtime::BarrierCommand& command) {
                          (allocation ? buffer_name(*allocation) : std::string("a buffer")) +
                          " is " + state_name(command.before) + ", but it is in state " +
                          state_name(it->second.state) + " since " + it->second.by +
-                         ". Give the state that it is in.");
+                         ". Pass the state that it is in.");
   }
   if (command.after == ResourceStates::kCommon) {
     states_.erase(begin);
@@ -134,7 +134,7 @@ void Hazards::use(uint64_t address, ResourceStates wanted, const std::string& wh
                    what + " is in " + buffer_name(*allocation) + ", which is in state " +
                        state_name(state.state) + " since " + state.by + "; it must be in state " +
                        state_name(wanted) + ". Record ResourceBarrier::Transition from " +
-                       state_name(state.state) + " to " + state_name(wanted) + " before.");
+                       state_name(state.state) + " to " + state_name(wanted) + " first.");
   state = {wanted, true, label_};
 }
 

@@ -81,14 +81,15 @@ void Layer::created(const runtime::LinkedPipeline& pipeline) {
       const auto with = [](const runtime::LinkedShader& s) {
         const std::string layout = layout_of(s);
         return std::string(stage_name(s.stage)) + " shader " + quoted(s.name) +
-               (s.code->attribute_type == 1 ? " reports hits with several types"
+               (s.code->attribute_type == 1 ? " (reports hits with several types)"
                 : layout.empty()            ? ""
                                             : " (" + layout + ")");
       };
-      reporter_.report(Id::kAttributeMismatch,
-                       "hit group " + quoted(record->name) + ": the attributes of " + with(*first) +
-                           " and of " + with(*shader) +
-                           " are of other scalars. All shaders of a hit group must use one type.");
+      reporter_.report(
+          Id::kAttributeMismatch,
+          "hit group " + quoted(record->name) + ": the attributes of " + with(*first) + " and of " +
+              with(*shader) +
+              " have different scalars. All shaders of a hit group must use one type.");
       break;
     }
   }
@@ -146,8 +147,8 @@ void Layer::hold_tables() {
     reporter_.report(Id::kTableWritten,
                      std::string("the ") + table.name + " is " +
                          range_name(addresses_, table.address, table.size_bytes) +
-                         ", and these bytes are others now than when the command began. Write "
-                         "tables in a command before, and put a barrier between the two.");
+                         ", and these bytes changed while the command ran. Write tables in an "
+                         "earlier command, with a barrier between the two.");
   }
   used_tables_.clear();
 }
@@ -215,7 +216,8 @@ void Layer::missed(const runtime::Command&, const runtime::MissingRecords& recor
   if (noted_.insert(Reporter::key_of(first)).second) {
     reporter_.report(Id::kRecordNotReached,
                      std::to_string(missing_.size()) +
-                         " that rays or calls could reach, and none did. The first: " + first);
+                         (missing_.size() == 1 ? " record" : " records") +
+                         " that rays or calls could reach, but did not. The first: " + first);
   }
   missing_.clear();
 }
@@ -281,7 +283,8 @@ void Layer::check_uses(const std::vector<ShaderUse>& uses) {
     for (const TrackedInstance& instance : top->instances) {
       if (instance.version == 0 || !levels.insert(instance.bottom_level).second) continue;
       if (const uint64_t bytes = bytes_at(instance.bottom_level)) {
-        hazards_.read_structure(instance.bottom_level, bytes, use.what + ", a bottom level of it,");
+        hazards_.read_structure(instance.bottom_level, bytes,
+                                use.what + ", one of its bottom levels,");
       }
     }
   }

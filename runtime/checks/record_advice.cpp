@@ -27,19 +27,19 @@ std::string advice_on_layout(const TableBytes& table, const runtime::IdentifierT
   if (table.index > 0 && identifier_at(0)) {
     const uint64_t distance = next_after(0);
     if (distance != 0 && distance != table.stride_bytes) {
-      return "Identifiers stand every " + std::to_string(distance) +
-             " bytes in it: was it written with a stride of " + std::to_string(distance) +
+      return "The table has identifiers every " + std::to_string(distance) +
+             " bytes: was it written with a stride of " + std::to_string(distance) +
              "? StrideInBytes must be the same" +
              (distance % 32 != 0 ? ", and a multiple of 32." : ".");
     }
   }
   const uint64_t here = table.index * table.stride_bytes;
   if (const uint64_t distance = next_after(here); distance != 0 && table.index == 0) {
-    return "An identifier stands " + std::to_string(distance) +
+    return "There is an identifier " + std::to_string(distance) +
            " bytes further on: does the table start there?";
   }
   return "Write the 32 bytes that GetShaderIdentifier returns to the start of each record that "
-         "can be reached; all zero means that nothing runs.";
+         "can be reached, or zeros for a record that runs nothing.";
 }
 
 }  // namespace kaamos::checks

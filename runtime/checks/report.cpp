@@ -11,8 +11,8 @@ namespace {
 using rtapi::MessageSeverity;
 
 constexpr MessageEntry kTable[] = {
-#define KAAMOS_CHECK(number, name, severity, title, rule) \
-  {Id::name, MessageSeverity::severity, title, rule},
+#define KAAMOS_CHECK(number, name, severity, title, rule, cure) \
+  {Id::name, MessageSeverity::severity, title, rule, cure},
 #include "runtime/checks/messages.inc"
 #undef KAAMOS_CHECK
 };
@@ -97,14 +97,14 @@ void Reporter::flush() {
     const uint64_t again = shown[i].finding->count - 1;
     std::string text =
         public_id(entry.id).text() + " " + entry.title + ": " + shown[i].finding->text;
-    if (again > 0) text += " [and " + std::to_string(again) + " times more]";
+    if (again > 0) text += " [and " + std::to_string(again) + " more times]";
     sink_({entry.severity, public_id(entry.id), text + place});
   }
   if (const uint64_t rest = shown.size() - told + left_out_; rest > 0) {
     const MessageEntry& entry = entry_of(Id::kMoreFindings);
     sink_({entry.severity, public_id(entry.id),
            public_id(entry.id).text() + " " + entry.title + ": " + std::to_string(rest) +
-               " others are not shown. Mend the first ones and run again." + place});
+               " more are not shown. Correct the first ones and run again." + place});
   }
   findings_.clear();
   left_out_ = 0;

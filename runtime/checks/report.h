@@ -21,7 +21,7 @@ namespace kaamos::checks {
 
 // The number in KA04nn.
 enum class Id : uint16_t {
-#define KAAMOS_CHECK(number, name, severity, title, rule) name = number,
+#define KAAMOS_CHECK(number, name, severity, title, rule, cure) name = number,
 #include "runtime/checks/messages.inc"
 #undef KAAMOS_CHECK
 };
@@ -31,6 +31,7 @@ struct MessageEntry {
   rtapi::MessageSeverity severity;
   const char* title;  // the message's text right after the id
   const char* rule;   // items of the conformance list
+  const char* cure;
 };
 // Sorted by id.
 std::span<const MessageEntry> message_table();

@@ -163,23 +163,23 @@ const TrackedStructure* Structures::find(uint64_t address, StructureState& state
 std::string Structures::history(uint64_t address, StructureState state) const {
   switch (state) {
     case StructureState::kAlive:
-      return "stands there";
+      return "is there";
     case StructureState::kNever:
       return "was never built there";
     case StructureState::kOverwritten:
-      return "stood there, and its bytes were written over since";
+      return "was there, but its bytes have been overwritten";
     case StructureState::kReplaced: {
       const auto it = gone_.find(address);
-      return "stood there, and another one was built or copied over it" +
+      return "was there, but another one has been built or copied over it" +
              (it == gone_.end() ? std::string()
                                 : ", at " + address_name(addresses_, it->second.by));
     }
     case StructureState::kFreed:
-      return "stood there, and its buffer was freed since";
+      return "was there, but its buffer has been freed";
     case StructureState::kBytesCopied:
-      return "was copied there as bytes, of the one built at " +
+      return "was copied there as bytes from the one at " +
              address_name(addresses_, copied_from(address)) +
-             "; that makes no structure. Use CopyRaytracingAccelerationStructure";
+             ", which does not make a structure; use CopyRaytracingAccelerationStructure";
   }
   return "";
 }

@@ -205,7 +205,7 @@ bool Proof::inside(RecordKind kind, Table& table, uint64_t index, uint64_t bytes
           std::to_string(count) + (count == 1 ? " record" : " records") + " of stride " +
           std::to_string(range.StrideInBytes) + ", " +
           address_name(inputs_.addresses, range.StartAddress) +
-          "). Add the missing records, or mend SizeInBytes, StrideInBytes or the terms of the "
+          "). Add the missing records, or correct SizeInBytes, StrideInBytes or the terms of the "
           "index.");
   return false;
 }
@@ -221,7 +221,7 @@ const LinkedRecord* Proof::identify(RecordKind kind, Table& table, uint64_t inde
       report_missing(
           kind, Id::kRecordForeignIdentifier,
           where + " holds the identifier of " + quoted(name) +
-              " of another state object than the one that SetPipelineState1 set" + reason +
+              " from a state object other than the one that SetPipelineState1 set" + reason +
               ". Write the identifier that GetShaderIdentifier of this state object returns.");
       return nullptr;
     }
@@ -263,9 +263,8 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
       report(Id::kRecordWrongGroupType,
              where + " holds hit group " + quoted(record->name) + ", which is for " +
                  (group_procedural ? "procedural primitives" : "triangles") +
-                 ", and is reached by " + (reason.procedural ? "boxes" : "triangles") + how +
-                 ". A group with an intersection shader goes with AABBs, one without with "
-                 "triangles.");
+                 ", but is reached by " + (reason.procedural ? "boxes" : "triangles") + how +
+                 ". AABBs need a hit group with an intersection shader, triangles one without.");
       return;
     }
   }
@@ -279,9 +278,8 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
                  std::to_string(record->local_argument_bytes) +
                  " bytes after the 32 of the "
                  "identifier, " +
-                 std::to_string(needed) + " in all, and StrideInBytes is " +
-                 std::to_string(stride) +
-                 ": records lie over each other. Use a stride of at least " +
+                 std::to_string(needed) + " in all, but StrideInBytes is " +
+                 std::to_string(stride) + ", so records overlap. Use a stride of at least " +
                  std::to_string((needed + 31) / 32 * 32) + ", and write the table with it.");
     }
     return;
@@ -290,7 +288,7 @@ void Proof::reach(RecordKind kind, uint64_t index, const Reason& reason) {
   const uint64_t available = table.range.SizeInBytes - std::min(offset, table.range.SizeInBytes);
   if (available < needed) {
     report(Id::kRecordTooShort, where + " holds " + quoted(record->name) + how + ", which needs " +
-                                    std::to_string(needed) + " bytes; the table ends after " +
+                                    std::to_string(needed) + " bytes, but the table ends after " +
                                     std::to_string(available) +
                                     ". Is SizeInBytes the size of all records?");
     return;
@@ -311,8 +309,8 @@ void Proof::enter(const LinkedShader* shader, const uint8_t* record, uint64_t by
       other_root_signature_.insert(shader).second) {
     report(Id::kRootSignatureReached,
            where + " runs " + shader_name(*shader) + reason +
-               ", whose global root signature is another one than SetComputeRootSignature set. "
-               "Set the shader's own, or associate it with the one that is set.");
+               ", whose global root signature differs from the one that SetComputeRootSignature "
+               "set. Set the shader's own, or associate it with the one that is set.");
     return;
   }
   Arguments arguments;
@@ -464,14 +462,14 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
   if (state != StructureState::kAlive) {
     return report(id_of(state), place + ": an acceleration structure " +
                                     all.history(address, state) +
-                                    ". Every ray misses; build it (again) before the dispatch.");
+                                    ". Every ray misses; build one there before the dispatch.");
   }
   if (!top->known) return true;
   if (!top->top) {
     return report(Id::kStructureLevel,
                   place +
-                      ": there stands a bottom level, and rays are traced against top levels. "
-                      "Make an instance of it in a top level, and pass that one.");
+                      ", which is a bottom level, but rays are traced against top levels. Make an "
+                      "instance of it in a top level, and pass that.");
   }
   bool good = true;
   for (uint32_t i = 0; i < top->instances.size(); ++i) {
@@ -481,16 +479,16 @@ bool check_top_level(const ProofInputs& inputs, uint64_t address, const std::str
     if (level != nullptr && state == StructureState::kAlive && level->version == instance.version) {
       continue;
     }
-    const std::string of = place + ", and instance " + std::to_string(i) +
-                           " of it refers to the bottom level at " +
+    const std::string of = place + ", whose instance " + std::to_string(i) +
+                           " refers to the bottom level at " +
                            address_name(inputs.addresses, instance.bottom_level);
     if (level != nullptr && state == StructureState::kAlive) {
       report(Id::kStructureStale, of + ", which was built or updated after the top level. Build or "
                                        "update the top level after its bottom levels.");
     } else {
-      report(id_of(state),
-             of + ": an acceleration structure " + all.history(instance.bottom_level, state) +
-                 ". Keep bottom levels as they are while a top level refers to them.");
+      report(id_of(state), of + ": an acceleration structure " +
+                               all.history(instance.bottom_level, state) +
+                               ". Keep bottom levels unchanged while a top level refers to them.");
     }
     good = false;
     break;  // the others probably have the same problem

@@ -112,7 +112,7 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
     if (state.may_be_read && is_read(command.before)) continue;
     reporter_.report(Id::kTransitionBefore, "StateBefore " + state_name(command.before) +
                                                 " is given for " + in_state(texture, i) +
-                                                ". Give the state that it is in.");
+                                                ". Pass the state that it is in.");
     break;  // the others are probably wrong in the same way
   }
   const State after = {command.after, false, label};
@@ -126,7 +126,7 @@ void TextureStates::barrier(const runtime::BarrierCommand& command, const std::s
 std::string TextureStates::demand(const State& state, ResourceStates wanted) {
   return "; it must be in state " + state_name(wanted) +
          ". Record ResourceBarrier::Transition from " + state_name(state.state) + " to " +
-         state_name(wanted) + " before.";
+         state_name(wanted) + " first.";
 }
 
 // Whether a use in state `wanted` is allowed. If the use promotes the texture, notes its new state.

@@ -84,7 +84,7 @@ rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
   device->embree_ = rtcNewDevice(config.c_str());
   if (device->embree_ == nullptr) {
     return runtime::make_error(runtime::Id::kEmbreeUnusable,
-                               "it does not start: error " +
+                               "it does not start and reports error " +
                                    std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) +
                                    ".");
   }

@@ -135,17 +135,16 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
   if (const uint64_t index = problems.out_of_bounds; index != RecordProblems::kNone) {
     result.warnings.push_back({runtime::Id::kRecordOutOfBounds,
                                std::string(name) + " table: record " + std::to_string(index) +
-                                   " was reached, the table has " + std::to_string(table.count()) +
-                                   ", and nothing ran for it" + where +
+                                   " was reached, but the table has " +
+                                   std::to_string(table.count()) + "; nothing ran for it" + where +
                                    " Do SizeInBytes, StrideInBytes and the index terms agree?"});
   }
   if (const uint64_t index = problems.unknown; index != RecordProblems::kNone) {
     result.warnings.push_back(
         {runtime::Id::kRecordUnknown,
          std::string(name) + " table: record " + std::to_string(index) +
-             " holds no identifier of that kind of this pipeline, and nothing ran for "
-             "it" +
-             where + " Was it written, and with an identifier of this state object?"});
+             " holds no identifier of this kind from this pipeline; nothing ran for it" + where +
+             " Was it written, and with an identifier of this state object?"});
   }
 }
 
@@ -233,9 +232,9 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
     result.warnings.push_back(
-        {runtime::Id::kNoTopLevel, "no top level stands at address " + std::to_string(address) +
+        {runtime::Id::kNoTopLevel, "there is no top level at address " + std::to_string(address) +
                                        "; the rays missed (" + dispatch.label +
-                                       "). Was it built, and not overwritten or freed since?"});
+                                       "). Was one built, and not overwritten or freed?"});
   }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,

@@ -116,8 +116,8 @@ rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uin
       Id::kInputOutOfBounds,
       "geometry " + std::to_string(geometry) + ", " + what + " at address " +
           std::to_string(address) + " needs " + std::to_string(bytes) +
-          " bytes, its allocation has " + std::to_string(available) +
-          " from there. Check address, count and stride, and that the buffer still lives.");
+          " bytes, but its buffer has " + std::to_string(available) +
+          " from there on. Check address, count and stride, and that the buffer is alive.");
 }
 
 rtapi::Status check_range(uint32_t geometry, const char* what, uint64_t address, uint64_t bytes,
@@ -145,8 +145,8 @@ rtapi::Status check_triangles(const RaytracingGeometryTrianglesDesc& desc, uint3
         "geometry " + std::to_string(index) + " has DXGI vertex format " +
             std::to_string(static_cast<uint32_t>(desc.VertexFormat)) + " and index format " +
             std::to_string(static_cast<uint32_t>(desc.IndexFormat)) +
-            "; allowed are the vertex formats of D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC, and "
-            "R16_UINT, R32_UINT or UNKNOWN for indices.");
+            "; use a vertex format of D3D12_RAYTRACING_GEOMETRY_TRIANGLES_DESC, and R16_UINT, "
+            "R32_UINT or UNKNOWN for indices.");
   }
   const uint64_t vertices = span_bytes(desc.VertexCount, vertex_stride(desc), format.bytes);
   if (auto s = check_range(index, "vertices", desc.VertexBuffer.StartAddress, vertices, addresses);

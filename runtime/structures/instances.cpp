@@ -30,10 +30,11 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   const bool pointers = command.instance_layout == rtapi::ElementsLayout::kArrayOfPointers;
   const uint64_t wanted = uint64_t{command.instance_count} * (pointers ? 8 : kInstanceBytes);
   if (!addresses.contains(command.instance_descs, wanted)) {
-    return instance_error(
-        "instance descs outside their buffer: " + std::to_string(command.instance_count) +
-        " of them " + at(addresses, command.instance_descs) + " need " + std::to_string(wanted) +
-        " bytes, there are " + std::to_string(addresses.bytes_from(command.instance_descs)) + ".");
+    return instance_error(std::to_string(command.instance_count) + " instance descs " +
+                          at(addresses, command.instance_descs) + " need " +
+                          std::to_string(wanted) + " bytes, but the buffer has " +
+                          std::to_string(addresses.bytes_from(command.instance_descs)) +
+                          " from there on.");
   }
   if (!pointers) {
     std::memcpy(descs.data(), addresses.host(command.instance_descs), wanted);
@@ -42,8 +43,8 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   const auto* each = reinterpret_cast<const uint64_t*>(addresses.host(command.instance_descs));
   for (uint32_t i = 0; i < command.instance_count; ++i) {
     if (!addresses.contains(each[i], kInstanceBytes)) {
-      return instance_error("instance desc " + std::to_string(i) + " of 64 bytes is " +
-                            at(addresses, each[i]) + ": not inside of a live buffer.");
+      return instance_error("instance desc " + std::to_string(i) + " (64 bytes) is " +
+                            at(addresses, each[i]) + ", which is not inside a live buffer.");
     }
     std::memcpy(&descs[i], addresses.host(each[i]), kInstanceBytes);
   }
@@ -51,8 +52,8 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
 }
 
 constexpr char kMissing[] =
-    "no bottom level stands at its address; it is inactive. Was it built, and not overwritten or "
-    "freed since?";
+    "there is no bottom level at its address, so it is inactive. Was one built, and not "
+    "overwritten or freed?";
 
 // Why an instance is inactive; null if it is active, or inactive on purpose.
 const char* activate(const StructureMap& structures, Instance& instance) {
@@ -64,10 +65,10 @@ const char* activate(const StructureMap& structures, Instance& instance) {
   if (structure->bottom_level->empty()) return nullptr;
   const float* matrix = &instance.desc.Transform[0][0];
   if (!invert_transform(matrix, instance.world_to_object)) {
-    return "its transform is singular or not finite; it is inactive";
+    return "its transform is singular or not finite, so it is inactive";
   }
   if (!world_bounds(matrix, structure->bottom_level->object_bounds(), instance.bounds)) {
-    return "its bounds reach past 1.8e18; it is inactive";
+    return "its bounds reach past 1.8e18, so it is inactive";
   }
   instance.bottom_level = structure->bottom_level;
   return nullptr;

@@ -195,21 +195,22 @@ class Parser {
 rtapi::Status Parser::read_header() {
   using Match = rtapi::DriverMatchingIdentifierStatus;
   if (!get(header_)) {
-    return error("its header takes 56 bytes, there are " + std::to_string(bytes_.size()));
+    return error("its header takes 56 bytes, but there are only " + std::to_string(bytes_.size()));
   }
   const Match match = check_identifier(rtapi::SerializedDataType::kRaytracingAccelerationStructure,
                                        header_.DriverMatchingIdentifier);
   if (match == Match::kUnrecognized) {
-    return error("its identifier is another driver's. Ask CheckDriverMatchingIdentifier first");
+    return error(
+        "its identifier is that of another driver. Call CheckDriverMatchingIdentifier first");
   }
   if (match != Match::kCompatibleWithDevice) {
     return error("it is not of version " + std::to_string(kSerializedVersion) +
-                 ". Ask CheckDriverMatchingIdentifier first, and build anew");
+                 ". Call CheckDriverMatchingIdentifier first, and build anew");
   }
   const uint64_t size = header_.SerializedSizeInBytesIncludingHeader;
   if (size > bytes_.size()) {
-    return error("it is cut off: its header says " + std::to_string(size) +
-                 " bytes, from there its buffer has " + std::to_string(bytes_.size()));
+    return error("it is truncated: its header says " + std::to_string(size) +
+                 " bytes, but its buffer ends after " + std::to_string(bytes_.size()));
   }
   const uint64_t count = header_.NumBottomLevelAccelerationStructurePointersAfterHeader;
   if (size % 8 != 0 || size < sizeof(Header) + sizeof(PayloadHeader) ||
@@ -229,8 +230,8 @@ rtapi::Status Parser::read_payload_header() {
   get(payload_);
   if (payload_.checksum != checksum_of(bytes_, header_, begin)) {
     return error(
-        "its checksum does not match: it was damaged, or changed elsewhere than in the "
-        "addresses of bottom levels");
+        "its checksum does not match: it is damaged, or more than the addresses of bottom levels "
+        "was changed");
   }
   const bool top = payload_.type == static_cast<uint32_t>(Type::kTopLevel);
   const uint64_t most = top ? rtapi::kRaytracingMaxInstancesPerTopLevelAccelerationStructure
@@ -248,7 +249,7 @@ rtapi::Status Parser::read_payload_header() {
   }
   if (header_.DeserializedSizeInBytes < 256 || header_.DeserializedSizeInBytes % 256 != 0) {
     return error("DeserializedSizeInBytes is " + std::to_string(header_.DeserializedSizeInBytes) +
-                 ", no multiple of 256");
+                 "; it must be a multiple of 256");
   }
   result_.type = static_cast<Type>(payload_.type);
   result_.flags = flags;
@@ -263,8 +264,9 @@ rtapi::Status Parser::read_instances() {
     get(instance);
     const uint64_t place = instance.AccelerationStructure;
     if (place > pointers_.size()) {
-      return error("instance " + std::to_string(i) + " names bottom level " +
-                   std::to_string(place) + " of " + std::to_string(pointers_.size()));
+      return error("instance " + std::to_string(i) + " refers to bottom level " +
+                   std::to_string(place) + ", but there are only " +
+                   std::to_string(pointers_.size()));
     }
     instance.AccelerationStructure = place == 0 ? 0 : pointers_[place - 1];
   }
@@ -274,7 +276,7 @@ rtapi::Status Parser::read_instances() {
 rtapi::Status Parser::read_geometry(uint32_t index) {
   GeometryRecord record;
   const std::string where = "geometry " + std::to_string(index);
-  if (!get(record)) return error(where + " is cut off");
+  if (!get(record)) return error(where + " is truncated");
   GeometryShape shape;
   shape.type = static_cast<RaytracingGeometryType>(record.type);
   shape.index = index;
@@ -301,8 +303,8 @@ rtapi::Status Parser::read_geometry(uint32_t index) {
   if (!sound) return error(where + " is damaged");
   const uint64_t bytes = counts_of(shape).bytes();
   if (bytes > bytes_.size() - at_) {
-    return error(where + " is cut off: its arrays take " + std::to_string(bytes) +
-                 " bytes, there are " + std::to_string(bytes_.size() - at_));
+    return error(where + " is truncated: its arrays take " + std::to_string(bytes) +
+                 " bytes, but there are only " + std::to_string(bytes_.size() - at_));
   }
   result_.geometries.push_back(desc_of(shape, reinterpret_cast<uint64_t>(bytes_.data() + at_)));
   result_.shapes.push_back(shape);
@@ -321,7 +323,7 @@ rtapi::Result<SerializedStructure> Parser::run() {
     }
   }
   if (at_ != bytes_.size()) {
-    return error("its contents take " + std::to_string(at_) + " bytes, its header says " +
+    return error("its contents take " + std::to_string(at_) + " bytes, but its header says " +
                  std::to_string(bytes_.size()));
   }
   return std::move(result_);

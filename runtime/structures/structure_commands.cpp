@@ -41,35 +41,36 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
   auto source = environment.structures.find(command.source);
   if (source == nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
-    return make_error(Id::kUpdate, "the source is no acceleration structure of this type, " +
+    return make_error(Id::kUpdate, "there is no acceleration structure of this type " +
                                        at(addresses, command.source) + ".");
   }
   if (!HasAny(source->flags, BuildFlags::kAllowUpdate)) {
-    return make_error(Id::kUpdate,
-                      "it was built without ALLOW_UPDATE, " + at(addresses, command.source) + ".");
+    return make_error(Id::kUpdate, "the structure " + at(addresses, command.source) +
+                                       " was built without ALLOW_UPDATE.");
   }
   // For bottom levels check_update reports it.
   constexpr BuildFlags kMayDiffer = BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate;
   if (command.type == Type::kTopLevel &&
       (command.flags & ~kMayDiffer) != (source->flags & ~kMayDiffer)) {
-    return make_error(Id::kUpdate, "build flags " +
+    return make_error(Id::kUpdate, "build flags are " +
                                        std::to_string(static_cast<uint32_t>(command.flags)) +
-                                       " where the top level was built with " +
+                                       ", but the top level was built with " +
                                        std::to_string(static_cast<uint32_t>(source->flags)) +
-                                       ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
+                                       "; only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
   }
   if (command.type == Type::kTopLevel && source->instance_count != command.instance_count) {
-    return make_error(Id::kUpdate, "NumDescs of a top level changes from " +
-                                       std::to_string(source->instance_count) + " to " +
-                                       std::to_string(command.instance_count) + ".");
+    return make_error(Id::kUpdate, "NumDescs is " + std::to_string(command.instance_count) +
+                                       ", but the top level was built with " +
+                                       std::to_string(source->instance_count) + ".");
   }
   return source;
 }
 
 rtapi::Status update_error(uint32_t geometry, const std::string& what) {
   return make_error(Id::kUpdate,
-                    "more changes than DXR allows: geometry " + std::to_string(geometry) + ", " +
-                        what + ". Only vertex data, transforms and boxes may change; build anew.");
+                    "geometry " + std::to_string(geometry) + ": " + what +
+                        " differs from the build. Only vertex data, transforms and boxes may "
+                        "change; build anew.");
 }
 
 rtapi::Status write_info(const StructureEnvironment& environment, uint64_t address, InfoType type,
@@ -95,7 +96,7 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
   }
   const AddressMap& addresses = *environment.context.addresses;
   if (!addresses.contains(address, bytes)) {
-    return make_error(Id::kResultTooSmall, "postbuild info takes " + std::to_string(bytes) +
+    return make_error(Id::kResultTooSmall, "postbuild info needs " + std::to_string(bytes) +
                                                " bytes " + at(addresses, address) + ".");
   }
   std::memcpy(addresses.host(address), values, bytes);
@@ -119,9 +120,10 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
 rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, uint64_t bytes) {
   const uint64_t available = addresses.bytes_from(address);
   if (bytes <= available) return {};
-  return make_error(Id::kResultTooSmall, "an acceleration structure of " + std::to_string(bytes) +
-                                             " bytes " + at(addresses, address) +
-                                             ", and there are " + std::to_string(available) +
+  return make_error(Id::kResultTooSmall, "an acceleration structure needs " +
+                                             std::to_string(bytes) + " bytes " +
+                                             at(addresses, address) + ", but the buffer has " +
+                                             std::to_string(available) +
                                              " from there on. Size it by "
                                              "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
@@ -189,10 +191,10 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (source != nullptr && command.dest != source->address &&
       overlap(command.dest, source->address, source->size_bytes)) {
-    return make_error(Id::kUpdate, "the acceleration structure " + at(addresses, source->address) +
-                                       " into the one " + at(addresses, command.dest) +
-                                       ": each takes " + std::to_string(source->size_bytes) +
-                                       " bytes, and they overlap. Update in place, or into other "
+    return make_error(Id::kUpdate, "source " + at(addresses, source->address) +
+                                       " and destination " + at(addresses, command.dest) +
+                                       " take " + std::to_string(source->size_bytes) +
+                                       " bytes each and overlap. Update in place, or into other "
                                        "memory.");
   }
   if (auto s = guarded(build_level, source.get(), structure); !s) return s;
@@ -221,7 +223,7 @@ rtapi::Status emit_postbuild_info(
     const auto structure = environment.structures.find(source);
     if (structure == nullptr) {
       return make_error(Id::kStructureSource,
-                        "postbuild info is asked of what is no acceleration structure, " +
+                        "postbuild info is requested, but there is no acceleration structure " +
                             at(*environment.context.addresses, source) + ".");
     }
     uint64_t bytes = 0;
@@ -235,9 +237,10 @@ rtapi::Status check_primitive_count(const rtapi::RaytracingGeometryDesc& desc, u
   if (primitive_count(desc) <= rtapi::kRaytracingMaxPrimitivesPerBottomLevelAccelerationStructure) {
     return {};
   }
-  return make_error(Id::kTooManyElements, "geometry " + std::to_string(index) + " has " +
-                                              std::to_string(primitive_count(desc)) +
-                                              ", a bottom level holds at most 2^29.");
+  return make_error(Id::kTooManyElements,
+                    "geometry " + std::to_string(index) + " has " +
+                        std::to_string(primitive_count(desc)) +
+                        " primitives, but a bottom level holds at most 2^29.");
 }
 
 rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags built_flags,
@@ -248,32 +251,34 @@ rtapi::Status check_update(std::span<const GeometryShape> built, BuildFlags buil
     return make_error(Id::kUpdate, "the bottom level was built without ALLOW_UPDATE.");
   }
   if ((flags & ~kMayDiffer) != (built_flags & ~kMayDiffer)) {
-    return make_error(Id::kUpdate, "build flags " + std::to_string(static_cast<uint32_t>(flags)) +
-                                       " where the bottom level was built with " +
+    return make_error(Id::kUpdate, "build flags are " +
+                                       std::to_string(static_cast<uint32_t>(flags)) +
+                                       ", but the bottom level was built with " +
                                        std::to_string(static_cast<uint32_t>(built_flags)) +
-                                       ": only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
+                                       "; only ALLOW_UPDATE and PERFORM_UPDATE may differ.");
   }
   if (geometries.size() != built.size()) {
-    return update_error(static_cast<uint32_t>(geometries.size()),
-                        "the geometry count was " + std::to_string(built.size()));
+    return make_error(Id::kUpdate, "there are " + std::to_string(geometries.size()) +
+                                       " geometries, but the bottom level was built with " +
+                                       std::to_string(built.size()) + "; build anew.");
   }
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     const GeometryShape& was = built[i];
     const GeometryShape is = shape_of(geometries[i], i);
     if (is.type != was.type) return update_error(i, "its type");
     if (is.primitives != was.primitives || is.vertices != was.vertices) {
-      return update_error(i, "its counts: " + std::to_string(was.primitives) + " primitives and " +
-                                 std::to_string(was.vertices) + " vertices before, now " +
-                                 std::to_string(is.primitives) + " and " +
-                                 std::to_string(is.vertices));
+      return update_error(i, "its count (" + std::to_string(is.primitives) + " primitives and " +
+                                 std::to_string(is.vertices) + " vertices, built with " +
+                                 std::to_string(was.primitives) + " and " +
+                                 std::to_string(was.vertices) + ")");
     }
     if (is.vertex_format != was.vertex_format || is.index_format != was.index_format) {
-      return update_error(i, "its formats");
+      return update_error(i, "its format");
     }
     if (is.opaque != was.opaque || is.no_duplicate_any_hit != was.no_duplicate_any_hit) {
-      return update_error(i, "its flags");
+      return update_error(i, "one of its flags");
     }
-    if (is.transformed != was.transformed) return update_error(i, "Transform3x4 null or not");
+    if (is.transformed != was.transformed) return update_error(i, "Transform3x4 (null or not)");
   }
   return {};
 }

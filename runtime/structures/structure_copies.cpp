@@ -33,9 +33,9 @@ rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment
   const AddressMap& addresses = *environment.context.addresses;
   const uint64_t available = addresses.bytes_from(command.dest);
   if (bytes > available) {
-    return make_error(Id::kResultTooSmall, std::string(what) + ": " + std::to_string(bytes) +
+    return make_error(Id::kResultTooSmall, std::string(what) + " needs " + std::to_string(bytes) +
                                                " bytes " + at(addresses, command.dest) +
-                                               ", and there are " + std::to_string(available) +
+                                               ", but the buffer has " + std::to_string(available) +
                                                " from there on. Size it by postbuild info " +
                                                info_type + ".");
   }
@@ -101,11 +101,9 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
       const uint64_t address = parsed->instances[i].AccelerationStructure;
       if (address == 0 || addresses.bytes_from(address) != 0) continue;
       return make_error(Id::kSerializedData,
-                        "serialized acceleration structure cannot be read: the bottom "
-                        "level of instance " +
-                            std::to_string(i) + " is " + at(addresses, address) +
-                            ". Write the addresses of the bottom "
-                            "levels behind the header first.");
+                        "the bottom level of instance " + std::to_string(i) + " is " +
+                            at(addresses, address) +
+                            ". Write the addresses of the bottom levels after the header first.");
     }
     result.instance_count = static_cast<uint32_t>(parsed->instances.size());
     result.instances = std::make_shared<const std::vector<rtapi::RaytracingInstanceDesc>>(
@@ -123,19 +121,19 @@ rtapi::Status copy(const StructureEnvironment& environment,
   const AddressMap& addresses = *environment.context.addresses;
   const auto source = environment.structures.find(command.source);
   if (source == nullptr) {
-    return make_error(Id::kStructureSource, "a copy from what is no acceleration structure, " +
-                                                at(addresses, command.source) + ".");
+    return make_error(Id::kStructureSource,
+                      "there is no acceleration structure " + at(addresses, command.source) + ".");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
-                      "serialized acceleration structure", "kSerialization");
+                      "the serialized acceleration structure", "kSerialization");
     if (!out) return out.error();
     serialize(*source, *out);
     return {};
   }
   if (command.mode == CopyMode::kVisualizationDecodeForTools) {
-    auto out = output(environment, command, decoded_size(*source), "decoded acceleration structure",
-                      "kToolsVisualization");
+    auto out = output(environment, command, decoded_size(*source),
+                      "the decoded acceleration structure", "kToolsVisualization");
     if (!out) return out.error();
     decode_for_tools(*source, command.dest, *out);
     return {};
@@ -146,19 +144,18 @@ rtapi::Status copy(const StructureEnvironment& environment,
   if (command.mode == CopyMode::kCompact) {
     if (!rtapi::HasAny(source->flags, BuildFlags::kAllowCompaction)) {
       return make_error(Id::kStructureSource,
-                        "compaction of an acceleration structure that was built without "
-                        "ALLOW_COMPACTION, " +
-                            at(addresses, command.source) + ".");
+                        "the acceleration structure " + at(addresses, command.source) +
+                            " cannot be compacted: it was built without ALLOW_COMPACTION.");
     }
     result.size_bytes = source->compacted_bytes;
   }
   // The source is at least as long as the copy.
   const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
   if (overlap(command.dest, command.source, clear)) {
-    return make_error(Id::kStructureSource, "copy of the acceleration structure " +
-                                                at(addresses, command.source) + " to " +
-                                                describe_address(addresses, command.dest) +
-                                                ": they overlap. Copy into other memory.");
+    return make_error(Id::kStructureSource,
+                      "the acceleration structure " + at(addresses, command.source) +
+                          " overlaps its copy " + at(addresses, command.dest) +
+                          ". Copy into other memory.");
   }
   // Both refer to the same immutable tree; updating one of them in place first makes it a tree of
   // its own.

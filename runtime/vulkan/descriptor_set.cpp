@@ -116,7 +116,7 @@ rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
                                "too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
                                    " alive: the Vulkan backend has room for " +
                                    std::to_string(array.size - 1) +
-                                   "; free textures that are not used.");
+                                   "; free textures that are no longer used.");
   }
   write(which, index, image);
   return index;

@@ -9,9 +9,10 @@ namespace kaamos::vulkan {
 rtapi::Result<std::unique_ptr<runtime::BackendDevice>> Device::create(
     const rtapi::DeviceDesc& desc, const runtime::Context& context) {
   if (desc.Precision == rtapi::TraversalPrecision::kExact) {
-    return runtime::make_error(runtime::Id::kPrecisionUnsupported,
-                               "kExact on the Vulkan backend: "
-                               "the driver decides how exact it is; use kRobust.");
+    return runtime::make_error(
+        runtime::Id::kPrecisionUnsupported,
+        "the Vulkan backend does not have kExact, because the driver does the "
+        "traversal; use kRobust.");
   }
   std::unique_ptr<Device> device(new Device(context));
   if (auto s = device->start(desc); !s) return s.error();
@@ -40,7 +41,7 @@ rtapi::Status Device::start(const rtapi::DeviceDesc& desc) {
   for (const std::string& name : gpu_->unknown_workarounds()) {
     warn(runtime::Id::kUnknownWorkaround,
          "KAAMOS_VULKAN_DISABLE_WORKAROUNDS or KAAMOS_VULKAN_ENABLE_WORKAROUNDS names \"" + name +
-             "\"; they are listed in runtime/vulkan/README.md.");
+             "\"; runtime/vulkan/README.md lists the known ones.");
   }
   return {};
 }
@@ -51,7 +52,7 @@ rtapi::Status Device::validation_status() {
   if (messages.empty()) return {};
   return runtime::make_error(
       runtime::Id::kValidationFinding,
-      std::to_string(messages.size()) + " messages; the first: " + messages[0]);
+      std::to_string(messages.size()) + " messages; the first is: " + messages[0]);
 }
 
 Device::~Device() {

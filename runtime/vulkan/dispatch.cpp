@@ -94,7 +94,7 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
   return runtime::make_error(runtime::Id::kShaderFault,
                              "the " + std::string(name) + " table at address " +
                                  std::to_string(address) + ", " + std::to_string(size_bytes) +
-                                 " bytes, does not lie in a living buffer (" + label_ + ").");
+                                 " bytes, is not inside a live buffer (" + label_ + ").");
 }
 
 rtapi::Status RaysDispatch::find_tables() {
@@ -128,8 +128,8 @@ rtapi::Status RaysDispatch::check_stack() const {
   return runtime::make_error(
       runtime::Id::kShaderStack,
       "\"" + record->name + "\" takes " + std::to_string(record->shader->stack_bytes) +
-          " bytes, SetPipelineStackSize gave " + std::to_string(command_.pipeline_stack_bytes) +
-          " (" + label_ + ").");
+          " bytes of stack, but SetPipelineStackSize set " +
+          std::to_string(command_.pipeline_stack_bytes) + " (" + label_ + ").");
 }
 
 // A driver computes the index of the hit record itself, so there must be null records up to the
@@ -151,7 +151,7 @@ rtapi::Status RaysDispatch::place_tables(uint64_t start, uint64_t max_hit_record
       return runtime::make_error(
           runtime::Id::kVulkanTableLimit,
           "the " + std::string(table.name) + " table needs " + std::to_string(table.records) +
-              " records, " + std::to_string(UINT32_MAX / stride) +
+              " records, but at most " + std::to_string(UINT32_MAX / stride) +
               " are possible on Vulkan; lower InstanceContributionToHitGroupIndex "
               "or the number of geometries (" +
               label_ + ").");
@@ -173,8 +173,8 @@ void RaysDispatch::write_table(const Table& table) {
   result_.warnings.push_back(
       {runtime::Id::kRecordUnknown,
        std::string(table.name) + " table: record " + std::to_string(unknown) +
-           " holds no identifier of that kind of this pipeline, and nothing runs for it (" +
-           label_ + "). Was it written, and with an identifier of this state object?"});
+           " holds no identifier of this kind from this pipeline; nothing runs for it (" + label_ +
+           "). Was it written, and with an identifier of this state object?"});
 }
 
 void RaysDispatch::warn_of_structure() {
@@ -182,9 +182,9 @@ void RaysDispatch::warn_of_structure() {
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
   result_.warnings.push_back({runtime::Id::kNoTopLevel,
-                              "no top level stands at address " +
+                              "there is no top level at address " +
                                   std::to_string(status.unknown_structure) + "; the rays missed (" +
-                                  label_ + "). Was it built, and not overwritten or freed since?"});
+                                  label_ + "). Was one built, and not overwritten or freed?"});
 }
 
 GridLimits RaysDispatch::limits() const {
@@ -268,15 +268,14 @@ rtapi::Status RaysDispatch::trace(const std::vector<GridPart>& parts) {
 }
 
 constexpr char kWhoseAddress[] =
-    ". A root descriptor, a table handle or a record argument may name memory that is not there";
+    ", where there is no memory. Check root descriptors, table handles and record arguments";
 
 rtapi::Error fault_at(uint64_t address, const std::string& label) {
   char number[2 + 16 + 1];
   std::snprintf(number, sizeof(number), "0x%llx", static_cast<unsigned long long>(address));
-  return runtime::make_error(runtime::Id::kShaderFault,
-                             std::string("access to memory that is not there "
-                                         "at address ") +
-                                 number + kWhoseAddress + " (" + label + ").");
+  return runtime::make_error(
+      runtime::Id::kShaderFault,
+      std::string("it accessed address ") + number + kWhoseAddress + " (" + label + ").");
 }
 
 // Whether a shader removed the device, and why.
@@ -286,24 +285,24 @@ rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32
   std::memcpy(&status, buffer.host(), sizeof(status));
   if (status.removal_reason == 0) return {};
   const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
-  std::string text = "it called for it";
+  std::string text = "the shader asked for it";
   switch (reason) {
     case shader::RemovalReason::kRecursionDepth:
       text = "the pipeline declares MaxTraceRecursionDepth " + std::to_string(declared_depth) +
-             " and a shader at that depth called TraceRay";
+             ", but a shader at that depth called TraceRay";
       if (depth_limit < declared_depth) {
-        text = "with such payloads this Vulkan device allows a depth of " +
+        text = "with such payloads this Vulkan device allows only a depth of " +
                std::to_string(depth_limit) +
-               " and a shader at that depth called TraceRay; the pipeline declares "
+               ", but a shader at that depth called TraceRay; the pipeline declares "
                "MaxTraceRecursionDepth " +
                std::to_string(declared_depth);
       }
       break;
     case shader::RemovalReason::kStackOverflow:
-      text = "calls are nested too deep";
+      text = "calls nest too deep";
       break;
     case shader::RemovalReason::kFault:
-      text = std::string("an address that no memory has") + kWhoseAddress;
+      text = std::string("it accessed an address") + kWhoseAddress;
       break;
     case shader::RemovalReason::kOther:
     case shader::RemovalReason::kStepLimit:

@@ -137,7 +137,7 @@ rtapi::Result<std::shared_ptr<Gpu>> Gpu::create(const std::string& name_part) {
     names += (names.empty() ? "\"" : ", \"") + name + "\"";
   }
   return runtime::make_error(runtime::Id::kNoSuchVulkanDevice,
-                             "no name holds \"" + wanted + "\"; there are " + names +
+                             "no device has \"" + wanted + "\" in its name; there are " + names +
                                  " (KAAMOS_VULKAN_DEVICE chooses one by a part of its name).");
 }
 

@@ -51,10 +51,10 @@ rtapi::Result<std::unique_ptr<GpuBuffer>> Gpu::create_buffer(uint64_t size_bytes
       std::min(properties_.vulkan13.maxBufferSize, properties_.vulkan11.maxMemoryAllocationSize) -
       2 * kAddressAlignment;
   if (size_bytes > limit) {
-    return runtime::make_error(
-        runtime::Id::kVulkanLimit,
-        what + " of " + std::to_string(size_bytes) + " bytes is larger than " + info_.Name +
-            " allows: " + std::to_string(limit) + " bytes; use several buffers.");
+    return runtime::make_error(runtime::Id::kVulkanLimit,
+                               what + " of " + std::to_string(size_bytes) +
+                                   " bytes is too large: " + info_.Name + " allows " +
+                                   std::to_string(limit) + " bytes; use several buffers.");
   }
   std::unique_ptr<GpuBuffer> buffer(new GpuBuffer(shared_from_this()));
   buffer->size_bytes_ = size_bytes;

@@ -156,25 +156,26 @@ rtapi::Status Image::check_support(const VkImageCreateInfo& info) const {
                                describe(desc_) + " on " + gpu_->info().Name + ": " + why + ".");
   };
   if (info.format == VK_FORMAT_UNDEFINED) {
-    return unsupported("textures of this format are not known to the Vulkan backend");
+    return unsupported("the Vulkan backend does not know this format");
   }
   const bool needs_storage = wants_storage(desc_) && !typeless();
   if (needs_storage &&
       (!texture_format(desc_.Format).plain || !can_be_storage(*gpu_, info.format))) {
     return unsupported(
-        "the format has no unordered access; create it without "
+        "the format does not support unordered access; create it without "
         "kAllowUnorderedAccess");
   }
   VkImageFormatProperties limits = {};
   const VkResult r =
       vkGetPhysicalDeviceImageFormatProperties(gpu_->physical_device(), info.format, info.imageType,
                                                info.tiling, info.usage, info.flags, &limits);
-  if (r == VK_ERROR_FORMAT_NOT_SUPPORTED) return unsupported("the device has no such format");
+  if (r == VK_ERROR_FORMAT_NOT_SUPPORTED)
+    return unsupported("the device does not support the format");
   if (r != VK_SUCCESS) return gpu_->error(r, "texture " + describe(desc_));
   if (info.extent.width > limits.maxExtent.width || info.extent.height > limits.maxExtent.height ||
       info.extent.depth > limits.maxExtent.depth || info.arrayLayers > limits.maxArrayLayers ||
       info.mipLevels > limits.maxMipLevels) {
-    return unsupported("its largest are " + std::to_string(limits.maxExtent.width) + "x" +
+    return unsupported("the device allows at most " + std::to_string(limits.maxExtent.width) + "x" +
                        std::to_string(limits.maxExtent.height) + "x" +
                        std::to_string(limits.maxExtent.depth) + " with " +
                        std::to_string(limits.maxArrayLayers) + " array elements and " +
@@ -256,22 +257,23 @@ rtapi::Status Image::check_view(const TextureViewDesc& desc) const {
                                    ": " + why + ".");
   };
   const TextureFormat format = texture_format(desc.format);
-  if (format.format == VK_FORMAT_UNDEFINED) return unsupported("there is no such texture format");
+  if (format.format == VK_FORMAT_UNDEFINED)
+    return unsupported("the Vulkan backend does not know this format");
   if (desc.unordered_access && (!format.plain || !can_be_storage(*gpu_, format.format))) {
-    return unsupported("the format has no unordered access");
+    return unsupported("the format does not support unordered access");
   }
   if (!desc.unordered_access &&
       (features_of(*gpu_, format.format) & VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_BIT) == 0) {
     return unsupported("the format cannot be sampled");
   }
   if (desc.dimension == SrvDimension::kTextureCubeArray && !gpu_->features().image_cube_array) {
-    return unsupported("it has no cube arrays (imageCubeArray)");
+    return unsupported("the device has no cube arrays (imageCubeArray)");
   }
   const bool part_of_volume =
       type_ == VK_IMAGE_TYPE_3D && desc.unordered_access &&
       (desc.first_slice != 0 || desc.slice_count != extent(desc.first_mip).depth);
   if (part_of_volume) {
-    return unsupported("unordered access to some slices of a volume; view all " +
+    return unsupported("unordered access to only some slices of a volume; view all " +
                        std::to_string(extent(desc.first_mip).depth) + " of them");
   }
   return {};

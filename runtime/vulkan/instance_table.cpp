@@ -54,10 +54,9 @@ rtapi::Status InstanceTable::grow(uint32_t entries) {
   if (entries > kLargestCapacity - capacity_) {
     return runtime::make_error(
         runtime::Id::kTooManyElements,
-        "the living top levels of a Vulkan device hold "
-        "at most 2^24 together, and " +
+        "the top levels of a Vulkan device hold at most 2^24 instances together, and " +
             std::to_string(entries) +
-            " more have no room. Free top levels that are no longer traced.");
+            " more do not fit. Free top levels that are no longer traced.");
   }
   const uint32_t capacity =
       std::min(std::max(capacity_ + entries, 2 * capacity_), kLargestCapacity);

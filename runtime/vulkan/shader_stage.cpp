@@ -95,14 +95,15 @@ rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& sha
     return runtime::make_error(
         runtime::Id::kNoSpirv,
         "shader \"" + shader.name + "\" of " + shader.library->name +
-            " has no code for Vulkan: its library was compiled without SPIR-V; compile it again "
+            " has no code for Vulkan, because its library was compiled without SPIR-V; compile it "
+            "again "
             "with kaamos-hlsl of a build that has glslang, and without -no-spirv.");
   }
   if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
     return runtime::make_error(
         runtime::Id::kNoRayQuery,
         "shader \"" + shader.name + "\" of " + shader.library->name +
-            " uses RayQuery, and the device has no VK_KHR_ray_query: take another device "
+            " uses RayQuery, but the device has no VK_KHR_ray_query; use another device "
             "(KAAMOS_VULKAN_DEVICE), the Embree backend, or TraceRay.");
   }
   auto made = create_module({shader.code->spirv, shader.code->spirv_words},

@@ -31,7 +31,7 @@ VkBuildAccelerationStructureFlagsKHR build_flags(BuildFlags flags) {
 rtapi::Status check_limit(const Gpu& gpu, const char* what, uint64_t count, uint64_t limit) {
   if (count <= limit) return {};
   return runtime::make_error(runtime::Id::kTooManyElements,
-                             std::to_string(count) + " " + what + ", and " + gpu.info().Name +
+                             std::to_string(count) + " " + what + ", but " + gpu.info().Name +
                                  " takes at most " + std::to_string(limit) +
                                  ". Split it into several acceleration structures.");
 }

@@ -266,7 +266,7 @@ TEST_P(CheckedCode, ReadPastARootBuffer) {
           "code.hlsl:", ", ray generation record",
           ", parameter t1 \"vertices\": reads bytes 416..420 of buffer \"sofa.vb\" (416 "
           "bytes); it reads 0 here",
-          "[and 3 times more]", "(DispatchRays, command "});
+          "[and 3 more times]", "(DispatchRays, command "});
 }
 
 TEST_P(CheckedCode, ReadFromTheMiddleOfARootBuffer) {
@@ -301,7 +301,7 @@ TEST_P(CheckedCode, AnyHitFollowsABadAddressInItsRecord) {
 
 TEST_P(CheckedCode, MisalignedOffset) {
   run("ReadRaw", {6});
-  expect("KA0418", {"parameter t2 \"raw\": goes to byte 6", "is no multiple of 4"});
+  expect("KA0418", {"parameter t2 \"raw\": accesses byte 6", "is not a multiple of 4"});
 }
 
 TEST_P(CheckedCode, ReadPastAViewIsLegal) {
@@ -312,8 +312,8 @@ TEST_P(CheckedCode, ReadPastAViewIsLegal) {
 TEST_P(CheckedCode, WrongDescriptorInATable) {
   table_slot_ = 1;
   run("ReadRaw");
-  expect("KA0422", {"parameter t2 \"raw\": the slot holds a typed buffer to read (SRV), the shader "
-                    "declares a raw buffer to read (SRV)"});
+  expect("KA0422", {"parameter t2 \"raw\": the slot holds a typed buffer to read (SRV), but the "
+                    "shader declares a raw buffer to read (SRV)"});
 }
 
 TEST_P(CheckedCode, IndexPastAnArray) {
@@ -350,7 +350,7 @@ TEST_P(CheckedCode, FreedResourceInAnArray) {
   short_lived = {};
   run("ReadMany", {2});
   expect("KA0425", {"parameter t0, space 2 \"many\": element 2 is a raw buffer, at address 0x",
-                    "which was freed since; it reads as a null descriptor"});
+                    "which has been freed; it reads as a null descriptor"});
   EXPECT_EQ(result_of()[0], 0u);
   TextureDesc texture_desc;
   texture_desc.Width = texture_desc.Height = 4;
@@ -442,7 +442,7 @@ TEST_P(CheckedCode, StructureOfAnArray) {
     EXPECT_EQ(all(), "");
     run(shader, {5});
     expect("KA0464", {std::string("ray generation shader \"") + shader + "\" uses",
-                      "there stands a bottom level"});
+                      "which is a bottom level"});
   }
 }
 
@@ -475,8 +475,8 @@ TEST_P(CheckedCode, AttributesOfAnotherType) {
   ASSERT_EQ(told_before_.size(), 1u);
   EXPECT_EQ(told_before_[0],
             "KA0412 attribute type mismatch: hit group \"Boxes\": the attributes of intersection "
-            "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) are of "
-            "other scalars. All shaders of a hit group must use one type.");
+            "shader \"Box\" and of closest-hit shader \"BoxHitOther\" (uint2 place 0;) have "
+            "different scalars. All shaders of a hit group must use one type.");
 }
 
 // Libraries from elsewhere, loaded without their source on a machine without a compiler. The second
@@ -515,7 +515,7 @@ TEST_P(CheckedCode, CodeThatIsNotCheckedOrIsSlow) {
 
 TEST_P(CheckedCode, HeapIndex) {
   run("ReadHeap", {6});
-  expect("KA0421", {"index 6 into a heap of 6 descriptors"});
+  expect("KA0421", {"index 6 is outside the heap of 6 descriptors"});
   run("ReadHeap", {1});
   expect("KA0422", {"the slot holds a typed buffer"});
 }
@@ -528,7 +528,7 @@ TEST_P(CheckedCode, NanNormalsMakeNanRays) {
 
 TEST_P(CheckedCode, RayInterval) {
   run("Trace", {0, 0, 1, -1});
-  expect("KA0402", {"TMin -1", "TMin must be 0 or more"});
+  expect("KA0402", {"TMin -1", "TMin must be at least 0"});
   run("Trace", {0, 0, 1, 200});
   expect("KA0402", {"TMin 200", "TMax 100"});
 }
@@ -563,18 +563,18 @@ TEST_P(CheckedCode, CandidateReadWithoutOne) {
 
 TEST_P(CheckedCode, CommitOutOfRange) {
   run("CommitBox", {0, 0, 200});
-  expect("KA0411", {"t 200 is outside of TMin 0", "100"});
+  expect("KA0411", {"t 200 is not between TMin 0", "100"});
 }
 
 TEST_P(CheckedCode, PayloadOfAnotherType) {
   run("TraceOther");
-  expect("KA0407", {"miss \"Miss\"", "the caller gave 8 bytes, the shader's type has 16"});
+  expect("KA0407", {"miss \"Miss\"", "the caller passes 8 bytes, but the shader's type has 16"});
 }
 
 TEST_P(CheckedCode, CallableDataOfAnotherType) {
   callable_ = "CallWide";
   run("CallOther");
-  expect("KA0408", {"callable \"CallWide\"", "the caller gave 8 bytes"});
+  expect("KA0408", {"callable \"CallWide\"", "the caller passes 8 bytes"});
 }
 
 TEST_P(CheckedCode, HitKindOutOfRange) {
@@ -585,7 +585,7 @@ TEST_P(CheckedCode, HitKindOutOfRange) {
 TEST_P(CheckedCode, RecursionPastTheDeclaredDepth) {
   run("Trace", {5});
   EXPECT_FALSE(status_.ok());
-  expect("KA0405", {"closest-hit \"Hit\"", "depth 2, MaxTraceRecursionDepth is 2"});
+  expect("KA0405", {"closest-hit \"Hit\"", "depth 2, but MaxTraceRecursionDepth is 2"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Executors, CheckedCode, testing::Values("native", "interpreted", "vulkan"),

@@ -255,7 +255,7 @@ TEST_P(Textures, TransitionFromAnotherState) {
   transition(commands, ResourceStates::kCopyDest, kRead);
   run(commands);
   expect_one("KA0452", {"StateBefore kCopyDest is given for texture \"wall\", which is in state "
-                        "kUnorderedAccess since it was created. Give the state that it is in."});
+                        "kUnorderedAccess since it was created. Pass the state that it is in."});
 }
 
 TEST_P(Textures, SubresourcesHaveStatesOfTheirOwn) {

@@ -134,7 +134,7 @@ TEST_P(Structure, StaleTopLevel) {
   dispatch(set_.desc);
   expect_one("KA0463", {"ray generation shader \"RayGen\", t0 \"scene\" uses byte 0 of buffer "
                         "\"scene\"",
-                        "instance 0 of it refers to the bottom level at byte 0 of "
+                        "whose instance 0 refers to the bottom level at byte 0 of "
                         "buffer \"floor\"",
                         "was built or updated after the top level"});
 }
@@ -142,9 +142,9 @@ TEST_P(Structure, StaleTopLevel) {
 TEST_P(Structure, OverwrittenBottomLevel) {
   copy_bytes(bottom_, upload(std::vector<uint32_t>(64), "zeros"));
   dispatch(set_.desc);
-  expect_one("KA0461", {"instance 0 of it refers to the bottom level at byte 0 of buffer "
+  expect_one("KA0461", {"whose instance 0 refers to the bottom level at byte 0 of buffer "
                         "\"floor\"",
-                        "stood there, and its bytes were written over since"});
+                        "was there, but its bytes have been overwritten"});
 }
 
 TEST_P(Structure, AnotherOneBuiltOverABottomLevel) {
@@ -163,15 +163,16 @@ TEST_P(Structure, AnotherOneBuiltOverABottomLevel) {
        .ScratchAccelerationStructureData = buffer(65536, "scratch").GetGPUVirtualAddress()});
   ASSERT_TRUE(execute(over).ok());
   dispatch(set_.desc);
-  expect_one("KA0461", {"stood there, and another one was built or copied over it, at byte 256 of "
-                        "buffer \"both\""});
+  expect_one("KA0461",
+             {"was there, but another one has been built or copied over it, at byte 256 of "
+              "buffer \"both\""});
 }
 
 TEST_P(Structure, FreedBottomLevel) {
   std::erase(keep_, bottom_);
   bottom_ = {};
   dispatch(set_.desc);
-  expect_one("KA0462", {"instance 0", "stood there, and its buffer was freed since"});
+  expect_one("KA0462", {"instance 0", "was there, but its buffer has been freed"});
 }
 
 TEST_P(Structure, NothingThereToTrace) {
@@ -185,7 +186,7 @@ TEST_P(Structure, NothingThereToTrace) {
 TEST_P(Structure, BottomLevelPassedToTraceRay) {
   top_ = bottom_;
   dispatch(set_.desc);
-  expect_one("KA0464", {"there stands a bottom level, and rays are traced against top levels"});
+  expect_one("KA0464", {"which is a bottom level, but rays are traced against top levels"});
 }
 
 TEST_P(Structure, BytesCopiedStructure) {
@@ -193,8 +194,8 @@ TEST_P(Structure, BytesCopiedStructure) {
   copy_bytes(copy, top_);
   top_ = copy;
   dispatch(set_.desc);
-  expect_one("KA0465", {"was copied there as bytes, of the one built at byte 0 of buffer \"scene\"",
-                        "Use CopyRaytracingAccelerationStructure"});
+  expect_one("KA0465", {"was copied there as bytes from the one at byte 0 of buffer \"scene\"",
+                        "use CopyRaytracingAccelerationStructure"});
 }
 
 TEST_P(Structure, UpdateWithOtherIndices) {
@@ -212,7 +213,7 @@ TEST_P(Structure, UpdateWithOtherIndices) {
   record_build(commands, level, inputs, level.GetGPUVirtualAddress());
   ASSERT_TRUE(execute(commands).ok());
   expect_one("KA0470", {"geometry 0 of the update of byte 0 of buffer \"floor\"",
-                        "has other indices than when it was built"});
+                        "has different indices from its build"});
 }
 
 TEST_P(Structure, ScratchInTheDestination) {
@@ -225,7 +226,7 @@ TEST_P(Structure, ScratchInTheDestination) {
        .Inputs = inputs,
        .ScratchAccelerationStructureData = dest.GetGPUVirtualAddress()});
   ASSERT_TRUE(execute(commands).ok());
-  expect_one("KA0471", {"scratch (bytes 0..", "lies in the destination"});
+  expect_one("KA0471", {"scratch (bytes 0..", "overlaps the destination"});
 }
 
 TEST_P(Structure, IndexPastTheVertices) {
@@ -237,7 +238,7 @@ TEST_P(Structure, IndexPastTheVertices) {
   build(bottom_inputs(descs), "floor");
   expect_one("KA0472", {"geometry 0 of the bottom level at byte 0 of buffer \"floor\"",
                         "index 7 of triangle 1 (element 4 of the indices at byte 0 of buffer "
-                        "\"floor.ib\" (24 bytes)), VertexCount is 3"});
+                        "\"floor.ib\" (24 bytes)), but VertexCount is 3"});
 }
 
 TEST_P(Structure, NotANumberInY) {
@@ -245,7 +246,7 @@ TEST_P(Structure, NotANumberInY) {
   vertices_.data<float>()[4] = std::numeric_limits<float>::quiet_NaN();
   build(bottom_inputs(descs), "floor");
   expect_one("KA0473", {"vertex 1 (byte 0 of buffer \"floor.vb\" (36 bytes) + 1 * 12) has NaN in Y "
-                        "or Z and a number in X"});
+                        "or Z but a number in X"});
   vertices_.data<float>()[3] = std::numeric_limits<float>::quiet_NaN();
   build(bottom_inputs(descs), "floor");
   expect_none();  // NaN in X: inactive
@@ -255,10 +256,9 @@ TEST_P(Structure, InstanceFlagsAndStructures) {
   RaytracingInstanceDesc bad = instance(bottom_);
   bad.Flags = 12;
   build(top_inputs({bad}), "scene");
-  expect_one("KA0474", {"instance 0 has kForceOpaque and kForceNonOpaque"});
+  expect_one("KA0474", {"instance 0 has both kForceOpaque and kForceNonOpaque"});
   build(top_inputs({instance(bottom_), instance(top_)}), "scene");
-  expect_one("KA0476",
-             {"instance 1 refers to byte 0 of buffer \"scene\"", "there stands a top level"});
+  expect_one("KA0476", {"instance 1 refers to byte 0 of buffer \"scene\"", "it is a top level"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Structure, ::testing::Values("embree"));

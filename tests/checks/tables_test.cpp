@@ -48,7 +48,7 @@ TEST_P(Tables, RecordOutsideItsTable) {
   EXPECT_NE(texts[0].find(") at instance 0, geometry 0, ray type 1: instance contribution 2 + "
                           "multiplier 2 * geometry 0 + ray contribution 1: bytes 96..128 of a "
                           "table of 64 bytes (2 records of stride 32, byte 0 of buffer \"hit "
-                          "groups\" (64 bytes)). Add the missing records, or mend SizeInBytes, "
+                          "groups\" (64 bytes)). Add the missing records, or correct SizeInBytes, "
                           "StrideInBytes or the terms of the index. (DispatchRays, command 0"),
             std::string::npos)
       << texts[0];
@@ -61,9 +61,10 @@ TEST_P(Tables, RecordsThatCouldBeReached) {
   dispatch(set.desc);
   ASSERT_FALSE(messages_.empty());
   EXPECT_EQ(messages_[0].Severity, MessageSeverity::kInfo);
-  expect_one("KA0442", {"1 that rays or calls could reach, and none did. The first: miss table "
-                        "record 0, reached from ray generation shader \"RayGen\" (checks.hlsl",
-                        "there is no such table"});
+  expect_one("KA0442",
+             {"1 record that rays or calls could reach, but did not. The first: miss table "
+              "record 0, reached from ray generation shader \"RayGen\" (checks.hlsl",
+              "there is no such table"});
   dispatch(set.desc);
   expect_none();  // reported only once
   set = make_tables(pipeline_, "RayGen", {"Plain", "Plain"});
@@ -100,15 +101,15 @@ TEST_P(Tables, WrongStrideIsRecognised) {
   dispatch(desc);
   expect_one("KA0431",
              {"hit group table record 1 holds no shader identifier", "instance contribution 1",
-              "with stride 96. Identifiers stand every 64 bytes in it: was it written with a "
+              "with stride 96. The table has identifiers every 64 bytes: was it written with a "
               "stride of 64? StrideInBytes must be the same."});
   build_scene();
   desc.HitGroupTable.StrideInBytes = 32;
   dispatch(desc);
-  expect_one("KA0435", {"hit group table record 0 holds \"WithData\"",
-                        "takes 12 bytes after the 32 of the identifier, 44 in all, and "
-                        "StrideInBytes is 32",
-                        "Use a stride of at least 64"});
+  expect_one("KA0435",
+             {"hit group table record 0 holds \"WithData\"",
+              "takes 12 bytes after the 32 of the identifier, 44 in all, but StrideInBytes is 32",
+              "Use a stride of at least 64"});
 }
 
 TEST_P(Tables, TableThatStartsTooEarly) {
@@ -119,7 +120,7 @@ TEST_P(Tables, TableThatStartsTooEarly) {
   DispatchRaysDesc desc = set.desc;
   desc.HitGroupTable = {shifted.GetGPUVirtualAddress(), 256, 32};
   dispatch(desc);
-  expect_one("KA0431", {"An identifier stands 32 bytes further on: does the table start there?"});
+  expect_one("KA0431", {"There is an identifier 32 bytes further on: does the table start there?"});
 }
 
 TEST_P(Tables, GarbageInAReachedRecord) {
@@ -135,8 +136,8 @@ TEST_P(Tables, IdentifierOfAnotherPipeline) {
   TableSet set = make_tables(pipeline_);
   std::memcpy(bytes(set, 2).data(), others.tables[2].buffer().data<std::byte>().data(), 32);
   dispatch(set.desc);
-  expect_one("KA0432", {"hit group table record 0 holds the identifier of \"Plain\" of another "
-                        "state object than the one that SetPipelineState1 set"});
+  expect_one("KA0432", {"hit group table record 0 holds the identifier of \"Plain\" from a state "
+                        "object other than the one that SetPipelineState1 set"});
 }
 
 TEST_P(Tables, WrongKindOfShader) {
@@ -152,7 +153,7 @@ TEST_P(Tables, WrongKindOfShader) {
 TEST_P(Tables, GroupTypeAndGeometryType) {
   const TableSet set = make_tables(pipeline_, "RayGen", {"Boxes"});
   dispatch(set.desc);
-  expect_one("KA0434", {"holds hit group \"Boxes\", which is for procedural primitives, and is "
+  expect_one("KA0434", {"holds hit group \"Boxes\", which is for procedural primitives, but is "
                         "reached by triangles"});
   const std::vector<RaytracingGeometryDesc> boxes = {box()};
   bottom_ = build(bottom_inputs(boxes), "boxes");
@@ -165,7 +166,7 @@ TEST_P(Tables, TableEndsInsideTheRecord) {
   TableSet set = make_tables(pipeline_, "RayGen", {"WithData"});
   set.desc.HitGroupTable.SizeInBytes = 40;
   dispatch(set.desc);
-  expect_one("KA0440", {"holds \"WithData\"", "needs 44 bytes; the table ends after 40"});
+  expect_one("KA0440", {"holds \"WithData\"", "needs 44 bytes, but the table ends after 40"});
 }
 
 TEST_P(Tables, ArgumentsNeverWritten) {
@@ -199,9 +200,10 @@ TEST_P(Tables, MisalignedArgument) {
   const auto texts = told();
   ASSERT_FALSE(texts.empty());
   EXPECT_EQ(texts[0].substr(0, 6), "KA0438");
-  EXPECT_NE(texts[0].find("byte 2 of buffer \"local data\" (16 bytes); a buffer starts at a "
-                          "multiple of 4"),
-            std::string::npos)
+  EXPECT_NE(
+      texts[0].find(
+          "byte 2 of buffer \"local data\" (16 bytes); a buffer must start at a multiple of 4"),
+      std::string::npos)
       << texts[0];
 }
 
@@ -217,9 +219,9 @@ TEST_P(Tables, ShaderWithAnotherGlobalRootSignature) {
   pipeline_ = device_.CreateStateObject(desc).value();
   const TableSet set = make_tables(pipeline_);
   dispatch(set.desc);
-  expect_one("KA0439", {"miss table record 0 runs miss shader \"Miss\"",
-                        "whose global root signature is another one than SetComputeRootSignature "
-                        "set"});
+  expect_one("KA0439",
+             {"miss table record 0 runs miss shader \"Miss\"",
+              "whose global root signature differs from the one that SetComputeRootSignature set"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Embree, Tables, ::testing::Values("embree"));

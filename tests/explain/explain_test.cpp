@@ -201,8 +201,8 @@ TEST_P(Explain, ErrorsNameWhatIsWrong) {
   CommandList empty;
   EXPECT_EQ(ExplainPixel(queue_, empty, {}).error().id.text(), "KA0904");
   EXPECT_EQ(ExplainPixel(queue_, list, {.X = 4}).error().message,
-            "KA0916 cannot be explained: index (4, 0, 0) is outside of the dispatch (4 x 1 x 1)");
+            "KA0916 cannot explain the pixel: index (4, 0, 0) is outside the dispatch (4 x 1 x 1)");
   CommandList again = record();
   EXPECT_EQ(ExplainPixel(queue_, again, {.Dispatch = 1}).error().message,
-            "KA0916 cannot be explained: Dispatch is 1; the list has 1 calls of DispatchRays");
+            "KA0916 cannot explain the pixel: Dispatch is 1, but the list has only 1 calls of DispatchRays");
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # gdb_test.sh CMAKE BUILD WORK GDB PROGRAM PRINTERS_TEST: the installed package has gdb's printers
-# where the README says, gdb loads them with that one command, and they print values the way HLSL
-# writes them.
+# where runtime/shader/gdb/README.md says, gdb loads them with that one command, and they print values
+# the way HLSL writes them.
 set -eu
 cmake=$1
 build=$2

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, recipes, documented, layers, named.
+# listed, used, told, twice, recipes, documented, layers, pages, ids, named.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -67,6 +67,37 @@ check_marks() {
   list_files "${code[@]}" -o -name '*.md' |
     xargs -r -d '\n' grep -nIHE '\b(TO[D]O|FIX[M]E|XX[X]|HA[C]K)\b' |
     sed 's/^\([^:]*:[0-9]*\):.*/\1: holds a left-over mark/' || true
+}
+
+# Pages link to files that exist. A block of code below the line "<!-- From FILE -->" is from that file:
+# each of its lines is there, in this order; "..." stands for what is left out.
+check_pages() {
+  local page line target
+  list_files -name '*.md' | while read -r page; do
+    awk '
+      /^ *```/ { code = !code }
+      code { next }
+      {
+        gsub(/`[^`]*`/, "")
+        while (match($0, /\]\([^()]+\)/)) {
+          target = substr($0, RSTART + 2, RLENGTH - 3)
+          $0 = substr($0, RSTART + RLENGTH)
+          sub(/#.*/, "", target)
+          if (target != "" && target !~ /^[a-z]+:/) print FNR, target
+        }
+      }' "$page" | while read -r line target; do
+      [[ -e ${page%"${page##*/}"}$target ]] || echo "$page:$line: links to $target, which does not exist"
+    done
+    awk -v page="$page" '
+      /^<!-- From .* -->$/ { source = $3; next }
+      /^```/ && code { code = 0; close(source); source = ""; next }
+      /^```/ { code = source != ""; next }
+      code && !/^[[:space:]]*([.][.][.])?$/ {
+        found = 0
+        while (!found && (getline text < source) > 0) found = text == $0
+        if (!found) { print page ":" FNR ": is not in " source " (or not behind the line above)"; close(source) }
+      }' "$page"
+  done
 }
 
 # A folder of sources has a README.md of at most one page. Folders that only continue the one above
@@ -179,6 +210,15 @@ check_told() {
   done
 }
 
+# An error's id comes from its layer's table: code that spells one out would not show in rtapi/ERRORS.md. The
+# pattern is a string literal with an id, after any other literals of its line and outside of comments.
+check_ids() {
+  list_files -name '*.cpp' -o -name '*.h' | grep -E '^(rtapi|runtime|effects)/' |
+    grep -vE '(_test\.cpp|_fixture\.h|/testing/.*|_test_support\.h)$' | xargs -r -d '\n' grep -nHE \
+    '^([^"/]|/[^/]|"([^"\\]|\\.)*")*"([^"\\]|\\.)*KA[0-9]{4}' |
+    sed 's/^\([^:]*:[0-9]*\):.*/\1: spells out the id of an error; take it from the table/' || true
+}
+
 # No package is installed that nothing uses.
 check_used() {
   local package pattern
@@ -287,7 +327,7 @@ check_named() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | named) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages | ids | named) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One test for each call (and each kind of it) on each backend; table.sh makes the README's support
-// table from their results. The suite's name is the table row, the test's name what works.
+// One test for each call (and each kind of it) on each backend; table.sh makes the table of
+// rtapi/SUPPORT.md from their results. The suite's name is the table row, the test's name what works.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# table.sh SUPPORT_TEST README [--write]: runs the support tests on every backend, makes a table of
-# their results, and compares it with the one in README, or writes it there (--write). Exits with 77
-# where there is no Vulkan device.
+# table.sh SUPPORT_TEST PAGE [--write]: runs the support tests on every backend, makes a table of
+# their results, and compares it with the one in PAGE (rtapi/SUPPORT.md), or writes it there (--write).
+# Exits with 77 where there is no Vulkan device.
 set -euo pipefail
 support_test=$1
-readme=$2
+page=$2
 begin='<!-- The results of tests/support; tests/support/table.sh writes them. -->'
 end='<!-- End of the results. -->'
 
@@ -45,15 +45,15 @@ table=$(awk '
     for (i = 1; i <= suites; i++)
       print "| " words(order[i]) " | " calls[order[i]] " | " cell(order[i], "embree") " | " cell(order[i], "vulkan") " |"
   }' <<<"$results")
-committed=$(awk -v begin="$begin" -v end="$end" '$0 == end { on = 0 } on; $0 == begin { on = 1 }' "$readme")
+committed=$(awk -v begin="$begin" -v end="$end" '$0 == end { on = 0 } on; $0 == begin { on = 1 }' "$page")
 if [[ ${3:-} == --write ]]; then
   written=$(awk -v begin="$begin" -v end="$end" -v table="$table" '
-    $0 == end { on = 0 } !on; $0 == begin { on = 1; print table }' "$readme")
-  printf '%s\n' "$written" >"$readme"
+    $0 == end { on = 0 } !on; $0 == begin { on = 1; print table }' "$page")
+  printf '%s\n' "$written" >"$page"
 elif [[ $committed != "$table" ]]; then
   printf '%s\n' "$table"
-  echo "The table in $readme differs from the results of the tests, shown above. If those are right:"
-  echo "  bash tests/support/table.sh $support_test $readme --write"
+  echo "The table in $page differs from the results of the tests, shown above. If those are right:"
+  echo "  bash tests/support/table.sh $support_test $page --write"
   exit 1
 fi
 [[ $table != *FAILS:* ]]

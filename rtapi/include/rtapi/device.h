@@ -34,7 +34,7 @@ struct DeviceInfo {
   uint32_t HardwareThreads = 0;  ///< of this machine
 };
 
-/// Speed against exactness of ray-primitive tests on the CPU. Measured in the project's README.
+/// Speed against exactness of ray-primitive tests on the CPU. Measured in tests/numerics/PRECISION.md.
 /// [DXR: Watertightness; Fixed function ray-triangle intersection specification]
 enum class TraversalPrecision : uint32_t {
   kFast,    ///< Embree's default; a rare ray slips through an edge that two triangles share
@@ -61,9 +61,9 @@ struct DeviceDesc {
   TraversalPrecision Precision = TraversalPrecision::kRobust;  ///< of rays against triangles
   RaytracingTier Tier = RaytracingTier::kTier1_1;              ///< 1.0 refuses what 1.1 brought
   bool CollectStatistics = false;  ///< counts rays; costs some speed on Vulkan
-  /// Checked mode: says through OnMessage (ids KA0400-0499) what plain DXR leaves undefined:
-  /// records outside a table or of another state object, missing barriers, structures that were
-  /// overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
+  /// Checked mode: says through OnMessage (ids KA0400-0499, rtapi/ERRORS.md) what plain DXR leaves
+  /// undefined: records outside a table or of another state object, missing barriers, structures
+  /// that were overwritten, reads outside a root descriptor's buffer. Execution goes on. Slower.
   bool Checked = false;
   /// Called on any thread for what cannot be returned to a caller: errors met while a list
   /// executes, why the device was removed, warnings. Must not call into the library.

@@ -239,7 +239,7 @@ TEST(Sbt23, AnIndexPastTheTableRunsNothing) {
   ASSERT_EQ(h.messages.size(), 2u);
   EXPECT_EQ(h.messages[0].Id.text(), "KA0895");
   EXPECT_NE(h.messages[0].Text.find("record 16777215"), std::string::npos) << h.messages[0].Text;
-  EXPECT_NE(h.messages[1].Text.find("miss table: record 8 was reached, the table has 8"),
+  EXPECT_NE(h.messages[1].Text.find("miss table: record 8 was reached, but the table has 8"),
             std::string::npos)
       << h.messages[1].Text;
   ray.miss_shader_index = 7;

@@ -8,8 +8,8 @@ namespace kaamos::hlsl {
 namespace {
 
 constexpr DiagnosticInfo kTable[] = {
-#define KAAMOS_DIAGNOSTIC(number, name, severity, text) \
-  {DiagnosticId::name, #name, DiagnosticClass::severity, text},
+#define KAAMOS_DIAGNOSTIC(number, name, severity, text, cure) \
+  {DiagnosticId::name, #name, DiagnosticClass::severity, text, cure},
 #include "runtime/hlsl/front/diagnostic_ids_preprocess.inc"
 
 #include "runtime/hlsl/front/diagnostic_ids_parse.inc"

@@ -12,7 +12,7 @@ namespace kaamos::hlsl {
 enum class Severity : uint8_t { kNote, kWarning, kError };
 
 enum class DiagnosticId : uint16_t {
-#define KAAMOS_DIAGNOSTIC(number, name, severity, text) name = number,
+#define KAAMOS_DIAGNOSTIC(number, name, severity, text, cure) name = number,
 #include "runtime/hlsl/front/diagnostic_ids_preprocess.inc"
 
 #include "runtime/hlsl/front/diagnostic_ids_parse.inc"
@@ -34,6 +34,7 @@ struct DiagnosticInfo {
   std::string_view name;  // The enumerator.
   DiagnosticClass severity;
   std::string_view text;  // {0}, {1}, ... are placeholders for the arguments.
+  std::string_view cure;  // What to write instead; not part of the message.
 };
 
 // All, in the order of their numbers.

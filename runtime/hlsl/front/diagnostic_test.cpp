@@ -15,6 +15,7 @@ TEST(DiagnosticTable, NumbersAscendWithinTheHlslRange) {
     EXPECT_GT(number, last) << info.name;
     EXPECT_LT(number, 3000) << info.name;
     EXPECT_FALSE(info.text.empty()) << info.name;
+    EXPECT_FALSE(info.cure.empty()) << info.name;
     EXPECT_EQ(&diagnostic_info(info.id), &info);
     last = number;
   }

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "tests/errors/tables.h"
+
+#include <cctype>
+#include <map>
+#include <string_view>
+
+namespace kaamos::errors {
+namespace {
+
+// "kInvalidArgument" of the tables is `kInvalidArgument` here; "kWarning" is "warning".
+std::string severity_name(std::string_view enumerator) {
+  if (enumerator == "kError") return "error";
+  if (enumerator == "kWarning") return "warning";
+  if (enumerator == "kStrict") return "warning (error with --strict)";
+  return "information";
+}
+
+std::vector<Row> checked_mode() {
+  return {
+#define KAAMOS_CHECK(number, name, severity, title, rule, cure) \
+  {number, severity_name(#severity), "", title, rule, cure},
+#include "runtime/checks/messages.inc"
+#undef KAAMOS_CHECK
+  };
+}
+
+// The table of rtapi also has the errors of CompileShaderLibrary, which belong with the compiler.
+constexpr int kFirstOfCompiler = 2000;
+
+std::vector<Row> api(bool of_compiler) {
+  std::vector<Row> rows = {
+#define KAAMOS_RTAPI_ERROR(number, name, code, title, rule, cure) \
+  {number, "error", #code, title, rule, cure},
+#include "rtapi/src/errors.inc"
+#undef KAAMOS_RTAPI_ERROR
+  };
+  std::erase_if(rows,
+                [&](const Row& row) { return (row.number >= kFirstOfCompiler) != of_compiler; });
+  return rows;
+}
+
+std::vector<Row> backends() {
+  std::vector<Row> rows = {
+#define KAAMOS_RUNTIME_MESSAGE(number, name, severity, code, title, rule, cure) \
+  {number, severity_name(#severity), #code, title, rule, cure},
+#include "runtime/backend/errors.inc"
+#undef KAAMOS_RUNTIME_MESSAGE
+  };
+  for (Row& row : rows) {
+    if (row.severity != "error") row.code.clear();
+  }
+  return rows;
+}
+
+std::vector<Row> compiler() {
+  return {
+#define KAAMOS_DIAGNOSTIC(number, name, severity, text, cure) \
+  {number, severity_name(#severity), "", text, "", cure},
+#include "runtime/hlsl/front/diagnostic_ids_preprocess.inc"
+
+#include "runtime/hlsl/front/diagnostic_ids_parse.inc"
+
+#include "runtime/hlsl/front/diagnostic_ids_check.inc"
+
+#include "runtime/hlsl/front/diagnostic_ids_emit.inc"
+#undef KAAMOS_DIAGNOSTIC
+  };
+}
+
+// So that Markdown shows the text as it is. An underscore inside a word needs no escape.
+std::string escaped(std::string_view text) {
+  const auto in_word = [&](size_t i) {
+    return i < text.size() && std::isalnum(static_cast<unsigned char>(text[i])) != 0;
+  };
+  std::string out;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const bool edge = text[i] == '_' && !(in_word(i - 1) && in_word(i + 1));
+    const bool link = text[i] == '#' && in_word(i + 1);  // Doxygen takes #name for a reference
+    if (edge || link || std::string_view("|<*`\\").find(text[i]) != std::string_view::npos)
+      out += '\\';
+    out += text[i];
+  }
+  return out;
+}
+
+bool within(const Layer& layer, int number) {
+  for (const Range& range : layer.ranges) {
+    if (number >= range.first && number <= range.last) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string id_text(int number) {
+  const std::string digits = std::to_string(number);
+  return "KA" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
+}
+
+const std::vector<Layer>& all_layers() {
+  static const std::vector<Layer> layers = {
+      {"Checked mode",
+       "With `DeviceDesc::Checked` the device looks for what DXR leaves undefined, and reports it "
+       "through `DeviceDesc::OnMessage`. Execution goes on. Shader code finds KA0400 to KA0429, "
+       "the "
+       "layer that reads the command stream the rest. Table: `runtime/checks/messages.inc`.",
+       {{400, 499}},
+       checked_mode()},
+      {"API",
+       "What a call of `rtapi` refuses, in its `Result` or `Status`. A command list keeps the "
+       "errors "
+       "of its recording, and `Close` returns the first. KA05nn: state objects; KA06nn: root "
+       "signatures and descriptors; KA07nn: acceleration structures; KA08nn: command lists, queues "
+       "and shader tables; KA09nn: devices and resources. Table: `rtapi/src/errors.inc`.",
+       {{500, 999}},
+       api(false)},
+      {"Backends",
+       "What only shows when commands execute or memory is allocated. An error with code "
+       "`kDeviceRemoved`, or any error of a command, removes the device "
+       "(`Device::GetDeviceRemovedReason`); warnings arrive through `DeviceDesc::OnMessage`, and "
+       "execution goes on. Table: `runtime/backend/errors.inc`.",
+       {{700, 999}},
+       backends()},
+      {"HLSL compiler",
+       "Diagnostics of `kaamos-hlsl` and `CompileShaderLibrary`, each with file, line and column. "
+       "KA20nn: preprocessor; KA21nn: lexer; KA22nn: parser; KA24nn to KA26nn: checker. Tables: "
+       "`runtime/hlsl/front/diagnostic_ids_*.inc`.",
+       {{2000, 2749}},
+       compiler()},
+      {"Shaders compiled at run time",
+       "What `CompileShaderLibrary` returns as a whole, after the compiler's front end. Table: "
+       "`rtapi/src/errors.inc`.",
+       {{2750, 2799}},
+       api(true)},
+  };
+  return layers;
+}
+
+std::vector<std::string> faults_of(const std::vector<Layer>& layers) {
+  std::vector<std::string> faults;
+  std::map<int, std::string> seen;  // id and layer
+  for (const Layer& layer : layers) {
+    int last = -1;
+    for (const Row& row : layer.rows) {
+      const std::string who = id_text(row.number) + " (" + layer.title + ")";
+      if (const auto [it, is_new] = seen.emplace(row.number, layer.title); !is_new) {
+        faults.push_back(who + " is an id of " + it->second + " already");
+      }
+      if (row.number < last) faults.push_back(who + " is out of order");
+      last = row.number;
+      if (!within(layer, row.number))
+        faults.push_back(who + " is outside the layer's range of ids");
+      if (row.meaning.empty()) faults.push_back(who + " has no meaning");
+      if (row.cure.empty() || row.cure.back() != '.') {
+        faults.push_back(who + " has no cure that is a sentence");
+      }
+    }
+  }
+  return faults;
+}
+
+std::string markdown(const std::vector<Layer>& layers) {
+  std::string out =
+      "# Errors and messages\n\n"
+      "Every id that Kaamos reports, with its meaning and its cure. A message is `id title: "
+      "detail`, "
+      "where the detail says what, where, the actual and the allowed value; the compiler's end "
+      "with "
+      "the id in brackets. An id never changes its meaning: compare `rtapi::ErrorId`, never texts. "
+      "{0}, {1}, ... stand for names and values. A rule names an item of the conformance list "
+      "(`tests/conformance`) or a topic of D3D12's documentation.\n\n"
+      "`kaamos-errors --markdown` (`tests/errors`) makes this page from the tables that the "
+      "sources "
+      "are compiled from.\n";
+  for (const Layer& layer : layers) {
+    bool codes = false;
+    bool rules = false;
+    for (const Row& row : layer.rows) {
+      codes |= !row.code.empty();
+      rules |= !row.rule.empty();
+    }
+    out += "\n## " + layer.title + "\n\n" + layer.about + "\n\n";
+    out += std::string("| id | severity |") + (codes ? " code |" : "") + " meaning |" +
+           (rules ? " rule |" : "") + " cure |\n";
+    out += std::string("|---|---|") + (codes ? "---|" : "") + "---|" + (rules ? "---|" : "") +
+           "---|\n";
+    for (const Row& row : layer.rows) {
+      out += "| " + id_text(row.number) + " | " + escaped(row.severity) + " | ";
+      if (codes) out += (row.code.empty() ? "" : "`" + row.code + "`") + " | ";
+      out += escaped(row.meaning) + " | ";
+      if (rules) out += escaped(row.rule) + " | ";
+      out += escaped(row.cure) + " |\n";
+    }
+  }
+  return out;
+}
+
+}  // namespace kaamos::errors

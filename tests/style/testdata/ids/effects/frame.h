@@ -1,0 +1,1 @@
+inline const char* kFull = "KA3001 too many lights";

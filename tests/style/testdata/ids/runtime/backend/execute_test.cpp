@@ -1,0 +1,3 @@
+TEST(Execute, TestsMayNameIds) {
+  EXPECT_ERROR(update(), "KA0793");
+}

@@ -1,0 +1,3 @@
+float first;
+float second;
+float third;
