@@ -327,7 +327,8 @@ check_named() {
 }
 
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages | ids | named) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | \
+    pages | ids | named) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

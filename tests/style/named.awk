@@ -46,7 +46,8 @@ in_block { next }
     file[++files] = found
   }
   for (i = 2; i < count; i += 2) {
-    if (piece[i] !~ /^[A-Za-z_][A-Za-z0-9_:]*\(\)$/ && piece[i] !~ /^[A-Z][A-Za-z0-9]*(::[A-Za-z0-9_]+)+$/) continue
+    is_call = piece[i] ~ /^[A-Za-z_][A-Za-z0-9_:]*\(\)$/
+    if (!is_call && piece[i] !~ /^[A-Z][A-Za-z0-9]*(::[A-Za-z0-9_]+)+$/) continue
     for (j = 1; j <= files; j++) {
       if (file[j] != "" && has(code_of(file[j]), piece[i])) break
     }

@@ -8,4 +8,5 @@ if output=$(bash "$here/check_page.sh" "$1" "$here/testdata/stale.md"); then
   echo "check_page.sh found nothing in testdata/stale.md"
   exit 1
 fi
-diff <(grep '^stale\.md:' <<<"$output" | cut -d: -f1,2) "$here/testdata/stale.expected" && echo "found: $output"
+found=$(grep '^stale\.md:' <<<"$output" | cut -d: -f1,2)
+diff - "$here/testdata/stale.expected" <<<"$found" && echo "found: $output"
