@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/embree/services.h"
 
-#include <atomic>
 #include <iterator>
 #include <mutex>
 
@@ -33,26 +32,6 @@ void report(shader::Invocation& invocation, const shader::CheckReport& found) {
   }
   place.tables = dispatch.tables;
   checks::report_finding(*dispatch.context->reporter, *dispatch.context->addresses, place, found);
-}
-
-std::atomic<RayListener> ray_listener = nullptr;
-
-void heard_trace_ray(shader::Invocation& invocation, const shader::TraceRayArguments& arguments,
-                     void* payload, shader::RayLanes origin_t_min,
-                     shader::RayLanes direction_t_max) {
-  if (const RayListener listener = ray_listener) {
-    listener(arguments, origin_t_min, direction_t_max);
-  }
-  trace_ray(invocation, arguments, payload, origin_t_min, direction_t_max);
-}
-
-// Traces one ray after another, so that what their shaders trace is reported in the right order.
-void heard_trace_rays(shader::Invocation& invocation, const shader::TraceRayArguments& arguments,
-                      void* payloads, const shader::LaneRays& rays, uint32_t lanes) {
-  trace_each(invocation, arguments, payloads, rays, lanes,
-             [&](int, void* payload, shader::RayLanes origin, shader::RayLanes direction) {
-               heard_trace_ray(invocation, arguments, payload, origin, direction);
-             });
 }
 
 constexpr size_t kMostReached = 1024;
@@ -98,18 +77,7 @@ shader::Services make_services() {
 
 const shader::Services& services() {
   static const shader::Services table = make_services();
-  if (ray_listener.load(std::memory_order_relaxed) == nullptr) return table;
-  static const shader::Services heard = [] {
-    shader::Services out = make_services();
-    out.trace_ray = heard_trace_ray;
-    out.trace_rays = heard_trace_rays;
-    return out;
-  }();
-  return heard;
-}
-
-void set_ray_listener(RayListener listener) {
-  ray_listener = listener;
+  return table;
 }
 
 }  // namespace kaamos::embree

@@ -118,7 +118,7 @@ class Comparison {
     if (!compiler) throw std::runtime_error(error);
     const auto object =
         hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull, folder_.path);
-    if (!object.error.empty()) throw std::runtime_error(object.error);
+    if (object.error) throw std::runtime_error(object.error.message());
     handle_ = dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle_ == nullptr) throw std::runtime_error(dlerror());
     cut_ = pipeline("cut", true);

@@ -2,38 +2,19 @@
 #include "frame_run.h"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 #include <stdexcept>
 
 #include "effects/scene/lounge.h"
-#include "runtime/embree/ray_state.h"
-#include "runtime/embree/services.h"
+#include "listening_library.h"
 
 namespace kaamos::bench {
 namespace {
 
-// What RayListener writes to: a list for each thread.
-std::mutex heard_mutex;
-std::vector<std::unique_ptr<std::vector<FrameRay>>> heard;
-std::atomic<uint32_t> recording = 0;  // numbers the recordings
-
-void hear(const shader::TraceRayArguments& arguments, shader::RayLanes origin,
-          shader::RayLanes direction) {
-  thread_local std::vector<FrameRay>* list = nullptr;
-  thread_local uint32_t list_of = 0;
-  if (list == nullptr || list_of != recording) {
-    const std::lock_guard lock(heard_mutex);
-    list = heard.emplace_back(std::make_unique<std::vector<FrameRay>>()).get();
-    list_of = recording;
-  }
-  constexpr uint32_t kVisibility =
-      embree::kRaySkipClosestHitShader | embree::kRayAcceptFirstHitAndEndSearch;
-  const Ray ray = {{origin[0], origin[1], origin[2]},
-                   origin[3],
-                   {direction[0], direction[1], direction[2]},
-                   direction[3]};
-  list->push_back({ray, (arguments.ray_flags & kVisibility) == kVisibility});
+effects::ShaderLibraries listening_libraries(const effects::FrameSettings& settings) {
+  effects::ShaderLibraries libraries =
+      effects::load_libraries(effects::frame_libraries(settings)).value();
+  for (auto& [file, library] : libraries) library = listening_library(library);
+  return libraries;
 }
 
 }  // namespace
@@ -51,6 +32,7 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
   settings.volume.samples = 4;  // the time does not depend on what the volume holds
   renderer_ =
       effects::FrameRenderer::create(rtapi::CreateDevice(desc).value(), scene_, settings).value();
+  renderer_->set_libraries(listening_libraries(renderer_->settings()));
   renderer_->prepare().value();
   const std::vector<std::string> parts = renderer_->parts();
   if (!std::equal(parts.begin(), parts.end(), kFrameParts.begin(), kFrameParts.end())) {
@@ -77,20 +59,15 @@ void FrameRun::denoise_and_compose() {
 }
 
 std::vector<FrameRay> FrameRun::record(uint64_t& hits, const std::string& part) {
-  heard.clear();
-  ++recording;
   rtapi::Device device = renderer_->device();
   device.ResetStatistics();
-  embree::set_ray_listener(hear);
+  const RayRecording recording;
   trace_and_shade(part);
-  embree::set_ray_listener(nullptr);
-  std::vector<FrameRay> rays;
-  for (const auto& list : heard) rays.insert(rays.end(), list->begin(), list->end());
-  heard.clear();
+  std::vector<FrameRay> rays = recording.rays();
   const rtapi::RaytracingStatistics statistics = device.GetStatistics();
   if (statistics.TraceRayCalls != rays.size()) {
     throw std::runtime_error("the frame traced " + std::to_string(statistics.TraceRayCalls) +
-                             " rays, " + std::to_string(rays.size()) + " were heard of");
+                             " rays, of which " + std::to_string(rays.size()) + " were recorded");
   }
   hits = statistics.Hits;
   return rays;

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # check.sh RULE ROOT: checks one house rule on the sources below ROOT. Prints each violation as
 # "file:line: why" and fails if there is any. Rules: spdx, paths, marks, readme, indexed, length,
-# listed, used, told, twice, recipes, documented, layers, pages, ids.
+# listed, used, told, twice, recipes, documented, layers, pages, ids, named.
 set -euo pipefail
 rule=$1
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
@@ -314,8 +314,21 @@ check_layers() {
   } | awk -f "$here/layers.awk" tests/style/layers.txt - | LC_ALL=C sort
 }
 
+# The pages that lead through the sources name files and functions that exist.
+check_named() {
+  local page
+  for page in runtime/RAY.md runtime/hlsl/WALKTHROUGH.md; do
+    if [[ -f $page ]]; then
+      awk -f "$here/named.awk" "$page"
+    else
+      echo "$page:1: there is no such page"
+    fi
+  done
+}
+
 case $rule in
-  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | pages | ids) ;;
+  spdx | paths | marks | readme | indexed | length | listed | used | told | twice | recipes | documented | layers | \
+    pages | ids | named) ;;
   *) echo "check.sh: unknown rule \"$rule\"" >&2; exit 2 ;;
 esac
 found=$("check_$rule")

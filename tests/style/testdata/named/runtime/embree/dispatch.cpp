@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// run_row() was here.
+void run_tile(void* argument) {
+  run_guarded(argument);
+}

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+struct Guard {
+  int depth;
+};
+bool run_guarded(void* argument);
