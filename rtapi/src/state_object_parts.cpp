@@ -3,11 +3,28 @@
 // Checks the description as a whole: flags, associations, defaults, clashing names.
 #include <algorithm>
 #include <iterator>
+#include <memory>
+#include <utility>
 
 #include "rtapi/src/shader_library_impl.h"
 #include "rtapi/src/state_object_gatherer.h"
 
 namespace rtapi {
+
+// Here and not in the header, where every file would instantiate a vector of a dozen alternatives.
+uint32_t StateObjectDesc::Add(StateSubobject subobject) {
+  Subobjects.push_back(std::move(subobject));
+  return static_cast<uint32_t>(Subobjects.size() - 1);
+}
+
+void StateObjectDesc::Associate(uint32_t subobject, std::vector<std::string> exports) {
+  Subobjects.push_back(SubobjectToExportsAssociation{subobject, std::move(exports)});
+}
+
+ExistingCollectionDesc ExistingCollectionDesc::Of(const StateObject& collection,
+                                                  std::vector<ExportDesc> exports) {
+  return {std::make_shared<StateObject>(collection), std::move(exports)};
+}
 
 StateSubobjectType GetSubobjectType(const StateSubobject& subobject) {
   static constexpr StateSubobjectType kTypes[] = {

@@ -10,7 +10,7 @@ require_tools() {
       die "$tool is not installed (or not in PATH)." \
         "On Debian: apt-get install cmake ninja-build. Or run $program without --no-install."
   done
-  version=$(cmake --version | awk 'NR == 1 { print $3 }')
+  read -r _ _ version _ < <(cmake --version) || true
   version_at_least "$version" "$cmake_minimum" ||
     die "CMake $version is too old: $(command -v cmake) is the first in PATH, $cmake_minimum is needed." \
       "Debian brings 3.25 or newer as /usr/bin/cmake. Remove the older one or put /usr/bin before it in PATH."

@@ -5,33 +5,33 @@ package_list="$root/scripts/packages.txt"
 
 # list_packages PURPOSE...: lines "package<TAB>role".
 list_packages() {
-  awk -v purposes=" $* " '
-    /^[[:space:]]*(#|$)/ { next }
-    index(purposes, " " $2 " ") {
-      role = $0
-      sub(/^[^[:space:]]+[[:space:]]+[^[:space:]]+[[:space:]]+/, "", role)
-      print $1 "\t" role
-    }' "$package_list"
+  local package purpose role
+  while read -r package purpose role; do
+    [[ $package != '#'* && " $* " == *" $purpose "* && -n $purpose ]] || continue
+    printf '%s\t%s\n' "$package" "$role"
+  done <"$package_list"
 }
 
 # missing_packages PURPOSE...: the same lines, only those that are not installed or are too old.
 missing_packages() {
-  local installed package role name version
+  local -A installed=()
+  local state package role name version
   # Asks for all packages at once: dpkg-query would fail on names it does not know.
-  installed=$(dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 2>/dev/null |
-    awk '$1 == "installed" { print $2, $3 }')
+  while read -r state name version; do
+    [[ $state != installed || -n ${installed[$name]:-} ]] || installed[$name]=$version
+  done < <(dpkg-query -W -f '${db:Status-Status} ${Package} ${Version}\n' 2>/dev/null)
   while IFS=$'\t' read -r package role; do
     name=${package%>=*}
-    version=$(awk -v name="$name" '$1 == name { print $2 " "; exit }' <<<"$installed")
+    version=${installed[$name]:-}
     if [[ -z $version ]]; then
       printf '%s\t%s\n' "$package" "$role"
-    elif [[ $package == *'>='* ]] && ! version_at_least "${version% }" "${package#*>=}"; then
-      printf '%s\t%s (installed: %s)\n' "$package" "$role" "${version% }"
+    elif [[ $package == *'>='* ]] && ! version_at_least "$version" "${package#*>=}"; then
+      printf '%s\t%s (installed: %s)\n' "$package" "$role" "$version"
     fi
   done < <(list_packages "$@")
 }
 
-version_at_least() { [[ $(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1) == "$2" ]]; }
+version_at_least() { sort -V -C <<<"$2"$'\n'"$1"; }
 
 # system_fact KEY: a value from os-release, without its quotes.
 system_fact() {
@@ -45,9 +45,11 @@ system_name() {
 }
 
 print_roles() {
-  local package role
+  local package role line
   while IFS=$'\t' read -r package role; do
-    [[ -z $package ]] || say "$(printf '  %-22s %s' "$package" "$role")"
+    [[ -n $package ]] || continue
+    printf -v line '  %-22s %s' "$package" "$role"
+    say "$line"
   done <<<"$1"
 }
 
@@ -169,14 +171,15 @@ install_new_enough() {
 
 # install_packages PURPOSE...: honours no_install=1 (--no-install, KAAMOS_NO_INSTALL=1).
 install_packages() {
-  local missing names name start
+  local missing needed names name start
   if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     explain_foreign "$@"
     return 0
   fi
   missing=$(missing_packages "$@")
   if [[ -z $missing ]]; then
-    step "All $(list_packages "$@" | wc -l) needed packages are installed."
+    mapfile -t needed < <(list_packages "$@")
+    step "All ${#needed[@]} needed packages are installed."
     return 0
   fi
   if ((${no_install:-0})); then

@@ -7,57 +7,93 @@ set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 source_root=$(cd "$here/../.." && pwd -P)
 work=$1
-checkout="$work/checkout"
-bin="$work/bin"  # the whole PATH
-state="$work/state"
+real_cat=$(command -v cat)
 failures=0
 
-fake() { cat >"$bin/$1" && chmod +x "$bin/$1"; }
+# fake NAME: puts what stdin holds into PATH under this name.
+fake() {
+  local text
+  IFS= read -r -d '' text
+  printf '%s' "$text" >"$bin/$1"
+  [[ -x $bin/$1 ]] || chmod +x "$bin/$1"
+}
 
-# A fresh checkout, a machine with everything installed, and root as the user.
-fresh_machine() {
-  rm -rf "$work"
+# machine FOLDER: where a rule's checkout, the whole of its PATH, and what its fakes know and note are.
+machine() {
+  checkout="$1/checkout"
+  bin="$1/bin"
+  state="$1/state"
+}
+
+# A fresh checkout, a machine with everything installed, and root as the user; rules start with copies
+# of it. The fakes find its state beside the folder they are in.
+make_machine() {
+  machine "$work/fresh"
   mkdir -p "$checkout" "$bin" "$state"
   cp -r "$source_root/scripts" "$source_root/.ci" "$checkout/"
-  local tool
+  local tool tools=()
   for tool in awk bash cp cut date df dirname env flock grep head mkdir mktemp nproc paste rm sed \
     sort tail touch tr uname wc; do
-    ln -s "$(command -v "$tool")" "$bin/$tool"
+    tools+=("$(type -P "$tool")")
   done
+  ln -s "${tools[@]}" "$bin/"
   fake c++ <<<'#!/bin/sh'
   fake ninja <<<'#!/bin/sh'
   user root 0
   # A package "mesa>=24.3" is recorded as "mesa 24.3".
   installed_packages "$(awk '!/^#/ && NF { sub(/>=/, " ", $1); print $1 }' "$source_root/scripts/packages.txt")"
   system Debian bookworm
-  fake dpkg-query <<<"#!/bin/sh
-awk '{ print \"installed\", \$1, (NF > 1 ? \$2 : \"1.0\") }' $state/packages"
-  fake apt-get <<<"#!/bin/sh
-echo \"apt-get \$*\" >>$state/calls
-case \" \$* \" in *' install '*) for p in \"\$@\"; do echo \"\$p\"; done >>$state/packages;; esac"
-  fake apt-cache <<<"#!/bin/sh
-case \" \$* \" in
-  *' mesa-vulkan-drivers '*) cat $state/candidate 2>/dev/null;;
-  *) echo ' 500 http://mirror.example/debian bookworm/main amd64 Packages'; cat $state/suites 2>/dev/null;;
-esac"
+  fake dpkg-query <<'END'
+#!/bin/sh
+while read -r name version; do echo "installed $name ${version:-1.0}"; done <"${0%/*}/../state/packages"
+END
+  fake apt-get <<'END'
+#!/bin/sh
+state=${0%/*}/../state
+echo "apt-get $*" >>"$state/calls"
+case " $* " in *' install '*) for p in "$@"; do echo "$p"; done >>"$state/packages";; esac
+END
+  fake apt-cache <<'END'
+#!/bin/sh
+state=${0%/*}/../state
+case " $* " in
+  *' mesa-vulkan-drivers '*) cat "$state/candidate" 2>/dev/null;;
+  *) echo ' 500 http://mirror.example/debian bookworm/main amd64 Packages'; cat "$state/suites" 2>/dev/null;;
+esac
+END
   # Only what is to be written as root goes through tee.
-  fake tee <<<"#!/bin/sh
-echo \"tee \$*\" >>$state/calls
-exec cat >$state/tee"
-  fake cmake <<<"#!/bin/sh
-echo \"cmake \$*\" >>$state/calls
-case \$1 in --version) echo 'cmake version 3.25.1';; esac
-exit 0"
+  fake tee <<'END'
+#!/bin/sh
+state=${0%/*}/../state
+echo "tee $*" >>"$state/calls"
+exec cat >"$state/tee"
+END
+  fake cmake <<'END'
+#!/bin/sh
+echo "cmake $*" >>"${0%/*}/../state/calls"
+case $1 in --version) echo 'cmake version 3.25.1';; esac
+exit 0
+END
   # Writes the results that the test prepared, as ctest --output-junit FILE would.
-  fake ctest <<<"#!/bin/sh
-echo \"ctest \$*\" >>$state/calls
-while [ \$# -gt 0 ]; do if [ \"\$1\" = --output-junit ]; then junit=\$2; fi; shift; done
-if [ -n \"\$junit\" ] && [ -f $state/results.xml ]; then
-  mkdir -p \"\${junit%/*}\" && cat $state/results.xml >\"\$junit\"
+  fake ctest <<'END'
+#!/bin/sh
+state=${0%/*}/../state
+echo "ctest $*" >>"$state/calls"
+while [ $# -gt 0 ]; do if [ "$1" = --output-junit ]; then junit=$2; fi; shift; done
+if [ -n "$junit" ] && [ -f "$state/results.xml" ]; then
+  mkdir -p "${junit%/*}" && cat "$state/results.xml" >"$junit"
 fi
-exit \$(cat $state/ctest_status 2>/dev/null || echo 0)"
+if [ -f "$state/ctest_status" ]; then read -r status <"$state/ctest_status"; fi
+exit "${status:-0}"
+END
   results ran ran
   : >"$state/calls"
+}
+
+# fresh_machine RULE
+fresh_machine() {
+  machine "$work/$1"
+  cp -r "$work/fresh" "$work/$1"
 }
 
 user() {
@@ -69,8 +105,8 @@ case \$1 in -un) echo $1;; *) echo $2;; esac"
 system() {
   printf 'PRETTY_NAME="%s"\nVERSION_CODENAME=%s\n' "$1" "$2" >"$state/os-release"
   fake cat <<<"#!/bin/sh
-if [ \"\$*\" = /etc/os-release ]; then exec $(command -v cat) $state/os-release; fi
-exec $(command -v cat) \"\$@\""
+if [ \"\$*\" = /etc/os-release ]; then exec $real_cat \"\${0%/*}/../state/os-release\"; fi
+exec $real_cat \"\$@\""
 }
 
 # mesa INSTALLED CANDIDATE: sets these versions; an empty one means none.
@@ -118,8 +154,16 @@ fail() {
 expect_status() { [[ $status == "$1" ]] || fail "expected exit status $1"; }
 expect() { [[ $output == *"$1"* ]] || fail "expected \"$1\" in the output"; }
 expect_not() { [[ $output != *"$1"* ]] || fail "did not expect \"$1\" in the output"; }
-expect_call() { grep -qE -- "$1" "$state/calls" || fail "expected a call \"$1\" among: $(cat "$state/calls")"; }
-expect_no_call() { ! grep -qE -- "$1" "$state/calls" || fail "unexpected call \"$1\""; }
+# called PATTERN: whether a fake noted such a call.
+called() {
+  local call
+  while IFS= read -r call; do
+    if [[ $call =~ $1 ]]; then return 0; fi
+  done <"$state/calls"
+  return 1
+}
+expect_call() { called "$1" || fail "expected a call \"$1\" among: $(<"$state/calls")"; }
+expect_no_call() { ! called "$1" || fail "unexpected call \"$1\""; }
 expect_last_line() { [[ ${output##*$'\n'} == "$1" ]] || fail "expected the last line \"$1\""; }
 
 wrong_option_is_named() {
@@ -623,11 +667,13 @@ echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
 }
 
 rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
-  grep -vxE 'fake|fresh_machine|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs')
+  grep -vxE 'fake|machine|make_machine|fresh_machine|called|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs')
+rm -rf "$work"
+make_machine
 count=0
 for rule in $rules; do
   output='' status=
-  fresh_machine
+  fresh_machine "$rule"
   "$rule"
   count=$((count + 1))
 done

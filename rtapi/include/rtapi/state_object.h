@@ -182,15 +182,10 @@ struct StateObjectDesc {
   std::vector<StateSubobject> Subobjects = {};
 
   /// Appends a subobject and returns its index, for associations.
-  uint32_t Add(StateSubobject subobject) {
-    Subobjects.push_back(std::move(subobject));
-    return static_cast<uint32_t>(Subobjects.size() - 1);
-  }
+  uint32_t Add(StateSubobject subobject);
   /// Appends an association of the subobject with this index and the exports of these names; none:
   /// it becomes the default.
-  void Associate(uint32_t subobject, std::vector<std::string> exports) {
-    Subobjects.push_back(SubobjectToExportsAssociation{subobject, std::move(exports)});
-  }
+  void Associate(uint32_t subobject, std::vector<std::string> exports);
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -254,10 +249,5 @@ class StateObject {
  private:
   std::shared_ptr<detail::StateObjectImpl> impl_;
 };
-
-inline ExistingCollectionDesc ExistingCollectionDesc::Of(const StateObject& collection,
-                                                         std::vector<ExportDesc> exports) {
-  return {std::make_shared<StateObject>(collection), std::move(exports)};
-}
 
 }  // namespace rtapi
