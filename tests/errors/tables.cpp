@@ -68,6 +68,15 @@ std::vector<Row> compiler() {
   };
 }
 
+std::vector<Row> effects() {
+  return {
+#define KAAMOS_EFFECTS_ERROR(number, name, code, title, source, cure) \
+  {number, "error", #code, title, source, cure},
+#include "effects/common/errors.inc"
+#undef KAAMOS_EFFECTS_ERROR
+  };
+}
+
 // So that Markdown shows the text as it is. An underscore inside a word needs no escape.
 std::string escaped(std::string_view text) {
   const auto in_word = [&](size_t i) {
@@ -133,6 +142,11 @@ const std::vector<Layer>& all_layers() {
        "`rtapi/src/errors.inc`.",
        {{2750, 2799}},
        api(true)},
+      {"Effects",
+       "What the effects library and `northlight` refuse, in a `Result` or `Status`. KA300n: files "
+       "and pictures; KA302n: scenes; KA304n: frames. Table: `effects/common/errors.inc`.",
+       {{3000, 3099}},
+       effects()},
   };
   return layers;
 }
