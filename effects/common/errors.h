@@ -18,9 +18,11 @@ using rtapi::Status;
 
 /// The number in KA3nnn. effects/common/errors.inc is the table, rtapi/ERRORS.md lists it.
 enum class ErrorId : std::uint16_t {
+/// @cond
 #define KAAMOS_EFFECTS_ERROR(number, name, code, title, source, cure) name = number,
 #include "effects/common/errors.inc"
 #undef KAAMOS_EFFECTS_ERROR
+  /// @endcond
 };
 
 /// A row of the table.

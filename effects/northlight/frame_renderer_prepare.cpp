@@ -195,8 +195,9 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   }
   for (const EffectLibrary& library : wanted) {
     if (libraries_.count(library.file) != 0) continue;
-    return failure("the frame needs the shader library \"" + library.file +
-                   "\": hand all of frame_libraries() to set_libraries");
+    return make_error(ErrorId::kLibraries,
+                      "the frame needs the shader library \"" + library.file +
+                          "\": hand all of frame_libraries() to set_libraries");
   }
   if (settings_.order != RayOrder::kPixels) {
     auto sorter = RaySorter::create(device_, frame_, libraries_.at("ray_order/ray_order"));
