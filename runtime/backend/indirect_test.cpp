@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "runtime/backend/backend.h"
+#include "runtime/backend/errors.h"
 
 namespace kaamos::runtime {
 namespace {

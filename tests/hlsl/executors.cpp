@@ -64,7 +64,7 @@ std::vector<Compiled> compile_native(const std::vector<hlsl::FrontendOptions>& s
   if (compiler) {
     object = hlsl::build_shared_object(*compiler, text, hlsl::Optimisation::kFull,
                                        std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
-    error = object.error;
+    error = object.error.message();
   }
   void* handle = error.empty() ? dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
   for (size_t i = 0; i < sources.size(); ++i) {
@@ -86,7 +86,7 @@ Compiled compile_vulkan(const hlsl::FrontendOptions& options) {
   auto tables = std::make_shared<SpirvTables>();
   tables->interpreted = hlsl::InterpretedLibrary::create(module, {}, out.error);
   tables->spirv = hlsl::compile_spirv(*module);
-  if (!tables->spirv.error.empty()) out.error = tables->spirv.error;
+  if (tables->spirv.error) out.error = tables->spirv.error.message();
   if (!out.error.empty()) return out;
   tables->library = tables->interpreted->desc();
   for (uint32_t i = 0; i < tables->library.export_count; ++i) {

@@ -298,7 +298,7 @@ void* native_code() {
     if (!compiler) return nullptr;
     const auto object = hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull,
                                                   std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
-    EXPECT_EQ(object.error, "");
+    EXPECT_EQ(object.error.message(), "");
     return dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL);
   }();
   return handle;

@@ -85,7 +85,7 @@ std::map<size_t, Compiled> compile_batch(size_t batch, bool checked, hlsl::WideT
   if (compiler) {
     object = hlsl::build_shared_object(*compiler, source, hlsl::Optimisation::kFull,
                                        std::string(KAAMOS_BINARY_DIR) + "/shader-cache");
-    error = object.error;
+    error = object.error.message();
   }
   void* handle = error.empty() ? dlopen(object.path.c_str(), RTLD_NOW | RTLD_LOCAL) : nullptr;
   for (auto& [index, compiled] : out) {

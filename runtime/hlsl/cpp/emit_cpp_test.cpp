@@ -114,7 +114,7 @@ TEST_F(EmitTest, AKernelRuns) {
   const TripleKernel kernel;
   const SharedObject built =
       build_shared_object(compiler_, emit_cpp(kernel.module, {}), Optimisation::kFull, cache_);
-  ASSERT_EQ(built.error, "");
+  ASSERT_EQ(built.error.message(), "");
   void* handle = dlopen(built.path.c_str(), RTLD_NOW | RTLD_LOCAL);
   ASSERT_NE(handle, nullptr) << dlerror();
   const auto entry =
@@ -154,7 +154,7 @@ TEST_F(EmitTest, ALibraryHasTheSpirvOfItsExports) {
     const SharedObject built =
         build_library(compiler_, kernel.module,
                       {.optimisation = Optimisation::kNone, .spirv = spirv, .cache = cache_});
-    EXPECT_EQ(built.error, "");
+    EXPECT_EQ(built.error.message(), "");
     EXPECT_EQ(built.from_cache, from_cache);
     void* handle = dlopen(built.path.c_str(), RTLD_NOW | RTLD_LOCAL);
     const auto entry =
@@ -172,7 +172,7 @@ TEST_F(EmitTest, ALibraryHasTheSpirvOfItsExports) {
 TEST_F(EmitTest, TheCacheKnowsWhatItBuilt) {
   const std::string source = emit_cpp(TripleKernel().module, {});
   const SharedObject first = build_shared_object(compiler_, source, Optimisation::kNone, cache_);
-  ASSERT_EQ(first.error, "");
+  ASSERT_EQ(first.error.message(), "");
   EXPECT_FALSE(first.from_cache);
   const SharedObject again = build_shared_object(compiler_, source, Optimisation::kNone, cache_);
   EXPECT_TRUE(again.from_cache);
@@ -192,15 +192,15 @@ TEST_F(EmitTest, AFailedCompilationSaysWhatTheCompilerSaid) {
   const SharedObject built =
       build_shared_object(compiler_, "int broken = ;", Optimisation::kNone, cache_);
   EXPECT_TRUE(built.path.empty());
-  EXPECT_NE(built.error.find("failed with exit code"), std::string::npos) << built.error;
-  EXPECT_NE(built.error.find("error:"), std::string::npos) << built.error;
+  EXPECT_NE(built.error.text.find("failed with exit code"), std::string::npos) << built.error.text;
+  EXPECT_NE(built.error.text.find("error:"), std::string::npos) << built.error.text;
 }
 
 TEST_F(EmitTest, ACacheThatCannotBeWrittenIsAnError) {
   const fs::path file = cache_ / "file";
   std::ofstream(file) << "x";
   const SharedObject built = build_shared_object(compiler_, "", Optimisation::kNone, file / "in");
-  EXPECT_NE(built.error.find("KAAMOS_CACHE_DIR"), std::string::npos) << built.error;
+  EXPECT_NE(built.error.text.find("KAAMOS_CACHE_DIR"), std::string::npos) << built.error.text;
 }
 
 TEST(HostCompilerTest, AMissingCompilerIsNamed) {

@@ -73,7 +73,7 @@ int sweep_file(const fs::path& path, bool checked, std::string& wrong) {
   int passed = 0;
   for (const ir::EntryPoint& entry : module->entry_points) {
     const SpirvModule spirv = compile_spirv(emit_glsl(*module, entry), entry.name);
-    const std::string error = spirv.error.empty() ? validate(spirv.words) : spirv.error;
+    const std::string error = !spirv.error ? validate(spirv.words) : spirv.error.message();
     if (error.empty()) {
       ++passed;
     } else {
@@ -136,7 +136,7 @@ std::string glsl_of(const std::string& text, const std::string& entry = "main") 
     if (one.name != entry) continue;
     const GlslShader shader = emit_glsl(*compilation.module, one);
     const SpirvModule spirv = compile_spirv(shader, entry);
-    EXPECT_EQ(spirv.error, "") << shader.text;
+    EXPECT_EQ(spirv.error.message(), "") << shader.text;
     EXPECT_EQ(validate(spirv.words), "") << shader.text;
     return shader.text;
   }
@@ -264,7 +264,7 @@ TEST(EmitGlsl, AShaderAsksForNoCapabilityThatItDoesNotUse) {
   Compilation compilation(kernel("results.Store(0, 1);"));
   const SpirvModule spirv =
       compile_spirv(emit_glsl(*compilation.module, compilation.module->entry_points[0]), "main");
-  ASSERT_EQ(spirv.error, "");
+  ASSERT_EQ(spirv.error.message(), "");
   for (size_t i = 5; i < spirv.words.size(); i += spirv.words[i] >> 16) {
     if ((spirv.words[i] & 0xFFFFu) != 17) break;  // OpCapability
     const uint32_t capability = spirv.words[i + 1];
@@ -300,7 +300,7 @@ TEST(Spirv, BindingsThatAreTooManyAreAnErrorOfTheSource) {
     body += "b" + n + ".Store(0, " + n + ");\n";
   }
   const SpirvLibrary library = compile_spirv(*Compilation(kernel(body, globals)).module);
-  EXPECT_THAT(library.error, HasSubstr("KA2761 'main' reaches 512 bindings"));
+  EXPECT_THAT(library.error.message(), HasSubstr("KA2761 'main' reaches 512 bindings"));
 }
 
 TEST(Spirv, AFailureNamesTheExport) {
@@ -309,8 +309,8 @@ TEST(Spirv, AFailureNamesTheExport) {
   broken.stage = ir::kStageCompute;
   const SpirvModule spirv = compile_spirv(broken, "MyKernel");
   EXPECT_TRUE(spirv.words.empty());
-  EXPECT_THAT(spirv.error, HasSubstr("KA2760"));
-  EXPECT_THAT(spirv.error, HasSubstr("'MyKernel'"));
+  EXPECT_THAT(spirv.error.message(), HasSubstr("KA2760"));
+  EXPECT_THAT(spirv.error.message(), HasSubstr("'MyKernel'"));
 }
 
 }  // namespace

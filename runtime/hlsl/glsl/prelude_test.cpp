@@ -99,7 +99,7 @@ TEST(GlslPrelude, EveryFunctionIsValidSpirv) {
   shader.text = "#version 460\n" + prelude + entry + "void main() {\n" + calls + "}\n";
   shader.stage = ir::kStageCompute;
   const SpirvModule module = compile_spirv(shader, "test");
-  ASSERT_EQ(module.error, "");
+  ASSERT_EQ(module.error.message(), "");
   std::string messages;
   spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
   tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
