@@ -115,7 +115,7 @@ std::string messages_of(std::string_view head, const std::string& body) {
   shader.text = std::string("#version 460\n") + std::string(head) + glsl_prelude(body).text +
                 "void main() {}\n";
   shader.stage = head.empty() ? ir::kStageCompute : ir::kStageRayGeneration;
-  return compile_spirv(shader, "test").error;
+  return compile_spirv(shader, "test").error.message();
 }
 
 TEST(GlslPrelude, EveryOverloadCompiles) {
