@@ -240,7 +240,7 @@ TEST(EmitGlsl, OneShaderReportsAttributesOfSeveralTypes) {
 TEST(Spirv, ManyThreadsCompileAtOnce) {
   Compilation compilation(kScene);
   const SpirvLibrary alone = compile_spirv(*compilation.module);
-  ASSERT_EQ(alone.error, "");
+  ASSERT_EQ(alone.error.message(), "");
   std::vector<SpirvLibrary> results(6);
   std::vector<std::thread> threads;
   for (SpirvLibrary& result : results) {
