@@ -84,4 +84,7 @@ class Device final : public runtime::BackendDevice {
   Counters counters_;
 };
 
+// What rtapi/src/backends.cpp lists.
+const runtime::BackendFactory& backend_factory();
+
 }  // namespace kaamos::embree
