@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "runtime/embree/device.h"
 #include "runtime/embree/testing/harness.h"
 
 #include <gtest/gtest.h>
