@@ -24,7 +24,9 @@ TEST(ErrorTableTest, IdsAreSortedUniqueAndDescribed) {
     EXPECT_TRUE((id >= 500 && id < 1000) || (id >= 2750 && id < 2800)) << id;
     EXPECT_NE(std::string(table[i].title), "");
     EXPECT_NE(std::string(table[i].cure), "");
-    if (id < 1000) EXPECT_NE(std::string(table[i].source), "") << id;
+    if (id < 1000) {
+      EXPECT_NE(std::string(table[i].source), "") << id;
+    }
     const Error error = detail::MakeError(table[i].id, "detail");
     EXPECT_EQ(error.code, table[i].code);
     EXPECT_EQ(error.message, error.id.text() + " " + table[i].title + ": detail");
