@@ -129,7 +129,7 @@ std::string write_heatmap(const Options& options, const Inspection& seen, std::s
   const auto picture = heat_map(options.frame.width, options.frame.height, counts);
   const std::string path = options.out + "/heatmap-" + options.heatmap + ".png";
   if (const auto written = write_png(path, picture.image); !written.ok()) {
-    return written.error();
+    return written.error().message;
   }
   said = fmt::format("wrote {}: black is 0, white {} or more; the most is {}, the mean {:.2f}\n",
                      path, picture.white, picture.most, picture.mean);

@@ -50,7 +50,7 @@ std::string compile_input(const Corpus& corpus, const std::vector<std::string>& 
   if (hlsl::emit_cpp(*module, {}).empty()) return "no C++";
   const std::string interpreted = interpret_input(module);
   if (!interpreted.empty()) return interpreted;
-  return hlsl::compile_spirv(*module).error;
+  return hlsl::compile_spirv(*module).error.message();
 }
 
 }  // namespace kaamos::test
