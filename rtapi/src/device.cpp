@@ -178,7 +178,8 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   };
   if (desc.Checked) {
     impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
-    bool (*same_root_signature)(const RootSignature&, const RootSignature&) = &detail::SameDefinition;
+    bool (*same_root_signature)(const RootSignature&, const RootSignature&) =
+        &detail::SameDefinition;
     impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter,
                                                            same_root_signature);
     impl->context.reporter = impl->reporter.get();

@@ -40,7 +40,8 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   for (uint32_t i = 0; i < command.instance_count; ++i) {
     if (!addresses.contains(each[i], kInstanceBytes)) {
       return instance_error("instance desc " + std::to_string(i) + " (64 bytes) is " +
-                            at_address(addresses, each[i]) + ", which is not inside a live buffer.");
+                            at_address(addresses, each[i]) +
+                            ", which is not inside a live buffer.");
     }
     std::memcpy(&descs[i], addresses.host(each[i]), kInstanceBytes);
   }
@@ -92,8 +93,8 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
     if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
     if (written++ >= kMostNotes) continue;
     environment.warn(Id::kInstanceInactive,
-                     "top level " + at_address(*environment.context.addresses, top_level) + ", instance " +
-                         std::to_string(i) + ": " + note + ".");
+                     "top level " + at_address(*environment.context.addresses, top_level) +
+                         ", instance " + std::to_string(i) + ": " + note + ".");
   }
   return instances;
 }

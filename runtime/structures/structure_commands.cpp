@@ -118,8 +118,8 @@ rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, u
   if (bytes <= available) return {};
   return make_error(Id::kResultTooSmall, "an acceleration structure needs " +
                                              std::to_string(bytes) + " bytes " +
-                                             at_address(addresses, address) + ", but the buffer has " +
-                                             std::to_string(available) +
+                                             at_address(addresses, address) +
+                                             ", but the buffer has " + std::to_string(available) +
                                              " from there on. Size it by "
                                              "GetRaytracingAccelerationStructurePrebuildInfo.");
 }

@@ -117,8 +117,8 @@ rtapi::Status copy(const StructureEnvironment& environment,
   const AddressMap& addresses = *environment.context.addresses;
   const auto source = environment.structures.find(command.source);
   if (source == nullptr) {
-    return make_error(Id::kStructureSource,
-                      "there is no acceleration structure " + at_address(addresses, command.source) + ".");
+    return make_error(Id::kStructureSource, "there is no acceleration structure " +
+                                                at_address(addresses, command.source) + ".");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
