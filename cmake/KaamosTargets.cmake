@@ -60,7 +60,8 @@ if(KAAMOS_CCACHE)
 endif()
 
 # Tests are half of what a build compiles, and each runs only once, so the release build optimises
-# them lightly. That takes a quarter less time.
+# them lightly. That takes a quarter less time. Programs leave the work to libraries and are compiled
+# lightly too: at -O3, the command line of northlight alone takes five seconds.
 function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -178,8 +178,10 @@ Result<Device> CreateDevice(const DeviceDesc& desc) {
   };
   if (desc.Checked) {
     impl->reporter = std::make_unique<kaamos::checks::Reporter>(impl->context.message);
+    bool (*same_root_signature)(const RootSignature&, const RootSignature&) =
+        &detail::SameDefinition;
     impl->checks = std::make_unique<kaamos::checks::Layer>(impl->addresses, *impl->reporter,
-                                                           &detail::SameDefinition);
+                                                           same_root_signature);
     impl->context.reporter = impl->reporter.get();
     impl->context.observer = impl->checks.get();
   }

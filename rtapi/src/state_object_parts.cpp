@@ -11,7 +11,7 @@
 
 namespace rtapi {
 
-// Here and not in the header, where every file would instantiate a vector of a dozen alternatives.
+// Inline, these would make every file that includes the header instantiate a vector of variants.
 uint32_t StateObjectDesc::Add(StateSubobject subobject) {
   Subobjects.push_back(std::move(subobject));
   return static_cast<uint32_t>(Subobjects.size() - 1);

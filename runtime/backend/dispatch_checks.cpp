@@ -52,6 +52,10 @@ std::string describe_address(const AddressMap& addresses, uint64_t address) {
               " bytes)");
 }
 
+std::string at_address(const AddressMap& addresses, uint64_t address) {
+  return "at " + describe_address(addresses, address);
+}
+
 DispatchProblem check_dispatch_rays(const AddressMap& addresses,
                                     const rtapi::DispatchRaysDesc& desc) {
   const auto& raygen = desc.RayGenerationShaderRecord;

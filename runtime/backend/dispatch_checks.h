@@ -15,6 +15,8 @@ namespace kaamos::runtime {
 
 // "byte 96 of buffer \"tables\" (416 bytes)", or that it is in no live buffer.
 std::string describe_address(const AddressMap& addresses, uint64_t address);
+// The same behind "at ".
+std::string at_address(const AddressMap& addresses, uint64_t address);
 
 enum class DispatchFault : uint8_t { kNone, kTableLayout, kTableMemory, kTooLarge };
 struct DispatchProblem {

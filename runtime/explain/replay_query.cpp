@@ -16,14 +16,6 @@ using shader::RayQueryHit;
 
 namespace {
 
-bool is_valid(const shader::RayDesc& ray) {
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::fabs(ray.origin[i]) <= runtime::kLargestCoordinate)) return false;
-    if (!(std::fabs(ray.direction[i]) <= runtime::kLargestCoordinate)) return false;
-  }
-  return ray.t_min <= ray.t_max && ray.t_min <= 3.402823466e+38f;
-}
-
 RayQueryHit hit_of(const Candidate& candidate, const Instance& instance, bool opaque) {
   RayQueryHit hit;
   hit.type = candidate.procedural ? shader::kQueryProcedural : shader::kQueryTriangle;

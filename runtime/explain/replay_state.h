@@ -13,6 +13,9 @@ namespace kaamos::explain {
 
 inline constexpr uint32_t kMaxAttributeBytes = 32;
 
+// Rays that traversals accept; every other ray, with NaN for example, misses.
+bool is_valid(const shader::RayDesc& ray);
+
 struct Replay::Record {
   const runtime::LinkedRecord* linked = nullptr;  // null: nothing runs
   const uint8_t* address = nullptr;

@@ -23,15 +23,6 @@ using shader::ReportHitResult;
 
 namespace {
 
-// Rays that traversals accept; every other ray, with NaN for example, misses.
-bool is_valid(const shader::RayDesc& ray) {
-  for (int i = 0; i < 3; ++i) {
-    if (!(std::fabs(ray.origin[i]) <= runtime::kLargestCoordinate)) return false;
-    if (!(std::fabs(ray.direction[i]) <= runtime::kLargestCoordinate)) return false;
-  }
-  return ray.t_min <= ray.t_max && ray.t_min <= 3.402823466e+38f;
-}
-
 void describe_ray(const shader::RayDesc& ray, rtapi::ExplainedCall& call) {
   for (int i = 0; i < 3; ++i) {
     call.Origin[i] = ray.origin[i];
@@ -42,6 +33,14 @@ void describe_ray(const shader::RayDesc& ray, rtapi::ExplainedCall& call) {
 }
 
 }  // namespace
+
+bool is_valid(const shader::RayDesc& ray) {
+  for (int i = 0; i < 3; ++i) {
+    if (!(std::fabs(ray.origin[i]) <= runtime::kLargestCoordinate)) return false;
+    if (!(std::fabs(ray.direction[i]) <= runtime::kLargestCoordinate)) return false;
+  }
+  return ray.t_min <= ray.t_max && ray.t_min <= 3.402823466e+38f;
+}
 
 rtapi::ExplainedCandidate describe(const Candidate& candidate, const Instance& instance,
                                    uint32_t flags) {

@@ -15,10 +15,6 @@ namespace {
 
 constexpr uint64_t kInstanceBytes = sizeof(rtapi::RaytracingInstanceDesc);
 
-std::string at(const AddressMap& addresses, uint64_t address) {
-  return "at " + describe_address(addresses, address);
-}
-
 rtapi::Error instance_error(const std::string& what) {
   return make_error(Id::kStructureSource, what);
 }
@@ -31,7 +27,7 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   const uint64_t wanted = uint64_t{command.instance_count} * (pointers ? 8 : kInstanceBytes);
   if (!addresses.contains(command.instance_descs, wanted)) {
     return instance_error(std::to_string(command.instance_count) + " instance descs " +
-                          at(addresses, command.instance_descs) + " need " +
+                          at_address(addresses, command.instance_descs) + " need " +
                           std::to_string(wanted) + " bytes, but the buffer has " +
                           std::to_string(addresses.bytes_from(command.instance_descs)) +
                           " from there on.");
@@ -44,7 +40,8 @@ rtapi::Result<std::vector<rtapi::RaytracingInstanceDesc>> read_descs(const Addre
   for (uint32_t i = 0; i < command.instance_count; ++i) {
     if (!addresses.contains(each[i], kInstanceBytes)) {
       return instance_error("instance desc " + std::to_string(i) + " (64 bytes) is " +
-                            at(addresses, each[i]) + ", which is not inside a live buffer.");
+                            at_address(addresses, each[i]) +
+                            ", which is not inside a live buffer.");
     }
     std::memcpy(&descs[i], addresses.host(each[i]), kInstanceBytes);
   }
@@ -96,8 +93,8 @@ std::vector<Instance> activate_instances(const StructureEnvironment& environment
     if (note == nullptr || (note == kMissing && notes == InstanceNotes::kMissingMayCome)) continue;
     if (written++ >= kMostNotes) continue;
     environment.warn(Id::kInstanceInactive,
-                     "top level " + at(*environment.context.addresses, top_level) + ", instance " +
-                         std::to_string(i) + ": " + note + ".");
+                     "top level " + at_address(*environment.context.addresses, top_level) +
+                         ", instance " + std::to_string(i) + ": " + note + ".");
   }
   return instances;
 }

@@ -30,10 +30,6 @@ uint64_t triangle_bytes(BuildFlags flags) {
   return HasAny(flags, BuildFlags::kMinimizeMemory) ? 72 : 96;
 }
 
-std::string at(const AddressMap& addresses, uint64_t address) {
-  return "at " + describe_address(addresses, address);
-}
-
 // The structure to update, or why it cannot be updated.
 rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
     const StructureEnvironment& environment, const BuildCommand& command) {
@@ -42,10 +38,10 @@ rtapi::Result<std::shared_ptr<const AccelerationStructure>> update_source(
   if (source == nullptr ||
       (source->bottom_level != nullptr) != (command.type == Type::kBottomLevel)) {
     return make_error(Id::kUpdate, "there is no acceleration structure of this type " +
-                                       at(addresses, command.source) + ".");
+                                       at_address(addresses, command.source) + ".");
   }
   if (!HasAny(source->flags, BuildFlags::kAllowUpdate)) {
-    return make_error(Id::kUpdate, "the structure " + at(addresses, command.source) +
+    return make_error(Id::kUpdate, "the structure " + at_address(addresses, command.source) +
                                        " was built without ALLOW_UPDATE.");
   }
   // For bottom levels check_update reports it.
@@ -97,7 +93,7 @@ rtapi::Status write_info(const StructureEnvironment& environment, uint64_t addre
   const AddressMap& addresses = *environment.context.addresses;
   if (!addresses.contains(address, bytes)) {
     return make_error(Id::kResultTooSmall, "postbuild info needs " + std::to_string(bytes) +
-                                               " bytes " + at(addresses, address) + ".");
+                                               " bytes " + at_address(addresses, address) + ".");
   }
   std::memcpy(addresses.host(address), values, bytes);
   return {};
@@ -122,8 +118,8 @@ rtapi::Status check_destination(const AddressMap& addresses, uint64_t address, u
   if (bytes <= available) return {};
   return make_error(Id::kResultTooSmall, "an acceleration structure needs " +
                                              std::to_string(bytes) + " bytes " +
-                                             at(addresses, address) + ", but the buffer has " +
-                                             std::to_string(available) +
+                                             at_address(addresses, address) +
+                                             ", but the buffer has " + std::to_string(available) +
                                              " from there on. Size it by "
                                              "GetRaytracingAccelerationStructurePrebuildInfo.");
 }
@@ -191,8 +187,8 @@ rtapi::Status build_structure(const StructureEnvironment& environment, const Bui
   if (auto s = check_destination(addresses, command.dest, structure.size_bytes); !s) return s;
   if (source != nullptr && command.dest != source->address &&
       overlap(command.dest, source->address, source->size_bytes)) {
-    return make_error(Id::kUpdate, "source " + at(addresses, source->address) +
-                                       " and destination " + at(addresses, command.dest) +
+    return make_error(Id::kUpdate, "source " + at_address(addresses, source->address) +
+                                       " and destination " + at_address(addresses, command.dest) +
                                        " take " + std::to_string(source->size_bytes) +
                                        " bytes each and overlap. Update in place, or into other "
                                        "memory.");
@@ -224,7 +220,7 @@ rtapi::Status emit_postbuild_info(
     if (structure == nullptr) {
       return make_error(Id::kStructureSource,
                         "postbuild info is requested, but there is no acceleration structure " +
-                            at(*environment.context.addresses, source) + ".");
+                            at_address(*environment.context.addresses, source) + ".");
     }
     uint64_t bytes = 0;
     if (auto s = write_info(environment, address, desc.InfoType, *structure, bytes); !s) return s;
@@ -287,7 +283,7 @@ void warn_out_of_range(const StructureEnvironment& environment, uint64_t address
                        uint64_t triangles) {
   if (triangles == 0) return;
   environment.warn(Id::kIndexOutOfRange,
-                   "bottom level " + at(*environment.context.addresses, address) + ": " +
+                   "bottom level " + at_address(*environment.context.addresses, address) + ": " +
                        std::to_string(triangles) +
                        " triangles have an index past VertexCount and are never hit.");
 }

@@ -18,10 +18,6 @@ namespace {
 using CopyMode = rtapi::RaytracingAccelerationStructureCopyMode;
 using Type = rtapi::RaytracingAccelerationStructureType;
 
-std::string at(const AddressMap& addresses, uint64_t address) {
-  return "at " + describe_address(addresses, address);
-}
-
 rtapi::Error out_of_memory(const std::string& what) {
   return make_error(Id::kOutOfMemory, what + " could not be allocated.");
 }
@@ -34,7 +30,7 @@ rtapi::Result<std::span<uint8_t>> output(const StructureEnvironment& environment
   const uint64_t available = addresses.bytes_from(command.dest);
   if (bytes > available) {
     return make_error(Id::kResultTooSmall, std::string(what) + " needs " + std::to_string(bytes) +
-                                               " bytes " + at(addresses, command.dest) +
+                                               " bytes " + at_address(addresses, command.dest) +
                                                ", but the buffer has " + std::to_string(available) +
                                                " from there on. Size it by postbuild info " +
                                                info_type + ".");
@@ -102,7 +98,7 @@ rtapi::Status deserialize(const StructureEnvironment& environment,
       if (address == 0 || addresses.bytes_from(address) != 0) continue;
       return make_error(Id::kSerializedData,
                         "the bottom level of instance " + std::to_string(i) + " is " +
-                            at(addresses, address) +
+                            at_address(addresses, address) +
                             ". Write the addresses of the bottom levels after the header first.");
     }
     result.instance_count = static_cast<uint32_t>(parsed->instances.size());
@@ -121,8 +117,8 @@ rtapi::Status copy(const StructureEnvironment& environment,
   const AddressMap& addresses = *environment.context.addresses;
   const auto source = environment.structures.find(command.source);
   if (source == nullptr) {
-    return make_error(Id::kStructureSource,
-                      "there is no acceleration structure " + at(addresses, command.source) + ".");
+    return make_error(Id::kStructureSource, "there is no acceleration structure " +
+                                                at_address(addresses, command.source) + ".");
   }
   if (command.mode == CopyMode::kSerialize) {
     auto out = output(environment, command, serialized_size(*source).bytes,
@@ -144,7 +140,7 @@ rtapi::Status copy(const StructureEnvironment& environment,
   if (command.mode == CopyMode::kCompact) {
     if (!rtapi::HasAny(source->flags, BuildFlags::kAllowCompaction)) {
       return make_error(Id::kStructureSource,
-                        "the acceleration structure " + at(addresses, command.source) +
+                        "the acceleration structure " + at_address(addresses, command.source) +
                             " cannot be compacted: it was built without ALLOW_COMPACTION.");
     }
     result.size_bytes = source->compacted_bytes;
@@ -153,8 +149,8 @@ rtapi::Status copy(const StructureEnvironment& environment,
   const uint64_t clear = command.dest > command.source ? source->size_bytes : result.size_bytes;
   if (overlap(command.dest, command.source, clear)) {
     return make_error(Id::kStructureSource,
-                      "the acceleration structure " + at(addresses, command.source) +
-                          " overlaps its copy " + at(addresses, command.dest) +
+                      "the acceleration structure " + at_address(addresses, command.source) +
+                          " overlaps its copy " + at_address(addresses, command.dest) +
                           ". Copy into other memory.");
   }
   // Both refer to the same immutable tree; updating one of them in place first makes it a tree of
@@ -171,7 +167,7 @@ rtapi::Status copy_structure(const StructureEnvironment& environment,
     return copy(environment, command, rebuild);
   } catch (const std::bad_alloc&) {
     return out_of_memory("a copy of the acceleration structure " +
-                         at(*environment.context.addresses, command.source));
+                         at_address(*environment.context.addresses, command.source));
   }
 }
 
@@ -188,7 +184,7 @@ rtapi::Status complete_top_levels(const StructureEnvironment& environment,
       if (auto s = build_top_level(environment, rebuild, notes, result); !s) return s;
     } catch (const std::bad_alloc&) {
       return out_of_memory("the deserialized top level " +
-                           at(*environment.context.addresses, placed->address));
+                           at_address(*environment.context.addresses, placed->address));
     }
     result.compacted_bytes = compacted_size(result.size_bytes, result.compacted_bytes);
     environment.structures.place(std::move(result));

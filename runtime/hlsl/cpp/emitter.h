@@ -29,6 +29,9 @@ namespace kaamos::hlsl {
 struct ReachedCalls;
 class WideEmitter;
 
+// "0, 2": the components of a swizzle.
+std::string component_list(const std::vector<uint8_t>& components);
+
 class CppEmitter {
  public:
   CppEmitter(const ir::Module& module, const EmitCppOptions& options);

@@ -102,14 +102,6 @@ std::string integer_text(T number, const char* suffix) {
   return number < 0 ? "(" + text + ")" : text;
 }
 
-std::string component_list(const std::vector<uint8_t>& components) {
-  std::string out;
-  for (size_t i = 0; i < components.size(); ++i) {
-    out += (i == 0 ? "" : ", ") + std::to_string(components[i]);
-  }
-  return out;
-}
-
 // A vector variable, or a vector field of one: there is nothing to evaluate.
 bool is_vector_in_place(const Expr& expr) {
   if (expr.type->kind != TypeKind::kVector) return false;
@@ -128,6 +120,14 @@ bool all_scalar(const std::vector<const Expr*>& operands) {
 }
 
 }  // namespace
+
+std::string component_list(const std::vector<uint8_t>& components) {
+  std::string out;
+  for (size_t i = 0; i < components.size(); ++i) {
+    out += (i == 0 ? "" : ", ") + std::to_string(components[i]);
+  }
+  return out;
+}
 
 std::string CppEmitter::scalar_literal(Scalar scalar, uint64_t bits) {
   switch (scalar) {

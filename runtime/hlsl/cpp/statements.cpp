@@ -36,14 +36,6 @@ const char* name_of(AtomicOp op) {
   return "";
 }
 
-std::string component_list(const std::vector<uint8_t>& components) {
-  std::string out;
-  for (size_t i = 0; i < components.size(); ++i) {
-    out += (i == 0 ? "" : ", ") + std::to_string(components[i]);
-  }
-  return out;
-}
-
 }  // namespace
 
 void CppEmitter::at(const Location& location) {

@@ -14,14 +14,6 @@ using namespace ir;
 
 namespace {
 
-std::string component_list(const std::vector<uint8_t>& components) {
-  std::string out;
-  for (size_t i = 0; i < components.size(); ++i) {
-    out += (i == 0 ? "" : ", ") + std::to_string(components[i]);
-  }
-  return out;
-}
-
 bool has_access(const Expr* root) {
   bool found = false;
   visit_expr(root, [&](const Expr& expr) {

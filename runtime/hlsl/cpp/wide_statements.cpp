@@ -14,14 +14,6 @@ using namespace ir;
 
 namespace {
 
-std::string component_list(const std::vector<uint8_t>& components) {
-  std::string out;
-  for (size_t i = 0; i < components.size(); ++i) {
-    out += (i == 0 ? "" : ", ") + std::to_string(components[i]);
-  }
-  return out;
-}
-
 bool is_swizzle(const Expr* place) {
   return place->components.size() > 1 &&
          (place->kind == ExprKind::kSwizzle || place->kind == ExprKind::kMatrixSwizzle);
