@@ -33,8 +33,8 @@ void CommandListImpl::ClearArgument(uint32_t offset_bytes, uint32_t size_bytes) 
   std::memset(WritableArguments().bytes.data() + offset_bytes, 0, size_bytes);
 }
 
-runtime::DispatchState CommandListImpl::Snapshot() {
-  runtime::DispatchState state;
+runtime::RootBindings CommandListImpl::Snapshot() {
+  runtime::RootBindings state;
   state.root_arguments = arguments;
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;

@@ -41,7 +41,7 @@ struct CommandListImpl {
   // Returns arguments that no recorded dispatch shares, so that they can be written.
   runtime::RootArguments& WritableArguments();
   void ClearArgument(uint32_t offset_bytes, uint32_t size_bytes);
-  runtime::DispatchState Snapshot();
+  runtime::RootBindings Snapshot();
   // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);

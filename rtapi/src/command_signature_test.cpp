@@ -129,7 +129,7 @@ TEST_F(ExecuteIndirectTest, RecordsTheStateOfTheMoment) {
   EXPECT_FALSE(command.layout->dispatch_rays);
   EXPECT_EQ(command.layout->dispatch_offset, 12u);
   EXPECT_EQ(command.layout->root_arguments[0].dest_offset, 4u);
-  const auto word = [&](const runtime::DispatchState& state, uint32_t at) {
+  const auto word = [&](const runtime::RootBindings& state, uint32_t at) {
     uint32_t value;
     std::memcpy(&value, state.root_arguments->bytes.data() + at, 4);
     return value;

@@ -35,9 +35,9 @@ struct alignas(16) RootArguments {
 
 // What DispatchRays and Dispatch share. Dispatches share a snapshot if nothing was set between
 // them.
-struct DispatchState {
+struct RootBindings {
   std::shared_ptr<const RootArguments> root_arguments;  // never null
-  // The heaps set on the list; [begin, end) of shader::Dispatch. Null: none set.
+  // The heaps set on the list; [begin, end) of shader::DispatchConstants. Null: none set.
   std::shared_ptr<BackendBuffer> view_heap;
   std::shared_ptr<BackendBuffer> sampler_heap;
   rtapi::RootSignature root_signature;  // the one that was set; may be empty
@@ -45,7 +45,7 @@ struct DispatchState {
 
 struct DispatchRaysCommand {
   std::shared_ptr<BackendPipeline> pipeline;
-  DispatchState state;
+  RootBindings state;
   rtapi::DispatchRaysDesc desc;
   uint64_t pipeline_stack_bytes = 0;  // as it was at record time [DXR: SetPipelineStackSize]
   std::shared_ptr<const LinkedPipeline> linked = nullptr;  // what `pipeline` was made from
@@ -53,7 +53,7 @@ struct DispatchRaysCommand {
 
 struct DispatchCommand {
   std::shared_ptr<BackendPipeline> pipeline;
-  DispatchState state;
+  RootBindings state;
   uint32_t groups[3] = {0, 0, 0};
   std::shared_ptr<const LinkedCompute> linked = nullptr;
 };
@@ -85,7 +85,7 @@ struct ExecuteIndirectCommand {
   std::shared_ptr<BackendBuffer> count;  // null: exactly max_count
   uint64_t count_offset = 0;
   std::shared_ptr<BackendPipeline> pipeline;
-  DispatchState state;
+  RootBindings state;
   uint64_t pipeline_stack_bytes = 0;                              // for ray tracing pipelines
   std::shared_ptr<const LinkedPipeline> linked = nullptr;         // for ray tracing pipelines
   std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // for compute pipelines

@@ -31,7 +31,7 @@ class Reader {
   }
   uint32_t count() const;
   bool launches_nothing(uint32_t index) const;
-  rtapi::Result<DispatchState> state(uint32_t index) const;
+  rtapi::Result<RootBindings> state(uint32_t index) const;
   rtapi::Result<Command> dispatch(uint32_t index) const;
   rtapi::Error problem(uint32_t index, const std::string& text) const;
 
@@ -66,8 +66,8 @@ bool Reader::launches_nothing(uint32_t index) const {
   return size[0] == 0 || size[1] == 0 || size[2] == 0;
 }
 
-rtapi::Result<DispatchState> Reader::state(uint32_t index) const {
-  DispatchState state = command_.state;
+rtapi::Result<RootBindings> Reader::state(uint32_t index) const {
+  RootBindings state = command_.state;
   if (layout_.root_arguments.empty()) return state;
   auto values = std::make_shared<RootArguments>(*command_.state.root_arguments);
   for (const IndirectArgument& argument : layout_.root_arguments) {

@@ -28,7 +28,7 @@ struct Heap {
   uint64_t count = 0;
 };
 
-Heap heap_of(const runtime::DispatchState& state, bool samplers) {
+Heap heap_of(const runtime::RootBindings& state, bool samplers) {
   const auto& buffer = samplers ? state.sampler_heap : state.view_heap;
   if (buffer == nullptr || buffer->host() == nullptr) return {};
   return {reinterpret_cast<const Descriptor*>(buffer->host()), buffer->address(),

@@ -13,10 +13,10 @@ namespace kaamos::checks {
 
 // Where to find the arguments of a shader.
 struct Arguments {
-  const uint8_t* global = nullptr;                // kRootArgumentBytes
-  const uint8_t* local = nullptr;                 // null: no record
-  uint64_t local_bytes = 0;                       // how many of them are readable
-  const runtime::DispatchState* state = nullptr;  // the heaps
+  const uint8_t* global = nullptr;               // kRootArgumentBytes
+  const uint8_t* local = nullptr;                // null: no record
+  uint64_t local_bytes = 0;                      // how many of them are readable
+  const runtime::RootBindings* state = nullptr;  // the heaps
 };
 
 // Reports what is wrong with the arguments that `shader` uses; `where` is the record, for the

@@ -120,7 +120,7 @@ void run_fibers(void* argument) {
 }
 
 struct ComputeJob {
-  DispatchState* dispatch;
+  RunningDispatch* dispatch;
   const ComputePipeline* pipeline;
   const uint32_t* groups;
 };
@@ -173,10 +173,10 @@ void group_barrier(shader::ComputeGroup& group) {
   if (run.failed) remove_device(*run.worker, run.worker->fault_reason);
 }
 
-DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+CountedOutcome dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label) {
   const auto& pipeline = static_cast<const ComputePipeline&>(*command.pipeline);
-  DispatchState dispatch;
+  RunningDispatch dispatch;
   begin_dispatch(environment, command.state, dispatch);
   std::memcpy(dispatch.abi.dimensions, command.groups, sizeof(command.groups));
   dispatch.label = label.c_str();

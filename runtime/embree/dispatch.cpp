@@ -92,7 +92,7 @@ void run_tile(void* argument) {
   worker.index = nullptr;
 }
 
-void run_tiles(DispatchState& dispatch, const Grid& grid, const ShaderRecord& record,
+void run_tiles(RunningDispatch& dispatch, const Grid& grid, const ShaderRecord& record,
                uint64_t begin, uint64_t end) {
   const FloatMode float_mode;
   Worker worker;
@@ -127,7 +127,7 @@ RecordTable table_of(const RaytracingPipeline& pipeline,
 }
 
 void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTable& table,
-                     const RecordProblems& problems, const char* label, DispatchResult& result) {
+                     const RecordProblems& problems, const char* label, CountedOutcome& result) {
   const auto which = static_cast<size_t>(kind);
   result.missing.past_the_end[which] = problems.out_of_bounds != RecordProblems::kNone;
   result.missing.unknown[which] = problems.unknown != RecordProblems::kNone;
@@ -149,7 +149,7 @@ void warn_of_records(const char* name, runtime::RecordKind kind, const RecordTab
 }
 
 // Looks up what every shader of the pipeline has bound.
-void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
+void bind_shaders(const RaytracingPipeline& pipeline, RunningDispatch& dispatch) {
   size_t count = 0;
   for (const auto* shader : pipeline.shaders()) count += shader->slots.size();
   dispatch.bound_resources.resize(count);
@@ -168,7 +168,7 @@ void bind_shaders(const RaytracingPipeline& pipeline, DispatchState& dispatch) {
 }
 
 // Finds them among everything that the shaders have bound.
-void find_pictures(DispatchState& dispatch) {
+void find_pictures(RunningDispatch& dispatch) {
   const uint32_t* size = dispatch.abi.dimensions;
   for (const shader::BoundResource& bound : dispatch.bound_resources) {
     if (bound.direct_format == 0 || bound.width != size[0] || bound.height != size[1]) continue;
@@ -201,8 +201,8 @@ FloatMode::~FloatMode() {
   _mm_setcsr(saved_);
 }
 
-void begin_dispatch(const DispatchEnvironment& environment, const runtime::DispatchState& state,
-                    DispatchState& dispatch) {
+void begin_dispatch(const DispatchEnvironment& environment, const runtime::RootBindings& state,
+                    RunningDispatch& dispatch) {
   dispatch.memory = environment.memory;
   if (environment.context != nullptr && environment.context->reporter != nullptr) {
     dispatch.context = environment.context;
@@ -210,7 +210,7 @@ void begin_dispatch(const DispatchEnvironment& environment, const runtime::Dispa
     dispatch.abi.ranges_begin = dispatch.ranges.data();
     dispatch.abi.ranges_end = dispatch.ranges.data() + dispatch.ranges.size();
   }
-  shader::Dispatch& abi = dispatch.abi;
+  shader::DispatchConstants& abi = dispatch.abi;
   abi.services = &services();
   abi.root_arguments = state.root_arguments->bytes.data();
   abi.backend = &dispatch;
@@ -225,8 +225,8 @@ void begin_dispatch(const DispatchEnvironment& environment, const runtime::Dispa
   range(state.sampler_heap, abi.sampler_heap_begin, abi.sampler_heap_end);
 }
 
-DispatchResult end_dispatch(DispatchState& dispatch) {
-  DispatchResult result;
+CountedOutcome end_dispatch(RunningDispatch& dispatch) {
+  CountedOutcome result;
   const std::lock_guard lock(dispatch.mutex);
   result.counters = dispatch.counters;
   result.reached = std::move(dispatch.reached);
@@ -254,7 +254,7 @@ DispatchResult end_dispatch(DispatchState& dispatch) {
   return result;
 }
 
-void begin_worker(DispatchState& dispatch, Worker& worker) {
+void begin_worker(RunningDispatch& dispatch, Worker& worker) {
   dispatch.begun.load(std::memory_order_acquire);
   worker.dispatch = &dispatch;
   worker.bound = dispatch.bound.data();
@@ -266,12 +266,12 @@ void end_worker(Worker& worker) {
   worker.dispatch->counters.add(worker.counters);
 }
 
-DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+CountedOutcome dispatch_rays(const DispatchEnvironment& environment,
                              const runtime::DispatchRaysCommand& command,
                              const std::string& label) {
   const auto& pipeline = static_cast<const RaytracingPipeline&>(*command.pipeline);
   const rtapi::DispatchRaysDesc& desc = command.desc;
-  DispatchState dispatch;
+  RunningDispatch dispatch;
   begin_dispatch(environment, command.state, dispatch);
   dispatch.tables = &desc;
   dispatch.abi.dimensions[0] = desc.Width;

@@ -25,25 +25,25 @@ struct DispatchEnvironment {
 };
 
 // The outcome. An error removes the device: KA0890 to KA0893, KA0897.
-struct DispatchResult : runtime::DispatchOutcome {
+struct CountedOutcome : runtime::DispatchOutcome {
   Counters counters;
 };
 
 // Runs every cell of the grid once, in 2-D tiles. `label` names the dispatch in messages.
-DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+CountedOutcome dispatch_rays(const DispatchEnvironment& environment,
                              const runtime::DispatchRaysCommand& command, const std::string& label);
 
 // Runs every thread group once. [compute.cpp]
-DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+CountedOutcome dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label);
 
 // Used by both: fills in what shaders see of the list's state.
-void begin_dispatch(const DispatchEnvironment& environment, const runtime::DispatchState& state,
-                    DispatchState& dispatch);
-DispatchResult end_dispatch(DispatchState& dispatch);
+void begin_dispatch(const DispatchEnvironment& environment, const runtime::RootBindings& state,
+                    RunningDispatch& dispatch);
+CountedOutcome end_dispatch(RunningDispatch& dispatch);
 // Begin and end one thread's share of a dispatch: set up its worker, and add the worker's counters
 // to the dispatch's.
-void begin_worker(DispatchState& dispatch, Worker& worker);
+void begin_worker(RunningDispatch& dispatch, Worker& worker);
 void end_worker(Worker& worker);
 
 // Flushes denormals to zero for this thread until the end of the scope: for shaders because of

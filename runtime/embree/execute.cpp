@@ -47,7 +47,7 @@ class Target final : public runtime::CommandTarget {
   rtapi::Status finish() override { return {}; }
 
  private:
-  runtime::DispatchOutcome counted(DispatchResult result) {
+  runtime::DispatchOutcome counted(CountedOutcome result) {
     device_.add_counters(result.counters);
     return result;
   }

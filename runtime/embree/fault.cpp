@@ -192,7 +192,7 @@ void remove_device(Worker& worker, shader::RemovalReason reason) {
 }
 
 void record_removal(Worker& worker) {
-  DispatchState& dispatch = *worker.dispatch;
+  RunningDispatch& dispatch = *worker.dispatch;
   std::string text = detail_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
     text += std::string(", shader \"") + worker.running->name + "\" at (" +

@@ -22,7 +22,7 @@ void remove(shader::Invocation& invocation, shader::RemovalReason reason) {
 
 void report(shader::Invocation& invocation, const shader::CheckReport& found) {
   const Worker& worker = worker_of(invocation);
-  const DispatchState& dispatch = *worker.dispatch;
+  const RunningDispatch& dispatch = *worker.dispatch;
   if (dispatch.context == nullptr) return;
   checks::CodePlace place;
   if (worker.running != nullptr) place.shader = worker.running->linked;
@@ -38,7 +38,7 @@ constexpr size_t kMostReached = 1024;
 
 void reached(shader::Invocation& invocation, const shader::ReachedCall& call) {
   Worker& worker = worker_of(invocation);
-  DispatchState& dispatch = *worker.dispatch;
+  RunningDispatch& dispatch = *worker.dispatch;
   if (dispatch.context == nullptr || worker.running == nullptr) return;
   uint64_t hash = reinterpret_cast<uintptr_t>(worker.running->linked);
   for (const uint64_t part :

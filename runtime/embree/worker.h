@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The state of a running dispatch: what all its threads share (DispatchState), and what one thread
-// uses while it runs one tile or thread group (Worker). A shader's Invocation reaches it through
-// its backend pointer.
+// The state of a running dispatch: what all its threads share (RunningDispatch), and what one
+// thread uses while it runs one tile or thread group (Worker). A shader's Invocation reaches it
+// through its backend pointer.
 #pragma once
 
 #include <atomic>
@@ -67,8 +67,8 @@ struct Picture {
   uint32_t texel_bytes = 0;
 };
 
-struct DispatchState {
-  shader::Dispatch abi;
+struct RunningDispatch {
+  shader::DispatchConstants abi;
   RecordTable hit_table;
   RecordTable miss_table;
   RecordTable callable_table;
@@ -106,7 +106,7 @@ struct DispatchState {
 // What each ray reads from it is in the first cache line: spread over two, primary rays take 5 %
 // longer.
 struct alignas(64) Worker {
-  DispatchState* dispatch = nullptr;
+  RunningDispatch* dispatch = nullptr;
   const shader::BoundResource* const* bound = nullptr;  // the dispatch's
   // The acceleration structure of the last ray. Address 0 is the null structure.
   uint64_t cached_address = 0;

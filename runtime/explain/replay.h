@@ -97,7 +97,7 @@ class Replay {
 
   const Environment& environment_;
   const runtime::DispatchRaysCommand& command_;
-  shader::Dispatch dispatch_;
+  shader::DispatchConstants dispatch_;
   Scenes scenes_;
   // What each shader has bound, looked up when it first runs.
   std::map<const runtime::LinkedShader*, std::vector<shader::BoundResource>> bound_;

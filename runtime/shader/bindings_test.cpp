@@ -18,7 +18,7 @@ struct ShaderBindings : testing::Test {
   alignas(8) uint8_t root[64] = {};
   alignas(8) uint8_t record[64] = {};
   BindingSlot slot;
-  Dispatch dispatch;
+  DispatchConstants dispatch;
   Invocation invocation;
   BoundResource bound;
 

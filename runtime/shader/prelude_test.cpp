@@ -76,7 +76,7 @@ struct Payload {
 };
 
 struct ShaderPrelude : testing::Test {
-  ks::Dispatch dispatch;
+  ks::DispatchConstants dispatch;
   ks::Invocation invocation;
   ks::Descriptor texture, sampler;
   ShaderPrelude() {

@@ -53,9 +53,9 @@ rtapi::Status run(const DispatchEnvironment& environment, const runtime::Dispatc
 
 }  // namespace
 
-DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+CountedOutcome dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label) {
-  DispatchResult result;
+  CountedOutcome result;
   result.status = run(environment, command, label, result.reached);
   return result;
 }

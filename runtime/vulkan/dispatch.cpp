@@ -14,12 +14,12 @@ namespace kaamos::vulkan {
 namespace {
 
 using shader::spirv::DispatchBlock;
-using shader::spirv::DispatchStatus;
+using shader::spirv::DispatchFeedback;
 
 constexpr uint64_t kBlockBytes = 640;  // DispatchBlocks are at multiples of 64
 static_assert(sizeof(DispatchBlock) <= kBlockBytes);
 constexpr uint64_t kStatusBytes = 128;
-static_assert(sizeof(DispatchStatus) <= kStatusBytes);
+static_assert(sizeof(DispatchFeedback) <= kStatusBytes);
 
 // One of the application's tables, where its copy in the driver's form goes, and how many records
 // it has.
@@ -51,7 +51,7 @@ class RaysDispatch {
         gpu_(environment.stream->gpu()),
         label_(label) {}
 
-  DispatchResult run() {
+  CountedOutcome run() {
     result_.status = execute();
     return std::move(result_);
   }
@@ -78,7 +78,7 @@ class RaysDispatch {
   Table tables_[kTableCount];
   uint64_t bytes_ = 0;  // size of everything in the buffer
   const GpuBuffer* buffer_ = nullptr;
-  DispatchResult result_;
+  CountedOutcome result_;
 };
 
 rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runtime::RecordKind kind,
@@ -178,7 +178,7 @@ void RaysDispatch::write_table(const Table& table) {
 }
 
 void RaysDispatch::warn_of_structure() {
-  DispatchStatus status;
+  DispatchFeedback status;
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
   result_.warnings.push_back({runtime::Id::kNoTopLevel,
@@ -281,7 +281,7 @@ rtapi::Error fault_at(uint64_t address, const std::string& label) {
 // Whether a shader removed the device, and why.
 rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32_t depth_limit,
                         const std::string& label) {
-  DispatchStatus status;
+  DispatchFeedback status;
   std::memcpy(&status, buffer.host(), sizeof(status));
   if (status.removal_reason == 0) return {};
   const auto reason = static_cast<shader::RemovalReason>(status.removal_reason - 1);
@@ -324,7 +324,7 @@ rtapi::Result<const GpuBuffer*> DispatchMemory::get(Gpu& gpu, uint64_t size_byte
   return buffer_.get();
 }
 
-DispatchBlock dispatch_block(const runtime::DispatchState& state, const SceneTables& scene) {
+DispatchBlock dispatch_block(const runtime::RootBindings& state, const SceneTables& scene) {
   DispatchBlock block;
   const auto range = [](const std::shared_ptr<runtime::BackendBuffer>& heap, uint64_t& begin,
                         uint64_t& end) {
@@ -354,7 +354,7 @@ uint64_t address_of_block(const GpuBuffer& buffer, size_t part) {
 
 void write_blocks(const DispatchBlock& block, const std::vector<GridPart>& parts,
                   const GpuBuffer& buffer, uint64_t checks) {
-  DispatchStatus status;
+  DispatchFeedback status;
   status.checks = checks;
   std::memcpy(buffer.host(), &status, sizeof(status));
   DispatchBlock own = block;
@@ -367,7 +367,7 @@ void write_blocks(const DispatchBlock& block, const std::vector<GridPart>& parts
 }
 
 void add_counts(const GpuBuffer& buffer, rtapi::RaytracingStatistics& statistics) {
-  DispatchStatus status;
+  DispatchFeedback status;
   std::memcpy(&status, buffer.host(), sizeof(status));
   const auto count = [&](uint32_t what) {
     return uint64_t{status.counts[what][1]} << 32 | status.counts[what][0];
@@ -392,7 +392,7 @@ rtapi::Status run_dispatch(CommandStream& stream, const GpuBuffer& buffer, uint3
   return status_of(buffer, declared_depth, depth_limit, label);
 }
 
-DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+CountedOutcome dispatch_rays(const DispatchEnvironment& environment,
                              const runtime::DispatchRaysCommand& command,
                              const std::string& label) {
   return RaysDispatch(environment, command, label).run();

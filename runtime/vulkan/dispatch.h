@@ -46,25 +46,25 @@ struct DispatchEnvironment {
 
 // The outcome. An error removes the device: KA0890, KA0891, KA0893 asked for by a shader, KA0892 a
 // table in no buffer, KA0955 device lost, KA0956 over a limit, KA0990 out of memory.
-struct DispatchResult : runtime::DispatchOutcome {
+struct CountedOutcome : runtime::DispatchOutcome {
   // If the device collects them. A miss without a miss shader counts as a hit, because only shaders
   // can count.
   rtapi::RaytracingStatistics statistics;
 };
 
 // `label` names the dispatch in messages.
-DispatchResult dispatch_rays(const DispatchEnvironment& environment,
+CountedOutcome dispatch_rays(const DispatchEnvironment& environment,
                              const runtime::DispatchRaysCommand& command, const std::string& label);
 
 // [compute.cpp]
-DispatchResult dispatch_compute(const DispatchEnvironment& environment,
+CountedOutcome dispatch_compute(const DispatchEnvironment& environment,
                                 const runtime::DispatchCommand& command, const std::string& label);
 
 // Used by both: what shaders see of the list's state and of the scene.
-shader::spirv::DispatchBlock dispatch_block(const runtime::DispatchState& state,
+shader::spirv::DispatchBlock dispatch_block(const runtime::RootBindings& state,
                                             const SceneTables& scene);
 // Writes the status and a block for each part to the start of `buffer`. `checks`: as in
-// DispatchStatus.
+// DispatchFeedback.
 void write_blocks(const shader::spirv::DispatchBlock& block, const std::vector<GridPart>& parts,
                   const GpuBuffer& buffer, uint64_t checks);
 uint64_t bytes_of_blocks(size_t part_count);

@@ -53,7 +53,7 @@ class Target final : public runtime::CommandTarget {
   rtapi::Status finish() override { return device_.stream().flush(); }
 
  private:
-  runtime::DispatchOutcome counted(DispatchResult result) {
+  runtime::DispatchOutcome counted(CountedOutcome result) {
     device_.add(result.statistics);
     return result;
   }

@@ -38,8 +38,8 @@ RayList* list_of_thread(uint32_t current) {
 }
 
 // The dispatch that shaders get while a recording exists.
-struct HeardDispatch : shader::Dispatch {
-  HeardDispatch(const shader::Dispatch& dispatch, RayList* rays);
+struct HeardDispatch : shader::DispatchConstants {
+  HeardDispatch(const shader::DispatchConstants& dispatch, RayList* rays);
 
   RayList* rays;
   const shader::Services* backend_services;
@@ -73,8 +73,8 @@ void heard_trace_rays(shader::Invocation& invocation, const shader::TraceRayArgu
   }
 }
 
-HeardDispatch::HeardDispatch(const shader::Dispatch& dispatch, RayList* thread_rays)
-    : Dispatch(dispatch),
+HeardDispatch::HeardDispatch(const shader::DispatchConstants& dispatch, RayList* thread_rays)
+    : DispatchConstants(dispatch),
       rays(thread_rays),
       backend_services(dispatch.services),
       heard_services(*dispatch.services) {
@@ -88,7 +88,7 @@ void run(shader::Invocation& invocation, Shader original) {
   const uint32_t current = recording.load(std::memory_order_relaxed);
   if (current == 0) return original();
   const HeardDispatch heard(*invocation.dispatch, list_of_thread(current));
-  const shader::Dispatch* dispatch = std::exchange(invocation.dispatch, &heard);
+  const shader::DispatchConstants* dispatch = std::exchange(invocation.dispatch, &heard);
   original();
   invocation.dispatch = dispatch;
 }

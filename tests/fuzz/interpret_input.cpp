@@ -163,7 +163,7 @@ class World {
   std::vector<Descriptor> heap_;
   std::vector<BindingSlot> slots_;
   uint64_t table_ = 0;
-  Dispatch dispatch_;
+  DispatchConstants dispatch_;
 };
 
 }  // namespace

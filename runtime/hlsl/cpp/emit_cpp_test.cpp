@@ -130,7 +130,7 @@ TEST_F(EmitTest, AKernelRuns) {
 
   uint32_t results[9] = {};
   const uint64_t address = reinterpret_cast<uintptr_t>(results);
-  shader::Dispatch dispatch;
+  shader::DispatchConstants dispatch;
   dispatch.root_arguments = reinterpret_cast<const uint8_t*>(&address);
   shader::BindingSlot slot;
   slot.source = shader::SlotSource::kRootDescriptor;

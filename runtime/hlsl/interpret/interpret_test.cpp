@@ -63,7 +63,7 @@ void run_kernel(const shader::LibraryDesc& library, std::vector<uint32_t>& buffe
     ++to.count;
     to.reason = reason;
   };
-  shader::Dispatch dispatch;
+  shader::DispatchConstants dispatch;
   dispatch.services = &services;
   dispatch.root_arguments = reinterpret_cast<const uint8_t*>(&address);
   shader::Invocation invocation;

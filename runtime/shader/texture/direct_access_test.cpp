@@ -18,7 +18,7 @@ constexpr int32_t kWidth = 4, kHeight = 3;
 
 struct Access {
   Services services;
-  Dispatch dispatch;
+  DispatchConstants dispatch;
   Invocation invocation;
 
   Access() {

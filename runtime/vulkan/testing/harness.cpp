@@ -18,7 +18,7 @@ rtapi::ShaderIdentifier next_identifier() {
   return identifier;
 }
 
-runtime::DispatchState state_of(const std::vector<uint64_t>& arguments) {
+runtime::RootBindings state_of(const std::vector<uint64_t>& arguments) {
   auto root = std::make_shared<runtime::RootArguments>();
   std::copy(arguments.begin(), arguments.end(), reinterpret_cast<uint64_t*>(root->bytes.data()));
   return {root, nullptr, nullptr};
@@ -147,7 +147,7 @@ rtapi::GpuVirtualAddressRangeAndStride Bench::range(
   return {table->address(), table->size_bytes(), stride_bytes};
 }
 
-DispatchResult Bench::rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
+CountedOutcome Bench::rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
                            const rtapi::DispatchRaysDesc& desc, std::vector<uint64_t> arguments) {
   runtime::DispatchRaysCommand command;
   command.pipeline = pipeline;
@@ -157,7 +157,7 @@ DispatchResult Bench::rays(const std::shared_ptr<runtime::BackendPipeline>& pipe
                        command, "DispatchRays 0");
 }
 
-DispatchResult Bench::groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
+CountedOutcome Bench::groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
                              uint32_t y, uint32_t z, std::vector<uint64_t> arguments) {
   runtime::DispatchCommand command;
   command.pipeline = pipeline;

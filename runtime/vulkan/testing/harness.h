@@ -69,9 +69,9 @@ class Bench {
     return RaytracingPipeline::create(layout, std::move(linked));
   }
   // The addresses given are the root arguments.
-  DispatchResult rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
+  CountedOutcome rays(const std::shared_ptr<runtime::BackendPipeline>& pipeline,
                       const rtapi::DispatchRaysDesc& desc, std::vector<uint64_t> arguments);
-  DispatchResult groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
+  CountedOutcome groups(const std::shared_ptr<runtime::BackendPipeline>& pipeline, uint32_t x,
                         uint32_t y, uint32_t z, std::vector<uint64_t> arguments);
 
   SceneHarness scene;

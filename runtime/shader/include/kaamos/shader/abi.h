@@ -91,7 +91,7 @@ struct AddressRange {
 };
 
 // One per DispatchRays or Dispatch, shared by all its threads and constant while it runs.
-struct Dispatch {
+struct DispatchConstants {
   const Services* services = nullptr;
   const uint8_t* root_arguments = nullptr;  // laid out by the global root signature
   uint32_t dimensions[3] = {0, 0, 0};       // DispatchRaysDimensions; thread groups for compute
@@ -139,7 +139,7 @@ struct BoundResource;
 
 // One shader invocation. Lives on the backend's stack during the call.
 struct Invocation {
-  const Dispatch* dispatch = nullptr;
+  const DispatchConstants* dispatch = nullptr;
   const BindingSlot* slots = nullptr;  // this export's, indexed by the library's binding index
   const uint8_t* local_arguments = nullptr;  // byte 32 of the shader record
   const RaySystemValues* ray = nullptr;      // null in ray generation, callable and compute

@@ -39,7 +39,7 @@ KAAMOS_INLINE const Descriptor* heap_slot(uint64_t address, const Descriptor* be
   return begin + (address - first) / sizeof(Descriptor);
 }
 
-KAAMOS_INLINE Descriptor from_table(const Dispatch& dispatch, const BindingSlot& slot,
+KAAMOS_INLINE Descriptor from_table(const DispatchConstants& dispatch, const BindingSlot& slot,
                                     const uint8_t* argument, uint32_t index) {
   if (index >= slot.descriptor_count && slot.descriptor_count != kUnbounded) return {};
   const uint64_t first = static_cast<uint64_t>(slot.descriptor_index) + index;
@@ -102,7 +102,7 @@ KAAMOS_INLINE Descriptor root_constants(const BindingSlot& slot, const uint8_t* 
 // wants. Otherwise null.
 KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
                                                   const BindingSlot& slot) {
-  const Dispatch& dispatch = *invocation.dispatch;
+  const DispatchConstants& dispatch = *invocation.dispatch;
   if (slot.source != SlotSource::kDescriptorTable || slot.local || slot.descriptor_count == 0 ||
       dispatch.root_arguments == nullptr) {
     return nullptr;
@@ -150,7 +150,7 @@ KAAMOS_INLINE Descriptor local_resource(const Invocation& invocation, uint32_t s
 
 // ResourceDescriptorHeap[index], SamplerDescriptorHeap[index]
 KAAMOS_INLINE Descriptor heap_resource(const Invocation& invocation, uint32_t index, bool sampler) {
-  const Dispatch& dispatch = *invocation.dispatch;
+  const DispatchConstants& dispatch = *invocation.dispatch;
   const Descriptor* begin = sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin;
   const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;
   return index < static_cast<uint64_t>(end - begin) ? begin[index] : Descriptor{};

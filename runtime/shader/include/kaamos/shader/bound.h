@@ -66,7 +66,7 @@ inline void bind_one(const Invocation& invocation, uint32_t slot, uint32_t index
 
 // For an array in a descriptor table.
 inline void bind_table(const Invocation& invocation, const BindingSlot& slot, BoundResource& out) {
-  const Dispatch& dispatch = *invocation.dispatch;
+  const DispatchConstants& dispatch = *invocation.dispatch;
   if (dispatch.root_arguments == nullptr || slot.kind == DescriptorKind::kNull) return;
   const bool sampler = slot.kind == DescriptorKind::kSampler;
   const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;

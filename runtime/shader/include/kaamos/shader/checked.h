@@ -31,7 +31,7 @@ namespace kaamos::shader::checked {
 }
 
 // Bytes from `address` to the end of its allocation; 0 if it is in none.
-inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
+inline uint64_t bytes_from(const DispatchConstants& dispatch, uint64_t address) {
   const AddressRange* first = dispatch.ranges_begin;
   uint64_t count = static_cast<uint64_t>(dispatch.ranges_end - first);
   if (count == 0) return ~uint64_t{0};
@@ -59,7 +59,7 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
   const uint64_t table = bindings::read_address(arguments + binding.argument_offset);
   const uint64_t first = static_cast<uint64_t>(binding.descriptor_index) + index;
   const uint64_t address = table + first * sizeof(Descriptor);
-  const Dispatch& dispatch = *invocation.dispatch;
+  const DispatchConstants& dispatch = *invocation.dispatch;
   const Descriptor* begin = dispatch.view_heap_begin;
   const Descriptor* end = dispatch.view_heap_end;
   if (binding.kind == DescriptorKind::kSampler) {
@@ -122,7 +122,7 @@ inline uint64_t bytes_from(const Dispatch& dispatch, uint64_t address) {
 [[gnu::noinline]] inline Descriptor heap_resource(Invocation& invocation, uint32_t site,
                                                   uint32_t index, DescriptorKind kind,
                                                   DescriptorAccess access) {
-  const Dispatch& dispatch = *invocation.dispatch;
+  const DispatchConstants& dispatch = *invocation.dispatch;
   const bool sampler = kind == DescriptorKind::kSampler;
   const Descriptor* begin = sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin;
   const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;

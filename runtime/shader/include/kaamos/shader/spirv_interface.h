@@ -45,7 +45,7 @@ enum BindingConstant : uint32_t {
 inline constexpr uint32_t kWorkaroundsConstant = 0xFFFF0000u;
 inline constexpr uint32_t kMaxTraceDepthConstant = 0xFFFF0001u;     // how deep traces may nest
 inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable calls, likewise
-// If not 0, shaders count in DispatchStatus::counts.
+// If not 0, shaders count in DispatchFeedback::counts.
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 // Checked libraries: CheckEntry::shader.
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
@@ -78,7 +78,7 @@ struct DispatchBlock {
   uint64_t instances = 0;        // InstanceEntry[], indexed by gl_InstanceCustomIndexEXT
   uint64_t top_levels = 0;       // TopLevelEntry[top_level_mask + 1]
   uint64_t empty_top_level = 0;  // Vulkan's address of a top level that every ray misses
-  uint64_t status = 0;           // DispatchStatus
+  uint64_t status = 0;           // DispatchFeedback
   uint32_t top_level_mask = 0;
   // How many records the bound tables have. Larger indices become index `count`, a null record that
   // the backend puts after the last one.
@@ -142,14 +142,14 @@ enum Count : uint32_t {
 };
 
 // Written by shaders, read after the dispatch.
-struct DispatchStatus {
+struct DispatchFeedback {
   uint32_t removal_reason = 0;  // 0, or 1 + RemovalReason: the device is removed
   uint32_t reserved = 0;
   uint32_t counts[kCountCount][2] = {};  // low and high half; additions carry
   uint64_t unknown_structure = 0;        // one that rays were traced against in vain
   uint64_t checks = 0;                   // CheckState of a checked device; 0: nobody listens
 };
-static_assert(offsetof(DispatchStatus, checks) == 72);
+static_assert(offsetof(DispatchFeedback, checks) == 72);
 
 // What shaders of checked libraries read, and where they write what they found.
 struct CheckState {
@@ -189,7 +189,7 @@ static_assert(sizeof(ReachedEntry) == 32);
 //   struct { uint trace_depth_and_callable_depth; T data; }
 // with the trace depth in the low and the callable depth in the high 16 bits: those of the shader
 // that gets it, where ray generation has 0 and 0. A trace or call that would nest deeper than the
-// constants above allow writes DispatchStatus and does nothing.
+// constants above allow writes DispatchFeedback and does nothing.
 //
 // Attributes: vec2 if the HLSL type holds two 32-bit floats, otherwise uint[words].
 
