@@ -110,7 +110,7 @@ function(kaamos_install_headers)
   # Headers of the effects include each other as "effects/...", which also works below
   # include/kaamos. Their shader files are installed with them.
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/effects" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kaamos"
-    FILES_MATCHING PATTERN "*.h" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.inc" PATTERN "*.hlsl" PATTERN "*.hlsli" PATTERN "testdata" EXCLUDE
     PATTERN "*_test_support.h" EXCLUDE)
 endfunction()
 

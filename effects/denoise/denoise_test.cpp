@@ -197,7 +197,7 @@ TEST_F(DenoiseTest, TooManySignalsAreAnError) {
         Denoiser::create(device_, frame_, denoise_libraries().value(), signals, DenoiseDesc{});
     ASSERT_FALSE(denoiser);
     EXPECT_EQ(denoiser.error().message,
-              "a Denoiser of " + std::to_string(count) +
+              "KA3043 denoiser cannot be set up: a Denoiser of " + std::to_string(count) +
                   " signals: it takes 1 to 5; make a second one for the others");
   }
 }

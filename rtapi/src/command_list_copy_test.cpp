@@ -23,7 +23,7 @@ TEST_F(CommandListTest, Barriers) {
   EXPECT_OK(barrier(ResourceBarrier::Transition(buffer, common, read)));
   EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, read, read)), "KA0802", "\"buf\"");
   EXPECT_ERROR(barrier(ResourceBarrier::Transition({}, common, read)), "KA0904");
-  EXPECT_ERROR(barrier(ResourceBarrier::Transition(upload, common, read)), "KA0802", "one state");
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition(upload, common, read)), "KA0802", "cannot leave their state");
   EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, common, read, 1)), "KA0802",
                "subresource 1");
   ResourceBarrier odd;
@@ -169,7 +169,7 @@ TEST_F(CommandListTest, ClearsNeedTheSameViewTwice) {
 
 TEST_F(CommandListTest, EventsAreBalanced) {
   list_.BeginEvent("pass");
-  EXPECT_ERROR(list_.Close(), "KA0824", "1 BeginEvent");
+  EXPECT_ERROR(list_.Close(), "KA0824", "1 calls of BeginEvent");
   EXPECT_ERROR(Record([](CommandList& l) { l.EndEvent(); }), "KA0824");
 }
 

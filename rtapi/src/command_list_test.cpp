@@ -127,7 +127,7 @@ TEST_F(CommandListTest, RootArgumentErrors) {
                "type 3");
   EXPECT_ERROR(with([&](CommandList& l) { l.SetComputeRoot32BitConstant(0, 1, 3); }), "KA0808");
   EXPECT_ERROR(with([&](CommandList& l) { l.SetComputeRoot32BitConstants(0, 4, values, 0); }),
-               "KA0808", "0..4", "has 3");
+               "KA0808", "0..4", "has only 3");
   EXPECT_ERROR(
       with([&](CommandList& l) { l.SetComputeRoot32BitConstants(0, 2, values, 0xFFFFFFFF); }),
       "KA0808");

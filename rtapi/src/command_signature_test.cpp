@@ -67,7 +67,7 @@ TEST_F(CommandSignatureTest, RootArgumentsAreThoseOfTheRootSignature) {
   EXPECT_ERROR(Create({View(Type::kConstantBufferView, 2), end}), "KA0540", "type 3");
   EXPECT_ERROR(Create({Constant(0, 3, 2), end}), "KA0540", "3..5");
   EXPECT_ERROR(Create({Constant(0, 0xFFFFFFFF, 2), end}), "KA0540");
-  EXPECT_ERROR(Create({Constant(0, 0, 0), end}), "KA0540", "at least one");
+  EXPECT_ERROR(Create({Constant(0, 0, 0), end}), "KA0540", "at least 1");
   EXPECT_ERROR(Create({Constant(0, 2, 2), Constant(0, 0, 1), end}), "KA0540", "sort");
   EXPECT_ERROR(Create({Constant(0, 0, 2), Constant(0, 1, 1), end}), "KA0540", "once");
   EXPECT_ERROR(

@@ -169,7 +169,7 @@ TEST(Tracing, NestsToTheDeclaredDepthAndRemovesTheDeviceBeyond) {
     ASSERT_FALSE(result.status);
     EXPECT_EQ(result.status.error().id.text(), "KA0890");
     EXPECT_THAT(result.status.error().message,
-                HasSubstr("MaxTraceRecursionDepth " + std::to_string(depth) + " "));
+                HasSubstr("MaxTraceRecursionDepth " + std::to_string(depth) + ","));
   }
 }
 

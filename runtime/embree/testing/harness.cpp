@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/embree/device.h"
 #include "runtime/embree/testing/harness.h"
+#include "runtime/embree/device.h"
 
 #include <gtest/gtest.h>
 
