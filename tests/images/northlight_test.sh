@@ -102,7 +102,7 @@ cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the kept volume 
 "$northlight" "${whole[@]}" --threads 1 --out "$work/again" > /dev/null || fail "the whole frame on one thread"
 cmp -s "$work/whole/frame.png" "$work/again/frame.png" || fail "the whole frame depends on the threads"
 echo damage >> "$work/lounge.gi"
-expect_error 1 'lounge.gi is no volume.*bake it again' "${whole[@]}"
+expect_error 1 'KA3045 .*lounge.gi.*bake it again' "${whole[@]}"
 
 # A sequence: the same on any number of threads, a line for each frame, and no frames of a longer
 # one left.
