@@ -288,7 +288,7 @@ TEST_P(CheckedCode, RootAddressOfNoBuffer) {
   leaf_address_ = leaf_.GetGPUVirtualAddress() + 4096;
   run("Clean", {127});
   expect("KA0419", {"any-hit \"Leaf\"", "parameter t0, space 1 \"leaf\": is set to address 0x",
-                    "which is in no live buffer", "goes to its byte 16"});
+                    "which is in no live buffer", "accesses byte 16 from there"});
 }
 
 TEST_P(CheckedCode, AnyHitFollowsABadAddressInItsRecord) {
@@ -321,7 +321,7 @@ TEST_P(CheckedCode, IndexPastAnArray) {
   EXPECT_EQ(all(), "");
   run("ReadMany", {3});
   expect("KA0420", {"ray generation \"ReadMany\"",
-                    "parameter t0, space 2 \"many\": index 3 of 3 "
+                    "parameter t0, space 2 \"many\": index 3 is past the end of 3 "
                     "elements; it reads as a null descriptor"});
   run("ReadAnyNumber", {6});
   expect("KA0421", {"parameter t0, space 3 \"any_number\"", "which has 6 descriptors"});
@@ -365,7 +365,8 @@ TEST_P(CheckedCode, FreedResourceInAnArray) {
   EXPECT_EQ(all(), "");
   picture = {};
   run("ReadPicture", {3});
-  expect("KA0425", {"parameter t0, space 4 \"pictures\": element 3 is a texture, which was freed"});
+  expect("KA0425",
+         {"parameter t0, space 4 \"pictures\": element 3 is a texture, which has been freed"});
 }
 
 // Only the code knows which elements of an array are used; the layer knows the state of each.
@@ -397,7 +398,7 @@ TEST_P(CheckedCode, StatesOfTexturesInArrays) {
                       "element 3 is a view of texture \"wall\", which is in state "
                       "kUnorderedAccess since it was created; it must be in state "
                       "kNonPixelShaderResource. Record ResourceBarrier::Transition from "
-                      "kUnorderedAccess to kNonPixelShaderResource before."});
+                      "kUnorderedAccess to kNonPixelShaderResource first."});
   }
   // The access happens all the same.
   EXPECT_EQ(result_of()[0], 0x7FC0u);
@@ -551,7 +552,7 @@ TEST_P(CheckedCode, OneRayForTraceRayAndAQuery) {
 
 TEST_P(CheckedCode, TransformReadAfterAMiss) {
   run("ReadTransform", {0, 0, 50});
-  expect("KA0410", {"CommittedObjectToWorld3x4() was read after a miss"});
+  expect("KA0410", {"CommittedObjectToWorld3x4() was read without a hit"});
   run("ReadTransform", {0, 0, 0});
   EXPECT_EQ(all(), "");
 }

@@ -223,7 +223,7 @@ TEST_P(Textures, ReadWhileForWriting) {
              {"compute shader \"Look\", t2 \"seen\" is in texture \"wall\", which is in state "
               "kUnorderedAccess since it was created; it must be in state kNonPixelShaderResource. "
               "Record ResourceBarrier::Transition from kUnorderedAccess to "
-              "kNonPixelShaderResource before.",
+              "kNonPixelShaderResource first.",
               "(Dispatch, command 1)"});
 }
 
