@@ -37,7 +37,7 @@ TEST_P(Errors, UpdateOfAnotherShape) {
   record_build(commands, level,
                bottom_inputs(triangles(2), BuildFlags::kAllowUpdate | BuildFlags::kPerformUpdate),
                level.GetGPUVirtualAddress());
-  expect_error(commands, "KA0793", {"geometry 0", "differs from the build"});
+  expect_error(commands, "KA0793", {"there are 2 geometries", "was built with 1"});
 }
 
 TEST_P(Errors, UpdateOfAStructureThatDoesNotAllowIt) {

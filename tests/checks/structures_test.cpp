@@ -58,7 +58,7 @@ TEST_P(Structure, MissingBarrierBetweenBuilds) {
   ASSERT_TRUE(execute(commands).ok());
   expect_one("KA0450", {"a bottom level of the top level's build at byte 0 of buffer \"floor\"",
                         "is written by BuildRaytracingAccelerationStructure, command 0",
-                        "Record ResourceBarrier::Uav of \"floor\"",
+                        "Record ResourceBarrier::Uav for \"floor\"",
                         "(BuildRaytracingAccelerationStructure, command 1)"});
 }
 
