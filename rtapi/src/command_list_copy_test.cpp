@@ -23,7 +23,8 @@ TEST_F(CommandListTest, Barriers) {
   EXPECT_OK(barrier(ResourceBarrier::Transition(buffer, common, read)));
   EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, read, read)), "KA0802", "\"buf\"");
   EXPECT_ERROR(barrier(ResourceBarrier::Transition({}, common, read)), "KA0904");
-  EXPECT_ERROR(barrier(ResourceBarrier::Transition(upload, common, read)), "KA0802", "cannot leave their state");
+  EXPECT_ERROR(barrier(ResourceBarrier::Transition(upload, common, read)), "KA0802",
+               "cannot leave their state");
   EXPECT_ERROR(barrier(ResourceBarrier::Transition(buffer, common, read, 1)), "KA0802",
                "subresource 1");
   ResourceBarrier odd;
