@@ -150,9 +150,9 @@ class FrameRenderer {
   /// The strongest lights, added with the visibility that was summed up last.
   void record_strongest_lights(rtapi::CommandList& list) const;
 
-  /// Of the last frame, in order.
+  /// The passes of the last frame, in order.
   const std::vector<PassStatistics>& passes() const { return statistics_; }
-  /// Of prepare; none where there was nothing to bake or to load.
+  /// What prepare() took; empty if there was nothing to bake or to load.
   const std::optional<PassStatistics>& set_up() const { return set_up_; }
   /// Parts of the frame that this scene or these settings have no use for, and why.
   const std::vector<std::string>& left_out() const { return left_out_; }

@@ -45,7 +45,7 @@ struct FrameSettings {
   bool ray_cones = true;               ///< [FrameDesc]
   float sun_angular_radius = -1.0f;    ///< [FrameDesc]
   std::uint32_t max_pass_views = 256;  ///< [FrameDesc]
-  /// Of a dispatch. 0: as many as take a quarter of a second.
+  /// Rows per dispatch. 0: as many as take a quarter of a second.
   std::uint32_t rows = 0;
 };
 

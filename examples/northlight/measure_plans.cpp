@@ -165,7 +165,7 @@ MeasurePlan transparent_plan() {
   return plan;
 }
 
-// Of an effect that has no plan of its own: how its error falls with its rays.
+// For an effect without a plan of its own: how its error falls with its rays.
 MeasurePlan plan_by_rays(const std::string& effect) {
   const Effect& row = *find_effect(northlight_effects(), effect);
   MeasurePlan plan{.title = row.about, .signal = row.signals.front().name, .effects = {effect}};

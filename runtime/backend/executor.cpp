@@ -68,7 +68,7 @@ class Executor {
   size_t index_ = 0;
   std::optional<uint32_t> indirect_;  // which dispatch of an ExecuteIndirect is running
   std::vector<std::string> events_;
-  // Of the running dispatch. They follow what checked mode reports, which knows the cause.
+  // The running dispatch's. They are reported after what checked mode finds, which knows the cause.
   std::vector<DispatchOutcome::Warning> warnings_;
 };
 
