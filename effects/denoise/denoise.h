@@ -129,8 +129,8 @@ class Denoiser {
 
   /// Makes the pictures and the passes for 1 to kMostSignals signals. The signals' pictures must
   /// outlive it; `frame` must be that of every later call.
-  /// @errors no signal, or more than kMostSignals; those of the device, among them KA0990 no memory
-  /// and KA0537 a library without a kernel.
+  /// @errors KA3043 no signal, or more than kMostSignals; those of the device, among them KA0990 no
+  /// memory and KA0537 a library without a kernel.
   static rtapi::Result<Denoiser> create(const rtapi::Device& device, const Frame& frame,
                                         const DenoiseLibraries& libraries,
                                         const std::vector<Signal>& signals,

@@ -152,7 +152,7 @@ class Frame {
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,
                               const rtapi::Buffer& order) const;
   /// Descriptors for one pass, in the heap of the frame. They are never given back.
-  /// @errors FrameDesc::max_pass_views of them are in use already.
+  /// @errors KA3040 FrameDesc::max_pass_views of them are in use already.
   rtapi::Result<PassViews> create_pass_views(const rtapi::Device& device) const;
   /// Gives the descriptors of all passes back: none of those passes may run again.
   void release_pass_views() { *pass_views_ = 0; }

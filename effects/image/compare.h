@@ -26,7 +26,7 @@ struct ImageDifference {
 
 /// Compares all channels. A NaN equals a NaN and an infinity itself; where only one of the two is
 /// finite, max_abs is infinite and the value is left out of mse and bias.
-/// @errors different sizes.
+/// @errors KA3004 different sizes.
 Result<ImageDifference> compare(const FloatImage& a, const FloatImage& b, double peak = 1.0);
 
 /// One line for a failed test: the numbers and the worst pixel.

@@ -20,7 +20,8 @@ struct Table {
 /// A line for the columns and for each row; cells are quoted where they must be.
 std::string write_csv(const Table& table);
 
-/// @errors no line at all, a row of another length (with its line), a quote that is not closed.
+/// @errors KA3003 no line at all, a row of another length (with its line), a quote that is not
+/// closed.
 Result<Table> parse_csv(std::string_view text);
 
 /// A number with `digits` significant ones; "inf", "-inf" and "nan" too.

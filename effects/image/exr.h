@@ -30,13 +30,13 @@ struct ExrFile {
 
 /// Writes all layers into one file; channels are named LAYER.CHANNEL as viewers expect. An earlier
 /// file at `path` stays as it was on any error.
-/// @errors no layer, layers of different size, a layer name twice, names for another number of
-/// channels than there are.
+/// @errors KA3002 no layer, layers of different size, a layer name twice, names for another number
+/// of channels than there are.
 Status write_exr(const std::string& path, const ExrFile& file);
 
 /// Reads every layer of a scan-line or tiled single-part file as floats. Channels of a layer stand
 /// in the order RGBA, XYZ or else alphabetical.
-/// @errors a file that cannot be read (see read_file), or that is no OpenEXR file or a damaged one.
+/// @errors KA3000 a file that cannot be read; KA3002 one that is no OpenEXR file or a damaged one.
 Result<ExrFile> read_exr(const std::string& path);
 
 /// The layer of that name, or null.

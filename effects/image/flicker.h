@@ -38,7 +38,7 @@ struct TemporalChange {
 /// Compares `now` with `then`, carried along with the surfaces (bilinear): 3 channels of 3 or 4, or
 /// 1. Pixels without a surface, and those whose surface was outside of the picture or hidden a
 /// frame ago, do not count.
-/// @errors different sizes.
+/// @errors KA3004 different sizes.
 Result<TemporalChange> temporal_change(const FloatImage& then, const FloatImage& now,
                                        const FloatImage& previous_view_z,
                                        const FrameSurfaces& surfaces);

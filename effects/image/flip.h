@@ -20,7 +20,7 @@ struct Flip {
 
 /// Two pictures of 3 channels as a screen shows them: sRGB-encoded, in [0, 1]; other values are
 /// clamped, NaN counts as 0.
-/// @errors not 3 channels, different sizes.
+/// @errors KA3004 not 3 channels, different sizes.
 Result<Flip> flip(const FloatImage& picture, const FloatImage& reference,
                   double pixels_per_degree = kDefaultPixelsPerDegree);
 

@@ -29,14 +29,14 @@ struct Metrics {
 };
 
 /// `mask`: which pixels count, not 0; empty: all.
-/// @errors different sizes.
+/// @errors KA3004 different sizes.
 Result<Metrics> measure(const FloatImage& picture, const FloatImage& reference,
                         std::span<const std::uint8_t> mask = {});
 
 /// Structural similarity of two pictures of values in [0, 1]: mean over the pixels of the mean over
 /// the channels, windows of 11 x 11 with a Gaussian of 1.5 pixels, the border repeated. [Wang et
 /// al. 2004]
-/// @errors different sizes.
+/// @errors KA3004 different sizes.
 Result<double> ssim(const FloatImage& picture, const FloatImage& reference);
 
 /// What several renderings with independent seeds say of an estimator: bias^2 and variance, mean
@@ -48,11 +48,11 @@ struct ErrorParts {
   /// The mean squared error that the two make.
   double total() const { return bias_squared + variance; }
 };
-/// @errors fewer than 2 pictures, different sizes.
+/// @errors KA3004 fewer than 2 pictures, different sizes.
 Result<ErrorParts> split_error(std::span<const FloatImage> pictures, const FloatImage& reference);
 
 /// Mean absolute change from one frame to the next where nothing moves, less the reference's own.
-/// @errors different sizes.
+/// @errors KA3004 different sizes.
 Result<double> flicker(const FloatImage& previous, const FloatImage& current,
                        const FloatImage& previous_reference, const FloatImage& reference);
 

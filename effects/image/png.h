@@ -14,8 +14,8 @@
 namespace kaamos::effects {
 
 /// The bytes of a PNG file, 8 bits per channel.
-/// @errors a side of 0 or above 65,535, channels other than 1, 3 or 4, values of another size than
-/// width * height * channels.
+/// @errors KA3001 a side of 0 or above 65,535, channels other than 1, 3 or 4, values of another
+/// size than width * height * channels.
 Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image);
 
 /// Writes a PNG file; an earlier one at `path` stays as it was on any error.
@@ -23,7 +23,7 @@ Result<std::vector<std::uint8_t>> encode_png(const ByteImage& image);
 Status write_png(const std::string& path, const ByteImage& image);
 
 /// Reads a PNG of any kind as 4 channels of 8 bits.
-/// @errors those of read_file; a file that is no PNG, damaged, or too large for memory.
+/// @errors KA3000 as of read_file; KA3001 a file that is no PNG, damaged, or too large for memory.
 Result<ByteImage> read_png(const std::string& path);
 
 }  // namespace kaamos::effects

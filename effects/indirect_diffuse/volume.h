@@ -61,7 +61,7 @@ struct IndirectVolume {
 /// A volume of the bricks that hold geometry, and of those next to them, without light yet. If no
 /// size of cells is given, it is kVolumeCell, doubled until the volume has `most_cells` at most:
 /// baking takes as long as there are cells, and a large floor has many. [effects-spec B5.1]
-/// @errors more than 2^24 cells or bricks: larger cells are needed.
+/// @errors KA3045 more than 2^24 cells or bricks: larger cells are needed.
 Result<IndirectVolume> layout_volume(const Scene& scene, std::optional<float> cell_metres = {},
                                      std::uint64_t most_cells = 1u << 19);
 
@@ -90,7 +90,7 @@ rtapi::Result<Outcome> bake_volume(const rtapi::Device& device, rtapi::CommandQu
 /// @errors those of write_file_atomically.
 Status save_volume(const std::string& path, const IndirectVolume& volume);
 /// Reads a volume from a file that save_volume wrote.
-/// @errors those of read_file; a file of another version, cut short or damaged.
+/// @errors KA3000 as of read_file; KA3045 a file of another version, cut short or damaged.
 Result<IndirectVolume> load_volume(const std::string& path);
 
 /// A volume as shaders read it: registers t0 to t2 of space3.

@@ -34,7 +34,7 @@ class Lighting {
  public:
   /// Makes the atlas and the lists for so many lights: those that light_constants makes of the
   /// scene.
-  /// @errors those of the device; more lights than an atlas has tiles for (4,096).
+  /// @errors those of the device; KA3041 more lights than an atlas has tiles for (4,096).
   static rtapi::Result<Lighting> create(const rtapi::Device& device, const Frame& frame,
                                         const GpuScene& scene, const rtapi::ShaderLibrary& library,
                                         std::uint32_t light_count);

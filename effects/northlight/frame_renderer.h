@@ -70,7 +70,7 @@ class FrameRenderer {
   /// Uploads the scene and builds its structures. `scene` must stay for the renderer's life; only
   /// its lights, sun and sky may change between frames, and not to more lights. `effects`: the
   /// registry.
-  /// @errors those of the device; an unknown name in settings.effects; an effect with
+  /// @errors those of the device; KA3046 an unknown name in settings.effects; an effect with
   /// pictures of its own without settings.whole_frame.
   static rtapi::Result<std::unique_ptr<FrameRenderer>> create(
       const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
@@ -88,8 +88,8 @@ class FrameRenderer {
 
   /// Makes pipelines and pictures, and bakes or reads the volume of indirect light; render and run
   /// call it where it has not been done. After kStopped it can be called again.
-  /// @errors those of the device; more than 4,096 local lights; a volume file that cannot be read
-  /// or written.
+  /// @errors those of the device; KA3041 more than 4,096 local lights; KA3045 a volume file that
+  /// cannot be read or written.
   rtapi::Result<Outcome> prepare(const Progress& progress = {});
   /// Moves on to another frame of a sequence: poses, structures, camera.
   /// @errors those of the device.
@@ -100,10 +100,10 @@ class FrameRenderer {
 
   /// Runs a chosen effect alone, over the G-buffer and the lights of the frame; its sums begin
   /// anew. One dispatch.
-  /// @errors those of prepare and of the device; an effect that this frame does not have.
+  /// @errors those of prepare and of the device; KA3046 an effect that this frame does not have.
   rtapi::Result<RunStatistics> run(const std::string& effect, std::uint32_t samples);
   /// The same with all settings. `first_sample`: of each pixel's sequence.
-  /// @errors as above; settings.trace_only of an effect without Effect::trace.
+  /// @errors as above; KA3046 settings.trace_only of an effect without Effect::trace.
   rtapi::Result<RunStatistics> run(const std::string& effect, const EffectSettings& settings,
                                    std::uint32_t first_sample = 0);
   /// The same for many samples, in dispatches short enough to be stopped between them.
@@ -116,7 +116,7 @@ class FrameRenderer {
 
   /// A layer by its name, as layers() lists them: sums as the mean of their samples. As many
   /// channels as its picture has.
-  /// @errors those of the device; an unknown name.
+  /// @errors those of the device; KA3046 an unknown name.
   rtapi::Result<FloatImage> read(const std::string& layer);
   /// Any picture of the frame. [read_picture]
   /// @errors those of the device.

@@ -28,7 +28,7 @@ class RaySorter {
  public:
   /// Makes the pass and its buffers, and binds them to registers t5 and u13 of the frame, which
   /// must outlive it. A picture may have at most 65,535 pixels on a side.
-  /// @errors a larger picture; KA0537 a library without the pass; those of the device.
+  /// @errors KA3044 a larger picture; KA0537 a library without the pass; those of the device.
   static rtapi::Result<RaySorter> create(const rtapi::Device& device, const Frame& frame,
                                          const rtapi::ShaderLibrary& library);
   /// Records the sorting of keys that a pass of key_pass wrote, in tiles of 64 x 128 pixels.

@@ -34,14 +34,14 @@ inline constexpr const char* kCameraPaths = "still, dolly, orbit";
 /// A built-in path of 2 seconds from the scene's first camera on: `still`, `dolly` (towards what
 /// the camera looks at, a little aside) or `orbit` (about it); in the lounge they stay inside the
 /// room. An empty name: the scene's own, `still` where something moves, else `dolly`.
-/// @errors another name; the text lists those that there are.
+/// @errors KA3024 another name; the text lists those that there are.
 Result<CameraPath> make_camera_path(const Scene& scene, const std::string& name);
 
 /// Reads lines of "seconds eye.x eye.y eye.z target.x target.y target.z [fov=DEGREES] [cut]",
 /// metres in world space; what follows a number sign is a comment. `name` stands for the file in
 /// messages.
-/// @errors with file and line: what is not a number, times that do not rise, an eye in its target,
-/// no line at all.
+/// @errors KA3024, with file and line: what is not a number, times that do not rise, an eye in its
+/// target, no line at all.
 Result<CameraPath> parse_camera_path(std::string_view text, const std::string& name);
 /// The same from a file.
 /// @errors those of read_file and of parse_camera_path.

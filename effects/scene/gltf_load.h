@@ -36,9 +36,9 @@ struct GltfOptions {
 /// Loads a .gltf or .glb file; which of the two it is shows in its first bytes. The scene passes
 /// validate(). Where the file has none, it gets a camera that frames it, a sun and a sky; the first
 /// directional light is the sun. [glTF 2.0]
-/// @errors name the file, the place in it, the actual and the allowed value: missing or cut files,
-/// bad JSON, ids and byte ranges outside what is there, positions that are not finite, node cycles,
-/// a required extension that is not supported, no triangles.
+/// @errors KA3020; they name the file, the place in it, the actual and the allowed value: missing
+/// or cut files, bad JSON, ids and byte ranges outside what is there, positions that are not
+/// finite, node cycles, a required extension that is not supported, no triangles.
 Result<LoadedScene> load_gltf(const std::string& path, const GltfOptions& options = {});
 
 /// The same from memory. `name` stands for the file in messages; external parts are looked for in

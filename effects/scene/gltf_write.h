@@ -15,7 +15,7 @@ namespace kaamos::effects {
 /// The bytes of a .glb: meshes, materials with their pictures as PNG, instances, cameras, lights,
 /// the sun as the first directional light. glTF has no place for the sky, the sun's angular radius,
 /// exposure and instance masks; they do not come back when the file is loaded.
-/// @errors a scene that validate() refuses; more than 4 GB.
+/// @errors KA3022 a scene that validate() refuses; KA3021 more than 4 GB.
 Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene);
 
 /// Writes the file; an earlier one at `path` stays as it was on any error.

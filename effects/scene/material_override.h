@@ -21,14 +21,14 @@ struct MaterialOverride {
 /// Reads NAME:KEY=VALUE[,KEY=VALUE...], as in "Glass:alpha=0.3,roughness=0". A name may hold
 /// colons: the last one counts. Keys: alpha, roughness, metallic, red, green, blue (0..1), emission
 /// (0 or more, of all colours), two_sided (0 or 1).
-/// @errors a missing part, an unknown key (the known ones are listed), a value that is no number or
-/// out of range.
+/// @errors KA3023 a missing part, an unknown key (the known ones are listed), a value that is no
+/// number or out of range.
 Result<MaterialOverride> parse_material_override(const std::string& text);
 
 /// Replaces them in every material of that name. Alpha below 1 makes glass: the pieces of meshes
 /// with that material become instances of their own, which rays tell apart; alpha 1 makes it
 /// opaque.
-/// @errors no material has the name; those there are are listed.
+/// @errors KA3023 no material has the name; those there are are listed.
 Status override_material(Scene& scene, const MaterialOverride& change);
 
 }  // namespace kaamos::effects

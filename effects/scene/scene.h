@@ -152,7 +152,7 @@ Bounds scene_bounds(const Scene& scene);
 
 /// Checks the data: ids in range, index ranges inside their buffers, finite transforms, mip sizes,
 /// unit directions. A valid scene can be uploaded unchecked.
-/// @errors the first broken rule, named by place and value.
+/// @errors KA3022 the first broken rule, named by place and value.
 Status validate(const Scene& scene);
 
 }  // namespace kaamos::effects

@@ -74,8 +74,8 @@ class StructureManager {
   /// levels, one barrier, top level, one barrier; what has nothing to do is left out together with
   /// its barrier. Positions become relative to `origin`, the camera. The list of the frame before
   /// must have finished: what the device reads is written now.
-  /// @errors another number of states than instances, or of matrices than joints; a mesh that is no
-  /// level of its instance.
+  /// @errors KA3042 another number of states than instances, or of matrices than joints; a mesh
+  /// that is no level of its instance.
   rtapi::Status record(rtapi::CommandList& list, std::span<const InstanceState> states,
                        const glm::dvec3& origin);
   /// The same, executed stage by stage and measured.
