@@ -79,6 +79,7 @@ END
 #!/bin/sh
 state=${0%/*}/../state
 echo "ctest $*" >>"$state/calls"
+case $* in *--show-only=*) if [ -f "$state/limits.json" ]; then cat "$state/limits.json"; fi; exit;; esac
 while [ $# -gt 0 ]; do if [ "$1" = --output-junit ]; then junit=$2; fi; shift; done
 if [ -n "$junit" ] && [ -f "$state/results.xml" ]; then
   mkdir -p "${junit%/*}" && cat "$state/results.xml" >"$junit"
@@ -465,6 +466,22 @@ slowest_tests_are_shown_slowest_first() {
   run_test
   expect $'Slowest tests, in seconds:\n     1.00  T4\n     0.95  T9\n'
   expect_not '  T10'
+}
+
+tests_that_come_near_their_limit_are_named() {
+  results ran failed ran failed
+  printf '    {\n      "command" : \n      [\n        "--limit",\n        "%s",\n        "x"\n      ],
+      "name" : "%s",\n      "properties" : \n      [\n        {\n          "name" : "TIMEOUT",
+          "value" : %s\n        }\n      ]\n    },\n' 3 T2 36.0 4 T4 38.0 >"$state/limits.json"
+  printf '    {\n      "name" : "%s",\n      "properties" : \n      [\n        {
+          "name" : "TIMEOUT",\n          "value" : %s\n        }\n      ]\n    },\n' \
+    T1 0.5 T3 2.0 >>"$state/limits.json"
+  run_test
+  expect 'Took more than a quarter of their limit'
+  expect '  T2: 1.00 of 3 s'
+  expect '  T1: 0.15 of 0.5 s'
+  expect_not 'T3: '
+  expect_not 'T4: 1'
 }
 
 no_test_is_a_failure() {
