@@ -6,8 +6,14 @@
 set -uo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 source_root=$(cd "$here/../.." && pwd -P)
-work=$1
+work=${1:?scripts_test.sh WORK: a folder that it may empty}
 real_cat=$(command -v cat)
+
+# It empties WORK, so it takes only a new folder or one that it made itself.
+if [[ -e $work && ! -e $work/.made-by-scripts-test ]]; then
+  echo "scripts_test.sh: \"$work\" exists and was not made by this test; name a folder that does not." >&2
+  exit 2
+fi
 failures=0
 
 # fake NAME: puts what stdin holds into PATH under this name.
@@ -686,6 +692,8 @@ echo "northlight: error: out/demo: Permission denied" >&2; exit 3'
 rules=$(sed -n 's/^\([a-z_]*\)() {$/\1/p' "${BASH_SOURCE[0]}" |
   grep -vxE 'fake|machine|make_machine|fresh_machine|called|user|system|mesa|installed_packages|results|command_|fail|northlight|vulkan_runs')
 rm -rf "$work"
+mkdir -p "$work"
+: >"$work/.made-by-scripts-test"
 make_machine
 count=0
 for rule in $rules; do
