@@ -94,6 +94,8 @@ class FrameRenderer {
   /// Moves on to another frame of a sequence: poses, structures, camera.
   /// @errors those of the device.
   rtapi::Status begin_frame(const FrameMoment& moment);
+  /// Where the instances are at a moment, and at which level of detail.
+  std::vector<InstanceState> states_at(const FrameMoment& moment) const;
   /// Renders the frame.
   /// @errors those of prepare and of the device.
   rtapi::Result<Outcome> render(const Progress& progress = {});
@@ -229,7 +231,6 @@ class FrameRenderer {
                             const std::function<void(rtapi::CommandList&)>& record);
   rtapi::Result<Outcome> finish_whole(const Progress& progress);
   void record_lights(rtapi::CommandList& list) const;
-  std::vector<InstanceState> states_at(const FrameMoment& moment) const;
   std::uint64_t bytes_of(const Active& effect) const;
   std::uint64_t compose_bytes() const;
   // frame_renderer_run.cpp

@@ -22,6 +22,7 @@
 #include "measure.h"
 #include "options.h"
 #include "output.h"
+#include "path_reference.h"
 #include "reference.h"
 #include "sequence.h"
 #include "split.h"
@@ -49,7 +50,8 @@ bool load_scene(const Options& options, Scene& scene) {
     scene = built_in->make();
     return true;
   }
-  auto loaded = kaamos::effects::load_gltf(options.scene, {.animated = options.frames > 0});
+  auto loaded = kaamos::effects::load_gltf(
+      options.scene, {.animated = options.frames > 0 || options.seconds.has_value()});
   if (!loaded.ok()) {
     say_error(loaded.error().message);
     return false;
@@ -65,7 +67,8 @@ bool load_scene(const Options& options, Scene& scene) {
 
 // Prepares a scene for upload.
 void prepare_geometry(const Options& options, Scene& scene) {
-  if (options.frames == 0) kaamos::effects::show_levels(scene, scene.cameras.front());
+  if (options.frames == 0 && !options.seconds)
+    kaamos::effects::show_levels(scene, scene.cameras.front());
   if (options.piece_triangles == 0) return;
   const std::size_t before = scene.meshes.size();
   const std::size_t split = kaamos::effects::split_into_pieces(scene, options.piece_triangles);
@@ -143,6 +146,13 @@ int write_frame(FrameRenderer& renderer, const Options& options, const FrameResu
               describe(renderer, frame).c_str(), options.out.c_str());
   std::fflush(stdout);
   return 0;
+}
+
+// A reference that was stopped has written what it has.
+int render_reference(const Options& options, const Scene& scene) {
+  const auto done = render_path_reference(options, scene, show_progress, say_error);
+  if (!done) return report(done.error());
+  return *done == Outcome::kDone ? 0 : kInterrupted;
 }
 
 int render_once(FrameRenderer& renderer, const Options& options) {
@@ -233,6 +243,7 @@ int main(int argc, char** argv) {
   prepare_geometry(*options, scene);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  if (options->path_samples > 0) return render_reference(*options, scene);
   if (!options->measure.empty()) {
     return report(run_measure(*options, scene, show_progress), *options);
   }

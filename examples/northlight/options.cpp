@@ -160,6 +160,26 @@ void add_sequence(CLI::App& app, Options& options) {
       ->needs(frames);
 }
 
+void add_path_reference(CLI::App& app, Options& options) {
+  auto* samples =
+      app.add_option("--reference-path-traced", options.path_samples,
+                     "render a path-traced reference of so many samples a pixel instead "
+                     "of a frame: reference.exr and its layers")
+          ->check(CLI::Range(2u, 1u << 24));
+  app.add_option("--bounces", options.bounces,
+                 "bounces of its paths after what the camera sees (unlimited)")
+      ->needs(samples)
+      ->check(CLI::Range(0u, 1u << 16));
+  app.add_option("--time", options.seconds, "of it on the scene's clock, in seconds")
+      ->needs(samples)
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_flag("--reference-lamps", options.each_lamp, "a layer for each local light, up to 16")
+      ->needs(samples);
+  app.add_flag("--half", options.half, "its file has half floats")->needs(samples);
+  app.add_flag("--resume", options.resume, "go on with the reference in the folder of results")
+      ->needs(samples);
+}
+
 // Options that show a single frame or render forever exclude --frames; options that look for a
 // pixel at its place in a dispatch exclude --sort-rays.
 std::string conflict(const Options& options) {
@@ -177,6 +197,22 @@ std::string conflict(const Options& options) {
     if (!chosen) continue;
     if (!instead.empty()) return instead + " and " + name + " exclude each other: leave one out";
     instead = name;
+  }
+  if (options.path_samples > 0) {
+    for (const auto& [name, chosen] :
+         {std::pair("--frames", options.frames > 0),
+          std::pair("--explain", options.explain.has_value()), std::pair("--watch", options.watch),
+          std::pair("--pixel", options.pixel.has_value()),
+          std::pair("--tables", !options.tables.empty()),
+          std::pair("--heatmap", !options.heatmap.empty()),
+          std::pair("--measure", !options.measure.empty()), std::pair("--claims", options.claims),
+          std::pair("--split", !options.split.empty()),
+          std::pair("--reference", options.reference > 0),
+          std::pair("--measure-left-out", options.measure_left_out)}) {
+      if (!chosen) continue;
+      return std::string("--reference-path-traced and ") + name +
+             " exclude each other: leave one out";
+    }
   }
   if (options.frames == 0) return {};
   const std::pair<const char*, bool> given[] = {{"--watch", options.watch},
@@ -346,6 +382,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--write-glb", options.write_glb, "write the scene to this .glb file too");
   add_engine(app, options, words);
   add_sequence(app, options);
+  add_path_reference(app, options);
   app.add_flag("--watch", options.watch, "render again whenever a shader file changes");
   app.add_option("--pixel", words.pixel,
                  "x,y: print what each layer holds there instead of writing files")

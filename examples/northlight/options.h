@@ -35,6 +35,12 @@ struct Options {
   bool list_devices = false;
   std::string split;                        // settings side by side in one picture; empty: none
   std::uint32_t reference = 0;              // samples for the layers NAME_reference; 0: none
+  std::uint32_t path_samples = 0;           // of a path-traced reference; 0: none
+  std::optional<std::uint32_t> bounces;     // of its paths; none: unlimited
+  std::optional<double> seconds;            // of it on the scene's clock; none: as loaded
+  bool each_lamp = false;                   // it has a layer for each lamp
+  bool half = false;                        // its file has half floats
+  bool resume = false;                      // goes on with the one in the folder
   bool claims = false;                      // measure what the sources say about costs
   std::string measure;                      // effect whose error to measure; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// @file
+/// Directional albedo of the reference's specular lobe, tabulated by quadrature.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace kaamos::effects {
+
+/// Size of the table. Mirrored in path_material.hlsli.
+///@{
+inline constexpr std::uint32_t kAlbedoCosines = 64;
+inline constexpr std::uint32_t kAlbedoRoughnesses = 32;
+///@}
+/// Up to this roughness a surface is a mirror, which needs no table.
+inline constexpr float kPathMirrorRoughness = 0.03f;
+
+/// What a GGX lobe reflects of even light is f0 * x + y: single scattering, Smith's
+/// height-correlated shadowing, Schlick's Fresnel term. `cosine`: of the view, above 0;
+/// `roughness`: perceptual, above kPathMirrorRoughness. `steps`: along each of two axes of the
+/// quadrature.
+glm::dvec2 specular_parts(double roughness, double cosine, std::uint32_t steps = 32);
+
+/// The same for all: rows of roughness, evenly from kPathMirrorRoughness to 1, of the square root
+/// of the cosine, evenly from 0 to 1.
+std::vector<glm::vec2> specular_albedo_table();
+
+}  // namespace kaamos::effects

@@ -1,0 +1,605 @@
+// SPDX-License-Identifier: MIT
+// The reference: paths from the camera, next-event estimation of every light, multiple importance
+// sampling, Russian roulette. README.md has the equations; every light and lobe that the frame
+// treats on its own is a layer here.
+#include "alpha_test.hlsli"
+#include "path_lights.hlsli"
+#include "path_sampler.hlsli"
+
+// Sums over samples.
+RWTexture2D<float4> path_radiance : register(u0, space3);    // all of it, glass included
+RWTexture2D<float4> path_emission : register(u1, space3);    // of what the camera sees, or the sky
+RWTexture2D<float4> path_sun : register(u2, space3);         // both lobes
+RWTexture2D<float4> path_lamps : register(u3, space3);       // both lobes
+RWTexture2D<float4> path_indirect : register(u4, space3);    // diffuse lobe, all other light
+RWTexture2D<float4> path_first : register(u5, space3);       // the part of it with one bounce
+RWTexture2D<float4> path_reflection : register(u6, space3);  // specular lobe, all other light
+RWTexture2D<float4> path_glass : register(u7, space3);       // of glass in front; a: transmittance
+RWTexture2D<float4> path_visibility : register(u8, space3);  // ambient, sun
+// Radiance of each lamp and its visibility, picture by picture. Empty with more than
+// constants.lamps_apart lamps.
+RWStructuredBuffer<float4> path_each_lamp : register(u9, space3);
+
+struct PathConstants {
+  uint seed;
+  uint bounces;       // after the surface that the camera sees; 0xFFFFFFFF: no limit
+  uint emitters;      // emissive triangles
+  uint has_sun;
+  uint has_sky;
+  uint has_glass;
+  uint lamps_apart;   // up to so many lamps are all sampled where the camera looks
+  float occlusion_radius;  // of ambient visibility, metres
+};
+ConstantBuffer<PathConstants> constants : register(b0, space3);
+
+static const uint kGlassOnly = 0x02;  // [effects/scene/scene.h: InstanceMask]
+// Bounces before Russian roulette may end a path.
+static const uint kSafeBounces = 3;
+static const float kSurest = 0.95;
+
+struct PathHit {
+  float3 position;
+  float offset;
+  float3 normal;
+  float distance;  // negative: a miss
+  float3 shading_normal;
+  float roughness;
+  float3 base_color;
+  float metallic;
+  float3 emissive;
+  float emitter_density;  // of SampleEmitter at this point, 1/m^2
+  float opacity;
+  uint is_glass_ray;
+  uint is_camera_ray;     // textures are filtered over the pixel
+};
+
+PathHit NoHit() {
+  PathHit hit;
+  hit.position = hit.normal = hit.shading_normal = hit.base_color = hit.emissive = float3(0, 0, 0);
+  hit.offset = hit.roughness = hit.metallic = hit.emitter_density = hit.opacity = 0.0;
+  hit.distance = -1.0;
+  hit.is_glass_ray = hit.is_camera_ray = 0;
+  return hit;
+}
+
+[shader("miss")]
+void PathTracerMiss(inout PathHit payload) {
+  payload.distance = -1.0;
+}
+
+// Single-sided glass is seen from its front only.
+bool IsSeenGlass(float2 barycentrics) {
+  const MaterialConstants material = materials[hit_constants.material_id];
+  const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
+  if ((material.flags & kMaterialDoubleSided) == 0) {
+    const float3 p0 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.x);
+    const float3 p1 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.y);
+    const float3 p2 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z);
+    if (dot(ObjectRayDirection(), cross(p1 - p0, p2 - p0)) > 0.0) return false;
+  }
+  const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
+  return material.base_color.a * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a > 0.0;
+}
+
+[shader("anyhit")]
+void PathTracerAnyHit(inout PathHit payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (payload.is_glass_ray != 0) {
+    if (!IsSeenGlass(hit.barycentrics)) {
+      IgnoreHit();
+    }
+  } else if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+[shader("closesthit")]
+void PathTracerClosestHit(inout PathHit payload, in BuiltInTriangleIntersectionAttributes hit) {
+  const Surface surface =
+      LoadSurface(hit.barycentrics, payload.is_camera_ray != 0 ? ConeWidth() : 0.0);
+  payload.position = surface.position;
+  payload.offset = surface.offset;
+  payload.normal = surface.normal;
+  payload.distance = RayTCurrent();
+  payload.shading_normal = surface.shading_normal;
+  payload.base_color = surface.base_color;
+  payload.roughness = surface.roughness;
+  payload.metallic = surface.metallic;
+  payload.emissive = surface.emissive;
+  payload.opacity = surface.opacity;
+  payload.emitter_density = emitting_instances[InstanceIndex()] != 0
+                                ? emitter_densities[hit_constants.material_id] : 0.0;
+}
+
+struct ShadowPayload {
+  uint is_free;
+};
+
+[shader("miss")]
+void PathShadowMiss(inout ShadowPayload payload) {
+  payload.is_free = 1;
+}
+
+[shader("anyhit")]
+void PathShadowAnyHit(inout ShadowPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
+  if (IsOpenAt(hit.barycentrics)) {
+    IgnoreHit();
+  }
+}
+
+bool IsFree(float3 origin, float3 direction, float reach) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = reach;
+  ShadowPayload payload;
+  payload.is_free = 0;
+  TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
+           kMaskWithoutLamps, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
+  return payload.is_free != 0;
+}
+
+PathHit Follow(float3 origin, float3 direction, float t_min, uint mask, bool is_camera_ray) {
+  RayDesc ray;
+  ray.Origin = origin;
+  ray.TMin = t_min;
+  ray.Direction = direction;
+  ray.TMax = kLongestRay;
+  PathHit hit = NoHit();
+  hit.is_glass_ray = mask == kGlassOnly ? 1 : 0;
+  hit.is_camera_ray = is_camera_ray ? 1 : 0;
+  TraceRay(scene, RAY_FLAG_NONE, mask, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray, hit);
+  return hit;
+}
+
+// What a path brings to the camera.
+struct PathLight {
+  float3 all;
+  float3 sun;
+  float3 lamps;
+  float3 indirect;
+  float3 first;
+  float3 reflection;
+  float2 visibility;  // sun: whether the sampled point of its disk is visible
+};
+
+PathLight NoLight() {
+  PathLight light;
+  light.all = light.sun = light.lamps = light.indirect = light.first = light.reflection =
+      float3(0, 0, 0);
+  light.visibility = float2(0, 0);
+  return light;
+}
+
+// A surface of the path.
+struct Vertex {
+  PathBsdf bsdf;
+  float3 position;
+  float3 normal;  // of the triangle, towards where the path came from
+  float offset;
+};
+
+Vertex MakeVertex(PathHit hit, float3 view) {
+  Vertex vertex;
+  vertex.bsdf = MakePathBsdf(specular_albedo, hit.base_color, hit.metallic, hit.roughness,
+                             hit.shading_normal, view);
+  vertex.position = hit.position;
+  vertex.normal = hit.normal;
+  vertex.offset = hit.offset;
+  return vertex;
+}
+
+float3 OriginAbove(Vertex vertex) { return vertex.position + vertex.normal * vertex.offset; }
+
+// Light of one sampled direction, reflected by both lobes. `is_free`: whether the light is visible.
+Lobes Reflected(Vertex vertex, LightRay light, out bool is_free) {
+  is_free = false;
+  if (!(dot(light.direction, vertex.normal) > 0.0)) return NoLobes();
+  const PathValue value = PathEvaluate(vertex.bsdf, light.direction);
+  if (!any(SumOf(value.lobes) * light.value > 0.0)) return NoLobes();
+  is_free = !(light.reach > 0.0) || IsFree(OriginAbove(vertex), light.direction, light.reach);
+  if (!is_free) return NoLobes();
+  const float share = light.density > 0.0 ? ShareOf(light.density, value.density) : 1.0;
+  return Scaled(value.lobes, light.value * share);
+}
+
+Lobes Reflected(Vertex vertex, LightRay light) {
+  bool is_free;
+  return Reflected(vertex, light, is_free);
+}
+
+// Sum of LampWeight over all lamps.
+float LampWeights(Vertex vertex) {
+  float sum = 0.0;
+  for (uint i = 0; i < frame.light_count; ++i) {
+    sum += LampWeight(SeeLamp(lights[i], vertex.position), vertex.normal);
+  }
+  return sum;
+}
+
+// One lamp, chosen by its weight. `total`: LampWeights.
+LightRay SampleOneLamp(Vertex vertex, float total, float choice, float2 u) {
+  float before = 0.0;
+  uint chosen = frame.light_count;
+  float weight = 0.0;
+  for (uint i = 0; i < frame.light_count && chosen == frame.light_count; ++i) {
+    weight = LampWeight(SeeLamp(lights[i], vertex.position), vertex.normal);
+    before += weight;
+    if (weight > 0.0 && choice * total < before) chosen = i;
+  }
+  if (chosen == frame.light_count) return NoLightRay();
+  LightRay light = SampleLamp(u, lights[chosen], SeeLamp(lights[chosen], vertex.position));
+  const float chance = weight / total;
+  light.density *= chance;
+  light.value /= chance;
+  return light;
+}
+
+bool HasEachLamp() { return frame.light_count <= constants.lamps_apart; }
+
+// Light of the lamps where the camera looks: of each if they are few, else of a chosen one.
+float3 LampsInView(PathSampler sampler, Vertex vertex, float total, bool keeps_each, uint2 pixel) {
+  if (!HasEachLamp()) {
+    if (!(total > 0.0)) return float3(0, 0, 0);
+    return SumOf(Reflected(vertex, SampleOneLamp(vertex, total,
+                                                 PathRandom(sampler, 0, kPairChoice).x,
+                                                 PathRandom(sampler, 0, kPairLamp))));
+  }
+  uint width, height;
+  path_radiance.GetDimensions(width, height);
+  float3 sum = float3(0, 0, 0);
+  for (uint i = 0; i < frame.light_count; ++i) {
+    const LightConstants lamp = lights[i];
+    bool is_free;
+    const float3 light =
+        SumOf(Reflected(vertex, SampleLamp(PathRandom(sampler, kPairEachLamp + i), lamp,
+                                           SeeLamp(lamp, vertex.position)), is_free));
+    sum += light;
+    if (keeps_each) {
+      path_each_lamp[(i * height + pixel.y) * width + pixel.x] +=
+          float4(light, is_free ? 1.0 : 0.0);
+    }
+  }
+  return sum;
+}
+
+// Where a path goes on, and what it needs to know about the vertex that it left.
+struct Segment {
+  float3 origin;
+  float3 direction;
+  float density;      // of the direction; 0: a mirror's
+  uint vertex_number;
+  float lamp_weights;  // LampWeights of that vertex
+  float3 position;
+  float3 normal;
+};
+
+// Light of the lamps that a segment meets before it ends.
+float3 LampsAlong(Segment segment, float length) {
+  float3 sum = float3(0, 0, 0);
+  const bool is_each = segment.vertex_number == 0 && HasEachLamp();
+  for (uint i = 0; i < frame.light_count; ++i) {
+    float density;
+    const float3 radiance =
+        LampTowards(lights[i], segment.position, segment.direction, length, density);
+    if (!(density > 0.0)) continue;
+    float chance = 1.0;
+    if (!is_each) {
+      const SeenLamp seen = SeeLamp(lights[i], segment.position);
+      const float weight = LampWeight(seen, segment.normal);
+      chance = weight > 0.0 ? weight / segment.lamp_weights : 0.0;
+    }
+    sum += radiance * ShareOf(segment.density, density * chance);
+  }
+  return sum;
+}
+
+// What a segment finds at its end, weighted against what sampling lights finds there. Lights that
+// are no surfaces, the sun and lamps, are apart: no mirror and no camera sees them.
+struct Found {
+  float3 sky_or_emission;
+  float3 sun;
+  float3 lamps;
+};
+
+Found FindLight(Segment segment, PathHit hit) {
+  Found found;
+  found.sun = found.lamps = float3(0, 0, 0);
+  const bool is_mirrored = segment.density == 0.0;
+  const bool is_miss = hit.distance < 0.0;
+  float other = 0.0;
+  if (is_miss) {
+    found.sky_or_emission = SkyTowards(segment.direction);
+    if (constants.has_sky != 0) other = SkyDensity(segment.direction);
+  } else {
+    found.sky_or_emission = hit.emissive;
+    const float cosine = abs(dot(hit.normal, segment.direction));
+    if (hit.emitter_density > 0.0 && cosine > 1e-6) {
+      other = hit.emitter_density * hit.distance * hit.distance / cosine;
+    }
+  }
+  if (is_mirrored) return found;
+  found.sky_or_emission *= ShareOf(segment.density, other);
+  if (is_miss && constants.has_sun != 0) {
+    float density;
+    const float3 radiance = SunTowards(segment.direction, density);
+    if (density > 0.0) found.sun = radiance * ShareOf(segment.density, density);
+  }
+  if (frame.light_count > 0) {
+    found.lamps = LampsAlong(segment, is_miss ? kLongestRay : hit.distance);
+  }
+  return found;
+}
+
+// Light that is reflected at a vertex behind the first: one sample of each kind of light.
+float3 LightAtBounce(PathSampler sampler, Vertex vertex, uint number, float lamp_weights) {
+  float3 sum = float3(0, 0, 0);
+  if (constants.has_sun != 0) {
+    sum += SumOf(Reflected(vertex, SampleSunDisk(PathRandom(sampler, number, kPairSun))));
+  }
+  const float2 choice = PathRandom(sampler, number, kPairChoice);
+  if (lamp_weights > 0.0) {
+    sum += SumOf(Reflected(vertex, SampleOneLamp(vertex, lamp_weights, choice.x,
+                                                 PathRandom(sampler, number, kPairLamp))));
+  }
+  if (constants.emitters > 0) {
+    sum += SumOf(Reflected(vertex, SampleEmitter(PathRandom(sampler, number, kPairEmitter), choice.y,
+                                                 constants.emitters, vertex.position)));
+  }
+  if (constants.has_sky != 0) {
+    sum += SumOf(Reflected(vertex, SampleSky(PathRandom(sampler, number, kPairSky))));
+  }
+  return sum;
+}
+
+// What the first surface of a path is to the camera.
+struct SeenAs {
+  bool is_pane;          // its mirror image is a path of its own
+  bool keeps_each_lamp;  // what each lamp gives is a layer
+};
+
+SeenAs AsSolid() {
+  SeenAs seen;
+  seen.is_pane = false;
+  seen.keeps_each_lamp = true;
+  return seen;
+}
+
+SeenAs AsPane() {
+  SeenAs seen;
+  seen.is_pane = true;
+  seen.keeps_each_lamp = false;
+  return seen;
+}
+
+SeenAs InPane() {
+  SeenAs seen;
+  seen.is_pane = seen.keeps_each_lamp = false;
+  return seen;
+}
+
+// The same where the camera looks, into layers.
+void LightInView(PathSampler sampler, Vertex vertex, float lamp_weights, SeenAs seen, uint2 pixel,
+                 inout PathLight light) {
+  if (constants.has_sun != 0) {
+    const LightRay ray = SampleSunDisk(PathRandom(sampler, 0, kPairSun));
+    bool is_free;
+    light.sun += SumOf(Reflected(vertex, ray, is_free));
+    light.visibility.y = is_free ? 1.0 : 0.0;
+  }
+  if (frame.light_count > 0) {
+    light.lamps += LampsInView(sampler, vertex, lamp_weights, seen.keeps_each_lamp, pixel);
+  }
+  Lobes rest = NoLobes();
+  if (constants.emitters > 0) {
+    const Lobes lobes = Reflected(vertex, SampleEmitter(PathRandom(sampler, 0, kPairEmitter),
+                                                        PathRandom(sampler, 0, kPairChoice).y,
+                                                        constants.emitters, vertex.position));
+    rest.diffuse += lobes.diffuse;
+    rest.specular += lobes.specular;
+  }
+  if (constants.has_sky != 0) {
+    const Lobes lobes = Reflected(vertex, SampleSky(PathRandom(sampler, 0, kPairSky)));
+    rest.diffuse += lobes.diffuse;
+    rest.specular += lobes.specular;
+  }
+  light.indirect += rest.diffuse;
+  if (!seen.is_pane) light.reflection += rest.specular;
+}
+
+// Light that reaches the camera from a surface that it sees.
+PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, SeenAs seen, uint2 pixel) {
+  PathLight light = NoLight();
+  Vertex vertex = MakeVertex(first, view);
+  // A pane's specular lobe is its mirror image.
+  if (seen.is_pane) vertex.bsdf.specular_chance = 0.0;
+  Segment segment;
+  segment.vertex_number = 0;
+  segment.lamp_weights = LampWeights(vertex);
+  LightInView(sampler, vertex, segment.lamp_weights, seen, pixel, light);
+
+  Lobes lobes = NoLobes();         // of the first surface
+  float3 throughput = float3(1, 1, 1);  // of the bounces behind it
+  bool goes_on = !seen.is_pane || any(vertex.bsdf.diffuse > 0.0);
+  while (goes_on) {
+    const uint number = segment.vertex_number;
+    const float2 choice = PathRandom(sampler, number, kPairLobe);
+    const PathDirection next =
+        PathSampleDirection(vertex.bsdf, PathRandom(sampler, number, kPairDirection), choice.x);
+    if (!next.is_valid || !(dot(next.direction, vertex.normal) > 0.0)) break;
+    if (number == 0) {
+      lobes = next.weight;
+      if (seen.is_pane) lobes.specular = float3(0, 0, 0);
+    } else {
+      throughput *= SumOf(next.weight);
+    }
+    const float3 carried = throughput * SumOf(lobes);
+    const float strongest = max(carried.x, max(carried.y, carried.z));
+    if (!(strongest > 0.0)) break;
+    if (number >= kSafeBounces) {
+      const float chance = min(strongest, kSurest);
+      if (choice.y >= chance) break;
+      throughput /= chance;
+    }
+    segment.origin = OriginAbove(vertex);
+    segment.direction = next.direction;
+    segment.density = next.density;
+    segment.position = vertex.position;
+    segment.normal = vertex.normal;
+    // A mirror shows the shapes of lamps, as the camera does; all else meets their light.
+    const uint mask = next.density == 0.0 ? kMaskSolid : kMaskWithoutLamps;
+    const PathHit hit = Follow(segment.origin, segment.direction, 0.0, mask, false);
+    const Found found = FindLight(segment, hit);
+    if (number == 0) {
+      const float3 both = SumOf(lobes);
+      light.sun += both * found.sun;
+      light.lamps += both * found.lamps;
+      light.indirect += lobes.diffuse * found.sky_or_emission;
+      light.reflection += lobes.specular * found.sky_or_emission;
+    }
+    float3 gathered = number == 0 ? float3(0, 0, 0)
+                                  : found.sky_or_emission + found.sun + found.lamps;
+    const float3 found_first = number == 1 ? gathered : float3(0, 0, 0);
+    light.first += lobes.diffuse * throughput * found_first;
+    goes_on = hit.distance >= 0.0 && number < constants.bounces;
+    const float3 before = throughput;
+    if (goes_on) {
+      vertex = MakeVertex(hit, -segment.direction);
+      segment.vertex_number = number + 1;
+      segment.lamp_weights = LampWeights(vertex);
+      const float3 reflected =
+          LightAtBounce(sampler, vertex, segment.vertex_number, segment.lamp_weights);
+      if (number == 0) light.first += lobes.diffuse * before * reflected;
+      gathered += reflected;
+    }
+    light.indirect += lobes.diffuse * before * gathered;
+    light.reflection += lobes.specular * before * gathered;
+  }
+  light.all = light.sun + light.lamps + light.indirect + light.reflection;
+  return light;
+}
+
+// Light from the direction that a pane mirrors.
+float3 MirroredLight(PathSampler sampler, PathHit pane, float3 direction, uint2 pixel) {
+  float3 mirrored = reflect(direction, pane.shading_normal);
+  // A normal-mapped direction can point into the pane.
+  if (!(dot(mirrored, pane.normal) > 0.0)) mirrored = reflect(direction, pane.normal);
+  const PathHit hit =
+      Follow(pane.position + pane.normal * pane.offset, mirrored, 0.0, kMaskSolid, false);
+  if (hit.distance < 0.0) return SkyTowards(mirrored);
+  return hit.emissive + LightFrom(sampler, hit, -mirrored, InPane(), pixel).all;
+}
+
+// Walks through the panes in front of a surface. At each the path is mirrored, stays with the pane's
+// own colour, or goes on. Returns the light of the pane where it stays; `through`: what it keeps of
+// the light behind all panes, 0 if it stays at one.
+float3 LightOfGlass(PathSampler sampler, float3 direction, float solid_distance, uint2 pixel,
+                    out float3 through) {
+  through = float3(1, 1, 1);
+  float t_min = 0.0;
+  for (uint layer = 0; layer < 64; ++layer) {
+    const PathHit pane = Follow(float3(0, 0, 0), direction, t_min, kGlassOnly, true);
+    if (pane.distance < 0.0 || (solid_distance >= 0.0 && pane.distance >= solid_distance)) break;
+    // A ray on the edge of two triangles may hit both, at the same distance but for rounding.
+    t_min = pane.distance * 1.000002;
+    const float3 view = -normalize(direction);
+    const float3 f0 = 0.04 + (pane.base_color - 0.04) * pane.metallic;
+    const float3 mirrored = PathFresnel(f0, saturate(dot(view, pane.shading_normal)));
+    const float opacity = saturate(pane.opacity);
+    const float mirror_chance = saturate(Brightness(mirrored));
+    const float2 u = PathRandom(sampler, kPairPane + layer);
+    PathSampler behind = sampler;
+    behind.seed = HashCombine(sampler.seed, kPairPane + 0x1000 + layer);
+    if (u.x < mirror_chance) {
+      const float3 light = through * mirrored / mirror_chance *
+                           MirroredLight(behind, pane, -view, pixel);
+      through = float3(0, 0, 0);
+      return light;
+    }
+    // The pane's own light is over its coverage, whatever is mirrored: its diffuse lobe has what
+    // the specular one leaves.
+    if (u.y < opacity) {
+      const float3 light = through / (1.0 - mirror_chance) *
+                           (pane.emissive + LightFrom(behind, pane, view, AsPane(), pixel).all);
+      through = float3(0, 0, 0);
+      return light;
+    }
+    through *= (1.0 - mirrored) / (1.0 - mirror_chance);
+  }
+  return float3(0, 0, 0);
+}
+
+// Whether a direction about the shading normal is free up to the radius of ambient occlusion.
+float AmbientVisibility(PathSampler sampler, PathHit hit) {
+  const float2 u = PathRandom(sampler, kPairOcclusion);
+  const float r = sqrt(u.x);
+  const float phi = 2.0 * kPathPi * u.y;
+  const float3 direction = OutOfAxes(MakePathAxes(hit.shading_normal),
+                                     float3(r * cos(phi), r * sin(phi), sqrt(saturate(1.0 - u.x))));
+  if (!(dot(direction, hit.normal) > 0.0)) return 0.0;
+  return IsFree(hit.position + hit.normal * hit.offset, direction, constants.occlusion_radius)
+             ? 1.0 : 0.0;
+}
+
+void ClearEachLamp(uint2 pixel) {
+  if (!HasEachLamp()) return;
+  uint width, height;
+  path_radiance.GetDimensions(width, height);
+  for (uint i = 0; i < frame.light_count; ++i) {
+    path_each_lamp[(i * height + pixel.y) * width + pixel.x] = float4(0, 0, 0, 0);
+  }
+}
+
+[shader("raygeneration")]
+void PathTracerRayGen() {
+  const uint2 pixel = FramePixel();
+  uint width, height;
+  path_radiance.GetDimensions(width, height);
+  // Through the pixel's centre, as the frame's G-buffer.
+  const float2 ndc = (float2(pixel) + 0.5 + frame.jitter) / float2(width, height) * 2.0 - 1.0;
+  const float3 direction =
+      frame.camera_forward + ndc.x * frame.camera_right - ndc.y * frame.camera_up;
+  const float3 view = -normalize(direction);
+  const PathHit first = Follow(float3(0, 0, 0), direction, 0.0, kMaskSolid, true);
+  const float3 emission = first.distance < 0.0 ? SkyTowards(-view) : first.emissive;
+  ClearEachLamp(pixel);
+
+  PathLight sum = NoLight();
+  float3 whole = float3(0, 0, 0);
+  float4 glass = float4(0, 0, 0, 0);
+  PathSampler sampler;
+  sampler.seed = HashCombine(HashCombine(constants.seed, pixel.x), pixel.y);
+  for (uint i = 0; i < pass_constants.sample_count; ++i) {
+    sampler.index = pass_constants.first_sample + i;
+    PathLight light = NoLight();
+    if (first.distance >= 0.0) {
+      light = LightFrom(sampler, first, view, AsSolid(), pixel);
+      light.visibility.x = AmbientVisibility(sampler, first);
+    } else {
+      light.visibility = float2(1, 1);
+    }
+    float3 through = float3(1, 1, 1);
+    float3 of_glass = float3(0, 0, 0);
+    if (constants.has_glass != 0) {
+      of_glass = LightOfGlass(sampler, direction, first.distance, pixel, through);
+    }
+    sum.sun += light.sun;
+    sum.lamps += light.lamps;
+    sum.indirect += light.indirect;
+    sum.first += light.first;
+    sum.reflection += light.reflection;
+    sum.visibility += light.visibility;
+    glass += float4(of_glass, Brightness(through));
+    whole += (emission + light.all) * through + of_glass;
+  }
+  const float count = float(pass_constants.sample_count);
+  path_radiance[pixel] = float4(whole, count);
+  path_emission[pixel] = float4(emission * count, count);
+  path_sun[pixel] = float4(sum.sun, count);
+  path_lamps[pixel] = float4(sum.lamps, count);
+  path_indirect[pixel] = float4(sum.indirect, count);
+  path_first[pixel] = float4(sum.first, count);
+  path_reflection[pixel] = float4(sum.reflection, count);
+  path_glass[pixel] = glass;
+  path_visibility[pixel] = float4(sum.visibility, 0, 0);
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// --reference-path-traced: renders the reference of a scene instead of a frame.
+#pragma once
+
+#include "frame_result.h"
+#include "options.h"
+
+namespace northlight {
+
+// Writes reference.exr, a PNG for each of its layers, and reference.sums, with which --resume goes
+// on. What is done when it is stopped is written too.
+rtapi::Result<Outcome> render_path_reference(const Options& options,
+                                             const kaamos::effects::Scene& scene,
+                                             const Progress& progress, const Say& message);
+
+}  // namespace northlight
