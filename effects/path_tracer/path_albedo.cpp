@@ -28,7 +28,9 @@ glm::dvec2 specular_parts(double roughness, double cosine, std::uint32_t steps) 
   const double lambda_view = smith_lambda(alpha, cosine);
   glm::dvec2 sum(0.0);
   for (std::uint32_t i = 0; i < steps; ++i) {
-    const double r = std::sqrt((i + 0.5) / steps);
+    // Even steps of the facet's height over the disk: the integrand changes fastest at its rim.
+    const double rise = (i + 0.5) / steps;
+    const double r = std::sqrt(1.0 - rise * rise);
     // The lobe is symmetric about the plane of incidence: half of the disk is enough.
     for (std::uint32_t j = 0; j < steps; ++j) {
       const double phi = std::numbers::pi * ((j + 0.5) / steps - 0.5);
@@ -44,7 +46,7 @@ glm::dvec2 specular_parts(double roughness, double cosine, std::uint32_t steps) 
       if (!(light > 0.0)) continue;
       const double weight = (1.0 + lambda_view) / (1.0 + lambda_view + smith_lambda(alpha, light));
       const double grazing = std::pow(std::clamp(1.0 - across, 0.0, 1.0), 5.0);
-      sum += glm::dvec2(1.0 - grazing, grazing) * weight;
+      sum += glm::dvec2(1.0 - grazing, grazing) * (2.0 * rise * weight);
     }
   }
   return sum / (static_cast<double>(steps) * steps);
@@ -54,8 +56,8 @@ std::vector<glm::vec2> specular_albedo_table() {
   std::vector<glm::vec2> table;
   table.reserve(kAlbedoCosines * kAlbedoRoughnesses);
   for (std::uint32_t y = 0; y < kAlbedoRoughnesses; ++y) {
-    const double roughness =
-        kPathMirrorRoughness + (1.0 - kPathMirrorRoughness) * y / (kAlbedoRoughnesses - 1);
+    const double row = static_cast<double>(y) / (kAlbedoRoughnesses - 1);
+    const double roughness = kPathMirrorRoughness + (1.0 - kPathMirrorRoughness) * row * row;
     for (std::uint32_t x = 0; x < kAlbedoCosines; ++x) {
       const double root = static_cast<double>(x) / (kAlbedoCosines - 1);
       table.emplace_back(specular_parts(roughness, std::max(root * root, 1e-5)));

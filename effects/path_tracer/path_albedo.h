@@ -23,8 +23,8 @@ inline constexpr float kPathMirrorRoughness = 0.03f;
 /// quadrature.
 glm::dvec2 specular_parts(double roughness, double cosine, std::uint32_t steps = 32);
 
-/// The same for all: rows of roughness, evenly from kPathMirrorRoughness to 1, of the square root
-/// of the cosine, evenly from 0 to 1.
+/// The same for all: rows by the square root of the roughness's place between kPathMirrorRoughness
+/// and 1, in each the square root of the cosine, both evenly from 0 to 1.
 std::vector<glm::vec2> specular_albedo_table();
 
 }  // namespace kaamos::effects

@@ -86,9 +86,9 @@ float2 SpecularParts(StructuredBuffer<float2> table, float roughness, float cosi
     const float grazing = GrazingPart(cosine);
     return float2(1.0f - grazing, grazing);
   }
-  // Square roots of cosines are evenly spaced: grazing angles change fastest.
+  // Square roots are evenly spaced: grazing angles and smooth surfaces change fastest.
   const float column = sqrt(saturate(cosine)) * float(kAlbedoCosines - 1);
-  const float row = (roughness - kPathMirrorRoughness) / (1.0f - kPathMirrorRoughness) *
+  const float row = sqrt(saturate((roughness - kPathMirrorRoughness) / (1.0f - kPathMirrorRoughness))) *
                     float(kAlbedoRoughnesses - 1);
   const uint x = min(uint(column), kAlbedoCosines - 2);
   const uint y = min(uint(row), kAlbedoRoughnesses - 2);

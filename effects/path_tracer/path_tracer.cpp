@@ -107,6 +107,7 @@ rtapi::Result<PathTracer> PathTracer::create(const rtapi::Device& device, const 
   out.words_.bounces = desc.bounces;
   out.words_.lamps_apart = desc.lamps_apart;
   out.words_.occlusion_radius = desc.occlusion_radius;
+  out.words_.ways = desc.ways;
   const std::size_t lamps = light_constants(scene, origin).size();
   out.lamps_ = lamps <= desc.lamps_apart ? static_cast<std::uint32_t>(lamps) : 0;
   const auto views = frame.create_pass_views(device);

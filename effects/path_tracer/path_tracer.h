@@ -18,6 +18,13 @@
 
 namespace kaamos::effects {
 
+/// How light is found. The second and third are for tests and for teaching: their mean is the same.
+enum class PathWays : std::uint32_t {
+  kBoth,            ///< by sampling lights and directions, weighted by the balance heuristic
+  kLightsOnly,      ///< by sampling lights; directions find what cannot be sampled
+  kDirectionsOnly,  ///< by sampling directions; lights without an extent are sampled all the same
+};
+
 /// What paths may do.
 struct PathTracerDesc {
   /// Bounces of a path after the surface that the camera sees; kUnlimitedBounces: as long as
@@ -26,6 +33,7 @@ struct PathTracerDesc {
   float occlusion_radius = 4.0f;  ///< metres, of the layer "visibility"
   /// Up to so many lamps are sampled each where the camera looks, and have layers of their own.
   std::uint32_t lamps_apart = 16;
+  PathWays ways = PathWays::kBoth;  ///< how light is found
 };
 
 /// PathTracerDesc::bounces of no limit.
@@ -87,6 +95,7 @@ class PathTracer {
     std::uint32_t has_glass = 0;
     std::uint32_t lamps_apart = 0;
     float occlusion_radius = 0;
+    PathWays ways = PathWays::kBoth;
   };
 
   rtapi::Status create_tables(const rtapi::Device& device, const Scene& scene,

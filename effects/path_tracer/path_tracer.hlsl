@@ -29,6 +29,7 @@ struct PathConstants {
   uint has_glass;
   uint lamps_apart;   // up to so many lamps are all sampled where the camera looks
   float occlusion_radius;  // of ambient visibility, metres
+  uint ways;          // PathWays in path_tracer.h
 };
 ConstantBuffer<PathConstants> constants : register(b0, space3);
 
@@ -36,6 +37,25 @@ static const uint kGlassOnly = 0x02;  // [effects/scene/scene.h: InstanceMask]
 // Bounces before Russian roulette may end a path.
 static const uint kSafeBounces = 3;
 static const float kSurest = 0.95;
+// Panes behind one another that a path walks through.
+static const uint kMaxPanes = 64;
+
+static const uint kLightsOnly = 1;
+static const uint kDirectionsOnly = 2;
+
+// Weight of a sampled light whose direction the surface would sample with density `other`.
+float LightShare(float density, float other) {
+  if (density == 0.0) return 1.0;
+  if (constants.ways == kLightsOnly) return 1.0;
+  return constants.ways == kDirectionsOnly ? 0.0 : ShareOf(density, other);
+}
+
+// Weight of light met in a sampled direction that sampling lights would find with density `other`.
+float DirectionShare(float density, float other) {
+  if (constants.ways == kDirectionsOnly) return 1.0;
+  if (constants.ways == kLightsOnly) return other > 0.0 ? 0.0 : 1.0;
+  return ShareOf(density, other);
+}
 
 struct PathHit {
   float3 position;
@@ -199,13 +219,7 @@ Lobes Reflected(Vertex vertex, LightRay light, out bool is_free) {
   if (!any(SumOf(value.lobes) * light.value > 0.0)) return NoLobes();
   is_free = !(light.reach > 0.0) || IsFree(OriginAbove(vertex), light.direction, light.reach);
   if (!is_free) return NoLobes();
-  const float share = light.density > 0.0 ? ShareOf(light.density, value.density) : 1.0;
-  return Scaled(value.lobes, light.value * share);
-}
-
-Lobes Reflected(Vertex vertex, LightRay light) {
-  bool is_free;
-  return Reflected(vertex, light, is_free);
+  return Scaled(value.lobes, light.value * LightShare(light.density, value.density));
 }
 
 // Sum of LampWeight over all lamps.
@@ -237,35 +251,8 @@ LightRay SampleOneLamp(Vertex vertex, float total, float choice, float2 u) {
 
 bool HasEachLamp() { return frame.light_count <= constants.lamps_apart; }
 
-// Light of the lamps where the camera looks: of each if they are few, else of a chosen one.
-float3 LampsInView(PathSampler sampler, Vertex vertex, float total, bool keeps_each, uint2 pixel) {
-  if (!HasEachLamp()) {
-    if (!(total > 0.0)) return float3(0, 0, 0);
-    return SumOf(Reflected(vertex, SampleOneLamp(vertex, total,
-                                                 PathRandom(sampler, 0, kPairChoice).x,
-                                                 PathRandom(sampler, 0, kPairLamp))));
-  }
-  uint width, height;
-  path_radiance.GetDimensions(width, height);
-  float3 sum = float3(0, 0, 0);
-  for (uint i = 0; i < frame.light_count; ++i) {
-    const LightConstants lamp = lights[i];
-    bool is_free;
-    const float3 light =
-        SumOf(Reflected(vertex, SampleLamp(PathRandom(sampler, kPairEachLamp + i), lamp,
-                                           SeeLamp(lamp, vertex.position)), is_free));
-    sum += light;
-    if (keeps_each) {
-      path_each_lamp[(i * height + pixel.y) * width + pixel.x] +=
-          float4(light, is_free ? 1.0 : 0.0);
-    }
-  }
-  return sum;
-}
-
 // Where a path goes on, and what it needs to know about the vertex that it left.
 struct Segment {
-  float3 origin;
   float3 direction;
   float density;      // of the direction; 0: a mirror's
   uint vertex_number;
@@ -289,7 +276,7 @@ float3 LampsAlong(Segment segment, float length) {
       const float weight = LampWeight(seen, segment.normal);
       chance = weight > 0.0 ? weight / segment.lamp_weights : 0.0;
     }
-    sum += radiance * ShareOf(segment.density, density * chance);
+    sum += radiance * DirectionShare(segment.density, density * chance);
   }
   return sum;
 }
@@ -319,11 +306,11 @@ Found FindLight(Segment segment, PathHit hit) {
     }
   }
   if (is_mirrored) return found;
-  found.sky_or_emission *= ShareOf(segment.density, other);
+  found.sky_or_emission *= DirectionShare(segment.density, other);
   if (is_miss && constants.has_sun != 0) {
     float density;
     const float3 radiance = SunTowards(segment.direction, density);
-    if (density > 0.0) found.sun = radiance * ShareOf(segment.density, density);
+    if (density > 0.0) found.sun = radiance * DirectionShare(segment.density, density);
   }
   if (frame.light_count > 0) {
     found.lamps = LampsAlong(segment, is_miss ? kLongestRay : hit.distance);
@@ -331,105 +318,106 @@ Found FindLight(Segment segment, PathHit hit) {
   return found;
 }
 
-// Light that is reflected at a vertex behind the first: one sample of each kind of light.
-float3 LightAtBounce(PathSampler sampler, Vertex vertex, uint number, float lamp_weights) {
-  float3 sum = float3(0, 0, 0);
-  if (constants.has_sun != 0) {
-    sum += SumOf(Reflected(vertex, SampleSunDisk(PathRandom(sampler, number, kPairSun))));
-  }
+// Kinds of light that a vertex samples one after the other.
+static const uint kSunSample = 0;
+static const uint kEmitterSample = 1;
+static const uint kSkySample = 2;
+static const uint kLampSample = 3;  // and on: each lamp, or a chosen one
+
+uint CountLightSamples(uint vertex_number) {
+  if (frame.light_count == 0) return kLampSample;
+  return kLampSample + (vertex_number == 0 && HasEachLamp() ? frame.light_count : 1);
+}
+
+// `lamp_weights`: LampWeights of the vertex.
+LightRay SampleLight(PathSampler sampler, Vertex vertex, uint number, float lamp_weights,
+                     uint kind) {
   const float2 choice = PathRandom(sampler, number, kPairChoice);
-  if (lamp_weights > 0.0) {
-    sum += SumOf(Reflected(vertex, SampleOneLamp(vertex, lamp_weights, choice.x,
-                                                 PathRandom(sampler, number, kPairLamp))));
+  if (kind == kSunSample) {
+    if (constants.has_sun == 0) return NoLightRay();
+    return SampleSunDisk(PathRandom(sampler, number, kPairSun));
   }
-  if (constants.emitters > 0) {
-    sum += SumOf(Reflected(vertex, SampleEmitter(PathRandom(sampler, number, kPairEmitter), choice.y,
-                                                 constants.emitters, vertex.position)));
+  if (kind == kEmitterSample) {
+    if (constants.emitters == 0) return NoLightRay();
+    return SampleEmitter(PathRandom(sampler, number, kPairEmitter), choice.y, constants.emitters,
+                         vertex.position);
   }
-  if (constants.has_sky != 0) {
-    sum += SumOf(Reflected(vertex, SampleSky(PathRandom(sampler, number, kPairSky))));
+  if (kind == kSkySample) {
+    if (constants.has_sky == 0) return NoLightRay();
+    return SampleSky(PathRandom(sampler, number, kPairSky));
   }
-  return sum;
+  if (number == 0 && HasEachLamp()) {
+    const uint lamp = kind - kLampSample;
+    return SampleLamp(PathRandom(sampler, kPairEachLamp + lamp), lights[lamp],
+                      SeeLamp(lights[lamp], vertex.position));
+  }
+  if (!(lamp_weights > 0.0)) return NoLightRay();
+  return SampleOneLamp(vertex, lamp_weights, choice.x, PathRandom(sampler, number, kPairLamp));
 }
 
 // What the first surface of a path is to the camera.
-struct SeenAs {
-  bool is_pane;          // its mirror image is a path of its own
-  bool keeps_each_lamp;  // what each lamp gives is a layer
-};
+static const uint kAsSolid = 0;     // what each lamp gives is a layer
+static const uint kAsPane = 1;      // its mirror image is a path of its own
+static const uint kAsMirrored = 2;  // seen in a pane
 
-SeenAs AsSolid() {
-  SeenAs seen;
-  seen.is_pane = false;
-  seen.keeps_each_lamp = true;
-  return seen;
-}
-
-SeenAs AsPane() {
-  SeenAs seen;
-  seen.is_pane = true;
-  seen.keeps_each_lamp = false;
-  return seen;
-}
-
-SeenAs InPane() {
-  SeenAs seen;
-  seen.is_pane = seen.keeps_each_lamp = false;
-  return seen;
-}
-
-// The same where the camera looks, into layers.
-void LightInView(PathSampler sampler, Vertex vertex, float lamp_weights, SeenAs seen, uint2 pixel,
-                 inout PathLight light) {
-  if (constants.has_sun != 0) {
-    const LightRay ray = SampleSunDisk(PathRandom(sampler, 0, kPairSun));
-    bool is_free;
-    light.sun += SumOf(Reflected(vertex, ray, is_free));
+// Adds what the camera sees of a sampled light on the first surface to its layer.
+void AddInView(inout PathLight light, uint kind, Lobes lobes, bool is_free, uint seen_as,
+               uint2 pixel) {
+  if (kind == kSunSample) {
+    light.sun += SumOf(lobes);
     light.visibility.y = is_free ? 1.0 : 0.0;
+  } else if (kind == kEmitterSample || kind == kSkySample) {
+    light.indirect += lobes.diffuse;
+    if (seen_as != kAsPane) light.reflection += lobes.specular;
+  } else {
+    light.lamps += SumOf(lobes);
+    if (seen_as != kAsSolid || !HasEachLamp()) return;
+    uint width, height;
+    path_radiance.GetDimensions(width, height);
+    path_each_lamp[((kind - kLampSample) * height + pixel.y) * width + pixel.x] +=
+        float4(SumOf(lobes), is_free ? 1.0 : 0.0);
   }
-  if (frame.light_count > 0) {
-    light.lamps += LampsInView(sampler, vertex, lamp_weights, seen.keeps_each_lamp, pixel);
-  }
-  Lobes rest = NoLobes();
-  if (constants.emitters > 0) {
-    const Lobes lobes = Reflected(vertex, SampleEmitter(PathRandom(sampler, 0, kPairEmitter),
-                                                        PathRandom(sampler, 0, kPairChoice).y,
-                                                        constants.emitters, vertex.position));
-    rest.diffuse += lobes.diffuse;
-    rest.specular += lobes.specular;
-  }
-  if (constants.has_sky != 0) {
-    const Lobes lobes = Reflected(vertex, SampleSky(PathRandom(sampler, 0, kPairSky)));
-    rest.diffuse += lobes.diffuse;
-    rest.specular += lobes.specular;
-  }
-  light.indirect += rest.diffuse;
-  if (!seen.is_pane) light.reflection += rest.specular;
 }
 
 // Light that reaches the camera from a surface that it sees.
-PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, SeenAs seen, uint2 pixel) {
+PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_as, uint2 pixel) {
   PathLight light = NoLight();
   Vertex vertex = MakeVertex(first, view);
-  // A pane's specular lobe is its mirror image.
-  if (seen.is_pane) vertex.bsdf.specular_chance = 0.0;
+  const bool is_pane = seen_as == kAsPane;
+  if (is_pane) vertex.bsdf.specular_chance = 0.0;
   Segment segment;
   segment.vertex_number = 0;
-  segment.lamp_weights = LampWeights(vertex);
-  LightInView(sampler, vertex, segment.lamp_weights, seen, pixel, light);
-
-  Lobes lobes = NoLobes();         // of the first surface
+  Lobes lobes = NoLobes();              // of the first surface
   float3 throughput = float3(1, 1, 1);  // of the bounces behind it
-  bool goes_on = !seen.is_pane || any(vertex.bsdf.diffuse > 0.0);
+  bool goes_on = true;
   while (goes_on) {
     const uint number = segment.vertex_number;
+    segment.lamp_weights = LampWeights(vertex);
+    const uint samples = CountLightSamples(number);
+    float3 reflected = float3(0, 0, 0);
+    for (uint kind = 0; kind < samples; ++kind) {
+      const LightRay ray = SampleLight(sampler, vertex, number, segment.lamp_weights, kind);
+      bool is_free;
+      const Lobes found = Reflected(vertex, ray, is_free);
+      if (number == 0) {
+        AddInView(light, kind, found, is_free, seen_as, pixel);
+      } else {
+        reflected += SumOf(found);
+      }
+    }
+    reflected *= throughput;
+    light.indirect += lobes.diffuse * reflected;
+    light.reflection += lobes.specular * reflected;
+    if (number == 1) light.first += lobes.diffuse * reflected;
+    if (is_pane && number == 0 && !any(vertex.bsdf.diffuse > 0.0)) break;
+
     const float2 choice = PathRandom(sampler, number, kPairLobe);
     const PathDirection next =
         PathSampleDirection(vertex.bsdf, PathRandom(sampler, number, kPairDirection), choice.x);
     if (!next.is_valid || !(dot(next.direction, vertex.normal) > 0.0)) break;
     if (number == 0) {
       lobes = next.weight;
-      if (seen.is_pane) lobes.specular = float3(0, 0, 0);
+      if (is_pane) lobes.specular = float3(0, 0, 0);
     } else {
       throughput *= SumOf(next.weight);
     }
@@ -441,92 +429,95 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, SeenAs seen
       if (choice.y >= chance) break;
       throughput /= chance;
     }
-    segment.origin = OriginAbove(vertex);
     segment.direction = next.direction;
     segment.density = next.density;
     segment.position = vertex.position;
     segment.normal = vertex.normal;
     // A mirror shows the shapes of lamps, as the camera does; all else meets their light.
     const uint mask = next.density == 0.0 ? kMaskSolid : kMaskWithoutLamps;
-    const PathHit hit = Follow(segment.origin, segment.direction, 0.0, mask, false);
+    const PathHit hit = Follow(OriginAbove(vertex), segment.direction, 0.0, mask, false);
     const Found found = FindLight(segment, hit);
+    float3 gathered = throughput * found.sky_or_emission;
     if (number == 0) {
-      const float3 both = SumOf(lobes);
-      light.sun += both * found.sun;
-      light.lamps += both * found.lamps;
-      light.indirect += lobes.diffuse * found.sky_or_emission;
-      light.reflection += lobes.specular * found.sky_or_emission;
+      light.sun += SumOf(lobes) * found.sun;
+      light.lamps += SumOf(lobes) * found.lamps;
+    } else {
+      gathered += throughput * (found.sun + found.lamps);
     }
-    float3 gathered = number == 0 ? float3(0, 0, 0)
-                                  : found.sky_or_emission + found.sun + found.lamps;
-    const float3 found_first = number == 1 ? gathered : float3(0, 0, 0);
-    light.first += lobes.diffuse * throughput * found_first;
+    light.indirect += lobes.diffuse * gathered;
+    light.reflection += lobes.specular * gathered;
+    if (number == 1) light.first += lobes.diffuse * gathered;
     goes_on = hit.distance >= 0.0 && number < constants.bounces;
-    const float3 before = throughput;
-    if (goes_on) {
-      vertex = MakeVertex(hit, -segment.direction);
-      segment.vertex_number = number + 1;
-      segment.lamp_weights = LampWeights(vertex);
-      const float3 reflected =
-          LightAtBounce(sampler, vertex, segment.vertex_number, segment.lamp_weights);
-      if (number == 0) light.first += lobes.diffuse * before * reflected;
-      gathered += reflected;
-    }
-    light.indirect += lobes.diffuse * before * gathered;
-    light.reflection += lobes.specular * before * gathered;
+    if (goes_on) vertex = MakeVertex(hit, -segment.direction);
+    segment.vertex_number = number + 1;
   }
   light.all = light.sun + light.lamps + light.indirect + light.reflection;
   return light;
 }
 
-// Light from the direction that a pane mirrors.
-float3 MirroredLight(PathSampler sampler, PathHit pane, float3 direction, uint2 pixel) {
-  float3 mirrored = reflect(direction, pane.shading_normal);
-  // A normal-mapped direction can point into the pane.
-  if (!(dot(mirrored, pane.normal) > 0.0)) mirrored = reflect(direction, pane.normal);
-  const PathHit hit =
-      Follow(pane.position + pane.normal * pane.offset, mirrored, 0.0, kMaskSolid, false);
-  if (hit.distance < 0.0) return SkyTowards(mirrored);
-  return hit.emissive + LightFrom(sampler, hit, -mirrored, InPane(), pixel).all;
-}
+// What a path meets of the panes in front of a surface.
+struct GlassStart {
+  float3 through;    // of the light behind all panes; 0 if the path stays at one
+  float3 weight;     // of the light that it finds where it stays
+  PathHit hit;       // the pane's surface, or what it mirrors; a miss: only `emission`
+  float3 view;       // from there
+  float3 emission;   // of the sky or the surface
+  uint seen_as;
+  uint layer;        // the pane where it stays
+};
 
-// Walks through the panes in front of a surface. At each the path is mirrored, stays with the pane's
-// own colour, or goes on. Returns the light of the pane where it stays; `through`: what it keeps of
-// the light behind all panes, 0 if it stays at one.
-float3 LightOfGlass(PathSampler sampler, float3 direction, float solid_distance, uint2 pixel,
-                    out float3 through) {
-  through = float3(1, 1, 1);
+// Walks through the panes. At each the path is mirrored, stays with the pane's own colour, or goes
+// on.
+GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_distance) {
+  GlassStart start;
+  start.through = float3(1, 1, 1);
+  start.weight = start.emission = float3(0, 0, 0);
+  start.hit = NoHit();
+  start.view = -normalize(direction);
+  start.seen_as = kAsPane;
+  start.layer = 0;
+  float3 mirrored_origin = float3(0, 0, 0);
+  float3 mirrored = float3(0, 0, 0);
+  bool is_mirrored = false;
   float t_min = 0.0;
-  for (uint layer = 0; layer < 64; ++layer) {
+  for (uint layer = 0; layer < kMaxPanes; ++layer) {
     const PathHit pane = Follow(float3(0, 0, 0), direction, t_min, kGlassOnly, true);
     if (pane.distance < 0.0 || (solid_distance >= 0.0 && pane.distance >= solid_distance)) break;
     // A ray on the edge of two triangles may hit both, at the same distance but for rounding.
     t_min = pane.distance * 1.000002;
-    const float3 view = -normalize(direction);
     const float3 f0 = 0.04 + (pane.base_color - 0.04) * pane.metallic;
-    const float3 mirrored = PathFresnel(f0, saturate(dot(view, pane.shading_normal)));
-    const float opacity = saturate(pane.opacity);
-    const float mirror_chance = saturate(Brightness(mirrored));
+    const float3 fresnel = PathFresnel(f0, saturate(dot(start.view, pane.shading_normal)));
+    const float mirror_chance = saturate(Brightness(fresnel));
     const float2 u = PathRandom(sampler, kPairPane + layer);
-    PathSampler behind = sampler;
-    behind.seed = HashCombine(sampler.seed, kPairPane + 0x1000 + layer);
+    start.layer = layer;
     if (u.x < mirror_chance) {
-      const float3 light = through * mirrored / mirror_chance *
-                           MirroredLight(behind, pane, -view, pixel);
-      through = float3(0, 0, 0);
-      return light;
+      start.weight = start.through * fresnel / mirror_chance;
+      start.through = float3(0, 0, 0);
+      is_mirrored = true;
+      mirrored = reflect(-start.view, pane.shading_normal);
+      // A normal-mapped direction can point into the pane.
+      if (!(dot(mirrored, pane.normal) > 0.0)) mirrored = reflect(-start.view, pane.normal);
+      mirrored_origin = pane.position + pane.normal * pane.offset;
+      break;
     }
     // The pane's own light is over its coverage, whatever is mirrored: its diffuse lobe has what
     // the specular one leaves.
-    if (u.y < opacity) {
-      const float3 light = through / (1.0 - mirror_chance) *
-                           (pane.emissive + LightFrom(behind, pane, view, AsPane(), pixel).all);
-      through = float3(0, 0, 0);
-      return light;
+    if (u.y < saturate(pane.opacity)) {
+      start.weight = start.through / (1.0 - mirror_chance);
+      start.through = float3(0, 0, 0);
+      start.hit = pane;
+      start.emission = pane.emissive;
+      break;
     }
-    through *= (1.0 - mirrored) / (1.0 - mirror_chance);
+    start.through *= (1.0 - fresnel) / (1.0 - mirror_chance);
   }
-  return float3(0, 0, 0);
+  if (is_mirrored) {
+    start.hit = Follow(mirrored_origin, mirrored, 0.0, kMaskSolid, false);
+    start.emission = start.hit.distance < 0.0 ? SkyTowards(mirrored) : start.hit.emissive;
+    start.view = -mirrored;
+    start.seen_as = kAsMirrored;
+  }
+  return start;
 }
 
 // Whether a direction about the shading normal is free up to the radius of ambient occlusion.
@@ -571,18 +562,34 @@ void PathTracerRayGen() {
   sampler.seed = HashCombine(HashCombine(constants.seed, pixel.x), pixel.y);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     sampler.index = pass_constants.first_sample + i;
-    PathLight light = NoLight();
-    if (first.distance >= 0.0) {
-      light = LightFrom(sampler, first, view, AsSolid(), pixel);
-      light.visibility.x = AmbientVisibility(sampler, first);
-    } else {
-      light.visibility = float2(1, 1);
-    }
     float3 through = float3(1, 1, 1);
     float3 of_glass = float3(0, 0, 0);
-    if (constants.has_glass != 0) {
-      of_glass = LightOfGlass(sampler, direction, first.distance, pixel, through);
+    PathLight light = NoLight();
+    // First the solid surface, whatever glass is in front of it, then the glass.
+    const uint parts = constants.has_glass != 0 ? 2 : 1;
+    for (uint part = 0; part < parts; ++part) {
+      GlassStart start;
+      PathSampler part_sampler = sampler;
+      start.hit = first;
+      start.view = view;
+      start.seen_as = kAsSolid;
+      if (part == 1) {
+        start = WalkThroughGlass(sampler, direction, first.distance);
+        through = start.through;
+        part_sampler.seed = HashCombine(sampler.seed, kPairPane + kMaxPanes + start.layer);
+      }
+      PathLight found = NoLight();
+      if (start.hit.distance >= 0.0) {
+        found = LightFrom(part_sampler, start.hit, start.view, start.seen_as, pixel);
+      }
+      if (part == 0) {
+        light = found;
+      } else {
+        of_glass = start.weight * (start.emission + found.all);
+      }
     }
+    light.visibility.x = first.distance >= 0.0 ? AmbientVisibility(sampler, first) : 1.0;
+    if (first.distance < 0.0) light.visibility.y = 1.0;
     sum.sun += light.sun;
     sum.lamps += light.lamps;
     sum.indirect += light.indirect;
