@@ -21,14 +21,16 @@ struct PathEmitter {
   float keep;               ///< alias method: chance to keep this triangle where it is drawn
   glm::vec3 edge2;          ///< to the third corner
   std::uint32_t other;      ///< the one to take instead
-  glm::vec2 uv0, uv1, uv2;  ///< of the corners
+  glm::vec2 uv0;            ///< of the first corner
+  glm::vec2 uv1;            ///< of the second
+  glm::vec2 uv2;            ///< of the third
   glm::vec2 padding;        ///< 0
 };
 static_assert(sizeof(PathEmitter) == 80);
 
 /// The emissive triangles of a scene, drawn by area and brightness.
 struct PathEmitters {
-  std::vector<PathEmitter> triangles;
+  std::vector<PathEmitter> triangles;  ///< of all instances
   /// By material: the chance of a point, per square metre. 0: it does not glow.
   std::vector<float> densities;
   /// By instance: 1 where its emissive triangles are among `triangles`. Pictures of lamps, glass

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "effects/path_tracer/host_bsdf.h"
+#include "effects/path_tracer/host_bsdf_fixture.h"
 #include "effects/path_tracer/path_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "effects/path_tracer/host_bsdf.h"
+#include "effects/path_tracer/host_bsdf_fixture.h"
 #include "effects/path_tracer/path_fixture.h"
 #include "effects/scene/oracle_scenes.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "effects/frame/compute_pass.h"
-#include "effects/path_tracer/host_bsdf.h"
+#include "effects/path_tracer/host_bsdf_fixture.h"
 #include "effects/path_tracer/path_emitters.h"
 #include "effects/path_tracer/path_fixture.h"
 
