@@ -15,16 +15,16 @@ namespace kaamos::effects {
 
 /// Mirrors PathEmitter of path_lights.hlsli: a triangle, relative to the camera.
 struct PathEmitter {
-  glm::vec3 corner;         ///< metres
-  std::uint32_t material;   ///< in Scene::materials
-  glm::vec3 edge1;          ///< to the second corner
-  float keep;               ///< alias method: chance to keep this triangle where it is drawn
-  glm::vec3 edge2;          ///< to the third corner
-  std::uint32_t other;      ///< the one to take instead
-  glm::vec2 uv0;            ///< of the first corner
-  glm::vec2 uv1;            ///< of the second
-  glm::vec2 uv2;            ///< of the third
-  glm::vec2 padding;        ///< 0
+  glm::vec3 corner;        ///< metres
+  std::uint32_t material;  ///< in Scene::materials
+  glm::vec3 edge1;         ///< to the second corner
+  float keep;              ///< alias method: chance to keep this triangle where it is drawn
+  glm::vec3 edge2;         ///< to the third corner
+  std::uint32_t other;     ///< the one to take instead
+  glm::vec2 uv0;           ///< of the first corner
+  glm::vec2 uv1;           ///< of the second
+  glm::vec2 uv2;           ///< of the third
+  glm::vec2 padding;       ///< 0
 };
 static_assert(sizeof(PathEmitter) == 80);
 

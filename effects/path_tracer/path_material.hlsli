@@ -59,7 +59,7 @@ float3 SumOf(Lobes lobes) { return lobes.diffuse + lobes.specular; }
 struct PathBsdf {
   PathAxes axes;           // about the shading normal
   float3 view;             // towards where the path came from, in these axes
-  float3 diffuse;          // what the diffuse lobe reflects, the specular lobe's share taken off
+  Lobes albedo;            // directional: what each lobe reflects of even light
   float3 f0;               // reflectance at normal incidence
   float alpha;             // GGX
   bool is_mirror;          // the specular lobe is a single direction
@@ -111,10 +111,10 @@ PathBsdf MakePathBsdf(StructuredBuffer<float2> table, float3 base_color, float m
   bsdf.is_mirror = roughness <= kPathMirrorRoughness;
   bsdf.alpha = roughness * roughness;
   const float2 parts = SpecularParts(table, roughness, bsdf.view.z);
-  const float3 specular = bsdf.f0 * parts.x + parts.y;
-  bsdf.diffuse = (1.0f - metallic) * base_color * (1.0f - specular);
-  const float share = Brightness(specular);
-  const float other = Brightness(bsdf.diffuse);
+  bsdf.albedo.specular = bsdf.f0 * parts.x + parts.y;
+  bsdf.albedo.diffuse = (1.0f - metallic) * base_color * (1.0f - bsdf.albedo.specular);
+  const float share = Brightness(bsdf.albedo.specular);
+  const float other = Brightness(bsdf.albedo.diffuse);
   // A black diffuse lobe is never sampled; a specular one is never black.
   bsdf.specular_chance = other > 0.0f ? clamp(share / (share + other), 0.1f, 0.9f) : 1.0f;
   return bsdf;
@@ -145,7 +145,7 @@ PathValue PathEvaluateLocal(PathBsdf bsdf, float3 light) {
   value.lobes = NoLobes();
   value.density = 0.0f;
   if (!(light.z > 0.0f)) return value;
-  value.lobes.diffuse = bsdf.diffuse * (light.z / kPathPi);
+  value.lobes.diffuse = bsdf.albedo.diffuse * (light.z / kPathPi);
   value.density = (1.0f - bsdf.specular_chance) * light.z / kPathPi;
   if (bsdf.is_mirror) return value;
   const float3 h = normalize(bsdf.view + light);

@@ -40,9 +40,9 @@ bool has_glass(const Scene& scene) {
 }  // namespace
 
 const char* path_layer_name(PathLayer layer) {
-  constexpr const char* kNames[kPathLayerCount] = {"radiance",   "emission", "sun",
-                                                   "lamps",      "indirect", "indirect_first",
-                                                   "reflection", "glass",    "visibility"};
+  constexpr const char* kNames[kPathLayerCount] = {
+      "radiance",   "emission", "sun",        "lamps",          "indirect",       "indirect_first",
+      "reflection", "glass",    "visibility", "diffuse_albedo", "specular_albedo"};
   return kNames[layer];
 }
 

@@ -39,7 +39,7 @@ struct PathTracerDesc {
 /// PathTracerDesc::bounces of no limit.
 inline constexpr std::uint32_t kUnlimitedBounces = 0xFFFFFFFFu;
 
-/// Pictures of the reference, sums over samples: registers u0 to u8 of space3.
+/// Pictures of the reference, sums over samples: registers u0 to u10 of space3.
 enum PathLayer : std::uint32_t {
   kPathRadiance,    ///< what the camera sees, glass included; a: samples, here and below
   kPathEmission,    ///< emission of what the camera sees, or the sky
@@ -50,6 +50,8 @@ enum PathLayer : std::uint32_t {
   kPathReflection,  ///< the specular lobe under all other light
   kPathGlass,       ///< of the glass in front; a: what it lets through
   kPathVisibility,  ///< r: ambient visibility up to the radius, g: visible part of the sun's disk
+  kPathDiffuseAlbedo,   ///< what the diffuse lobe of the surface in view reflects of even light
+  kPathSpecularAlbedo,  ///< the same of the specular lobe
   kPathLayerCount
 };
 

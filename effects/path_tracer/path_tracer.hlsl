@@ -16,9 +16,12 @@ RWTexture2D<float4> path_first : register(u5, space3);       // the part of it w
 RWTexture2D<float4> path_reflection : register(u6, space3);  // specular lobe, all other light
 RWTexture2D<float4> path_glass : register(u7, space3);       // of glass in front; a: transmittance
 RWTexture2D<float4> path_visibility : register(u8, space3);  // ambient, sun
+// What each lobe of the surface in view reflects of even light; black where the sky is seen.
+RWTexture2D<float4> path_diffuse_albedo : register(u9, space3);
+RWTexture2D<float4> path_specular_albedo : register(u10, space3);
 // Radiance of each lamp and its visibility, picture by picture. Empty with more than
 // constants.lamps_apart lamps.
-RWStructuredBuffer<float4> path_each_lamp : register(u9, space3);
+RWStructuredBuffer<float4> path_each_lamp : register(u11, space3);
 
 struct PathConstants {
   uint seed;
@@ -409,7 +412,7 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
     light.indirect += lobes.diffuse * reflected;
     light.reflection += lobes.specular * reflected;
     if (number == 1) light.first += lobes.diffuse * reflected;
-    if (is_pane && number == 0 && !any(vertex.bsdf.diffuse > 0.0)) break;
+    if (is_pane && number == 0 && !any(vertex.bsdf.albedo.diffuse > 0.0)) break;
 
     const float2 choice = PathRandom(sampler, number, kPairLobe);
     const PathDirection next =
@@ -609,4 +612,8 @@ void PathTracerRayGen() {
   path_reflection[pixel] = float4(sum.reflection, count);
   path_glass[pixel] = glass;
   path_visibility[pixel] = float4(sum.visibility, 0, 0);
+  Lobes albedo = NoLobes();
+  if (first.distance >= 0.0) albedo = MakeVertex(first, view).bsdf.albedo;
+  path_diffuse_albedo[pixel] = float4(albedo.diffuse * count, count);
+  path_specular_albedo[pixel] = float4(albedo.specular * count, count);
 }

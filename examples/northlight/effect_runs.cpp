@@ -107,6 +107,22 @@ rtapi::Status EffectRuns::create_background() {
   return {};
 }
 
+rtapi::Status EffectRuns::draw_background() {
+  const auto drawn = renderer_->execute([&](rtapi::CommandList& list) {
+    background_->dispatch(list, renderer_->frame(),
+                          {kBackgroundSamples, renderer_->renders("sun") ? kBackgroundSamples : 0});
+  });
+  if (!drawn) return drawn.error();
+  return {};
+}
+
+rtapi::Result<FloatImage> EffectRuns::read_background() {
+  if (background_) {
+    if (const auto drawn = draw_background(); !drawn) return drawn.error();
+  }
+  return renderer_->read("radiance");
+}
+
 bool EffectRuns::is_glass(const Setting& setting) const {
   return find_effect(renderer_->effects(), setting.effect)->needs.glass;
 }
@@ -114,12 +130,7 @@ bool EffectRuns::is_glass(const Setting& setting) const {
 rtapi::Result<RunStatistics> EffectRuns::run(const Setting& setting) {
   if (is_glass(setting)) {
     if (!background_) return renderer_->run(setting.effect, setting.settings);
-    const auto drawn = renderer_->execute([&](rtapi::CommandList& list) {
-      background_->dispatch(
-          list, renderer_->frame(),
-          {kBackgroundSamples, renderer_->renders("sun") ? kBackgroundSamples : 0});
-    });
-    if (!drawn) return drawn.error();
+    if (const auto drawn = draw_background(); !drawn) return drawn.error();
   }
   const auto ran = renderer_->run(setting.effect, setting.settings, setting.first_sample);
   if (!ran || setting.times_ao == 0) return ran;

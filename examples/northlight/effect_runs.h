@@ -53,6 +53,8 @@ class EffectRuns {
   // The mean of the samples of the last run, without channels that say something else. `lit`
   // shadows: the radiance of the local lights. Glass: the frame's radiance behind and with it.
   rtapi::Result<kaamos::effects::FloatImage> read(const Setting& setting);
+  // What glass stands in front of.
+  rtapi::Result<kaamos::effects::FloatImage> read_background();
   // The picture to which a run adds.
   rtapi::Texture sum(const Setting& setting) const;
   rtapi::Status set_seed(std::uint32_t seed) { return renderer_->set_seed(seed); }
@@ -65,6 +67,7 @@ class EffectRuns {
  private:
   bool is_glass(const Setting& setting) const;
   rtapi::Status create_background();
+  rtapi::Status draw_background();
   rtapi::Result<kaamos::effects::FloatImage> read_lit();
 
   std::unique_ptr<kaamos::effects::FrameRenderer> renderer_;

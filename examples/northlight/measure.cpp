@@ -13,6 +13,8 @@
 #include "effects/common/file.h"
 #include "failure.h"
 #include "measure_reference.h"
+#include "measure_truth.h"
+#include "truth.h"
 
 namespace northlight {
 
@@ -33,10 +35,11 @@ struct Record {
   std::vector<double> ms;
   double traced = 0;
   Errors errors;
+  Errors from_truth;
 };
 
 rtapi::Status run_setting(EffectRuns& runs, const Setting& setting, const Target& target,
-                          Record& record) {
+                          const Target* truth, Record& record) {
   const auto ran = runs.run(setting);
   if (!ran) return ran.error();
   record.ms.push_back(ran->ms);
@@ -45,7 +48,35 @@ rtapi::Status run_setting(EffectRuns& runs, const Setting& setting, const Target
   const auto image = runs.read(setting);
   if (!image) return image.error();
   if (const auto error = record.errors.add(*image, target); !error.empty()) return failure(error);
+  if (truth == nullptr) return {};
+  if (const auto error = record.from_truth.add(*image, *truth); !error.empty()) {
+    return failure(error);
+  }
   return {};
+}
+
+// The truth of each of the plan's references, as far as it has one.
+rtapi::Result<Outcome> make_truths(EffectRuns& runs, const MeasurePlan& plan,
+                                   const Options& options, const Progress& progress,
+                                   const std::map<std::string, Target>& targets,
+                                   std::map<std::string, Target>& truths) {
+  if (options.measure_truth == 0) return Outcome::kDone;
+  PathSums sums;
+  const auto traced =
+      trace_truth(options, runs.renderer().scene(), cache_folder(options), progress, sums);
+  if (!is_done(traced)) return traced;
+  for (const auto& reference : plan.references) {
+    auto truth = truth_of(runs, reference.setting, sums);
+    if (!truth) return truth.error();
+    if (!*truth) continue;
+    const Target& target = targets.at(reference.name);
+    (*truth)->exposure = target.exposure;
+    for (std::size_t i = 0; i < target.mask.size(); ++i) {
+      if (target.mask[i] == 0) (*truth)->mask[i] = 0;
+    }
+    truths.emplace(reference.name, std::move(**truth));
+  }
+  return Outcome::kDone;
 }
 
 rtapi::Result<Outcome> make_target(EffectRuns& runs, const MeasurePlan& plan,
@@ -124,6 +155,17 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
                                                   options.measure_reference, target.own_rmse)));
     targets.emplace(reference.name, std::move(target));
   }
+  std::map<std::string, Target> truths;
+  const auto traced = make_truths(*runs, plan, options, progress, targets, truths);
+  if (!is_done(traced)) return traced;
+  const auto truth_for = [&](const MeasuredSetting& measured) -> const Target* {
+    const auto found = truths.find(measured.reference);
+    return found == truths.end() ? nullptr : &found->second;
+  };
+  for (const auto& [name, truth] : truths) {
+    table.about.push_back(fmt::format("truth of {}: path-traced, {} samples, its own RMSE {:.2g}",
+                                      name, options.measure_truth, truth.own_rmse));
+  }
   // One uncounted run of everything first, which warms up pipelines and caches.
   std::vector<Record> records(plan.settings.size());
   for (std::uint32_t repeat = 0; repeat <= options.repeats; ++repeat) {
@@ -131,8 +173,8 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
     if (repeat == 1) records.assign(plan.settings.size(), {});
     for (std::size_t i = 0; i < records.size(); ++i) {
       const MeasuredSetting& measured = plan.settings[i];
-      if (const auto s =
-              run_setting(*runs, measured.setting, targets.at(measured.reference), records[i]);
+      if (const auto s = run_setting(*runs, measured.setting, targets.at(measured.reference),
+                                     truth_for(measured), records[i]);
           !s) {
         return s.error();
       }
@@ -152,6 +194,12 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
     row.ms_min = *std::min_element(records[i].ms.begin(), records[i].ms.end());
     row.errors = records[i].errors.summary(target);
     row.reference_rmse = target.own_rmse;
+    if (const Target* truth = truth_for(measured)) {
+      row.truth = records[i].from_truth.summary(*truth);
+      row.truth_rmse = truth->own_rmse;
+      // The truth's own noise is no bias of the effect.
+      row.truth->bias_squared -= row.truth_rmse * row.truth_rmse;
+    }
     row.steps = measured.steps;
     table.rows.push_back(row);
   }
@@ -160,10 +208,33 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const Scene& scene
 
 Table as_csv(const MeasuredTable& table) {
   Table out;
-  out.columns = {"group",    "setting",   "rays",       "traced_rays",  "ms",
-                 "ms_min",   "filter_ms", "rmse",       "rel_mse",      "trimmed_rel_mse",
-                 "psnr_db",  "ssim",      "flip",       "energy_ratio", "bias_squared",
-                 "variance", "flicker",   "not_finite", "reference",    "reference_rmse"};
+  out.columns = {"group",
+                 "setting",
+                 "rays",
+                 "traced_rays",
+                 "ms",
+                 "ms_min",
+                 "filter_ms",
+                 "rmse",
+                 "rel_mse",
+                 "trimmed_rel_mse",
+                 "psnr_db",
+                 "ssim",
+                 "flip",
+                 "energy_ratio",
+                 "bias_squared",
+                 "variance",
+                 "flicker",
+                 "not_finite",
+                 "reference",
+                 "reference_rmse",
+                 "truth_rmse",
+                 "truth_rel_mse",
+                 "truth_ssim",
+                 "truth_flip",
+                 "truth_energy_ratio",
+                 "truth_bias_squared",
+                 "truth_own_rmse"};
   for (const MeasuredRow& row : table.rows) {
     const Errors::Summary& e = row.errors;
     out.rows.push_back({row.group,
@@ -186,6 +257,15 @@ Table as_csv(const MeasuredTable& table) {
                         std::to_string(e.not_finite),
                         row.reference,
                         csv_number(row.reference_rmse)});
+    const auto add = [&](double Errors::Summary::*value) {
+      out.rows.back().push_back(row.truth ? csv_number((*row.truth).*value) : "");
+    };
+    for (const auto value :
+         {&Errors::Summary::rmse, &Errors::Summary::relative_mse, &Errors::Summary::ssim,
+          &Errors::Summary::flip, &Errors::Summary::energy_ratio, &Errors::Summary::bias_squared}) {
+      add(value);
+    }
+    out.rows.back().push_back(row.truth ? csv_number(row.truth_rmse) : "");
   }
   return out;
 }
@@ -198,9 +278,9 @@ std::string as_text(const MeasuredTable& table) {
     if (row.group != group) {
       group = row.group;
       out += fmt::format(
-          "\n{}\n{:<28}{:>5}{:>9}{:>9}{:>9}{:>10}{:>10}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}\n", group,
+          "\n{}\n{:<28}{:>5}{:>9}{:>9}{:>9}{:>10}{:>10}{:>8}{:>8}{:>8}{:>8}{:>10}{:>10}{}\n", group,
           "", "rays", "traced", "ms", "ms min", "RMSE", "relMSE", "PSNR", "SSIM", "FLIP", "energy",
-          "bias^2", "variance");
+          "bias^2", "variance", row.truth ? "  | truth: RMSE    FLIP  energy    bias^2" : "");
     }
     const Errors::Summary& e = row.errors;
     out += fmt::format(
@@ -209,6 +289,10 @@ std::string as_text(const MeasuredTable& table) {
         "10.2e}",
         row.label, row.rays, row.traced, row.ms, row.ms_min, e.rmse, e.relative_mse, e.psnr, e.ssim,
         e.flip, e.energy_ratio, e.bias_squared, e.variance);
+    if (row.truth) {
+      out += fmt::format("  | {:>11.3g}{:>8.4f}{:>8.4f}{:>10.2e}", row.truth->rmse, row.truth->flip,
+                         row.truth->energy_ratio, row.truth->bias_squared);
+    }
     if (row.flicker >= 0) out += fmt::format("  flicker {:.4f}", row.flicker);
     if (e.not_finite > 0) out += fmt::format("  {} values are not finite", e.not_finite);
     out += "\n";

@@ -2,6 +2,7 @@
 // northlight --measure EFFECT: time against error over an effect's quality settings.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,10 +54,12 @@ struct MeasuredRow {
   double traced = 0;       // per pixel, including those of hit shading
   double ms = 0;           // median
   double ms_min = 0;
-  double filter_ms = 0;  // the denoiser's part of ms
-  double flicker = -1;   // negative: not measured
-  Errors::Summary errors;
+  double filter_ms = 0;    // the denoiser's part of ms
+  double flicker = -1;     // negative: not measured
+  Errors::Summary errors;  // against the effect's own converged result
   double reference_rmse = 0;
+  std::optional<Errors::Summary> truth;  // against the path-traced truth
+  double truth_rmse = 0;                 // standard error of the truth itself
   bool steps = true;
 };
 

@@ -423,6 +423,11 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
                  "samples per pixel of --measure's references, which are kept in OUT/measure-cache")
       ->capture_default_str()
       ->check(CLI::Range(4u, 1u << 24));
+  app.add_option("--measure-truth", options.measure_truth,
+                 "samples per pixel of the path-traced truth that --measure holds effects against; "
+                 "0: none")
+      ->capture_default_str()
+      ->check(CLI::Range(0u, 1u << 24));
   app.add_option("--repeats", options.repeats,
                  "runs of each setting that --measure and --claims time")
       ->capture_default_str()

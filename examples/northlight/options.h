@@ -44,6 +44,7 @@ struct Options {
   bool claims = false;                      // measure what the sources say about costs
   std::string measure;                      // effect whose error to measure; empty: none
   std::uint32_t measure_reference = 16384;  // samples of its reference
+  std::uint32_t measure_truth = 1024;       // samples of the path-traced truth; 0: none
   std::uint32_t repeats = 7;                // runs of each measured setting
   bool cpu_clock = false;                   // measure CPU time over threads
   std::uint32_t seeds = 64;                 // for each denoiser

@@ -11,7 +11,6 @@
 #include "effects/image/exr.h"
 #include "effects/image/png.h"
 #include "effects/image/tonemap.h"
-#include "effects/path_tracer/path_reference.h"
 #include "failure.h"
 #include "output.h"
 
@@ -28,20 +27,6 @@ constexpr double kSaveSeconds = 60;
 
 std::string sums_path(const Options& options) {
   return (std::filesystem::path(options.out) / "reference.sums").string();
-}
-
-PathReferenceDesc describe_reference(const Options& options) {
-  PathReferenceDesc desc;
-  desc.width = options.frame.width;
-  desc.height = options.frame.height;
-  desc.seed = options.frame.seed;
-  desc.paths.bounces = options.bounces.value_or(kUnlimitedBounces);
-  desc.paths.occlusion_radius = options.effects.at("ao").radius;
-  desc.each_lamp = options.each_lamp;
-  desc.sun_angular_radius = options.frame.sun_angular_radius;
-  desc.ray_cones = options.frame.ray_cones;
-  desc.seconds = options.seconds;
-  return desc;
 }
 
 ByteImage layer_png(const PathSums::Layer& layer, const FloatImage& mean, float exposure) {
@@ -102,6 +87,20 @@ void print(const Options& options, const PathReference& reference, double second
 }
 
 }  // namespace
+
+PathReferenceDesc describe_reference(const Options& options) {
+  PathReferenceDesc desc;
+  desc.width = options.frame.width;
+  desc.height = options.frame.height;
+  desc.seed = options.frame.seed;
+  desc.paths.bounces = options.bounces.value_or(kUnlimitedBounces);
+  desc.paths.occlusion_radius = options.effects.at("ao").radius;
+  desc.each_lamp = options.each_lamp;
+  desc.sun_angular_radius = options.frame.sun_angular_radius;
+  desc.ray_cones = options.frame.ray_cones;
+  desc.seconds = options.seconds;
+  return desc;
+}
 
 rtapi::Result<Outcome> render_path_reference(const Options& options, const Scene& scene,
                                              const Progress& progress, const Say& message) {

@@ -2,10 +2,14 @@
 // --reference-path-traced: renders the reference of a scene instead of a frame.
 #pragma once
 
+#include "effects/path_tracer/path_reference.h"
 #include "frame_result.h"
 #include "options.h"
 
 namespace northlight {
+
+// What the options ask of it.
+kaamos::effects::PathReferenceDesc describe_reference(const Options& options);
 
 // Writes reference.exr, a PNG for each of its layers, and reference.sums, with which --resume goes
 // on. What is done when it is stopped is written too.

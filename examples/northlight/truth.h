@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// The path-traced truth that --measure holds effects and frames against.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "effects/path_tracer/path_sums.h"
+#include "frame_result.h"
+#include "measure_errors.h"
+#include "options.h"
+
+namespace northlight {
+
+// Traces options.measure_truth samples a pixel of the scene's first camera, at options.seconds.
+// What is done is kept in `cache`, so that an interrupted measurement goes on there.
+rtapi::Result<Outcome> trace_truth(const Options& options, const kaamos::effects::Scene& scene,
+                                   const std::string& cache, const Progress& progress,
+                                   kaamos::effects::PathSums& sums);
+
+// A picture made of layers of the truth, with the standard error that its two halves tell. `make`
+// takes the means of the named layers, a pixel's values one after the other, and writes
+// `channels` values; returning false leaves the pixel out.
+using MakePixel =
+    std::function<bool(std::size_t pixel, const std::vector<const float*>& layers, float* out)>;
+Target truth_picture(const kaamos::effects::PathSums& sums, const std::vector<std::string>& layers,
+                     std::uint32_t channels, const MakePixel& make);
+
+}  // namespace northlight
