@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -123,6 +124,10 @@ class FrameRenderer {
   /// Any picture of the frame. [read_picture]
   /// @errors those of the device.
   rtapi::Result<FloatImage> read(const rtapi::Texture& picture);
+  /// The frame's radiance by these signals alone, as the composition adds them to what surfaces
+  /// emit; without glass. It is written over the frame's "radiance".
+  /// @errors those of the device; KA3046 a name that is no part of the composition.
+  rtapi::Result<FloatImage> read_composed(const std::vector<std::string>& signals);
   /// What can be read: the G-buffer, each effect's signals, raw and denoised, and "radiance".
   std::vector<std::string> layers() const;
   /// The picture that an effect adds its samples to. Null: no such signal.
@@ -222,6 +227,7 @@ class FrameRenderer {
                              std::optional<PassViews>& views) const;
   rtapi::Status create_filters();
   rtapi::Status create_compose();
+  rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   void list_left_out();
   // frame_renderer.cpp
   rtapi::Result<Outcome> run_pass(const std::string& title, const RayPass& pass, Active* effect,
@@ -283,6 +289,8 @@ class FrameRenderer {
   SignalFilters filters_;
   CompositePass composite_;
   std::optional<ComposePass> compose_;
+  std::map<std::vector<std::string>, ComposePass> compose_some_;  // by their signals
+  rtapi::Texture black_;  // stands for indirect light that is left out
   std::optional<TemporalAntialiasing> taa_;
 };
 

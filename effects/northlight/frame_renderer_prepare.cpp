@@ -183,6 +183,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   frame_.release_pass_views();  // those of earlier shaders
   filters_ = {};
   compose_.reset();
+  compose_some_.clear();
   taa_.reset();
   left_out_.clear();
   set_up_.reset();

@@ -132,6 +132,54 @@ rtapi::Result<Outcome> FrameRenderer::accumulate(const std::string& name,
   return Outcome::kDone;
 }
 
+rtapi::Result<FrameParts> FrameRenderer::parts_of(const std::vector<std::string>& signals) const {
+  FrameParts parts;
+  for (const std::string& name : signals) {
+    bool is_part = false;
+    for (const Effect& row : effects_) {
+      for (std::size_t i = 0; i < row.signals.size(); ++i) {
+        const EffectSignal& signal = row.signals[i];
+        if (signal.name != name || signal.part == nullptr) continue;
+        is_part = true;
+        const Active* effect = active(row.name);
+        if (effect == nullptr) continue;
+        const SignalFilters::Signal* filtered = filters_.find(name);
+        parts.*signal.part = filtered != nullptr         ? &filters_.denoised(*filtered)
+                             : !effect->pictures.empty() ? &effect->pictures[i]
+                             : has_strongest_effect()    ? &direct_->total()
+                                                         : &direct_->direct();
+      }
+    }
+    if (!is_part) {
+      return make_error(ErrorId::kFrameRenderer, "signal \"" + name + "\" is not composed");
+    }
+  }
+  // Without indirect light the open sky would stand in for it.
+  if (parts.indirect == nullptr) parts.indirect = &black_;
+  return parts;
+}
+
+rtapi::Result<FloatImage> FrameRenderer::read_composed(const std::vector<std::string>& signals) {
+  if (!black_) {
+    const auto black = frame_.create_picture(device_, "black", rtapi::Format::kR32G32B32A32Float);
+    if (!black) return black.error();
+    black_ = *black;
+  }
+  const auto parts = parts_of(signals);
+  if (!parts) return parts.error();
+  auto found = compose_some_.find(signals);
+  if (found == compose_some_.end()) {
+    const auto pass =
+        ComposePass::create(device_, frame_, libraries_.at("composite/composite"), *parts);
+    if (!pass) return pass.error();
+    found = compose_some_.emplace(signals, *pass).first;
+  }
+  const auto done =
+      execute([&](rtapi::CommandList& list) { found->second.dispatch(list, frame_); });
+  if (!done) return done.error();
+  return read("radiance");
+}
+
 std::vector<std::string> FrameRenderer::parts() const {
   std::vector<std::string> out = {"gbuffer"};
   for (const auto& effect : active_) {

@@ -20,23 +20,6 @@ namespace {
 constexpr std::uint32_t kBackgroundSamples = 16;
 constexpr std::uint32_t kMostDenoiserViews = 2048;  // many denoisers side by side
 
-// Everything that the volume depends on, including the program's own timestamp, since its shaders
-// are part of it.
-std::string volume_key(const Options& options) {
-  std::error_code ignored;
-  const VolumeSettings& volume = options.frame.volume;
-  std::string text = fmt::format("{} {} {} {}", options.scene, volume.cell.value_or(0),
-                                 volume.samples, options.frame.seed);
-  for (const std::string& material : options.materials) text += " " + material;
-  for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
-    const auto time = std::filesystem::last_write_time(file, ignored);
-    if (!ignored) text += fmt::format(" {}", time.time_since_epoch().count());
-  }
-  std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
-  return fmt::format("{:016x}", hash);
-}
-
 double cpu_ms(std::uint32_t threads) {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -53,6 +36,23 @@ FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
 }
 
 }  // namespace
+
+// Everything that the volume depends on, including the program's own timestamp, since its shaders
+// are part of it.
+std::string volume_key(const Options& options) {
+  std::error_code ignored;
+  const VolumeSettings& volume = options.frame.volume;
+  std::string text = fmt::format("{} {} {} {}", options.scene, volume.cell.value_or(0),
+                                 volume.samples, options.frame.seed);
+  for (const std::string& material : options.materials) text += " " + material;
+  for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
+    const auto time = std::filesystem::last_write_time(file, ignored);
+    if (!ignored) text += fmt::format(" {}", time.time_since_epoch().count());
+  }
+  std::uint64_t hash = 0xCBF29CE484222325u;  // FNV-1a
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  return fmt::format("{:016x}", hash);
+}
 
 Setting setting_of(const std::string& effect, std::uint32_t samples) {
   Setting out{.effect = effect, .settings = find_effect(northlight_effects(), effect)->defaults};

@@ -37,6 +37,9 @@ struct Setting {
 // That effect with `samples` rays a pixel, all else as its row of the registry has it.
 Setting setting_of(const std::string& effect, std::uint32_t samples = 1);
 
+// Names a volume of indirect light by all that it depends on.
+std::string volume_key(const Options& options);
+
 class EffectRuns {
  public:
   // Whatever runs must be among `effects`. `cache`: a folder for the volume of indirect light.

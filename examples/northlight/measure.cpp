@@ -327,9 +327,10 @@ rtapi::Result<Outcome> run_measure(const Options& options, const Scene& scene,
         fmt::format("cannot make the folder {}: {}", cache_folder(options), failed.message()));
   }
   MeasuredTable table;
-  const auto measured = options.measure == "svgf"
-                            ? measure_denoisers(options, scene, progress, table)
-                            : measure_effect(options, scene, progress, table);
+  const auto measured =
+      options.measure == "svgf"    ? measure_denoisers(options, scene, progress, table)
+      : options.measure == "frame" ? measure_frame(options, scene, progress, table)
+                                   : measure_effect(options, scene, progress, table);
   if (!is_done(measured)) return measured;
   const std::string path = options.out + "/measure-" + options.measure;
   if (const auto s = write_text(path + ".csv", write_csv(as_csv(table))); !s) return s.error();

@@ -39,8 +39,8 @@ struct MeasurePlan {
   bool glass = false;                // only pixels that show glass count
 };
 
-// What --measure takes, in the order of --help: every effect of the registry that traces rays, and
-// svgf.
+// What --measure takes, in the order of --help: every effect of the registry that traces rays,
+// frame and svgf.
 std::vector<std::string> measured_effects();
 // The default size, at which each effect takes a few minutes on two cores.
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect);
@@ -79,6 +79,9 @@ rtapi::Result<Outcome> measure_effect(const Options& options, const kaamos::effe
 rtapi::Result<Outcome> measure_denoisers(const Options& options,
                                          const kaamos::effects::Scene& scene,
                                          const Progress& progress, MeasuredTable& table);
+
+rtapi::Result<Outcome> measure_frame(const Options& options, const kaamos::effects::Scene& scene,
+                                     const Progress& progress, MeasuredTable& table);
 
 // Measures, prints, and writes measure-EFFECT.csv and .svg into options.out. References are kept in
 // its folder measure-cache.

@@ -182,12 +182,14 @@ std::vector<std::string> measured_effects() {
   for (const Effect& effect : northlight_effects()) {
     if (effect.pass) out.push_back(effect.name);
   }
+  out.push_back("frame");
   out.push_back("svgf");
   return out;
 }
 
 std::pair<std::uint32_t, std::uint32_t> default_measure_size(const std::string& effect) {
   if (effect == "transparent") return {320, 180};
+  if (effect == "frame") return {160, 90};
   return {96, 54};  // all at the same size: denoisers are compared with the effects' references
 }
 
