@@ -47,10 +47,11 @@ double number(const Row& row, const std::string& column) {
   return std::strtod(row.at(column).c_str(), nullptr);
 }
 
-std::vector<Row> measure(const std::string& effect, const std::string& more = "") {
+std::vector<Row> measure(const std::string& effect, const std::string& more = "",
+                         const std::string& runs = "--repeats 3 --measure-truth 64") {
   std::vector<Row> out;
-  const int code = northlight("--measure " + effect +
-                              " --size 48x27 --measure-reference 512 --repeats 3 " + more);
+  const int code = northlight("--measure " + effect + " --size 48x27 --measure-reference 512 " +
+                              runs + " " + more);
   EXPECT_EQ(code, 0) << text_of(folder() + "/log");
   const auto table = parse_csv(text_of(folder() + "/measure-" + effect + ".csv"));
   EXPECT_TRUE(table.ok()) << table.error().message;
@@ -166,6 +167,39 @@ TEST(Measure, IndirectLightConvergesAndLitHitsRestoreEnergy) {
             number(setting(modes, "near-field, 16 rays"), "energy_ratio"));
   EXPECT_LT(number(setting(modes, "the same x AO of 16 rays"), "energy_ratio"),
             number(setting(modes, "volume at the surface"), "energy_ratio"));
+}
+
+// The truth shares no code with the effects: rays to the sun and about a surface agree with it,
+// shadow maps let light past things.
+TEST(Measure, TruthIsBesideTheEffectsOwnReference) {
+  for (const std::string effect : {"ao", "sun"}) {
+    for (const Row& row : measure(effect)) {
+      if (number(row, "rays") < 16) continue;
+      EXPECT_NEAR(number(row, "truth_energy_ratio"), 1, 0.02) << effect << row.at("setting");
+      EXPECT_LT(number(row, "truth_bias_squared"), 2e-4) << effect << row.at("setting");
+    }
+  }
+  const auto lengths = group(measure("contact"), "by length");
+  EXPECT_GT(number(lengths.front(), "truth_energy_ratio"),
+            number(lengths.back(), "truth_energy_ratio") + 0.05);
+  EXPECT_NEAR(number(lengths.back(), "truth_energy_ratio"), 1, 0.1);
+}
+
+TEST(Measure, FrameAndItsPartsAgainstTheTruth) {
+  const auto rows = measure("frame", "", "--repeats 1 --measure-truth 32");
+  for (const std::string part : {"direct", "indirect", "reflection", "whole"}) {
+    for (const std::string place : {"first frame", "eighth frame, still", "eighth frame, moving"}) {
+      int methods = 0;
+      for (const Row& row : rows) {
+        if (row.at("group") != part + ", " + place) continue;
+        ++methods;
+        EXPECT_NEAR(number(row, "energy_ratio"), 1, 0.5) << part << " " << row.at("setting");
+      }
+      EXPECT_EQ(methods, 6) << part << " " << place;
+    }
+  }
+  EXPECT_LT(number(setting(group(rows, "indirect, eighth frame, still"), "svgf"), "rmse"),
+            number(setting(group(rows, "indirect, eighth frame, still"), "raw"), "rmse"));
 }
 
 TEST(Measure, DenoisersTradeVarianceForBias) {

@@ -72,6 +72,11 @@ expect_error 2 'explain 64,3 is outside the picture' --size 64x36 --explain 64,3
 expect_error 2 'tables and --explain exclude each other' --tables --explain 3,4 --size 16x9
 expect_error 2 'pixel and --heatmap exclude each other' --pixel 3,4 --heatmap rays --size 16x9
 expect_error 2 'json requires --explain' --json --size 16x9
+expect_error 2 'reference-path-traced and --frames exclude each other' --reference-path-traced 4 --frames 2
+expect_error 2 'reference-path-traced and --explain exclude each other' --reference-path-traced 4 --explain 3,4 --size 16x9
+expect_error 2 'bounces requires --reference-path-traced' --bounces 2
+expect_error 2 'not in range' --reference-path-traced 1
+expect_error 1 'measure frame needs a truth' --measure frame --measure-truth 0
 touch "$work/file"
 said=$("$northlight" --out "$work/file/below" --size 16x9 2>&1) && fail "an output folder below a file"
 grep -q 'cannot make the folder' <<< "$said" || fail "an output folder below a file: $said"
@@ -154,6 +159,27 @@ timeout --preserve-status -s INT "$interrupt_after" "$northlight" --out "$work/o
 [ $? = 130 ] || fail "Ctrl-C in a sequence: exit code is not 130"
 [ "$before" = "$(cd "$work/out" && find . -type f -exec sha256sum {} + | sort | sha256sum)" ] || fail "earlier results changed"
 [ -z "$(find "$work/out" -name '.*' -type d -mindepth 1)" ] || fail "a working folder was left over"
+
+# A reference that is interrupted keeps what it has; it goes on to the same bits, and only where it
+# fits.
+path=(--scene mirror-hall --size 64x36)
+timeout --preserve-status -s INT "$interrupt_after" "$northlight" "${path[@]}" --out "$work/out" --reference-path-traced 1000000 > /dev/null 2> "$work/log"
+[ $? = 130 ] || fail "Ctrl-C in a reference: exit code is not 130"
+grep -Eq 'stopped at [0-9]+ of 1000000 samples; .*--resume' "$work/log" || fail "Ctrl-C in a reference: $(cat "$work/log")"
+done_so_far=$(sed -n 's/.*stopped at \([0-9]*\) of.*/\1/p' "$work/log")
+wanted=$((done_so_far + 32 - done_so_far % 32))
+"$northlight" "${path[@]}" --out "$work/out" --reference-path-traced "$wanted" --resume > "$work/log" || fail "--resume: $(cat "$work/log")"
+grep -q "^$wanted samples a pixel" "$work/log" || fail "--resume: $(cat "$work/log")"
+for file in reference.exr reference.sums reference_radiance.png reference_indirect.png; do
+  [ -s "$work/out/$file" ] || fail "the reference's $file is missing"
+done
+"$northlight" "${path[@]}" --out "$work/reference2" --reference-path-traced "$wanted" --threads 1 > /dev/null || fail "a reference on one thread"
+cmp -s "$work/out/reference.exr" "$work/reference2/reference.exr" || fail "a resumed reference differs from one that was not stopped"
+expect_error 1 'KA3048 .*its seed is 0, not 3' --scene mirror-hall --size 64x36 --reference-path-traced 64 --resume --seed 3
+expect_error 1 'KA3048 .*64x36, not of 32x18' --scene mirror-hall --size 32x18 --reference-path-traced 64 --resume
+expect_error 1 'KA3048 .*another scene' --scene glass-stack --size 64x36 --reference-path-traced 64 --resume
+rm "$work/out/reference.sums"
+expect_error 1 'KA3000 .*reference.sums' --scene glass-stack --size 64x36 --reference-path-traced 64 --resume
 
 # --watch: editing a shader changes the picture.
 mkdir "$work/effects"
