@@ -30,7 +30,7 @@ struct PathTracerDesc {
   /// Bounces of a path after the surface that the camera sees; kUnlimitedBounces: as long as
   /// Russian roulette lets it go on.
   std::uint32_t bounces = 0xFFFFFFFFu;
-  float occlusion_radius = 4.0f;  ///< metres, of the layer "visibility"
+  float occlusion_radius = 4.0f;  ///< metres, of the layer "visibility"; 0: not traced
   /// Up to so many lamps are sampled each where the camera looks, and have layers of their own.
   std::uint32_t lamps_apart = 16;
   PathWays ways = PathWays::kBoth;  ///< how light is found

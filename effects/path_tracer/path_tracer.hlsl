@@ -335,14 +335,14 @@ uint CountLightSamples(uint vertex_number) {
 // `lamp_weights`: LampWeights of the vertex.
 LightRay SampleLight(PathSampler sampler, Vertex vertex, uint number, float lamp_weights,
                      uint kind) {
-  const float2 choice = PathRandom(sampler, number, kPairChoice);
   if (kind == kSunSample) {
     if (constants.has_sun == 0) return NoLightRay();
     return SampleSunDisk(PathRandom(sampler, number, kPairSun));
   }
   if (kind == kEmitterSample) {
     if (constants.emitters == 0) return NoLightRay();
-    return SampleEmitter(PathRandom(sampler, number, kPairEmitter), choice.y, constants.emitters,
+    return SampleEmitter(PathRandom(sampler, number, kPairEmitter),
+                         PathRandom(sampler, number, kPairChoice).y, constants.emitters,
                          vertex.position);
   }
   if (kind == kSkySample) {
@@ -355,7 +355,8 @@ LightRay SampleLight(PathSampler sampler, Vertex vertex, uint number, float lamp
                       SeeLamp(lights[lamp], vertex.position));
   }
   if (!(lamp_weights > 0.0)) return NoLightRay();
-  return SampleOneLamp(vertex, lamp_weights, choice.x, PathRandom(sampler, number, kPairLamp));
+  return SampleOneLamp(vertex, lamp_weights, PathRandom(sampler, number, kPairChoice).x,
+                       PathRandom(sampler, number, kPairLamp));
 }
 
 // What the first surface of a path is to the camera.
@@ -525,6 +526,7 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
 
 // Whether a direction about the shading normal is free up to the radius of ambient occlusion.
 float AmbientVisibility(PathSampler sampler, PathHit hit) {
+  if (!(constants.occlusion_radius > 0.0)) return 1.0;
   const float2 u = PathRandom(sampler, kPairOcclusion);
   const float r = sqrt(u.x);
   const float phi = 2.0 * kPathPi * u.y;

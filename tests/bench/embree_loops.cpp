@@ -280,6 +280,95 @@ uint64_t EmbreeScene::trace(tbb::task_arena& arena, const std::vector<FrameRay>&
   return hits;
 }
 
+namespace {
+
+// A permuted congruential generator. [O'Neill 2014]
+struct Random {
+  uint32_t state;
+  float next() {
+    state = state * 747796405u + 2891336453u;
+    const uint32_t word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return static_cast<float>(((word >> 22) ^ word) >> 8) * 0x1p-24f;
+  }
+};
+
+// `local` about +z to about the unit vector n. [Duff et al. 2017]
+glm::vec3 about(const glm::vec3& local, const glm::vec3& n) {
+  const float sign = n.z >= 0 ? 1.0f : -1.0f;
+  const float a = -1 / (sign + n.z);
+  const float b = n.x * n.y * a;
+  return glm::vec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x) * local.x +
+         glm::vec3(b, sign + n.y * n.y * a, -n.y) * local.y + n * local.z;
+}
+
+void set_ray(RTCRay& ray, const glm::vec3& origin, const glm::vec3& direction) {
+  begin_ray({{origin.x, origin.y, origin.z}, 0, {direction.x, direction.y, direction.z}, 1e30f},
+            ray);
+}
+
+}  // namespace
+
+double EmbreeScene::paths(tbb::task_arena& arena, const RayGrid& primary, uint32_t samples,
+                          const PathScene& paths, double& lit) const {
+  std::vector<float> light(primary.rays.size());
+  std::vector<uint32_t> sunny(primary.rays.size());
+  const glm::vec3 to_sun(paths.to_sun[0], paths.to_sun[1], paths.to_sun[2]);
+  for_each_cell(arena, primary.width, primary.height, [&] {
+    shim::QueryContext query;
+    shim::init(query);
+    return [&, query](uint32_t index) mutable {
+      Random random{index * 9781u + 1u};
+      float sum = 0;
+      for (uint32_t sample = 0; sample < samples; ++sample) {
+        RTCRayHit hit;
+        begin_ray(primary.rays[index], hit.ray);
+        float throughput = paths.albedo / 3.14159265f;
+        for (uint32_t bounce = 0;; ++bounce) {
+          begin_hit(hit.hit);
+          shim::intersect(scene_, query, &hit);
+          if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
+          const InstanceData& instance = data_.instances[hit.hit.instID[0]];
+          const float* m = instance.transform.data();
+          const glm::mat3 rows(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+          const glm::vec3 direction(hit.ray.dir_x, hit.ray.dir_y, hit.ray.dir_z);
+          glm::vec3 normal = glm::normalize(glm::inverse(rows) *
+                                            glm::vec3(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z));
+          if (glm::dot(normal, direction) > 0) normal = -normal;
+          const glm::vec3 origin = glm::vec3(hit.ray.org_x, hit.ray.org_y, hit.ray.org_z) +
+                                   hit.ray.tfar * direction + 1e-4f * normal;
+          const float r = std::sqrt(random.next()) * paths.tan_sun_radius;
+          const float turn = 6.2831853f * random.next();
+          const glm::vec3 sun =
+              glm::normalize(about(glm::vec3(r * std::cos(turn), r * std::sin(turn), 1), to_sun));
+          const float cosine = glm::dot(sun, normal);
+          if (cosine > 0) {
+            RTCRay shadow;
+            set_ray(shadow, origin, sun);
+            shim::occluded(scene_, query, &shadow);
+            if (shadow.tfar >= 0) {
+              sum += throughput * cosine * paths.sun_irradiance;
+              if (bounce == 0) ++sunny[index];
+            }
+          }
+          if (bounce == paths.bounces) break;
+          throughput *= paths.albedo;
+          const float u = random.next();
+          const float s = std::sqrt(u), phi = 6.2831853f * random.next();
+          set_ray(hit.ray, origin,
+                  about(glm::vec3(s * std::cos(phi), s * std::sin(phi), std::sqrt(1 - u)), normal));
+        }
+      }
+      light[index] = sum;
+    };
+  });
+  double total = 0, seen = 0;
+  for (const float value : light) total += value;
+  for (const uint32_t value : sunny) seen += value;
+  const double count = static_cast<double>(light.size()) * samples;
+  lit = seen / count;
+  return total / count;
+}
+
 void EmbreeScene::shade(const RTCRayHit& hit, ShadedResult& result) const {
   const InstanceData& instance = data_.instances[hit.hit.instID[0]];
   const MeshData& mesh = data_.meshes[instance.mesh];

@@ -68,6 +68,20 @@ class EmbreeScene {
   // Traces the rays in order, 256 to a task, and returns how many hit something.
   uint64_t trace(tbb::task_arena& arena, const std::vector<FrameRay>& rays) const;
 
+  // Paths of one diffuse material under a sun: at each of `bounces` + 1 surfaces a ray to a point
+  // of its disk, then on in a cosine-weighted direction. `primary`: a ray for each pixel, from
+  // which `samples` paths start. Returns the mean light of all paths, and in `lit` which part of
+  // their first surfaces sees the sun.
+  struct PathScene {
+    float albedo;
+    float to_sun[3];
+    float tan_sun_radius;
+    float sun_irradiance;
+    uint32_t bounces;
+  };
+  double paths(tbb::task_arena& arena, const RayGrid& primary, uint32_t samples,
+               const PathScene& paths, double& lit) const;
+
   // What the filter needs.
   struct GeometryUse {
     const EmbreeScene* scene;

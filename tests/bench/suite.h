@@ -54,14 +54,15 @@ struct Case {
   std::function<Line(Fixtures&, const Measure&)> run;
 };
 
-std::vector<Case> dispatch_cases();  // dispatch_cases.cpp
-std::vector<Case> build_cases();     // build_cases.cpp
-std::vector<Case> hlsl_cases();      // hlsl_cases.cpp
-std::vector<Case> compute_cases();   // compute_cases.cpp
-std::vector<Case> sorting_cases();   // sorting_cases.cpp
-std::vector<Case> claims_cases();    // claims_cases.cpp
-std::vector<Case> frame_cases();     // frame_cases.cpp
-std::vector<Case> vulkan_cases();    // vulkan_cases.cpp; empty where there is no Vulkan device
+std::vector<Case> dispatch_cases();   // dispatch_cases.cpp
+std::vector<Case> build_cases();      // build_cases.cpp
+std::vector<Case> hlsl_cases();       // hlsl_cases.cpp
+std::vector<Case> compute_cases();    // compute_cases.cpp
+std::vector<Case> sorting_cases();    // sorting_cases.cpp
+std::vector<Case> claims_cases();     // claims_cases.cpp
+std::vector<Case> frame_cases();      // frame_cases.cpp
+std::vector<Case> reference_cases();  // reference_cases.cpp
+std::vector<Case> vulkan_cases();     // vulkan_cases.cpp; empty where there is no Vulkan device
 
 // If it fails, `error` says which argument is wrong and what is allowed. `arguments` excludes the
 // program.
