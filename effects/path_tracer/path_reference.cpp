@@ -136,7 +136,7 @@ rtapi::Result<std::unique_ptr<PathReference>> PathReference::create(const rtapi:
   return out;
 }
 
-rtapi::Result<Outcome> PathReference::trace_batch(std::uint32_t half, std::uint32_t count,
+rtapi::Result<Outcome> PathReference::trace_bands(std::uint32_t half, std::uint32_t count,
                                                   const StepCallback& progress) {
   rtapi::Device device = renderer_->device();
   auto list = device.CreateCommandList();
@@ -180,20 +180,40 @@ rtapi::Status PathReference::add_batch(std::uint32_t half, std::uint32_t count) 
   return {};
 }
 
+rtapi::Result<Outcome> PathReference::trace_batch(std::uint32_t samples,
+                                                  const StepCallback& progress) {
+  const std::uint32_t each = (samples + 1) / 2;
+  const std::uint32_t half = sums_.samples[1] < sums_.samples[0] ? 1 : 0;
+  if (sums_.samples[half] >= each) return Outcome::kDone;
+  const std::uint32_t count = std::min(kBatch, each - sums_.samples[half]);
+  const auto step = [&](double done) {
+    return !progress || progress((this->samples() + count * done) / (2.0 * each));
+  };
+  const auto traced = trace_bands(half, count, step);
+  if (!is_done(traced)) return traced;
+  if (const auto s = add_batch(half, count); !s) return s.error();
+  return Outcome::kDone;
+}
+
 rtapi::Result<Outcome> PathReference::accumulate(std::uint32_t samples,
                                                  const StepCallback& progress) {
-  const std::uint32_t each = (samples + 1) / 2;
-  while (sums_.samples[0] < each || sums_.samples[1] < each) {
-    const std::uint32_t half = sums_.samples[1] < sums_.samples[0] ? 1 : 0;
-    const std::uint32_t count = std::min(kBatch, each - sums_.samples[half]);
-    const auto step = [&](double done) {
-      return !progress || progress((this->samples() + count * done) / (2.0 * each));
-    };
-    const auto traced = trace_batch(half, count, step);
+  while (this->samples() < samples) {
+    const auto traced = trace_batch(samples, progress);
     if (!is_done(traced)) return traced;
-    if (const auto s = add_batch(half, count); !s) return s.error();
   }
   return Outcome::kDone;
+}
+
+void PathReference::keep_own_bands() {
+  for (PathSums::Layer& layer : sums_.layers) {
+    const std::size_t row_values = static_cast<std::size_t>(desc_.width) * layer.channels;
+    for (auto& half : layer.sums) {
+      for (std::uint32_t row = 0; row < desc_.height; ++row) {
+        if (row / kBandRows % desc_.parts == desc_.part) continue;
+        std::fill_n(half.begin() + static_cast<std::ptrdiff_t>(row * row_values), row_values, 0.0);
+      }
+    }
+  }
 }
 
 }  // namespace kaamos::effects

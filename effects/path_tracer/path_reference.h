@@ -51,6 +51,13 @@ class PathReference {
   /// @errors those of the device.
   rtapi::Result<Outcome> accumulate(std::uint32_t samples, const StepCallback& progress);
 
+  /// The next batch of accumulate; nothing is added where it is stopped. `samples`: of each pixel,
+  /// in the end.
+  /// @errors those of the device.
+  rtapi::Result<Outcome> trace_batch(std::uint32_t samples, const StepCallback& progress);
+  /// Sets the sums of bands that another part traces to zero.
+  void keep_own_bands();
+
   /// What is done; loading puts sums there.
   ///@{
   PathSums& sums() { return sums_; }
@@ -64,7 +71,7 @@ class PathReference {
   const rtapi::Device& device() const { return renderer_->device(); }
 
  private:
-  rtapi::Result<Outcome> trace_batch(std::uint32_t half, std::uint32_t count,
+  rtapi::Result<Outcome> trace_bands(std::uint32_t half, std::uint32_t count,
                                      const StepCallback& progress);
   rtapi::Status add_batch(std::uint32_t half, std::uint32_t count);
 

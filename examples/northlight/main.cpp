@@ -149,8 +149,11 @@ int write_frame(FrameRenderer& renderer, const Options& options, const FrameResu
 }
 
 // A reference that was stopped has written what it has.
-int render_reference(const Options& options, const Scene& scene) {
-  const auto done = render_path_reference(options, scene, show_progress, say_error);
+int render_reference(const Options& options, const Scene& scene, const Ranks& ranks) {
+  const auto show = [&](const std::string& what, double done) {
+    return ranks.is_first() ? show_progress(what, done) : !stop_requested.load();
+  };
+  const auto done = render_path_reference(options, scene, ranks, show, say_error);
   if (!done) return report(done.error());
   return *done == Outcome::kDone ? 0 : kInterrupted;
 }
@@ -243,7 +246,10 @@ int main(int argc, char** argv) {
   prepare_geometry(*options, scene);
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
-  if (options->path_samples > 0) return render_reference(*options, scene);
+  if (options->path_samples > 0) {
+    const Ranks ranks;
+    return render_reference(*options, scene, ranks);
+  }
   if (!options->measure.empty()) {
     return report(run_measure(*options, scene, show_progress), *options);
   }

@@ -176,6 +176,10 @@ void add_path_reference(CLI::App& app, Options& options) {
   app.add_flag("--reference-lamps", options.each_lamp, "a layer for each local light, up to 16")
       ->needs(samples);
   app.add_flag("--half", options.half, "its file has half floats")->needs(samples);
+  app.add_option("--save-seconds", options.save_seconds, "seconds between saves of what is done")
+      ->needs(samples)
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e6));
   app.add_flag("--resume", options.resume, "go on with the reference in the folder of results")
       ->needs(samples);
 }

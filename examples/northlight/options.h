@@ -40,6 +40,7 @@ struct Options {
   std::optional<double> seconds;            // of it on the scene's clock; none: as loaded
   bool each_lamp = false;                   // it has a layer for each lamp
   bool half = false;                        // its file has half floats
+  double save_seconds = 60;                 // between its saves
   bool resume = false;                      // goes on with the one in the folder
   bool claims = false;                      // measure what the sources say about costs
   std::string measure;                      // effect whose error to measure; empty: none

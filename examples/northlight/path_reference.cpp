@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "effects/image/exr.h"
 #include "effects/image/png.h"
@@ -21,9 +22,6 @@ using namespace kaamos::effects;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// What is done is saved so often, in case that the machine or a rank is lost.
-constexpr double kSaveSeconds = 60;
 
 std::string sums_path(const Options& options) {
   return (std::filesystem::path(options.out) / "reference.sums").string();
@@ -45,15 +43,65 @@ ByteImage layer_png(const PathSums::Layer& layer, const FloatImage& mean, float 
   return tonemap(colors, exposure);
 }
 
-rtapi::Status write_pictures(const Options& options, const Scene& scene,
-                             const PathReference& reference) {
-  const PathSums& sums = reference.sums();
+// The sums of all ranks, at the first.
+PathSums gather(const Ranks& ranks, const PathSums& mine) {
+  PathSums whole = mine;
+  for (PathSums::Layer& layer : whole.layers) {
+    for (auto& half : layer.sums) ranks.sum_at_first(half);
+  }
+  return whole;
+}
+
+// Every rank goes on with its own bands, so that each pixel's samples are added up in one order
+// whatever the number of ranks.
+rtapi::Status load_for_all(const Options& options, const Ranks& ranks, PathReference& reference) {
+  rtapi::Status loaded;
+  PathSums& sums = reference.sums();
+  if (ranks.is_first()) loaded = load_path_sums(sums_path(options), sums);
+  if (ranks.any(!loaded.ok())) {
+    return ranks.is_first() ? loaded : failure("the first rank has no sums to go on with");
+  }
+  ranks.copy_from_first(std::span<std::uint32_t>(sums.samples));
+  for (PathSums::Layer& layer : sums.layers) {
+    for (auto& half : layer.sums) ranks.copy_from_first(half);
+  }
+  reference.keep_own_bands();
+  return {};
+}
+
+// Goes on batch by batch. The ranks agree between batches on whether to stop or to save.
+rtapi::Result<Outcome> trace_and_save(const Options& options, const Ranks& ranks,
+                                      const Progress& progress, PathReference& reference) {
+  auto saved = Clock::now();
+  bool wants_stop = false;
+  const auto show = [&](double done) {
+    wants_stop = wants_stop || (progress && !progress("reference", done));
+    // Alone it stops at once; several ranks finish their batch.
+    return ranks.count() > 1 || !wants_stop;
+  };
+  while (reference.samples() < options.path_samples) {
+    const auto done = reference.trace_batch(options.path_samples, show);
+    // A rank that cannot go on must not leave the others waiting.
+    if (ranks.any(!done.ok())) return done.ok() ? failure("another rank failed") : done;
+    if (ranks.any(wants_stop)) return Outcome::kStopped;
+    const std::chrono::duration<double> since = Clock::now() - saved;
+    if (!ranks.any(ranks.is_first() && since.count() > options.save_seconds)) continue;
+    const PathSums whole = gather(ranks, reference.sums());
+    if (ranks.is_first()) {
+      if (const auto s = save_path_sums(sums_path(options), whole); !s) return s.error();
+    }
+    saved = Clock::now();
+  }
+  return Outcome::kDone;
+}
+
+rtapi::Status write_pictures(const Options& options, const Scene& scene, const PathSums& sums) {
   StagedFiles files(options.out);
   if (const auto error = files.create(); !error.empty()) return failure(error);
   ExrFile exr;
   exr.attributes = {{"scene", scene.name},
                     {"seed", std::to_string(options.frame.seed)},
-                    {"samples", std::to_string(reference.samples())},
+                    {"samples", std::to_string(sums.samples[0] + sums.samples[1])},
                     {"bounces", options.bounces ? std::to_string(*options.bounces) : "unlimited"}};
   for (const PathSums::Layer& layer : sums.layers) {
     const FloatImage mean = sums.mean(layer);
@@ -70,12 +118,13 @@ rtapi::Status write_pictures(const Options& options, const Scene& scene,
   return save_path_sums(sums_path(options), sums);
 }
 
-void print(const Options& options, const PathReference& reference, double seconds) {
-  const PathSums& sums = reference.sums();
-  std::printf("%s\n%u samples a pixel, %.1f s, %.2f Mrays/s\n\n%-16s%12s\n",
+void print(const Options& options, const PathReference& reference, const PathSums& sums,
+           std::uint32_t ranks, double seconds) {
+  const std::string shared = ranks > 1 ? fmt::format(", {} ranks", ranks) : "";
+  std::printf("%s\n%u samples a pixel, %.2f s, %.2f Mrays/s%s\n\n%-16s%12s\n",
               reference.device().GetInfo().Name.c_str(), reference.samples(), seconds,
-              seconds > 0 ? static_cast<double>(reference.rays()) / seconds / 1e6 : 0.0, "layer",
-              "error");
+              seconds > 0 ? static_cast<double>(reference.rays()) / seconds / 1e6 : 0.0,
+              (ranks > 1 ? " of the first" + shared : shared).c_str(), "layer", "error");
   for (const PathSums::Layer& layer : sums.layers) {
     std::printf("%-16s%12.6f\n", layer.name.c_str(), sums.error(layer));
   }
@@ -103,38 +152,31 @@ PathReferenceDesc describe_reference(const Options& options) {
 }
 
 rtapi::Result<Outcome> render_path_reference(const Options& options, const Scene& scene,
-                                             const Progress& progress, const Say& message) {
+                                             const Ranks& ranks, const Progress& progress,
+                                             const Say& message) {
   const auto device = create_device(options, message);
   if (!device) return device.error();
-  auto created = PathReference::create(*device, scene, describe_reference(options));
+  PathReferenceDesc desc = describe_reference(options);
+  desc.part = ranks.rank();
+  desc.parts = ranks.count();
+  auto created = PathReference::create(*device, scene, desc);
   if (!created) return created.error();
   PathReference& reference = **created;
   if (options.resume) {
-    const auto loaded = load_path_sums(sums_path(options), reference.sums());
-    if (!loaded) return loaded.error();
+    if (const auto loaded = load_for_all(options, ranks, reference); !loaded) {
+      return loaded.error();
+    }
   }
   const auto start = Clock::now();
-  auto saved = start;
-  rtapi::Status save_status;
-  std::uint32_t samples_saved = reference.samples();
-  const auto step = [&](double done) {
-    const auto now = Clock::now();
-    if (reference.samples() > samples_saved &&
-        std::chrono::duration<double>(now - saved).count() > kSaveSeconds) {
-      save_status = save_path_sums(sums_path(options), reference.sums());
-      saved = now;
-      samples_saved = reference.samples();
-    }
-    return save_status.ok() && (!progress || progress("reference", done));
-  };
-  const auto done = reference.accumulate(options.path_samples, step);
+  const auto done = trace_and_save(options, ranks, progress, reference);
   if (!done) return done;
-  if (!save_status) return save_status.error();
-  if (reference.samples() == 0) return done;
-  if (const auto written = write_pictures(options, scene, reference); !written) {
+  const PathSums whole = gather(ranks, reference.sums());
+  if (!ranks.is_first() || reference.samples() == 0) return done;
+  if (const auto written = write_pictures(options, scene, whole); !written) {
     return written.error();
   }
-  print(options, reference, std::chrono::duration<double>(Clock::now() - start).count());
+  print(options, reference, whole, ranks.count(),
+        std::chrono::duration<double>(Clock::now() - start).count());
   if (*done == Outcome::kStopped) {
     message(fmt::format("stopped at {} of {} samples; the same command with --resume goes on",
                         reference.samples(), options.path_samples));

@@ -5,6 +5,7 @@
 #include "effects/path_tracer/path_reference.h"
 #include "frame_result.h"
 #include "options.h"
+#include "ranks.h"
 
 namespace northlight {
 
@@ -12,9 +13,11 @@ namespace northlight {
 kaamos::effects::PathReferenceDesc describe_reference(const Options& options);
 
 // Writes reference.exr, a PNG for each of its layers, and reference.sums, with which --resume goes
-// on. What is done when it is stopped is written too.
+// on. What is done when it is stopped is written too. The ranks share the bands of rows; the first
+// one writes.
 rtapi::Result<Outcome> render_path_reference(const Options& options,
                                              const kaamos::effects::Scene& scene,
-                                             const Progress& progress, const Say& message);
+                                             const Ranks& ranks, const Progress& progress,
+                                             const Say& message);
 
 }  // namespace northlight
