@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // reference/...: the path-traced reference against paths written by hand on Embree.
+#include <unistd.h>
+
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -93,10 +98,56 @@ Line paths(Fixtures& fixtures, const Measure& measure) {
           true};
 }
 
+std::string northlight_path() {
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "northlight").string();
+}
+
+std::string output_of(const std::string& command) {
+  std::string out;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("cannot run " + command);
+  char part[4096];
+  while (const size_t size = std::fread(part, 1, sizeof part, pipe)) out.append(part, size);
+  if (pclose(pipe) != 0) throw std::runtime_error(command + " failed: " + out);
+  return out;
+}
+
+// Seconds that ranks of one thread take to trace a reference together.
+double ranked_seconds(const Options& options, int ranks) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("kaamos-bench-ranks-" + std::to_string(getpid()));
+  const std::string out = output_of(
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+      "OMPI_MCA_rmaps_base_oversubscribe=1 mpirun -n " +
+      std::to_string(ranks) + " " + northlight_path() + " --threads 1 --size " +
+      std::to_string(options.width / 2) + "x" + std::to_string(options.height / 2) +
+      " --reference-path-traced " + (options.quick ? "2" : "32") + " --out " + folder.string());
+  std::filesystem::remove_all(folder);
+  const size_t at = out.find(" samples a pixel, ");
+  if (at == std::string::npos) throw std::runtime_error("mpirun says nothing of time: " + out);
+  return std::strtod(out.c_str() + at + 18, nullptr);
+}
+
+// How much of twice one rank's speed two ranks reach.
+Line ranks(Fixtures& fixtures, const Measure& measure) {
+  const Options& options = fixtures.options();
+  const Pairs times = run_pairs(
+      measure, [&] { return ranked_seconds(options, 2); },
+      [&] { return ranked_seconds(options, 1); });
+  return {"reference/mpi", 0.5 / times.ratio, times.ours, times.baseline, "s", true};
+}
+
+bool has_ranks() {
+  return std::system("command -v mpirun > /dev/null 2>&1") == 0 &&
+         std::system(("ldd " + northlight_path() + " 2>&1 | grep -q libmpi").c_str()) == 0;
+}
+
 }  // namespace
 
 std::vector<Case> reference_cases() {
-  return {{"reference/paths", paths}};
+  std::vector<Case> cases = {{"reference/paths", paths}};
+  if (has_ranks()) cases.push_back({"reference/mpi", ranks});
+  return cases;
 }
 
 }  // namespace kaamos::bench
