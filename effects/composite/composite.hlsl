@@ -52,7 +52,7 @@ RWTexture2D<float4> sun_visibility : register(u0, space3);
 RWTexture2D<float4> ambient : register(u1, space3);       // ambient visibility
 RWTexture2D<float4> local_lights : register(u2, space3);  // radiance
 RWTexture2D<float4> indirect : register(u3, space3);      // irradiance / pi
-RWTexture2D<float4> reflection : register(u4, space3);    // radiance / specular albedo
+RWTexture2D<float4> reflection : register(u4, space3);    // radiance / ReflectionScale
 
 static const uint kHasSun = 1;
 static const uint kHasAmbient = 2;
@@ -81,8 +81,8 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
     return;
   }
   const float3 normal = OctahedralDecode(g_shading_normal[pixel]);
-  const float roughness = g_material[pixel].x;
-  const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, roughness);
+  const Brdf brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y,
+                             g_material[pixel].x);
   const BrdfView view = MakeBrdfView(brdf, normal, normalize(-g_position[pixel].xyz));
   float3 sum = g_emissive[pixel].rgb;
   if ((compose.has & kHasSun) != 0) {
@@ -91,13 +91,13 @@ void ComposeFrame(uint3 id : SV_DispatchThreadID) {
   }
   if ((compose.has & kHasLocalLights) != 0) sum += local_lights[pixel].rgb;
   if ((compose.has & kHasIndirect) != 0) {
-    sum += brdf.diffuse * indirect[pixel].rgb;
+    sum += view.diffuse * indirect[pixel].rgb;
   } else {
     const float open = (compose.has & kHasAmbient) != 0 ? ambient[pixel].x : 1.0;
-    sum += brdf.diffuse * SkyAround(normal) * open;
+    sum += view.diffuse * SkyAround(normal) * open;
   }
   if ((compose.has & kHasReflections) != 0) {
-    sum += SpecularAlbedo(brdf.f0, roughness, view.cosine) * reflection[pixel].rgb;
+    sum += ReflectionScale(view.specular) * reflection[pixel].rgb;
   }
   radiance[pixel] = float4(sum, 1.0);
 }

@@ -20,7 +20,7 @@ RWTexture2D<float4> previous_guides : register(u29, space3);
 
 // Light in a mirror has no noise, however much it varies over the picture. It is not filtered.
 bool IsExact(int2 pixel, int s) {
-  return (denoise.lobes >> s & 1) != 0 && g_material[pixel].x <= kMirrorRoughness;
+  return (denoise.lobes >> s & 1) != 0 && IsMirror(g_material[pixel].x);
 }
 
 // The surface at this pixel, to be found again in the previous frame.

@@ -8,6 +8,7 @@
 
 #include "effects/common/blue_noise.h"
 #include "effects/common/errors.h"
+#include "effects/common/specular_albedo.h"
 #include "effects/frame/picture.h"
 #include "effects/lights/light_constants.h"
 
@@ -38,10 +39,11 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"motion", Format::kR32G32B32A32Float},
 };
 
-// Layout of the view heap: t0..t5, then u0.., then the scene's textures, then the passes' own
+// Layout of the view heap: t0..t6, then u0.., then the scene's textures, then the passes' own
 // views.
 constexpr std::uint32_t kRayOrder = 5;
-constexpr std::uint32_t kFirstPicture = kRayOrder + 1;
+constexpr std::uint32_t kSpecularAlbedo = kRayOrder + 1;
+constexpr std::uint32_t kFirstPicture = kSpecularAlbedo + 1;
 constexpr std::uint32_t kRayKeys = kFirstPicture + kFrameTextureCount;
 constexpr std::uint32_t kFirstSceneTexture = kRayKeys + 1;
 
@@ -200,6 +202,7 @@ rtapi::Status Frame::create_views(const Device& device, const GpuScene& gpu) {
   if (const auto s = structured(gpu.materials, sizeof(MaterialConstants), 1); !s) return s;
   if (const auto s = structured(blue_noise_, sizeof(glm::vec2), 2); !s) return s;
   if (const auto s = structured(lights_, sizeof(LightConstants), 3); !s) return s;
+  if (const auto s = structured(specular_albedo_, sizeof(glm::vec2), kSpecularAlbedo); !s) return s;
   for (std::uint32_t i = 0; i < kFrameTextureCount; ++i) {
     const auto handle = views_.GetCPUDescriptorHandle(kFirstPicture + i);
     if (const auto s = device.CreateUnorderedAccessView(textures_[i], handle); !s) return s;
@@ -245,6 +248,9 @@ rtapi::Result<Frame> Frame::create(const Device& device, CommandQueue&, const Sc
   const auto buffer = CreateUploadBuffer(device, blue_noise_tile(), "blue noise");
   if (!buffer) return buffer.error();
   frame.blue_noise_ = *buffer;
+  const auto albedo = CreateUploadBuffer(device, split_albedo_table(), "specular albedo");
+  if (!albedo) return albedo.error();
+  frame.specular_albedo_ = *albedo;
   if (const auto s = frame.create_root_signatures(device); !s) return s.error();
   if (const auto s = frame.create_textures(device); !s) return s.error();
   if (const auto s = frame.create_views(device, gpu); !s) return s.error();

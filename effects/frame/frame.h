@@ -188,7 +188,7 @@ class Frame {
   rtapi::DescriptorHeap views_;
   rtapi::DescriptorHeap samplers_;
   rtapi::Buffer constants_;
-  rtapi::Buffer blue_noise_;
+  rtapi::Buffer blue_noise_, specular_albedo_;
   rtapi::Buffer lights_;
   std::shared_ptr<std::uint32_t> pass_views_;  // number in use; copies of a frame share its heap
   std::vector<rtapi::Texture> textures_;

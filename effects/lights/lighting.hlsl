@@ -115,12 +115,12 @@ void ShadowAtlasRayGen() {
   RayDesc ray;
   ray.Origin = light.position;
   ray.Direction = ShadowMapDirection(light, uv);
-  // Whatever lies inside the light's own sphere is the lamp itself.
+  // Whatever lies inside the light's own sphere belongs to the lamp.
   ray.TMin = min(light.radius, light.range);
   ray.TMax = light.range;
   OccluderPayload payload;
   payload.occluder = float4(0, 0, 0, 0);
-  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
-           payload);
+  TraceRay(scene, RAY_FLAG_NONE, kMaskWithoutLamps, kRayTypeSurface, kRayTypeCount, kRayTypeSurface,
+           ray, payload);
   shadow_atlas[texel] = payload.occluder;
 }

@@ -5,7 +5,7 @@
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
-// Sums over samples: radiance / specular albedo, and the length of the ray (0: no ray).
+// Sums over samples: radiance / ReflectionScale, and the length of the ray (0: no ray).
 RWTexture2D<float4> reflection : register(u0, space3);
 
 struct ReflectionConstants {
@@ -101,7 +101,7 @@ ReflectionPoint LoadReflectionPoint(uint2 pixel) {
 
 // In the surface's own frame, about +Z.
 float3 SampleHalfVector(ReflectionPoint point, float2 u) {
-  if (point.roughness <= kMirrorRoughness) return float3(0, 0, 1);
+  if (IsMirror(point.roughness)) return float3(0, 0, 1);
   return SampleGgxHalfVector(u, point.local_view, point.brdf.alpha);
 }
 
@@ -113,7 +113,8 @@ void ReflectionRayGen() {
     return;
   }
   const ReflectionPoint point = LoadReflectionPoint(pixel);
-  const float3 albedo = SpecularAlbedo(point.brdf.f0, point.roughness, point.cosine_view);
+  const float3 scale = ReflectionScale(
+      SpecularAlbedo(point.brdf.f0, point.brdf.roughness, point.cosine_view));
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
   const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, frame.seed)];
 
@@ -141,9 +142,9 @@ void ReflectionRayGen() {
     if (point.roughness > kNoisyRoughness) {
       payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
     }
-    TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
-             payload);
-    float3 sample = payload.radiance * weight / albedo;
+    TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(point.roughness), kRayTypeSurface, kRayTypeCount,
+             kRayTypeSurface, ray, payload);
+    float3 sample = payload.radiance * weight / scale;
     const float luminance = RadianceLuminance(sample);
     if (constants.firefly_limit > 0.0 && luminance > constants.firefly_limit) {
       sample *= constants.firefly_limit / luminance;

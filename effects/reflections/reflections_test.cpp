@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 
+#include "effects/common/specular_albedo.h"
 #include "effects/northlight/frame_renderer.h"
 #include "effects/scene/checkers_fixture.h"
 #include "effects/scene/oracle_scenes.h"
@@ -55,14 +56,6 @@ Reflected reflect(const Scene& scene, std::uint32_t samples, const ReflectionCon
           renderer->read("ids").value()};
 }
 
-// SpecularAlbedo of brdf.hlsli for f0 = 1, by which the picture was divided.
-double albedo_of_white(double roughness, double cosine) {
-  const double r[4] = {1 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness,
-                       -0.04 + 0.022 * roughness};
-  const double a = std::min(r[0] * r[0], std::exp2(-9.28 * cosine)) * r[0] + r[1];
-  return (-1.04 * a + r[2]) + (1.04 * a + r[3]);
-}
-
 // Single scattering loses the light that microfacets reflect onto others. The exact loss is known
 // from quadrature. [effects-spec B0.4]
 TEST(Reflections, WhiteFurnace) {
@@ -80,10 +73,49 @@ TEST(Reflections, WhiteFurnace) {
     const Reflected result = reflect(furnace(angle, row.alpha), samples, {});
     double sum = 0;
     for (std::size_t i = 0; i < result.sum.values.size(); i += 4) sum += result.sum.values[i];
-    const double mean = sum / (kSize * kSize * samples) *
-                        albedo_of_white(std::sqrt(static_cast<double>(row.alpha)), std::cos(angle));
+    const double albedo =
+        specular_albedo(glm::vec3(1), std::sqrt(row.alpha), static_cast<float>(std::cos(angle))).x;
+    const double mean = sum / (kSize * kSize * samples) * albedo;
     EXPECT_NEAR(mean, row.expected, 0.005 * row.expected + 0.001)
         << "alpha " << row.alpha << " at " << row.degrees << " degrees";
+  }
+}
+
+// The whole material under uniform light: what the frame is put together from, with `metallic` and
+// the same base colour for all.
+double furnace_radiance(double angle, float roughness, float metallic, float base_color) {
+  Scene scene = furnace(angle, roughness * roughness);
+  for (Material& material : scene.materials) {
+    material.constants.metallic = metallic;
+    material.constants.base_color = glm::vec4(glm::vec3(base_color), 1);
+  }
+  FrameSettings settings;
+  settings.width = settings.height = kSize;
+  settings.effects = choose_effects({"gi", "reflections"});
+  settings.effects.at("reflections").samples = 48;
+  settings.denoise.method = DenoiseMethod::kNone;
+  settings.volume.given = std::make_shared<IndirectVolume>();
+  const auto renderer =
+      FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  renderer->render().value();
+  const FloatImage seen = renderer->read("radiance").value();
+  double sum = 0;
+  for (std::size_t i = 0; i < seen.values.size(); i += seen.channels) sum += seen.values[i];
+  return sum / (kSize * kSize);
+}
+
+// The diffuse lobe has what the specular lobe leaves: a white dielectric is as bright as the light
+// around it, and nothing is brighter.
+TEST(Reflections, EnergyIsNeverAboveOne) {
+  for (const double degrees : {0.0, 45.0, 70.0, 80.0, 87.0}) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    for (const float roughness : {0.0f, 0.3f, 0.6f, 1.0f}) {
+      const std::string where =
+          "roughness " + std::to_string(roughness) + " at " + std::to_string(degrees) + " degrees";
+      EXPECT_NEAR(furnace_radiance(angle, roughness, 0, 1), 1, 0.005) << where;
+      EXPECT_LE(furnace_radiance(angle, roughness, 1, 1), 1.005) << where;
+      EXPECT_LE(furnace_radiance(angle, roughness, 0.5f, 0.6f), 0.95) << where;
+    }
   }
 }
 

@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: MIT
-// The one material model, used at every hit: Lambert plus GGX. [Northlight deck: unified simplified
-// PBR] Vectors have unit length and point away from the surface. [effects-spec B0.4]
+// The one material model, used at every hit: GGX, and Lambert for the light that GGX leaves.
+// [Northlight deck: unified simplified PBR] Vectors have unit length and point away from the
+// surface. [effects-spec B0.4]
 #ifndef KAAMOS_BRDF_HLSLI
 #define KAAMOS_BRDF_HLSLI
+
+#include "frame.hlsli"
 
 static const float kBrdfPi = 3.14159265f;
 // Smoother surfaces are treated as mirrors: the peak of GGX would exceed the range of floats.
 static const float kMirrorRoughness = 0.03f;
 
 struct Brdf {
-  float3 diffuse;  // albedo of the diffuse part
-  float3 f0;       // reflectance at normal incidence
-  float alpha;     // GGX: roughness squared
+  float3 diffuse;   // albedo of the diffuse part, were there no specular part
+  float3 f0;        // reflectance at normal incidence
+  float roughness;  // at least kMirrorRoughness
+  float alpha;      // GGX: roughness squared
 };
+
+// A mirror shows lamps by their shapes, which its rays meet (kMaskSolid). Every other surface
+// evaluates them as lights, and its rays pass through the shapes (kMaskWithoutLamps).
+bool IsMirror(float roughness) { return roughness <= kMirrorRoughness; }
+uint ReflectionMask(float roughness) {
+  return IsMirror(roughness) ? kMaskSolid : kMaskWithoutLamps;
+}
 
 Brdf MakeBrdf(float3 base_color, float metallic, float roughness) {
   Brdf result;
   result.diffuse = base_color * (1.0f - metallic);
   result.f0 = lerp(float3(0.04f, 0.04f, 0.04f), base_color, metallic);
-  const float clamped = clamp(roughness, kMirrorRoughness, 1.0f);
-  result.alpha = clamped * clamped;
+  result.roughness = clamp(roughness, kMirrorRoughness, 1.0f);
+  result.alpha = result.roughness * result.roughness;
   return result;
 }
 
@@ -43,12 +54,37 @@ float GgxShadowing(float alpha, float cosine) {
   return sqrt(a2 + (1.0f - a2) * (cosine * cosine));
 }
 
+// Reflectance of the specular part under uniform light, without multiple scattering: interpolated
+// from effects/common/specular_albedo.h's table. `roughness` is 0 to 1.
+float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
+  const float2 at = float2(sqrt(saturate(cosine_view)) * float(kSpecularAlbedoCosines - 1),
+                           saturate(roughness) * float(kSpecularAlbedoRoughnesses - 1));
+  const uint2 corner = min(uint2(at), uint2(kSpecularAlbedoCosines, kSpecularAlbedoRoughnesses) - 2);
+  const float2 part = at - float2(corner);
+  const uint first = corner.y * kSpecularAlbedoCosines + corner.x;
+  const float2 smoother =
+      lerp(specular_albedo_table[first], specular_albedo_table[first + 1], part.x);
+  const float2 rougher =
+      lerp(specular_albedo_table[first + kSpecularAlbedoCosines],
+           specular_albedo_table[first + kSpecularAlbedoCosines + 1], part.x);
+  const float2 split = lerp(smoother, rougher, part.y);
+  return f0 * split.x + split.y;
+}
+
+// What a reflection is divided by before a filter, and multiplied by afterwards: the specular
+// albedo, but never so little that the quotient overflows.
+float3 ReflectionScale(float3 specular_albedo) {
+  return max(specular_albedo, float3(0.001f, 0.001f, 0.001f));
+}
+
 // The view direction at a surface, and the part of its reflectance that all lights share.
 struct BrdfView {
   float3 normal;
   float3 direction;  // towards the eye
   float cosine;      // with the normal; at least 1e-4
   float shadowing;   // GgxShadowing of the view direction
+  float3 specular;   // SpecularAlbedo
+  float3 diffuse;    // albedo of the diffuse part, which has the light that the specular leaves
 };
 
 BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
@@ -57,6 +93,8 @@ BrdfView MakeBrdfView(Brdf brdf, float3 normal, float3 direction) {
   view.direction = direction;
   view.cosine = max(dot(normal, direction), 1e-4f);
   view.shadowing = GgxShadowing(brdf.alpha, view.cosine);
+  view.specular = SpecularAlbedo(brdf.f0, brdf.roughness, view.cosine);
+  view.diffuse = brdf.diffuse * (float3(1.0f, 1.0f, 1.0f) - view.specular);
   return view;
 }
 
@@ -71,7 +109,13 @@ float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
   const float both = n_l * view.shadowing + view.cosine * GgxShadowing(brdf.alpha, n_l);
   const float specular =
       GgxDensity(brdf.alpha, saturate(dot(view.normal, half_vector))) / (2.0f * both);
-  return (brdf.diffuse * (1.0f / kBrdfPi) + fresnel * specular) * n_l;
+  return (view.diffuse * (1.0f / kBrdfPi) + fresnel * specular) * n_l;
+}
+
+// EvaluateBrdf for the direction of a lamp, which a mirror shows by its shape instead.
+float3 EvaluateBrdfForLamp(Brdf brdf, BrdfView view, float3 light) {
+  if (!IsMirror(brdf.roughness)) return EvaluateBrdf(brdf, view, light);
+  return view.diffuse * (max(dot(view.normal, light), 0.0f) * (1.0f / kBrdfPi));
 }
 
 // Samples a half vector about +Z with the density of the GGX microfacets that `view` sees: map
@@ -95,18 +139,6 @@ float3 GgxSampleWeight(Brdf brdf, float cosine_view, float cosine_light, float c
   const float light = GgxShadowing(brdf.alpha, cosine_light);
   return FresnelSchlick(brdf.f0, cosine_half_view) *
          (cosine_light * (view + cosine_view) / (cosine_light * view + cosine_view * light));
-}
-
-// Approximate reflectance of the specular part under uniform light. A signal is divided by it
-// before a filter and multiplied by it afterwards, so the error of the approximation largely
-// cancels. [Karis 2014, after Lazarov 2013]
-float3 SpecularAlbedo(float3 f0, float roughness, float cosine_view) {
-  const float4 c0 = float4(-1.0f, -0.0275f, -0.572f, 0.022f);
-  const float4 c1 = float4(1.0f, 0.0425f, 1.04f, -0.04f);
-  const float4 r = roughness * c0 + c1;
-  const float a = min(r.x * r.x, exp2(-9.28f * saturate(cosine_view))) * r.x + r.y;
-  return max(f0 * (-1.04f * a + r.z) + float3(1.0f, 1.0f, 1.0f) * (1.04f * a + r.w),
-             float3(0.001f, 0.001f, 0.001f));
 }
 
 #endif

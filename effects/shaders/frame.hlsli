@@ -72,6 +72,11 @@ StructuredBuffer<LightConstants> lights : register(t3);  // frame.light_count of
 StructuredBuffer<PreviousInstance> previous_instances : register(t4);  // by InstanceIndex()
 // The pixel of each place in the dispatch, row by row: x + 65536 * y. [effects/ray_order]
 StructuredBuffer<uint> ray_order : register(t5);
+// Specular albedo: x * F0 + y, by sqrt(cosine of the view) and roughness, both 0 to 1, cosines
+// running fastest. [effects/common/specular_albedo.h]
+StructuredBuffer<float2> specular_albedo_table : register(t6);
+static const uint kSpecularAlbedoCosines = 32;
+static const uint kSpecularAlbedoRoughnesses = 32;
 Texture2D<float4> textures[] : register(t0, space1);
 SamplerState samplers[] : register(s0, space1);
 
@@ -109,11 +114,12 @@ static const uint kRayTypeSurface = 0;
 static const uint kRayTypeVisibility = 1;
 static const uint kRayTypeCount = 2;
 
-// Instances that block rays: everything but glass (bit 1). The transparency effect handles glass;
-// all others look through it. [effects/scene/scene.h: InstanceMask]
+// What the camera and mirrors see: everything but glass (bit 1). The transparency effect handles
+// glass; all others look through it. [effects/scene/scene.h: InstanceMask]
 static const uint kMaskSolid = 0xFD;
-// The same without the shapes of lamps (bit 4). Where lamps are sampled as lights, a ray that also
-// hit the shape by chance would count their light twice. [Northlight deck: Instance Inclusion Mask]
+// The same without the shapes of lamps (bit 4), for all other rays. A lamp is met as a light or by
+// its shape: a ray that hit the shape as well would count its light twice, or shadow it by itself.
+// [Northlight deck: Instance Inclusion Mask]
 static const uint kMaskWithoutLamps = 0xED;
 
 // The longest ray whose points are all finite numbers.

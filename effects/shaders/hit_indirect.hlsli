@@ -12,21 +12,17 @@ float3 IndirectAtMatteHit(MatteSurface surface, float3 jitter) {
   return surface.base_color * VolumeIrradianceAt(surface.position, jitter, surface.normal);
 }
 
-// Radiance towards `view`, where the ray came from. A metal reflects no diffuse light, so it shows
-// the volume's light from the mirrored direction. That is too coarse for an image, but it keeps
-// mirrors seen in mirrors from being black.
+// Radiance towards `view`, where the ray came from. The specular part shows the volume's light from
+// the mirrored direction. That is too coarse for an image, but it keeps mirrors seen in mirrors from
+// being black.
 float3 IndirectAtHit(Surface surface, float3 jitter, float3 view) {
-  float3 radiance = surface.base_color * (1.0 - surface.metallic) *
-                    VolumeIrradianceAt(surface.position, jitter, surface.normal);
-  if (surface.metallic > 0.0) {
-    // The roughness as lights see it, which is never quite 0.
-    const Brdf brdf = MakeBrdf(surface.base_color, surface.metallic, surface.roughness);
-    const float3 mirrored = reflect(-view, surface.shading_normal);
-    radiance += surface.metallic *
-                SpecularAlbedo(brdf.f0, sqrt(brdf.alpha), dot(surface.shading_normal, view)) *
-                VolumeRadianceAt(surface.position, jitter, surface.normal, mirrored);
-  }
-  return radiance;
+  const BrdfView brdf_view =
+      MakeBrdfView(MakeBrdf(surface.base_color, surface.metallic, surface.roughness),
+                   surface.shading_normal, view);
+  const float3 mirrored = reflect(-view, surface.shading_normal);
+  return brdf_view.diffuse * VolumeIrradianceAt(surface.position, jitter, surface.normal) +
+         brdf_view.specular *
+             VolumeRadianceAt(surface.position, jitter, surface.normal, mirrored);
 }
 
 #endif

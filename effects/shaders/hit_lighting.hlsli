@@ -134,7 +134,7 @@ float ShadowMapVisibility(uint id, LightConstants light, float3 position, float3
 float3 LightRadiance(LightConstants light, Brdf brdf, BrdfView view, float3 position) {
   const LightSample s = SampleLight(light, position);
   if (!any(s.irradiance > 0.0)) return float3(0, 0, 0);
-  return s.irradiance * EvaluateBrdf(brdf, view, s.direction);
+  return s.irradiance * EvaluateBrdfForLamp(brdf, view, s.direction);
 }
 
 float3 ShadowedLightRadiance(uint id, Brdf brdf, BrdfView view, float3 position,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays that only ask whether something is in the way.
+// Rays that only ask whether something is in the way. The shapes of lamps never are.
 #ifndef KAAMOS_VISIBILITY_HLSLI
 #define KAAMOS_VISIBILITY_HLSLI
 
@@ -31,7 +31,7 @@ float TraceVisibility(float3 origin, float3 direction, float t_max) {
   VisibilityPayload payload;
   payload.visibility = 0.0;
   TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
-           kMaskSolid, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
+           kMaskWithoutLamps, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
   return payload.visibility;
 }
 

@@ -45,8 +45,8 @@ struct TransparentConstants {
   std::uint32_t sorted_layers = 1;
   BlendWeight weight = BlendWeight::kSquare;  ///< of layers that are blended without an order
   std::uint32_t sun = 1;  ///< 1: shadow rays to the sun; 0: the sun does not shine on glass
-  float reflection_length = 60.0f;  ///< metres; beyond it the sky or the volume is mirrored
-  float fade = 0.2f;                ///< last part of that length, over which the sky takes over
+  float reflection_length = 60.0f;  ///< metres; beyond it the volume is mirrored
+  float fade = 0.2f;                ///< last part of that length, over which the volume takes over
   /// 1: a layer reflects as much as glass does however little it covers (and lets that much less
   /// through). 0: coverage takes the reflection with it, as glTF has it.
   std::uint32_t full_reflection = 1;

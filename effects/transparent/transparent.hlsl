@@ -15,7 +15,7 @@ struct TransparentConstants {
   uint weight_kind;         // weight function of the blend without order
   uint sun;                 // 1: a shadow ray per layer and per reflection
   float reflection_length;  // metres
-  float fade;               // fraction of that length, at its end, over which the sky takes over
+  float fade;               // fraction of that length, at its end, over which the volume takes over
   uint full_reflection;     // 1: reflections keep their strength where coverage is thin
   float depth_scale;        // factor on view depths before they are weighted
 };
@@ -97,7 +97,7 @@ float3 LayerLight(Surface surface, Brdf brdf, float3 direction, float sun_visibi
   const BrdfView view = MakeBrdfView(brdf, surface.shading_normal, direction);
   float3 light = surface.emissive;
   light += LocalLights(brdf, view, surface.position, surface.normal);
-  light += brdf.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
+  light += view.diffuse * VolumeIrradianceAt(surface.position, kEveryCell, surface.normal);
   if (sun_visibility > 0.0 && dot(surface.normal, frame.direction_to_sun) > 0.0) {
     light += frame.sun_irradiance * EvaluateBrdf(brdf, view, frame.direction_to_sun) *
              sun_visibility;
@@ -188,14 +188,15 @@ float3 MirrorImage(Surface surface, float3 direction) {
   payload.primitive = 0;
   payload.met = -1.0;
   payload.sun_visibility = 0.0;
-  TraceRay(scene, RAY_FLAG_NONE, kMaskSolid, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray,
-           payload);
+  TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(surface.roughness), kRayTypeSurface, kRayTypeCount,
+           kRayTypeSurface, ray, payload);
   if (payload.distance < 0.0) return payload.radiance;
-  // Fade to the sky, so that no seam shows where the rays end.
+  // Fade to what a miss answers, so that no seam shows where the rays end.
   const float start = longest * (1.0 - Contain(constants.fade, 1.0));
   const float far = saturate((payload.distance - start) / max(longest - start, 1e-6 * longest));
   if (far == 0.0) return payload.radiance;
-  return lerp(payload.radiance, SkyTowards(mirrored), far);
+  return lerp(payload.radiance,
+              VolumeRadiance(ray.Origin + mirrored * longest, kEveryCell, mirrored), far);
 }
 
 void ShadeMirrored(inout GlassPayload payload, Surface surface) {
