@@ -11,6 +11,7 @@
 
 #include "effects/common/file.h"
 #include "effects/scene/gltf_reader.h"
+#include "effects/scene/lamp_shapes.h"
 #include "effects/scene/levels.h"
 #include "effects/scene/staging.h"
 
@@ -167,12 +168,23 @@ float luminance(const glm::vec3& c) {
   return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f));
 }
 
-/// Adds sun, sky, camera and exposure where the file has none.
-void complete(Scene& scene) {
-  const auto sun = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.type == LightType::kDirectional && light.intensity > 0.0f &&
-           luminance(light.color) > 0.0f;
-  });
+/// Illuminance of a directional light; 0 for all others.
+float sunlight(const Light& light) {
+  return light.type == LightType::kDirectional ? luminance(light.color) * light.intensity : 0.0f;
+}
+
+/// Adds sun, sky, camera and exposure where the file has none. The strongest directional light is
+/// the sun; the others are left out, which the warnings say.
+void complete(Scene& scene, std::vector<std::string>& warnings) {
+  auto sun =
+      std::max_element(scene.lights.begin(), scene.lights.end(),
+                       [](const Light& a, const Light& b) { return sunlight(a) < sunlight(b); });
+  if (sun != scene.lights.end() && !(sunlight(*sun) > 0.0f)) sun = scene.lights.end();
+  for (auto light = scene.lights.begin(); light != scene.lights.end(); ++light) {
+    if (light == sun || !(sunlight(*light) > 0.0f)) continue;
+    warnings.push_back("directional light \"" + light->name + "\" is left out: \"" + sun->name +
+                       "\" is stronger and is taken as the sun, and there is one sun");
+  }
   scene.sun = default_sun();
   scene.sky = default_sky();
   if (sun != scene.lights.end()) {
@@ -237,8 +249,13 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
         "nodes named lod0, lod1, ... at one place are taken as levels of "
         "detail; of each object one level is shown, " +
         std::to_string(joined) + " nodes are not");
+  complete(loaded.scene, loaded.warnings);
+  if (const std::size_t lamps = separate_lamp_shapes(loaded.scene); lamps > 0)
+    loaded.warnings.push_back(
+        std::to_string(lamps) +
+        " glowing shapes around lights are taken as pictures of these lamps: they light nothing "
+        "themselves, and cast no shadow");
   drop_unused_meshes(loaded.scene);
-  complete(loaded.scene);
   status = validate(loaded.scene);
   if (!status.ok()) return status.error();
   return loaded;

@@ -238,6 +238,23 @@ TEST(GltfLoad, CamerasAndLights) {
   EXPECT_EQ(scene.lights[0].outer_cone_angle, 0.5f);
 }
 
+// There is one sun: the strongest directional light. Loading names those that do not count.
+TEST(GltfLoad, SaysWhichDirectionalLightsDoNotCount) {
+  QuadFile file;
+  file.nodes = R"([{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}},)"
+               R"({"extensions":{"KHR_lights_punctual":{"light":1}}}])";
+  file.more =
+      R"(,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
+      R"({"type":"directional","intensity":2,"name":"fill"},)"
+      R"({"type":"directional","intensity":5,"name":"key"}]}})";
+  const auto loaded = load(file.bytes());
+  ASSERT_TRUE(loaded.ok()) << loaded.error().message;
+  EXPECT_EQ(loaded.value().scene.sun->irradiance, glm::vec3(5));
+  ASSERT_EQ(loaded.value().warnings.size(), 1u);
+  EXPECT_NE(loaded.value().warnings[0].find("\"fill\" is left out: \"key\""), std::string::npos)
+      << loaded.value().warnings[0];
+}
+
 TEST(GltfLoad, SkinnedMeshesStandInTheirPose) {
   Glb glb;
   glb.add(kQuad);

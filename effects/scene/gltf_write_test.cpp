@@ -44,8 +44,12 @@ TEST(GltfWrite, TheLoungeComesBack) {
   const auto loaded = load(bytes.value());
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& back = loaded.value().scene;
-  EXPECT_TRUE(loaded.value().warnings.empty());
+  ASSERT_EQ(loaded.value().warnings.size(), 1u);
+  EXPECT_NE(loaded.value().warnings[0].find("2 glowing shapes"), std::string::npos);
   expect_same_geometry(lounge, back);
+  for (std::size_t i = 0; i < lounge.instances.size(); ++i) {
+    EXPECT_EQ(lounge.instances[i].mask, back.instances[i].mask) << lounge.instances[i].name;
+  }
   ASSERT_EQ(back.materials.size(), lounge.materials.size() + 1) << "and the default material";
   for (std::size_t i = 0; i < lounge.materials.size(); ++i) {
     const MaterialConstants& x = lounge.materials[i].constants;

@@ -129,6 +129,11 @@ constexpr Look kLooks[] = {
 };
 static_assert(std::size(kLooks) == kMaterialCount);
 
+// Where the floor lamps stand, and what their bulbs give, in candela.
+constexpr glm::dvec3 kFloorLamps[] = {{-5.1, 0, -4.3}, {1.9, 0, -4.4}};
+constexpr glm::vec3 kBulbColor(1.0f, 0.78f, 0.5f);
+constexpr float kBulbIntensity = 2.0f;
+
 void use_image(Scene& scene, MaterialId material, TextureSlot slot, std::int32_t image,
                float scale = 1.0f) {
   MaterialConstants& constants = scene.materials[material].constants;
@@ -136,7 +141,7 @@ void use_image(Scene& scene, MaterialId material, TextureSlot slot, std::int32_t
   constants.uv_matrix[slot] = glm::vec4(scale, 0, 0, scale);
 }
 
-void add_instance(Scene& scene, const char* name, std::uint32_t mesh, const glm::dvec3& at,
+void add_instance(Scene& scene, const std::string& name, std::uint32_t mesh, const glm::dvec3& at,
                   double turn = 0.0) {
   Instance instance;
   instance.name = name;
@@ -171,8 +176,13 @@ void add_things(Scene& scene) {
   add_instance(scene, "small sofa 2", sofa, {3.3, 0, -4.15});
   add_instance(scene, "small sofa 3", sofa, {4.6, 0, 1.6}, -1.35);
   const std::uint32_t lamp = add_mesh(scene, floor_lamp());
-  add_instance(scene, "floor lamp 1", lamp, {-5.1, 0, -4.3});
-  add_instance(scene, "floor lamp 2", lamp, {1.9, 0, -4.4});
+  const std::uint32_t glow = add_mesh(scene, bulb());
+  for (std::size_t i = 0; i < std::size(kFloorLamps); ++i) {
+    const std::string name = "floor lamp " + std::to_string(i + 1);
+    add_instance(scene, name, lamp, kFloorLamps[i]);
+    add_instance(scene, name + " bulb", glow, kFloorLamps[i]);
+    scene.instances.back().mask = kMaskEmissiveProxy;
+  }
   const std::uint32_t green = add_mesh(scene, plant());
   add_instance(scene, "plant 1", green, {4.9, 0, -2.2}, 0.4);
   add_instance(scene, "plant 2", green, {-3.35, 0, 0.0}, 2.6);
@@ -196,14 +206,14 @@ void add_lights(Scene& scene) {
     light.outer_cone_angle = 0.6f;
     scene.lights.push_back(light);
   }
-  for (const glm::dvec3& at : {glm::dvec3(-5.1, 1.48, -4.3), glm::dvec3(1.9, 1.48, -4.4)}) {
+  for (const glm::dvec3& foot : kFloorLamps) {
     Light light;
     light.name = "lamp";
-    light.color = glm::vec3(1.0f, 0.78f, 0.5f);
-    light.intensity = 2.0f;
-    light.position = at;
+    light.color = kBulbColor;
+    light.intensity = kBulbIntensity;
+    light.position = foot + glm::dvec3(0, kBulbHeight, 0);
     light.range = 5.0f;
-    light.radius = 0.045f;
+    light.radius = static_cast<float>(kBulbRadius);
     scene.lights.push_back(light);
   }
 }
@@ -249,7 +259,10 @@ void add_materials(Scene& scene) {
   scene.materials[kLeaf].constants.flags =
       kMaterialMask | kMaterialAlphaTested | kMaterialDoubleSided;
   scene.materials[kDomeLine].constants.emissive = glm::vec3(6.0f, 4.4f, 2.4f);
-  scene.materials[kLampShade].constants.emissive = glm::vec3(20.0f, 15.0f, 9.0f);
+  // The radiance of a sphere that gives the lamp's light.
+  scene.materials[kLampBulb].constants.emissive =
+      kBulbColor *
+      (kBulbIntensity / static_cast<float>(glm::pi<double>() * kBulbRadius * kBulbRadius));
 }
 
 }  // namespace lounge

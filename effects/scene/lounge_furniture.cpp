@@ -280,20 +280,27 @@ Mesh magazine() {
 Mesh floor_lamp() {
   Mesh mesh;
   mesh.name = "floor lamp";
-  const std::vector<glm::dvec2> foot = {{0.0, 0.0},     {0.15, 0.0},   {0.155, 0.005},
-                                        {0.155, 0.015}, {0.15, 0.02},  {0.02, 0.028},
-                                        {0.011, 0.04},  {0.011, 1.45}, {0.0, 1.45}};
+  const std::vector<glm::dvec2> foot = {{0.0, 0.0},     {0.15, 0.0},  {0.155, 0.005},
+                                        {0.155, 0.015}, {0.15, 0.02}, {0.02, 0.028},
+                                        {0.011, 0.04},  {0.011, 1.3}, {0.0, 1.3}};
   const std::vector<glm::dvec2> shade = {{0.2, 1.28},   {0.2, 1.283},  {0.15, 1.62},
                                          {0.147, 1.62}, {0.197, 1.28}, {0.2, 1.28}};
-  std::vector<glm::dvec2> bulb;
-  for (int i = 0; i <= 16; ++i) {
-    const double a = -0.5 * kPi + kPi * i / 16;
-    bulb.emplace_back(std::max(0.0, 0.045 * std::cos(a)), 1.48 + 0.045 * std::sin(a));
-  }
-  bulb.front().x = bulb.back().x = 0.0;
   add_shape(mesh, revolve(foot, 40), kBrass);
   add_shape(mesh, revolve(shade, 64), kSandFabric);
-  add_shape(mesh, revolve(bulb, 32), kLampShade);
+  return mesh;
+}
+
+Mesh bulb() {
+  Mesh mesh;
+  mesh.name = "bulb";
+  std::vector<glm::dvec2> profile;
+  for (int i = 0; i <= 16; ++i) {
+    const double a = -0.5 * kPi + kPi * i / 16;
+    profile.emplace_back(std::max(0.0, kBulbRadius * std::cos(a)),
+                         kBulbHeight + kBulbRadius * std::sin(a));
+  }
+  profile.front().x = profile.back().x = 0.0;
+  add_shape(mesh, revolve(profile, 32), kLampBulb);
   return mesh;
 }
 

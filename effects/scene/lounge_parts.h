@@ -31,7 +31,7 @@ enum MaterialId : std::uint32_t {
   kLeaf,
   kDomeShell,
   kDomeLine,
-  kLampShade,
+  kLampBulb,
   kTerrace,
   kMaterialCount
 };
@@ -42,6 +42,9 @@ inline constexpr double kRoomZ = 5.0;
 inline constexpr double kRoomHeight = 4.0;
 /// Radius of the opening in the ceiling under the dome.
 inline constexpr double kDomeRadius = 2.3;
+/// The bulbs of the floor lamps: their middle above the floor, and their radius.
+inline constexpr double kBulbHeight = 1.48;
+inline constexpr double kBulbRadius = 0.045;
 
 Mesh room();
 Mesh dome();
@@ -52,6 +55,7 @@ Mesh round_sofa();
 Mesh table();
 Mesh magazine();
 Mesh floor_lamp();
+Mesh bulb();
 Mesh plant();
 
 /// Materials, pictures and samplers.

@@ -57,6 +57,41 @@ TEST(Lounge, OnlyLeavesAreAlphaTested) {
   EXPECT_EQ(tested, 1);
 }
 
+// What glows beside a local light is that light's picture: an instance of its own, as bright as the
+// lamp, so that no ray meets the light twice.
+TEST(Lounge, BulbsAreThePicturesOfTheirLamps) {
+  int lamps = 0;
+  for (const Light& light : lounge().lights) {
+    if (light.name != "lamp") continue;
+    ++lamps;
+    int bulbs = 0;
+    for (const Instance& instance : lounge().instances) {
+      if (instance.mask != kMaskEmissiveProxy) continue;
+      Scene one = lounge();
+      one.instances = {instance};
+      const Bounds box = scene_bounds(one);
+      if (glm::distance(box.center(), light.position) > 1e-6) continue;
+      ++bulbs;
+      EXPECT_NEAR(0.5 * (box.max.y - box.min.y), light.radius, 1e-6);
+      const Geometry& geometry = lounge().meshes[instance.mesh].geometries.at(0);
+      const glm::vec3 emissive = lounge().materials[geometry.material].constants.emissive;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(emissive[c] * 3.14159265f * light.radius * light.radius,
+                    light.color[c] * light.intensity, 1e-4);
+      }
+    }
+    EXPECT_EQ(bulbs, 1);
+  }
+  EXPECT_EQ(lamps, 2);
+  const glm::vec3 dark(0.0f);
+  for (const Instance& instance : lounge().instances) {
+    if (instance.mask == kMaskEmissiveProxy || instance.name == "dome") continue;
+    for (const Geometry& geometry : lounge().meshes[instance.mesh].geometries) {
+      EXPECT_EQ(lounge().materials[geometry.material].constants.emissive, dark) << instance.name;
+    }
+  }
+}
+
 TEST(Lounge, LeafTextureHasHoles) {
   const auto leaf =
       static_cast<std::size_t>(lounge().materials.at(18).constants.image[kBaseColorTexture]);
@@ -102,6 +137,7 @@ TEST(Lounge, NormalsAndTangentsAreUnitVectors) {
 TEST(Lounge, FurnitureStandsOnTheFloorInsideTheRoom) {
   for (const Instance& instance : lounge().instances) {
     if (instance.name == "room" || instance.name == "dome") continue;
+    if (instance.mask == kMaskEmissiveProxy) continue;  // a bulb stands in its lamp
     Scene one = lounge();
     one.instances = {instance};
     const Bounds box = scene_bounds(one);

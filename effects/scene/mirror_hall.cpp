@@ -97,13 +97,12 @@ void add_bulb(Scene& scene) {
   }
   add(scene, "bulb", revolve(profile, 24), {glm::vec3(0.0f), 0.0f, 1.0f, glm::vec3(1e4f)}, at);
   scene.instances.back().mask = kMaskEmissiveProxy;
-  // The light that such a bulb gives: its radiance times the area of its visible disk. The light's
-  // sphere encloses the bulb, so the bulb casts no shadow of its own.
+  // The light that such a bulb gives: its radiance times the area of its visible disk.
   Light light;
   light.name = "bulb";
   light.intensity = static_cast<float>(1e4 * glm::pi<double>() * radius * radius);
   light.position = at;
-  light.radius = static_cast<float>(1.02 * radius);
+  light.radius = static_cast<float>(radius);
   scene.lights.push_back(light);
 }
 

@@ -24,9 +24,9 @@ namespace kaamos::effects {
 enum InstanceMask : std::uint8_t {
   kMaskOpaque = 0x01,       ///< opaque and alpha-tested
   kMaskTransparent = 0x02,  ///< see-through all over (glass)
-  kMaskNoContactShadow = 0x04,
-  kMaskFirstPerson = 0x08,
-  kMaskEmissiveProxy = 0x10,  ///< shows a lamp of the scene, whose light is counted as the lamp's
+  /// Shows a lamp of the scene, whose light is counted as the lamp's: the camera and mirrors see
+  /// it, all other rays pass through it.
+  kMaskEmissiveProxy = 0x10,
 };
 
 /// What an acceleration structure is built for. [Northlight deck: Build Flags]
