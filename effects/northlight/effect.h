@@ -28,6 +28,7 @@ struct EffectSettings {
   /// b0 of space3, as the effect's header declares them.
   std::array<std::uint32_t, kPassWords> constants{};
   bool keep = false;        ///< rendered even where the scene has no use for it
+  bool named = false;       ///< asked for by its name: rendered even beside what takes its place
   bool trace_only = false;  ///< FrameRenderer::run only: the rays without shading [Effect::trace]
 
   /// Sets `constants`.
@@ -96,6 +97,9 @@ struct Effect {
   std::vector<EffectSignal> signals = {};  ///< at least one
   EffectSettings defaults = {};            ///< what FrameSettings start from
   EffectNeeds needs = {};                  ///< what it reads, and what scenes must have
+  /// Another effect beside which the composition does not read this one, so that it is left out
+  /// unless it was asked for by its name. Empty: none.
+  std::string replaced_by = {};
   std::string includes = {};        ///< another effect that this one changes and so brings along
   std::string samples_option = {};  ///< "ao-samples" for --ao-samples; empty: the count is fixed
 };

@@ -32,6 +32,7 @@ std::vector<Effect> make_effects() {
                        .part = &FrameParts::ambient}},
           .defaults = {.samples = kDefaultAmbientOcclusionSamples,
                        .radius = kDefaultAmbientOcclusionRadius},
+          .replaced_by = "gi",
           .samples_option = "ao-samples",
       },
       {

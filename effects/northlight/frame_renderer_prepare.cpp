@@ -59,8 +59,9 @@ std::map<std::string, EffectSettings> choose_effects(const std::vector<std::stri
     const Effect* effect = find_effect(effects, name);
     if (effect != nullptr) {
       out[name] = effect->defaults;
+      out[name].named = true;
     } else if (name == "all") {
-      for (const Effect& each : effects) out[each.name] = each.defaults;
+      for (const Effect& each : effects) out.try_emplace(each.name, each.defaults);
     } else {
       out[name] = {};
     }
@@ -162,6 +163,7 @@ void FrameRenderer::set_libraries(ShaderLibraries libraries) {
 
 bool FrameRenderer::is_of_use(const Effect& effect, const EffectSettings& settings) const {
   if (settings.keep) return true;
+  if (!settings.named && settings_.effects.count(effect.replaced_by) != 0) return false;
   return scene_offers(scene_, effect.needs) && (!effect.needs.motion || settings_.moving);
 }
 
@@ -417,6 +419,14 @@ rtapi::Status FrameRenderer::create_compose() {
 }
 
 void FrameRenderer::list_left_out() {
+  for (const Effect& effect : effects_) {
+    const auto chosen = settings_.effects.find(effect.name);
+    const Effect* instead = find_effect(effects_, effect.replaced_by);
+    if (chosen == settings_.effects.end() || instead == nullptr || active(effect.name)) continue;
+    left_out_.push_back(effect.about + ": " + instead->about +
+                        " takes its place; its layer is there if \"" + effect.name +
+                        "\" is named among the effects");
+  }
   if (std::none_of(gpu_.geometries.begin(), gpu_.geometries.end(),
                    [](const GpuGeometry& geometry) { return geometry.alpha_tested; })) {
     left_out_.push_back("any-hit shaders: nothing is alpha-tested");

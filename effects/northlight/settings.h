@@ -49,7 +49,8 @@ struct FrameSettings {
   std::uint32_t rows = 0;
 };
 
-/// These effects with their defaults, and those that they include. "all": every one. An
+/// These effects with their defaults, and those that they include. "all": every one, of which the
+/// frame leaves out what another one takes the place of, unless it is named besides. An
 /// unknown name is kept, and FrameRenderer::create refuses it.
 std::map<std::string, EffectSettings> choose_effects(
     const std::vector<std::string>& names,

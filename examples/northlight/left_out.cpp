@@ -46,7 +46,12 @@ std::vector<Part> parts_left_out(const Options& options, const Scene& scene) {
   }
   for (const Effect& effect : northlight_effects()) {
     const bool is_chosen = options.frame.effects.count(effect.name) != 0;
-    if (!is_chosen || !effect.includes.empty() || scene_offers(scene, effect.needs)) continue;
+    const bool is_replaced = is_chosen && !options.frame.effects.at(effect.name).named &&
+                             options.frame.effects.count(effect.replaced_by) != 0;
+    if (!is_chosen || !effect.includes.empty() ||
+        (scene_offers(scene, effect.needs) && !is_replaced)) {
+      continue;
+    }
     out.push_back({effect.about, scene, options});
     for (auto& [name, settings] : out.back().options.frame.effects) {
       const Effect& other = *find_effect(northlight_effects(), name);

@@ -286,7 +286,11 @@ void apply(const Words& words, Options& options) {
 void choose(Options& options, const std::vector<std::string>& effects) {
   FrameSettings& frame = options.frame;
   frame.effects = choose_effects(effects);
-  for (auto& [name, settings] : frame.effects) settings = options.effects.at(name);
+  for (auto& [name, settings] : frame.effects) {
+    const bool named = settings.named;
+    settings = options.effects.at(name);
+    settings.named = named;
+  }
   frame.whole_frame = need_whole_frame(frame.effects);
 }
 

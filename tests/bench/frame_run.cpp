@@ -27,7 +27,7 @@ FrameRun::FrameRun(uint32_t width, uint32_t height, uint32_t threads)
   effects::FrameSettings settings;
   settings.width = width;
   settings.height = height;
-  settings.effects = effects::choose_effects({"all"});
+  settings.effects = effects::choose_effects({"all", "ao"});
   for (auto& [name, effect] : settings.effects) effect.samples = 1;
   settings.volume.samples = 4;  // the time does not depend on what the volume holds
   renderer_ =

@@ -107,6 +107,30 @@ TEST(Registry, NamesAreKnownOrRefused) {
   EXPECT_NE(without.error().message.find("\"gbuffer/gbuffer\""), std::string::npos);
 }
 
+// Indirect light takes the place of ambient occlusion: nothing would read its rays.
+TEST(Registry, WhatNothingReadsIsNotTraced) {
+  const Scene scene = make_room();
+  const auto has_ao = [&](const std::vector<std::string>& names, bool& is_said) {
+    FrameSettings settings = small_settings(names);
+    settings.volume.given = std::make_shared<IndirectVolume>();
+    const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
+    renderer->render().value();
+    is_said =
+        std::any_of(renderer->left_out().begin(), renderer->left_out().end(),
+                    [](const std::string& text) { return text.find("ambient occlusion") == 0; });
+    const auto layers = renderer->layers();
+    return std::find(layers.begin(), layers.end(), "ao") != layers.end();
+  };
+  bool is_said = false;
+  EXPECT_FALSE(has_ao({"all"}, is_said));
+  EXPECT_TRUE(is_said);
+  EXPECT_TRUE(has_ao({"all", "ao"}, is_said));
+  EXPECT_FALSE(is_said);
+  EXPECT_TRUE(has_ao({"ao", "gi"}, is_said));
+  EXPECT_TRUE(has_ao({"ao", "reflections"}, is_said));
+  EXPECT_FALSE(is_said);
+}
+
 TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {
   std::set<std::string> names, signals;
   for (const Effect& effect : northlight_effects()) {
@@ -130,7 +154,7 @@ TEST(Registry, EveryRowHasItsShaderFileAndItsOwnNames) {
 // Being stopped is an outcome; what fails is an error, and neither is taken for the other.
 TEST(FrameRenderer, StopsWhenTheCallbackSaysSo) {
   const Scene scene = make_room();
-  FrameSettings settings = small_settings({"all"});
+  FrameSettings settings = small_settings({"all", "ao"});
   settings.volume = {.cell = 1.0f, .samples = 4};
   const auto renderer = FrameRenderer::create(make_device(), scene, settings).value();
   std::string last;

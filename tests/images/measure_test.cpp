@@ -235,7 +235,7 @@ TEST(Split, PutsSettingsSideBySide) {
 }
 
 TEST(Reference, IsALayerOfEachEffect) {
-  ASSERT_EQ(northlight("--size 48x27 --effects all --reference 32"), 0)
+  ASSERT_EQ(northlight("--size 48x27 --effects all,ao --reference 32"), 0)
       << text_of(folder() + "/log");
   const auto file = read_exr(folder() + "/frame.exr");
   ASSERT_TRUE(file.ok()) << file.error().message;
