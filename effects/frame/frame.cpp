@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include "effects/common/blue_noise.h"
@@ -115,6 +116,7 @@ FrameConstants frame_constants(const Scene& scene, const Camera& camera, const F
   const Sun sun = scene.sun.value_or(Sun{{0, 1, 0}, glm::vec3(0.0f), 0.0f});
   const float radius = desc.sun_angular_radius >= 0 ? desc.sun_angular_radius : sun.angular_radius;
   set_sun(c, sun, radius);
+  c.white = scene.exposure > 0 ? 1 / scene.exposure : std::numeric_limits<float>::max();
   c.sky_zenith = finite_or_black(scene.sky.zenith);
   c.sky_horizon = finite_or_black(scene.sky.horizon);
   c.sky_ground = finite_or_black(scene.sky.ground);

@@ -43,8 +43,8 @@ struct FrameConstants {
   glm::vec3 previous_up;
   float over_previous_up;
   glm::vec3 previous_forward;
-  float padding4;
   ///@}
+  float white;                ///< radiance that the exposure takes to 1
   glm::vec3 camera_motion;    ///< metres, from the camera before to this one
   float padding5;             ///< 0
   glm::vec2 jitter;           ///< pixels, added to the primary rays

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/gbuffer/gbuffer.h"
 
+#include <shaders/curvature.h>
 #include <shaders/gbuffer.h>
 
 namespace kaamos::effects {
@@ -17,6 +18,15 @@ RayPassDesc gbuffer_pass(rtapi::ShaderLibrary library) {
   desc.miss[kRayTypeSurface] = "GBufferMiss";
   desc.hit[kRayTypeSurface] = {"GBufferAnyHit", "GBufferClosestHit"};
   return desc;
+}
+
+rtapi::Result<rtapi::ShaderLibrary> curvature_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_curvature());
+}
+
+rtapi::Result<ComputePass> curvature_pass(const rtapi::Device& device, const Frame& frame,
+                                          const rtapi::ShaderLibrary& library) {
+  return ComputePass::create(device, frame, library, "CurvatureToRoughness");
 }
 
 }  // namespace kaamos::effects

@@ -64,7 +64,8 @@ struct EffectSignal {
   std::optional<FrameTexture> picture = {};
   /// Samples are added up, and the mean is denoised. false: the picture is final as it is written.
   bool is_sum = true;
-  bool of_lobe = false;  ///< [Denoiser::Signal]
+  bool of_lobe = false;   ///< [Denoiser::Signal]
+  bool is_light = false;  ///< shown with the frame's exposure and tone curve
   /// What the composition takes it for; null: nothing.
   const rtapi::Texture* FrameParts::*part = nullptr;
 };

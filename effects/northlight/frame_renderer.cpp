@@ -172,6 +172,10 @@ rtapi::Status FrameRenderer::run_compute(const std::string& name, std::uint64_t 
   return {};
 }
 
+void FrameRenderer::record_curvature(rtapi::CommandList& list) const {
+  if (curvature_) curvature_->dispatch(list, frame_, {}, {}, frame_.width(), frame_.height());
+}
+
 void FrameRenderer::record_lights(rtapi::CommandList& list) const {
   lighting_->update(list, frame_);
   if (direct_) direct_->dispatch(list, frame_, has_strongest_effect());
@@ -245,6 +249,13 @@ rtapi::Result<Outcome> FrameRenderer::render(const Progress& progress) {
   statistics_.back().bytes = 0;
   for (const FrameTexture texture : kSurfaceTextures) {
     statistics_.back().bytes += picture_bytes(frame_.texture(texture));
+  }
+  if (curvature_) {
+    const std::uint64_t bytes = picture_bytes(frame_.texture(kShadingNormal)) +
+                                picture_bytes(frame_.texture(kIds)) +
+                                picture_bytes(frame_.texture(kMaterial));
+    const auto s = run_compute("curvature", bytes, [&](auto& list) { record_curvature(list); });
+    if (!s) return s.error();
   }
   for (const auto& effect : active_) {
     if (!comes_first(*effect)) continue;

@@ -236,6 +236,7 @@ class FrameRenderer {
   rtapi::Status run_compute(const std::string& name, std::uint64_t bytes,
                             const std::function<void(rtapi::CommandList&)>& record);
   rtapi::Result<Outcome> finish_whole(const Progress& progress);
+  void record_curvature(rtapi::CommandList& list) const;
   void record_lights(rtapi::CommandList& list) const;
   std::uint64_t bytes_of(const Active& effect) const;
   std::uint64_t compose_bytes() const;
@@ -281,6 +282,7 @@ class FrameRenderer {
   bool has_own_libraries_ = false;
   ShaderLibraries libraries_;
   RayPass gbuffer_;
+  std::optional<ComputePass> curvature_;
   std::optional<RaySorter> sorter_;
   std::optional<Lighting> lighting_;
   std::optional<DirectLighting> direct_;

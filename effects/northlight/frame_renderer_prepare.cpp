@@ -211,6 +211,11 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
       RayPass::create(device_, frame_, gpu_, gbuffer_pass(libraries_.at("gbuffer/gbuffer")));
   if (!gbuffer) return gbuffer.error();
   gbuffer_ = *gbuffer;
+  if (settings_.curvature_to_roughness) {
+    const auto pass = curvature_pass(device_, frame_, libraries_.at("gbuffer/curvature"));
+    if (!pass) return pass.error();
+    curvature_ = *pass;
+  }
   find_active();
   if (settings_.whole_frame) {
     const double start = clock_ms_();

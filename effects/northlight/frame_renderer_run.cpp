@@ -35,6 +35,7 @@ rtapi::Status FrameRenderer::draw_surfaces() {
   if (has_surfaces_) return {};
   const auto drawn = execute([&](rtapi::CommandList& list) {
     gbuffer_.dispatch(list, frame_, {.sample_count = 1}, frame_.height());
+    record_curvature(list);
     if (settings_.whole_frame) record_lights(list);
   });
   if (!drawn) return drawn.error();
@@ -196,6 +197,7 @@ void FrameRenderer::record(rtapi::CommandList& list, const std::string& part,
                            const PartOptions& options) {
   if (part == "gbuffer") {
     gbuffer_.dispatch(list, frame_, {.sample_count = 1, .accumulate = 0}, frame_.height());
+    record_curvature(list);
   } else if (part == "lights") {
     record_lights(list);
   } else if (auto* effect = const_cast<Active*>(active(part)); effect && effect->row->pass) {

@@ -41,6 +41,8 @@ const std::vector<PartRow>& parts() {
   constexpr auto kWhole = [](const FrameSettings& s) { return s.whole_frame; };
   static const std::vector<PartRow> rows = {
       {{"gbuffer/gbuffer", gbuffer_library}, kAlways},
+      {{"gbuffer/curvature", curvature_library},
+       [](const FrameSettings& s) { return s.curvature_to_roughness; }},
       {{"composite/composite", composite_library}, kAlways},
       {{"lights/lighting", lighting_library}, kWhole},
       {{"direct/direct", direct_library}, kWhole},

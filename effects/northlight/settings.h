@@ -41,10 +41,11 @@ struct FrameSettings {
   VolumeSettings volume;  ///< for effects that read it
   bool taa = false;       ///< antialiasing over the frames of a sequence
   bool moving = false;    ///< frames of a sequence: structures are kept up with what moves
-  RayOrder order = RayOrder::kPixels;  ///< of rays; the frame stays the same
-  bool ray_cones = true;               ///< [FrameDesc]
-  float sun_angular_radius = -1.0f;    ///< [FrameDesc]
-  std::uint32_t max_pass_views = 256;  ///< [FrameDesc]
+  RayOrder order = RayOrder::kPixels;   ///< of rays; the frame stays the same
+  bool ray_cones = true;                ///< [FrameDesc]
+  bool curvature_to_roughness = false;  ///< [curvature_pass]
+  float sun_angular_radius = -1.0f;     ///< [FrameDesc]
+  std::uint32_t max_pass_views = 256;   ///< [FrameDesc]
   /// Rows per dispatch. 0: as many as take a quarter of a second.
   std::uint32_t rows = 0;
 };

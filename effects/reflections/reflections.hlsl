@@ -12,13 +12,24 @@ struct ReflectionConstants {
   float longest;        // metres, for a mirror
   float shortest;       // metres, for a rough surface
   float length_jitter;  // fraction of the length that varies from ray to ray
-  float firefly_limit;  // samples are clamped to this luminance; 0: no clamping
+  float firefly_limit;  // of a sample's luminance, in multiples of white; 0: no clamping
   uint sun_at_hits;     // 1: a shadow ray per hit
   uint single_length;   // 1: `longest` for all rays, as a reference
+  uint fireflies;       // kKeep, kRetrace, kAverage
+  uint more_rays;       // of a sample that is too bright
 };
 ConstantBuffer<ReflectionConstants> constants : register(b0, space3);
 
 static const uint kReflectionPair = 2;  // and 3 [effects-spec B0.3]
+
+// What is done about fireflies. [effects/reflections/reflections.h]
+static const uint kKeep = 0;
+static const uint kRetrace = 1;
+static const uint kAverage = 2;
+static const float kTooBright = 2.0;  // times white [GDC 2018 talk]
+// Added to the frame's seed, so that pilots and further rays are independent of the samples.
+static const uint kPilotSeed = 0x9E3779B9;
+static const uint kFurtherSeed = 0x85EBCA6B;
 // Above this roughness reflections are noisy and filtered anyway, so reading a single cell of the
 // volume per ray adds little noise. In a mirror it would show. The value lies between two of the
 // 8-bit values in g_material (53.55 of 255), so rounding never decides.
@@ -105,6 +116,44 @@ float3 SampleHalfVector(ReflectionPoint point, float2 u) {
   return SampleGgxHalfVector(u, point.local_view, point.brdf.alpha);
 }
 
+// Radiance that the pixel shows of a reflection, and whether it is a firefly.
+bool IsTooBright(float3 light, float3 scale) {
+  return RadianceLuminance(light * scale) > kTooBright * frame.white;
+}
+
+// The light of one ray over `scale`, and the ray's length. `seed` and `index` choose the ray.
+float4 TraceReflection(uint2 pixel, ReflectionPoint point, float3 scale, uint index, uint seed) {
+  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, seed)];
+  const float3 half_vector = SampleHalfVector(point, PixelSample(tile, index, kReflectionPair, seed));
+  const float3 local_light = reflect(-point.local_view, half_vector);
+  const float3 direction = ToWorld(local_light, point.shading_normal);
+  // Below the surface, either the geometric or the normal-mapped one, there is no light.
+  if (!(local_light.z > 0.0) || !(dot(direction, point.normal) > 0.0)) return float4(0, 0, 0, 0);
+  const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, seed)];
+  const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, seed);
+  RayDesc ray;
+  ray.Origin = point.origin;
+  ray.TMin = 0.0;
+  ray.Direction = direction;
+  ray.TMax = ReflectionLength(point.roughness, v.x);
+  ReflectionPayload payload;
+  payload.radiance = float3(0, 0, 0);
+  payload.distance = -1.0;
+  payload.volume_jitter = kEveryCell;
+  if (point.roughness > kNoisyRoughness) {
+    payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, seed);
+  }
+  TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(point.roughness), kRayTypeSurface, kRayTypeCount,
+           kRayTypeSurface, ray, payload);
+  const float3 weight = GgxSampleWeight(point.brdf, point.cosine_view, local_light.z,
+                                        dot(point.local_view, half_vector));
+  float3 light = payload.radiance * weight / scale;
+  const float luminance = RadianceLuminance(light * scale);
+  const float limit = constants.firefly_limit * frame.white;
+  if (limit > 0.0 && luminance > limit) light *= limit / luminance;
+  return float4(light, payload.distance >= 0.0 ? payload.distance : ray.TMax);
+}
+
 [shader("raygeneration")]
 void ReflectionRayGen() {
   const uint2 pixel = FramePixel();
@@ -115,41 +164,29 @@ void ReflectionRayGen() {
   const ReflectionPoint point = LoadReflectionPoint(pixel);
   const float3 scale = ReflectionScale(
       SpecularAlbedo(point.brdf.f0, point.brdf.roughness, point.cosine_view));
-  const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
-  const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, frame.seed)];
+  uint rays_per_sample = 1;
+  if (constants.fireflies == kRetrace && !IsMirror(point.roughness)) {
+    const float4 pilot = TraceReflection(pixel, point, scale, pass_constants.first_sample,
+                                         frame.seed + kPilotSeed);
+    if (IsTooBright(pilot.rgb, scale)) rays_per_sample += constants.more_rays;
+  }
 
   float4 sum = float4(0, 0, 0, 0);
   for (uint i = 0; i < pass_constants.sample_count; ++i) {
     const uint index = pass_constants.first_sample + i;
-    const float3 half_vector =
-        SampleHalfVector(point, PixelSample(tile, index, kReflectionPair, frame.seed));
-    const float3 local_light = reflect(-point.local_view, half_vector);
-    const float3 weight = GgxSampleWeight(point.brdf, point.cosine_view, local_light.z,
-                                          dot(point.local_view, half_vector));
-    const float3 direction = ToWorld(local_light, point.shading_normal);
-    // Below the surface, either the geometric or the normal-mapped one, there is no light.
-    if (!(local_light.z > 0.0) || !(dot(direction, point.normal) > 0.0)) continue;
-    const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, frame.seed);
-    RayDesc ray;
-    ray.Origin = point.origin;
-    ray.TMin = 0.0;
-    ray.Direction = direction;
-    ray.TMax = ReflectionLength(point.roughness, v.x);
-    ReflectionPayload payload;
-    payload.radiance = float3(0, 0, 0);
-    payload.distance = -1.0;
-    payload.volume_jitter = kEveryCell;
-    if (point.roughness > kNoisyRoughness) {
-      payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, frame.seed);
+    uint rays = rays_per_sample;
+    float4 sample = float4(0, 0, 0, 0);
+    for (uint k = 0; k < rays; ++k) {
+      // The first ray is the one that would be traced alone.
+      const uint ray_index = k == 0 ? index : index * constants.more_rays + k;
+      const uint seed = k == 0 ? frame.seed : frame.seed + kFurtherSeed;
+      const float4 one = TraceReflection(pixel, point, scale, ray_index, seed);
+      sample += one;
+      if (k == 0 && constants.fireflies == kAverage && IsTooBright(one.rgb, scale)) {
+        rays += constants.more_rays;
+      }
     }
-    TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(point.roughness), kRayTypeSurface, kRayTypeCount,
-             kRayTypeSurface, ray, payload);
-    float3 sample = payload.radiance * weight / scale;
-    const float luminance = RadianceLuminance(sample);
-    if (constants.firefly_limit > 0.0 && luminance > constants.firefly_limit) {
-      sample *= constants.firefly_limit / luminance;
-    }
-    sum += float4(sample, payload.distance >= 0.0 ? payload.distance : ray.TMax);
+    sum += sample / float(rays);
   }
   reflection[pixel] = SumBefore(reflection, pixel) + sum;
 }

@@ -195,13 +195,14 @@ TEST(Reflections, MirrorsShowTexturesAsFineAsTheCameraSeesThem) {
   }
 }
 
-// Clamping removes energy and does nothing else; the picture shows how much.
+// Clamping removes energy and does nothing else; the picture shows how much. White is 1.
 TEST(Reflections, TheFireflyLimitOnlyDarkens) {
   Scene scene = furnace(0.5, 0.5f);
   scene.sky.zenith = glm::vec3(8.0f);
-  ReflectionConstants clamped;
+  ReflectionConstants kept, clamped;
+  kept.fireflies = clamped.fireflies = Fireflies::kKeep;
   clamped.firefly_limit = 2;
-  const Reflected free = reflect(scene, 16, {}), limited = reflect(scene, 16, clamped);
+  const Reflected free = reflect(scene, 16, kept), limited = reflect(scene, 16, clamped);
   double before = 0, after = 0;
   for (std::size_t i = 0; i < free.sum.values.size(); i += 4) {
     ASSERT_LE(limited.sum.values[i], free.sum.values[i] * 1.0001f);
@@ -210,6 +211,63 @@ TEST(Reflections, TheFireflyLimitOnlyDarkens) {
   }
   EXPECT_LT(after / before, 0.7);
   EXPECT_GT(after, 0);
+}
+
+// A rough metal floor under a bright ball in the dark: most samples are black, some are far above
+// white. Each run takes one sample per pixel, as a frame does.
+struct Fires {
+  Scene scene = make_sphere_oracle(1.0, 1.5);
+  std::unique_ptr<FrameRenderer> renderer;
+
+  Fires() {
+    scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::vec3(0.0f);
+    scene.sun.reset();
+    Material ball = scene.materials[0];
+    ball.constants.emissive = glm::vec3(100);
+    scene.materials[0].constants.base_color = glm::vec4(1);
+    scene.materials[0].constants.metallic = 1;
+    scene.materials[0].constants.roughness = 0.7f;
+    scene.materials.push_back(ball);
+    scene.meshes[scene.instances[1].mesh].geometries[0].material = 1;
+    Camera& camera = scene.cameras.front();
+    camera.camera_to_world = look_at(glm::dvec3(6, 3, 0), glm::dvec3(-1.5, 0, 0));
+    camera.vertical_fov = 0.1;
+    FrameSettings settings;
+    settings.width = settings.height = kSize;
+    settings.effects = choose_effects({"reflections"});
+    settings.volume.given = std::make_shared<IndirectVolume>();
+    renderer = FrameRenderer::create(rtapi::CreateDevice().value(), scene, settings).value();
+  }
+
+  double energy(const ReflectionConstants& constants, std::uint32_t runs, std::uint32_t samples) {
+    EffectSettings settings;
+    settings.set_constants(constants);
+    settings.samples = samples;
+    double sum = 0;
+    for (std::uint32_t run = 0; run < runs; ++run) {
+      renderer->run("reflections", settings, run * samples).value();
+      const FloatImage image = renderer->read(renderer->sum("reflection")).value();
+      for (std::size_t i = 0; i < image.values.size(); i += 4) sum += image.values[i];
+    }
+    return sum / (static_cast<double>(runs) * samples * kSize * kSize);
+  }
+};
+
+// What is done about fireflies by default keeps the energy; the talk's average and its clamp do
+// not.
+TEST(Reflections, OnlyAPilotKeepsTheEnergyOfFireflies) {
+  Fires fires;
+  ReflectionConstants constants;
+  constants.fireflies = Fireflies::kKeep;
+  const double wanted = fires.energy(constants, 4, 1024);
+  ASSERT_GT(wanted, 2) << "brighter than the limit";
+  EXPECT_NEAR(fires.energy(ReflectionConstants{}, 400, 1) / wanted, 1, 0.02);
+  ReflectionConstants averaged;
+  averaged.fireflies = Fireflies::kAverage;
+  const double kept = fires.energy(averaged, 100, 1) / wanted;
+  EXPECT_LT(kept, 0.8);
+  constants.firefly_limit = 10;
+  EXPECT_LT(fires.energy(constants, 4, 256) / wanted, 0.5);
 }
 
 }  // namespace

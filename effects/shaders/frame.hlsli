@@ -35,7 +35,7 @@ struct FrameConstants {
   float3 previous_up;
   float over_previous_up;
   float3 previous_forward;
-  float padding4;
+  float white;  // radiance that the exposure takes to 1
   float3 camera_motion;  // metres, from the previous camera to this one
   float padding5;
   float2 jitter;           // pixels, added to the primary rays

@@ -112,7 +112,9 @@ rtapi::Result<Plan> make_plan(EffectRuns& runs, const Options& options) {
     plan.runs.push_back({kContactTrace, contact});
     plan.filters.push_back({kContactFilter, contact, nullptr});
   }
-  const Setting reflection = setting_of("reflections");
+  Setting reflection = setting_of("reflections");
+  reflection.change<ReflectionConstants>(
+      [](auto& constants) { constants.fireflies = Fireflies::kKeep; });
   Setting without_sun = reflection;
   without_sun.change<ReflectionConstants>([](auto& constants) { constants.sun_at_hits = 0; });
   Setting trace = reflection;

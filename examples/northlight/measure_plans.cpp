@@ -81,6 +81,8 @@ MeasurePlan reflections_plan(const Options& options) {
   MeasurePlan plan{.title = "Reflections", .signal = "radiance over the specular albedo"};
   plan.effects = {"reflections"};
   Setting setting = setting_of("reflections");
+  setting.change<ReflectionConstants>(
+      [](auto& constants) { constants.fireflies = Fireflies::kKeep; });
   Setting whole = setting;
   whole.change<ReflectionConstants>([](auto& constants) { constants.single_length = 1; });
   plan.references = {{"reflections", "rays of 200 m to 3 m by roughness", setting, true},
@@ -89,15 +91,23 @@ MeasurePlan reflections_plan(const Options& options) {
   const std::string lengths = "16 rays, against 200 m";
   add_single(plan, lengths, "length by roughness", setting, 16, "reflections-200m");
   add_single(plan, lengths, "200 m", whole, 16, "reflections-200m");
-  setting.settings.samples = 4;
-  std::vector<float> limits = {1, 2, 4, 8, 16, 64};
+  const std::string fireflies = "1 ray, fireflies";
+  for (const auto& [label, choice] : {std::pair("kept", Fireflies::kKeep),
+                                      std::pair("traced again by a pilot", Fireflies::kRetrace),
+                                      std::pair("averaged", Fireflies::kAverage)}) {
+    Setting chosen = setting;
+    chosen.change<ReflectionConstants>([&](auto& constants) { constants.fireflies = choice; });
+    add_single(plan, fireflies, label, chosen, 1, "reflections");
+  }
+  std::vector<float> limits = {2, 10, 50};
   const float wanted =
       options.effects.at("reflections").get_constants<ReflectionConstants>().firefly_limit;
   if (wanted > 0) limits = {wanted};
   for (const float limit : limits) {
-    setting.change<ReflectionConstants>([&](auto& constants) { constants.firefly_limit = limit; });
-    plan.settings.push_back(
-        {"4 rays, samples clamped", fmt::format("to {}", limit), setting, "reflections"});
+    Setting chosen = setting;
+    chosen.change<ReflectionConstants>([&](auto& constants) { constants.firefly_limit = limit; });
+    add_single(plan, fireflies, fmt::format("clamped to {} x white", limit), chosen, 1,
+               "reflections");
   }
   return plan;
 }

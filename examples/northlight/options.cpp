@@ -43,7 +43,11 @@ struct Words {
   std::string sort_rays;
   std::string texture_lod = "cone";
   float contact_length = ContactShadowConstants().length;
+  std::string fireflies = "retrace";
   float firefly_limit = 0;
+  float gi_length = IndirectConstants().length;
+  float reflection_length = ReflectionConstants().longest;
+  float reflection_length_rough = ReflectionConstants().shortest;
   std::uint32_t glass_layers = 1;
   float sun_angle = 0;  // the whole disk, degrees
 };
@@ -251,15 +255,25 @@ IndirectMode indirect_mode(const std::string& name) {
   return IndirectMode::kNearField;
 }
 
+Fireflies fireflies(const std::string& name) {
+  if (name == "keep") return Fireflies::kKeep;
+  if (name == "average") return Fireflies::kAverage;
+  return Fireflies::kRetrace;
+}
+
 // What the words mean for the frame and its effects.
 void apply(const Words& words, Options& options) {
   FrameSettings& frame = options.frame;
   options.effects.at("contact").set_constants(ContactShadowConstants{words.contact_length});
   IndirectConstants indirect;
   indirect.mode = indirect_mode(words.gi_mode);
+  indirect.length = words.gi_length;
   options.effects.at("gi").set_constants(indirect);
   ReflectionConstants reflection;
   reflection.firefly_limit = words.firefly_limit;
+  reflection.fireflies = fireflies(words.fireflies);
+  reflection.longest = words.reflection_length;
+  reflection.shortest = words.reflection_length_rough;
   options.effects.at("reflections").set_constants(reflection);
   options.effects.at("transparent").set_constants(deck_layers(words.glass_layers));
   for (const std::string& name : words.half_resolution) {
@@ -373,10 +387,30 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
       ->check(CLI::Range(1u, kMaxSamples));
   app.add_option("--gi-volume", options.frame.volume.file,
                  "file of the volume: read if it exists, otherwise baked and written");
+  app.add_option("--gi-length", words.gi_length, "length of indirect light's rays, in metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1e6f));
+  app.add_option("--reflection-length", words.reflection_length,
+                 "length of the rays of a mirror, in metres")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1e6f));
+  app.add_option("--reflection-length-rough", words.reflection_length_rough,
+                 "the same at roughness 1; in between, lengths fall exponentially")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1e6f));
+  app.add_option("--fireflies", words.fireflies,
+                 "reflections brighter than twice white: keep, retrace (more rays where a pilot "
+                 "ray is bright, which keeps the energy), or average (more rays where a sample is "
+                 "bright, as in the talk, which loses some)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"keep", "retrace", "average"}));
   app.add_option("--firefly-limit", words.firefly_limit,
-                 "luminance that a reflection's sample is clamped to; 0: none")
+                 "multiples of white that a reflection's sample is clamped to (the talk: 10); "
+                 "0: none")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e30f));
+  app.add_flag("--curvature-roughness", options.frame.curvature_to_roughness,
+               "surfaces are rougher where their normals vary from pixel to pixel");
   app.add_option("--glass-layers", words.glass_layers,
                  "nearest layers of glass that reflect; those behind are blended without an order")
       ->capture_default_str()

@@ -88,9 +88,21 @@ FloatImage first_channels(const FloatImage& image, std::uint32_t count) {
   return out;
 }
 
-// What a viewer sees of a layer.
-ByteImage layer_picture(const std::string& name, const FloatImage& image,
-                        const FrameResult& result) {
+bool is_light(const std::string& layer, const std::vector<Effect>& effects) {
+  for (const Effect& effect : effects) {
+    for (const EffectSignal& signal : effect.signals) {
+      if (!signal.is_light) continue;
+      for (const char* ending : {"", "_denoised", "_reference"}) {
+        if (layer == signal.name + ending) return true;
+      }
+    }
+  }
+  return layer == "emissive" || layer == "radiance_reference";
+}
+
+// What a viewer sees of a layer: light as in the frame, everything else as numbers from 0 to 1.
+ByteImage layer_picture(const std::string& name, const FloatImage& image, const FrameResult& result,
+                        const FrameRenderer& renderer) {
   const FloatImage& ids = result.layers.at("ids");
   if (name == "normal" || name == "shading_normal") return to_bytes(normal_picture(image, ids));
   if (name == "ids") return to_bytes(id_picture(ids));
@@ -98,7 +110,9 @@ ByteImage layer_picture(const std::string& name, const FloatImage& image,
     return to_bytes(distance_picture(result.layers.at("view_z")), 1, 0, true);
   }
   if (name == "base_color") return to_bytes(first_channels(image, 3), 1, 0, true);
-  if (name == "emissive") return tonemap(first_channels(image, 3), 1.0f);
+  if (is_light(name, renderer.effects())) {
+    return tonemap(first_channels(image, 3), renderer.scene().exposure);
+  }
   if (name == "position") return to_bytes(first_channels(image, 3), 0.05f, 0.5f);
   return to_bytes(image.channels == 4 ? first_channels(image, 3) : image);
 }
@@ -208,7 +222,7 @@ std::string add_results(const Options& options, const Scene& scene, const FrameR
   std::string error = files.add("frame.png", frame_picture(result.radiance, scene.exposure));
   for (const auto& [name, image] : result.layers) {
     if (!error.empty()) return error;
-    error = files.add(name + ".png", layer_picture(name, image, result));
+    error = files.add(name + ".png", layer_picture(name, image, result, renderer));
   }
   if (!error.empty()) return error;
   nlohmann::ordered_json json = statistics(options, scene, renderer, result);

@@ -19,6 +19,7 @@ Options reference_options(const Options& options) {
     if (name == "reflections") {
       auto constants = settings.get_constants<ReflectionConstants>();
       constants.firefly_limit = 0;
+      constants.fireflies = Fireflies::kKeep;
       settings.set_constants(constants);
     }
     if (name == "transparent") settings.set_constants(sorted_reference());
