@@ -273,6 +273,7 @@ Scene brightened(Scene scene, float k) {
   for (Material& material : scene.materials) material.constants.emissive *= k;
   if (scene.sun) scene.sun->irradiance *= k;
   for (glm::vec3* color : {&scene.sky.zenith, &scene.sky.horizon, &scene.sky.ground}) *color *= k;
+  scene.exposure /= k;
   return scene;
 }
 
