@@ -18,10 +18,10 @@ RWTexture2D<float4> accumulated[kMostSignals] : register(u19, space3);
 RWTexture2D<float4> moments[kMostSignals] : register(u24, space3);
 RWTexture2D<float4> previous_guides : register(u29, space3);
 
+bool IsOfLobe(int s) { return (denoise.lobes >> s & 1) != 0; }
+
 // Light in a mirror has no noise, however much it varies over the picture. It is not filtered.
-bool IsExact(int2 pixel, int s) {
-  return (denoise.lobes >> s & 1) != 0 && IsMirror(g_material[pixel].x);
-}
+bool IsExact(int2 pixel, int s) { return IsOfLobe(s) && IsMirror(g_material[pixel].x); }
 
 // The surface at this pixel, to be found again in the previous frame.
 struct Surface {
@@ -45,21 +45,27 @@ struct Past {
   float weight;      // their sum; 0: the surface was not visible
 };
 
-Past FindPast(int2 pixel, int2 size) {
+Past NoPast(int2 pixel) {
   Past past;
   past.corner = pixel;
   past.weight = 0.0;
   for (int i = 0; i < 4; ++i) past.weights[i] = 0.0;
+  return past;
+}
+
+// The past of a pixel that `motion` takes to another place of the previous picture, in picture
+// widths and heights, where its surface had the view depth `expected_z`.
+Past FindPastAt(int2 pixel, int2 size, float2 motion, float expected_z) {
+  Past past = NoPast(pixel);
   if (denoise.history_valid == 0) return past;
-  const float4 motion = g_motion[pixel];
   if (!isfinite(motion.x) || !isfinite(motion.y)) return past;
-  const float2 before = float2(pixel) + motion.xy * float2(size);
+  const float2 before = float2(pixel) + motion * float2(size);
   // Far outside the picture, the conversion to integers would overflow.
   if (any(before < float2(-1, -1)) || any(before > float2(size))) return past;
   const float2 gradient = DepthGradient(pixel, size);
   Surface surface;
   surface.normal = guides[pixel].xyz;
-  surface.expected_z = guides[pixel].w + motion.z;
+  surface.expected_z = expected_z;
   surface.tolerance = 2.0 * (abs(gradient.x) + abs(gradient.y)) + 0.01 * surface.expected_z;
   surface.instance = float(g_ids[pixel].x);
   const float2 corner = floor(before);
@@ -78,6 +84,79 @@ Past FindPast(int2 pixel, int2 size) {
   // A hundredth of a pixel is rounding error, not history.
   if (past.weight < 0.01) past.weight = 0.0;
   return past;
+}
+
+// Where the surface itself was.
+Past FindPast(int2 pixel, int2 size) {
+  const float4 motion = g_motion[pixel];
+  return FindPastAt(pixel, size, motion.xy, guides[pixel].w + motion.z);
+}
+
+// Mean curvature of the surface, 1/metres, from the neighbours to the right and below; 0 where the
+// surface is flat or hollow.
+float Convexity(int2 pixel, int2 size, float3 position) {
+  float sum = 0.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const int2 other = pixel + (axis == 0 ? int2(1, 0) : int2(0, 1));
+    if (!IsInside(other, size) || g_ids[other].x != g_ids[pixel].x) continue;
+    const float3 along = g_position[other].xyz - position;
+    sum += dot(guides[other].xyz - guides[pixel].xyz, along) / max(dot(along, along), 1e-20);
+  }
+  return max(0.5 * sum, 0.0);
+}
+
+// How far behind the surface the image of what it reflects stands. The pixel's neighbours count as
+// well, because few rays hit at one distance; their places in the picture are averaged, which go
+// with 1 / distance. In a convex mirror the image is nearer.
+float ImageDistance(int2 pixel, int2 size, int s, float3 position) {
+  const float away = length(position);
+  float sum = 0.0;
+  float count = 0.0;
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) {
+      const int2 other = pixel + int2(x, y);
+      if (!IsInside(other, size) || g_ids[other].x != g_ids[pixel].x) continue;
+      const float distance = signal[s][other].w;
+      if (!(distance > 0.0)) continue;  // no ray left the surface
+      sum += 1.0 / (away + distance);
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return 0.0;
+  const float distance = max(count / sum - away, 0.0);
+  return distance / (1.0 + 2.0 * distance * Convexity(pixel, size, position));
+}
+
+// How much of a reflection moves with the mirrored image rather than with the surface: all of it in
+// a mirror, nothing on a rough surface. [Lagarde & de Rousiers 2014, Moving Frostbite to PBR:
+// dominant direction of a lobe]
+float ImageShare(float roughness) {
+  const float smoothness = saturate(1.0 - roughness);
+  return smoothness * (sqrt(smoothness) + roughness);
+}
+
+// Where the reflection that the pixel shows was: the image of what is reflected stands behind the
+// surface, and moves across it with the camera. The same surface must have been there.
+Past FindPastOfReflection(int2 pixel, int2 size, int s) {
+  const float3 position = g_position[pixel].xyz;
+  const float3 normal = guides[pixel].xyz;
+  const float image = ImageDistance(pixel, size, s, position);
+  const float3 before = position + frame.camera_motion;
+  float surface_z, image_z;
+  const float2 surface = PreviousPictureUv(before, surface_z);
+  const float2 mirrored =
+      PreviousPictureUv(before + position * (image / max(length(position), 1e-20)), image_z);
+  if (!(surface_z > 0.0) || !(image_z > 0.0)) return NoPast(pixel);
+  const float2 shift = (mirrored - surface) * ImageShare(g_material[pixel].x);
+  // The plane of the surface, there.
+  const float2 ndc = (surface + shift) * 2.0 - 1.0;
+  const float3 ray =
+      frame.previous_forward + ndc.x * frame.previous_right - ndc.y * frame.previous_up;
+  const float depth = dot(before, normal) / dot(ray, normal);
+  if (!(depth > 0.0)) return NoPast(pixel);
+  const float4 motion = g_motion[pixel];
+  return FindPastAt(pixel, size, motion.xy + shift,
+                    (guides[pixel].w + motion.z) * (depth / surface_z));
 }
 
 struct Reprojected {
@@ -163,7 +242,14 @@ void TemporalAccumulation(uint3 id : SV_DispatchThreadID) {
   }
   const Past past = FindPast(pixel, size);
   const float instance = float(g_ids[pixel].x);
-  for (int s = 0; s < denoise.signals; ++s) Accumulate(pixel, size, past, instance, s);
+  for (int s = 0; s < denoise.signals; ++s) {
+    Past own = past;
+    if (IsOfLobe(s) && !IsExact(pixel, s)) {
+      own = FindPastOfReflection(pixel, size, s);
+      if (own.weight == 0.0) own = past;
+    }
+    Accumulate(pixel, size, own, instance, s);
+  }
 }
 
 // With fewer frames than this, the variance comes from 7 x 7 pixels of the same surface instead.

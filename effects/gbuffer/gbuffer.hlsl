@@ -48,17 +48,6 @@ void GBufferAnyHit(inout SurfacePayload payload, in BuiltInTriangleIntersectionA
   }
 }
 
-// Projects a point relative to a camera to picture coordinates from the upper left corner, 0..1.
-// `view_z` is its distance along the camera's axis; `over_right` and `over_up` are 1 / length.
-float2 PictureUv(float3 position, float3 right, float over_right, float3 up, float over_up,
-                 float3 forward, out float view_z) {
-  view_z = dot(position, forward);
-  // The lengths of right and up are half the picture's size at distance 1.
-  const float2 ndc = float2(dot(position, right) * (over_right * over_right),
-                            dot(position, up) * (over_up * over_up)) * (1.0 / view_z);
-  return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
-}
-
 // The hit point's position in the previous frame, relative to that frame's camera.
 float3 PreviousPosition(float3 position, float2 barycentrics) {
   const PreviousInstance before = previous_instances[InstanceIndex()];
@@ -83,9 +72,7 @@ float3 MotionOf(float3 position, float3 previous_position) {
   float view_z, previous_view_z;
   const float2 now = PictureUv(position, frame.camera_right, frame.over_right, frame.camera_up,
                                frame.over_up, frame.camera_forward, view_z);
-  const float2 before =
-      PictureUv(previous_position, frame.previous_right, frame.over_previous_right,
-                frame.previous_up, frame.over_previous_up, frame.previous_forward, previous_view_z);
+  const float2 before = PreviousPictureUv(previous_position, previous_view_z);
   return float3(before - now, previous_view_z - view_z);
 }
 

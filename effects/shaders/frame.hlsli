@@ -144,6 +144,23 @@ float3 SkyTowards(float3 direction) {
   return SkyRadiance(frame.sky_zenith, frame.sky_horizon, frame.sky_ground, direction);
 }
 
+// Projects a point relative to a camera to picture coordinates from the upper left corner, 0..1.
+// `view_z` is its distance along the camera's axis; `over_right` and `over_up` are 1 / length.
+float2 PictureUv(float3 position, float3 right, float over_right, float3 up, float over_up,
+                 float3 forward, out float view_z) {
+  view_z = dot(position, forward);
+  // The lengths of right and up are half the picture's size at distance 1.
+  const float2 ndc = float2(dot(position, right) * (over_right * over_right),
+                            dot(position, up) * (over_up * over_up)) * (1.0 / view_z);
+  return float2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
+}
+
+// Where the previous camera saw a point, given relative to that camera.
+float2 PreviousPictureUv(float3 position, out float view_z) {
+  return PictureUv(position, frame.previous_right, frame.over_previous_right, frame.previous_up,
+                   frame.over_previous_up, frame.previous_forward, view_z);
+}
+
 // The registers of space3 belong to each pass. [effects/frame/pass_views.h]
 
 uint2 FramePixel() {
