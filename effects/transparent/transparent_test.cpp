@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "effects/common/specular_albedo.h"
 #include "effects/composite/composite.h"
 #include "effects/northlight/frame_renderer.h"
 #include "effects/scene/glass_scenes.h"
@@ -25,14 +26,15 @@ struct Seen {
 
 // Runs all settings on one device, because making pipelines takes most of the time.
 std::vector<Seen> look(const Scene& scene, const std::vector<TransparentConstants>& settings,
-                       std::uint32_t size = 8, std::uint32_t threads = 0) {
+                       std::uint32_t size = 8, std::uint32_t threads = 0,
+                       const IndirectVolume& volume = {}) {
   rtapi::DeviceDesc device_desc;
   device_desc.Threads = threads;
   FrameSettings frame_settings;
   frame_settings.width = size;
   frame_settings.height = size;
   frame_settings.effects = choose_effects({"transparent"});
-  frame_settings.volume.given = std::make_shared<IndirectVolume>();
+  frame_settings.volume.given = std::make_shared<IndirectVolume>(volume);
   EffectSettings& glass = frame_settings.effects.at("transparent");
   glass.keep = true;  // scenes without glass are looked at too
   const auto renderer =
@@ -360,6 +362,46 @@ TEST(Transparent, MirrorRaysEndAtSixtyMetres) {
     const double second_part = row.part == 0.5 ? 0.5 - 0.5 / 12 : row.part;
     expect_everywhere(seen[1].glass, glm::dvec3(mirrored + 0.75 * (1 - f) * 3 * f * second_part),
                       2e-3);
+  }
+}
+
+// Light of 2 from everywhere in 400 m around, where the sky is black. A wall that is as bright as
+// that must not show an edge where the mirror rays end.
+TEST(Transparent, MirrorRaysEndInTheVolumesLight) {
+  IndirectVolume volume;
+  volume.cell = 50;
+  volume.origin = glm::dvec3(-200);
+  volume.bricks = glm::uvec3(1);
+  volume.brick_starts = {0};
+  volume.cells.resize(kCellsPerBrick);
+  for (VolumeCell& cell : volume.cells) {
+    cell.mean = glm::vec3(2);
+    cell.validity = 1;
+  }
+  for (const double distance : {20.0, 53.0, 58.9, 80.0}) {
+    Scene scene =
+        make_pane_oracle(std::vector<Pane>{{.distance = 1, .alpha = 0.25f}}, glm::vec3(0));
+    for (Material& material : scene.materials) {
+      material.constants.base_color *= glm::vec4(0, 0, 0, 1);
+    }
+    Material bright;
+    bright.constants.base_color = glm::vec4(0, 0, 0, 1);
+    bright.constants.emissive = glm::vec3(2);
+    scene.materials.push_back(bright);
+    Mesh mesh;
+    add_shape(mesh, patch({150, -150, distance}, {-300, 0, 0}, {0, 300, 0}, 1, 1),
+              static_cast<std::uint32_t>(scene.materials.size() - 1));
+    Instance instance;
+    instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(mesh);
+    scene.instances.push_back(instance);
+    scene.cameras[0].vertical_fov = 0.002;
+    const std::vector<Seen> seen = look(scene, {deck_layers(1)}, 4, 0, volume);
+    const double f = schlick(1);
+    // The wall mirrors some of the volume's light, too.
+    const double wall = 2 + 2 * specular_albedo(glm::vec3(0.04f), 1, 1).x;
+    const double part = std::clamp((60 - (distance + 1)) / 12, 0.0, 1.0);
+    expect_everywhere(seen[0].glass, glm::dvec3(f * (part * wall + (1 - part) * 2)), 5e-3);
   }
 }
 
