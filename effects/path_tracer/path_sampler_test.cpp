@@ -274,6 +274,32 @@ TEST_P(PathSamplers, PointsOfEmitters) {
               5 * std::sqrt(share * (1 - share) / kSamples));
 }
 
+// The frame's material model was written apart from this one. They are the same function but for
+// the tables of the specular lobe's albedo, whose grids differ, and for a mirror's highlights of
+// the sun, which the reference does not have.
+TEST_P(PathSamplers, MaterialOfTheFrameIsTheSame) {
+  for (const float metallic : {0.0f, 0.5f, 1.0f}) {
+    for (const float roughness : {0.1f, 0.3f, 0.65f, 1.0f}) {
+      for (const float cosine : {0.05f, 0.4f, 0.95f}) {
+        SampleWords words;
+        words.base = 0.8f;
+        words.metallic = metallic;
+        words.roughness = roughness;
+        words.cosine_view = cosine;
+        double worst = 0, worst_diffuse = 0;
+        for (const glm::vec4& value : run("CompareMaterials", words, 1)) {
+          const double reference = static_cast<double>(value.x) + value.y;
+          // In a peak rounding of the half vector counts.
+          worst = std::max(worst, std::abs(value.z - reference) - 0.002 * value.y);
+          worst_diffuse = std::max(worst_diffuse, static_cast<double>(value.x));
+        }
+        EXPECT_LT(worst, 0.006 * worst_diffuse + 1e-4)
+            << metallic << " " << roughness << " " << cosine;
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Backends, PathSamplers, testing::Values("embree", "vulkan"), backend_of);
 
 }  // namespace

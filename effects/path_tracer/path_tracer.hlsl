@@ -482,7 +482,7 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
   start.layer = 0;
   float3 mirrored_origin = float3(0, 0, 0);
   float3 mirrored = float3(0, 0, 0);
-  bool is_mirrored = false;
+  uint mirrored_mask = 0;  // 0: no pane mirrors the path
   float t_min = 0.0;
   for (uint layer = 0; layer < kMaxPanes; ++layer) {
     const PathHit pane = Follow(float3(0, 0, 0), direction, t_min, kGlassOnly, true);
@@ -497,7 +497,8 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
     if (u.x < mirror_chance) {
       start.weight = start.through * fresnel / mirror_chance;
       start.through = float3(0, 0, 0);
-      is_mirrored = true;
+      // A smooth pane shows the shapes of lamps; a rough one has highlights instead.
+      mirrored_mask = pane.roughness <= kPathMirrorRoughness ? kMaskSolid : kMaskWithoutLamps;
       mirrored = reflect(-start.view, pane.shading_normal);
       // A normal-mapped direction can point into the pane.
       if (!(dot(mirrored, pane.normal) > 0.0)) mirrored = reflect(-start.view, pane.normal);
@@ -515,8 +516,8 @@ GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_d
     }
     start.through *= (1.0 - fresnel) / (1.0 - mirror_chance);
   }
-  if (is_mirrored) {
-    start.hit = Follow(mirrored_origin, mirrored, 0.0, kMaskSolid, false);
+  if (mirrored_mask != 0) {
+    start.hit = Follow(mirrored_origin, mirrored, 0.0, mirrored_mask, false);
     start.emission = start.hit.distance < 0.0 ? SkyTowards(mirrored) : start.hit.emissive;
     start.view = -mirrored;
     start.seen_as = kAsMirrored;

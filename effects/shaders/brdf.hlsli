@@ -41,9 +41,13 @@ float3 FresnelSchlick(float3 f0, float cosine) {
   return f0 + (float3(1.0f, 1.0f, 1.0f) - f0) * (m2 * m2 * m);
 }
 
-float GgxDensity(float alpha, float cosine_half) {
+// From the sine of the half vector's angle, not from 1 - cosine squared, of which rounding leaves
+// nothing at the peak of a smooth lobe.
+float GgxDensity(float alpha, float3 normal, float3 half_vector) {
   const float a2 = alpha * alpha;
-  const float d = cosine_half * cosine_half * (a2 - 1.0f) + 1.0f;
+  const float cosine = dot(normal, half_vector);
+  const float3 beside = cross(normal, half_vector);
+  const float d = cosine * cosine * a2 + dot(beside, beside);
   return a2 / (kBrdfPi * d * d);
 }
 
@@ -108,7 +112,7 @@ float3 EvaluateBrdf(Brdf brdf, BrdfView view, float3 light) {
   const float3 fresnel = FresnelSchlick(brdf.f0, dot(view.direction, half_vector));
   const float both = n_l * view.shadowing + view.cosine * GgxShadowing(brdf.alpha, n_l);
   const float specular =
-      GgxDensity(brdf.alpha, saturate(dot(view.normal, half_vector))) / (2.0f * both);
+      GgxDensity(brdf.alpha, view.normal, half_vector) / (2.0f * both);
   return (view.diffuse * (1.0f / kBrdfPi) + fresnel * specular) * n_l;
 }
 
