@@ -150,4 +150,24 @@ std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix>
   return out;
 }
 
+Scene posed_scene(Scene scene, double seconds) {
+  const std::vector<InstanceState> states = evaluate_instances(scene, seconds);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    Instance& instance = scene.instances[i];
+    instance.transform = states[i].transform;
+    instance.motion = {};
+    instance.build_class = BuildClass::kStatic;
+    if (states[i].joints.empty()) continue;
+    Mesh posed = scene.meshes[instance.mesh];
+    posed.vertices = skin_vertices(posed, states[i].joints);
+    instance.mesh = static_cast<std::uint32_t>(scene.meshes.size());
+    scene.meshes.push_back(std::move(posed));
+  }
+  for (Mesh& mesh : scene.meshes) mesh.skin.clear();
+  scene.nodes.clear();
+  scene.skins.clear();
+  scene.animations.clear();
+  return scene;
+}
+
 }  // namespace kaamos::effects

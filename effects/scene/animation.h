@@ -96,4 +96,8 @@ std::vector<InstanceState> evaluate_instances(const Scene& scene, double seconds
 /// turn normals.
 std::vector<Vertex> skin_vertices(const Mesh& mesh, std::span<const JointMatrix> joints);
 
+/// A valid scene as it is at `seconds`, where nothing moves any more: skinned meshes are deformed,
+/// each for its instance alone. Motions, nodes, skins and animations are gone.
+Scene posed_scene(Scene scene, double seconds);
+
 }  // namespace kaamos::effects

@@ -48,7 +48,9 @@ Status optional_attribute(const GltfReader& reader, const tinygltf::Primitive& p
 bool make_unit(glm::vec3& v) {
   const float length = glm::length(v);
   if (!(length > 1e-20f) || !std::isfinite(length)) return false;
-  v /= length;
+  // What a unit vector loses by rounding stays, so that a file that is written again keeps its
+  // bits.
+  if (std::abs(length - 1.0f) > 3e-7f) v /= length;
   return true;
 }
 

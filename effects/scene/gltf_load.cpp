@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -173,9 +174,28 @@ float sunlight(const Light& light) {
   return light.type == LightType::kDirectional ? luminance(light.color) * light.intensity : 0.0f;
 }
 
-/// Adds sun, sky, camera and exposure where the file has none. The strongest directional light is
-/// the sun; the others are left out, which the warnings say.
-void complete(Scene& scene, std::vector<std::string>& warnings) {
+/// Makes the light at `place` the sun. Its colour times its intensity is the irradiance.
+void take_sun(Scene& scene, std::vector<Light>::iterator place) {
+  scene.sun = default_sun();
+  scene.sun->direction_to_sun = -place->direction;
+  scene.sun->irradiance = place->color * place->intensity;
+  scene.lights.erase(place);
+}
+
+/// Sun, sky and exposure as the writer of this library left them.
+void take_extras(Scene& scene, const SceneExtras& extras,
+                 const std::optional<GltfReader::MarkedSun>& sun) {
+  scene.sky = extras.sky;
+  scene.exposure = extras.exposure;
+  if (!sun) return;
+  take_sun(scene, scene.lights.begin() + static_cast<std::ptrdiff_t>(sun->light));
+  scene.sun->angular_radius = sun->extras.angular_radius;
+  if (sun->extras.irradiance) scene.sun->irradiance = *sun->extras.irradiance;
+}
+
+/// Sun, sky and exposure for a file of any other origin. The strongest directional light is the
+/// sun; the others are left out, which the warnings say.
+void add_daylight(Scene& scene, std::vector<std::string>& warnings) {
   auto sun =
       std::max_element(scene.lights.begin(), scene.lights.end(),
                        [](const Light& a, const Light& b) { return sunlight(a) < sunlight(b); });
@@ -187,19 +207,34 @@ void complete(Scene& scene, std::vector<std::string>& warnings) {
   }
   scene.sun = default_sun();
   scene.sky = default_sky();
-  if (sun != scene.lights.end()) {
-    scene.sun->direction_to_sun = -sun->direction;
-    scene.sun->irradiance = sun->color * sun->intensity;
-    // Files use lux or any other unit, so the sky is scaled with the sun and the exposure takes
-    // both back.
-    const float scale = luminance(scene.sun->irradiance) / luminance(default_sun().irradiance);
-    scene.sky.zenith *= scale;
-    scene.sky.horizon *= scale;
-    scene.sky.ground *= scale;
-    scene.exposure = 1.0f / scale;
-    scene.lights.erase(sun);
+  if (sun == scene.lights.end()) return;
+  take_sun(scene, sun);
+  // Files use lux or any other unit, so the sky is scaled with the sun and the exposure takes
+  // both back.
+  const float scale = luminance(scene.sun->irradiance) / luminance(default_sun().irradiance);
+  scene.sky.zenith *= scale;
+  scene.sky.horizon *= scale;
+  scene.sky.ground *= scale;
+  scene.exposure = 1.0f / scale;
+}
+
+/// Adds what the file lacks of sun, sky, camera and exposure. True where it lacks none of them.
+bool complete(const GltfReader& reader) {
+  Scene& scene = reader.scene;
+  std::optional<SceneExtras> extras;
+  if (const auto& scenes = reader.model.scenes; !scenes.empty()) {
+    const std::size_t id = static_cast<std::size_t>(std::max(0, reader.model.defaultScene));
+    extras = read_scene_extras(scenes[id].extras, gltf_part("scene", id, scenes[id].name),
+                               reader.warnings);
   }
-  if (scene.cameras.empty()) scene.cameras.push_back(default_camera(scene));
+  if (extras) {
+    take_extras(scene, *extras, reader.sun);
+  } else {
+    add_daylight(scene, reader.warnings);
+  }
+  const bool has_camera = !scene.cameras.empty();
+  if (!has_camera) scene.cameras.push_back(default_camera(scene));
+  return extras && has_camera;
 }
 
 /// Drops meshes that no instance shows: those of other scenes in the file, and bind poses of
@@ -249,8 +284,9 @@ Result<LoadedScene> load(std::span<const std::uint8_t> bytes, const std::string&
         "nodes named lod0, lod1, ... at one place are taken as levels of "
         "detail; of each object one level is shown, " +
         std::to_string(joined) + " nodes are not");
-  complete(loaded.scene, loaded.warnings);
-  if (const std::size_t lamps = separate_lamp_shapes(loaded.scene); lamps > 0)
+  loaded.complete = complete(reader);
+  const std::size_t lamps = loaded.complete ? 0 : separate_lamp_shapes(loaded.scene);
+  if (lamps > 0)
     loaded.warnings.push_back(
         std::to_string(lamps) +
         " glowing shapes around lights are taken as pictures of these lamps: they light nothing "

@@ -23,6 +23,9 @@ namespace kaamos::effects {
 struct LoadedScene {
   Scene scene;                        ///< passes validate()
   std::vector<std::string> warnings;  ///< what was left out, one sentence each
+  /// The file says itself what its sky, sun and exposure are, as files of write_glb do: nothing was
+  /// added, and nothing needs to be.
+  bool complete = false;
 };
 
 /// How a file is read.
@@ -35,7 +38,8 @@ struct GltfOptions {
 
 /// Loads a .gltf or .glb file; which of the two it is shows in its first bytes. The scene passes
 /// validate(). Where the file has none, it gets a camera that frames it, a sun and a sky; the first
-/// directional light is the sun. [glTF 2.0]
+/// directional light is the sun. Files of write_glb say all of that themselves, in `extras`
+/// (README.md). [glTF 2.0]
 /// @errors KA3020; they name the file, the place in it, the actual and the allowed value: missing
 /// or cut files, bad JSON, ids and byte ranges outside what is there, positions that are not
 /// finite, node cycles, a required extension that is not supported, no triangles.

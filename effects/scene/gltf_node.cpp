@@ -53,10 +53,12 @@ bool in_range(int id, std::size_t count) {
   return id >= 0 && static_cast<std::size_t>(id) < count;
 }
 
-/// The normalised axis, or `fallback` if its length is zero.
+/// The normalised axis, or `fallback` if its length is zero. A unit vector that was rounded to
+/// float comes back as it is.
 glm::dvec3 axis(const glm::dmat4& m, int column, const glm::dvec3& fallback) {
   const glm::dvec3 v(m[column]);
   const double length = glm::length(v);
+  if (std::abs(length - 1.0) < 2e-7) return v;
   return length > 0.0 && std::isfinite(length) ? v / length : fallback;
 }
 
@@ -145,6 +147,16 @@ Status NodeReader::walk(const std::vector<int>& start) {
   return {};
 }
 
+/// A rotation and an offset, nothing else.
+bool is_rigid(const glm::dmat4& m) {
+  const glm::dmat3 rotation(m);
+  const glm::dmat3 product = glm::transpose(rotation) * rotation;
+  double worst = 0.0;
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r) worst = std::max(worst, std::abs(product[c][r] - (c == r)));
+  return worst < 1e-9 && glm::determinant(rotation) > 0.0;
+}
+
 /// Glass gets a mask of its own, so that shadow and occlusion rays miss it.
 std::uint8_t mask_of(const Scene& scene, const Mesh& mesh) {
   for (const Geometry& geometry : mesh.geometries) {
@@ -165,7 +177,8 @@ Status NodeReader::mesh(const tinygltf::Node& node, std::size_t node_id, const s
   instance.name = node.name.empty() ? where : node.name;
   instance.mesh = static_cast<std::uint32_t>(id);
   instance.transform = world;
-  instance.mask = mask_of(reader_.scene, reader_.scene.meshes[instance.mesh]);
+  instance.mask = read_instance_mask(node.extras, where, reader_.warnings)
+                      .value_or(mask_of(reader_.scene, reader_.scene.meshes[instance.mesh]));
   const double determinant = glm::determinant(glm::dmat3(world));
   if (determinant == 0.0 || !std::isfinite(determinant)) {
     reader_.warn(where + ": its transform is singular; the instance is left out");
@@ -343,7 +356,9 @@ Status NodeReader::camera(const tinygltf::Node& node, const std::string& where,
   // Rebuild the view from eye and direction, so that scale and shear of the parents do not affect
   // it.
   const glm::dvec3 eye(world[3]);
-  to.camera_to_world = look_at(eye, eye - axis(world, 2, {0, 0, 1}), axis(world, 1, {0, 1, 0}));
+  to.camera_to_world =
+      is_rigid(world) ? world
+                      : look_at(eye, eye - axis(world, 2, {0, 0, 1}), axis(world, 1, {0, 1, 0}));
   reader_.scene.cameras.push_back(to);
   return {};
 }
@@ -380,6 +395,12 @@ Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
       std::clamp(static_cast<float>(from.spot.innerConeAngle), 0.0f, to.outer_cone_angle);
   to.position = glm::dvec3(world[3]);
   to.direction = glm::vec3(-axis(world, 2, {0, 0, 1}));
+  if (const auto radius = read_lamp_radius(node.extras, where, reader_.warnings))
+    to.radius = *radius;
+  if (to.type == LightType::kDirectional && !reader_.sun) {
+    if (const auto sun = read_sun_extras(node.extras, where, reader_.warnings))
+      reader_.sun = {reader_.scene.lights.size(), *sun};
+  }
   reader_.scene.lights.push_back(to);
   return {};
 }

@@ -5,10 +5,12 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/common/errors.h"
+#include "effects/scene/gltf_extras.h"
 #include "effects/scene/scene.h"
 
 namespace kaamos::effects {
@@ -26,6 +28,12 @@ struct GltfReader {
   bool animated = false;
   /// Per node of the file: its index in Scene::nodes, or kNoIndex if the scene does not have it.
   std::vector<std::int32_t> node_ids = {};
+  /// A light of the scene that its node marks as the sun.
+  struct MarkedSun {
+    std::size_t light;  // in Scene::lights
+    SunExtras extras;
+  };
+  std::optional<MarkedSun> sun = {};
 
   void warn(std::string text) { warnings.push_back(std::move(text)); }
 };

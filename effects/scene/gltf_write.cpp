@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
-#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/constants.hpp>
 #include <span>
 #include <sstream>
 
 #include "effects/common/file.h"
 #include "effects/image/png.h"
+#include "effects/scene/gltf_extras.h"
+#include "effects/scene/gltf_transform.h"
 
 namespace kaamos::effects {
 namespace {
@@ -57,9 +59,12 @@ class Writer {
   template <class Info>
   void set_texture(Info& info, const MaterialConstants& constants, std::uint32_t slot);
   void add_levels(int node, const Instance& instance);
-  int add_node(const std::string& name, const glm::dmat4& transform);
+  tinygltf::Node& add_node(const std::string& name, const glm::dmat4& transform);
+  void add_instance(const Instance& instance);
   void add_camera(const Camera& camera);
-  void add_light(const Light& light);
+  tinygltf::Node& add_light(const Light& light);
+  void add_sun(const Sun& sun);
+  void use_extension(const char* name);
 
   const Scene& scene_;
   tinygltf::Model model_;
@@ -90,6 +95,11 @@ int Writer::add_accessor(int view, std::size_t offset, int component_type, int t
   accessor.count = count;
   model_.accessors.push_back(accessor);
   return static_cast<int>(model_.accessors.size()) - 1;
+}
+
+void Writer::use_extension(const char* name) {
+  std::vector<std::string>& used = model_.extensionsUsed;
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.emplace_back(name);
 }
 
 void Writer::add_mesh(const Mesh& mesh) {
@@ -175,6 +185,7 @@ void Writer::set_texture(Info& info, const MaterialConstants& constants, std::ui
   transform["offset"] = pair(offset.x, offset.y);
   transform["rotation"] = number(rotation);
   transform["scale"] = pair(m.x * c - m.z * s, m.y * s + m.w * c);
+  use_extension("KHR_texture_transform");
   info.extensions["KHR_texture_transform"] = tinygltf::Value(transform);
 }
 
@@ -190,9 +201,11 @@ void Writer::add_material(const Material& material) {
   const double strength = std::max({1.0f, from.emissive.r, from.emissive.g, from.emissive.b});
   to.emissiveFactor = {from.emissive.r / strength, from.emissive.g / strength,
                        from.emissive.b / strength};
-  if (strength > 1.0)
+  if (strength > 1.0) {
+    use_extension("KHR_materials_emissive_strength");
     to.extensions["KHR_materials_emissive_strength"] =
         tinygltf::Value(tinygltf::Value::Object{{"emissiveStrength", number(strength)}});
+  }
   to.normalTexture.scale = from.normal_scale;
   to.doubleSided = (from.flags & kMaterialDoubleSided) != 0;
   to.alphaMode = (from.flags & kMaterialMask)    ? "MASK"
@@ -206,15 +219,30 @@ void Writer::add_material(const Material& material) {
   model_.materials.push_back(std::move(to));
 }
 
-int Writer::add_node(const std::string& name, const glm::dmat4& transform) {
-  tinygltf::Node node;
-  node.name = name;
-  if (transform != glm::dmat4(1.0))
-    for (int i = 0; i < 16; ++i) node.matrix.push_back(transform[i / 4][i % 4]);
-  model_.nodes.push_back(std::move(node));
-  const int id = static_cast<int>(model_.nodes.size()) - 1;
-  model_.scenes[0].nodes.push_back(id);
-  return id;
+/// The node that has the transform, the innermost one where it takes two. Valid until the next is
+/// added.
+tinygltf::Node& Writer::add_node(const std::string& name, const glm::dmat4& transform) {
+  const std::vector<glm::dmat4> parts = without_shear(transform);
+  for (const glm::dmat4& matrix : parts) {
+    tinygltf::Node node;
+    node.name = name;
+    if (matrix != glm::dmat4(1.0))
+      for (int i = 0; i < 16; ++i) node.matrix.push_back(matrix[i / 4][i % 4]);
+    const int id = static_cast<int>(model_.nodes.size());
+    (&matrix == parts.data() ? model_.scenes[0].nodes : model_.nodes.back().children).push_back(id);
+    model_.nodes.push_back(std::move(node));
+  }
+  return model_.nodes.back();
+}
+
+void Writer::add_instance(const Instance& instance) {
+  tinygltf::Node& node = add_node(instance.name, instance.transform);
+  if (instance.levels.empty()) {
+    node.mesh = static_cast<int>(instance.mesh);
+    add_instance_extras(node.extras, instance);
+  } else {
+    add_levels(static_cast<int>(model_.nodes.size()) - 1, instance);
+  }
 }
 
 void Writer::add_camera(const Camera& camera) {
@@ -223,28 +251,57 @@ void Writer::add_camera(const Camera& camera) {
   out.name = camera.name;
   out.perspective.yfov = camera.vertical_fov;
   out.perspective.znear = camera.near_plane;
+  // Cameras here cut nothing off, and tinygltf writes the member in any case: farther than any
+  // scene reaches.
+  out.perspective.zfar = 1e30;
   model_.cameras.push_back(out);
-  const int node = add_node(camera.name, camera.camera_to_world);
-  model_.nodes[static_cast<std::size_t>(node)].camera = static_cast<int>(model_.cameras.size()) - 1;
+  add_node(camera.name, camera.camera_to_world).camera =
+      static_cast<int>(model_.cameras.size()) - 1;
 }
 
-void Writer::add_light(const Light& light) {
+/// Turned so that -z is the light's direction, bit for bit.
+glm::dmat4 light_transform(const Light& light) {
+  const glm::dvec3 direction(light.direction);
+  glm::dmat4 out = look_at(glm::dvec3(0.0), direction);
+  out[2] = glm::dvec4(-direction, 0.0);
+  if (light.type != LightType::kDirectional) out[3] = glm::dvec4(light.position, 1.0);
+  return out;
+}
+
+tinygltf::Node& Writer::add_light(const Light& light) {
+  use_extension("KHR_lights_punctual");
   tinygltf::Light out;
   out.name = light.name;
   out.type = light.type == LightType::kDirectional ? "directional"
              : light.type == LightType::kSpot      ? "spot"
                                                    : "point";
-  out.color = {light.color.r, light.color.g, light.color.b};
-  out.intensity = light.intensity;
-  out.range = light.range;
-  out.spot.innerConeAngle = light.inner_cone_angle;
-  out.spot.outerConeAngle = light.outer_cone_angle;
+  // glTF wants colours in 0..1; the excess goes into the intensity.
+  const double excess = std::max({1.0f, light.color.r, light.color.g, light.color.b});
+  out.color = {light.color.r / excess, light.color.g / excess, light.color.b / excess};
+  out.intensity = light.intensity * excess;
+  // A directional light has no range. [KHR_lights_punctual]
+  out.range = light.type == LightType::kDirectional ? 0.0 : light.range;
+  out.spot.outerConeAngle = std::min<double>(light.outer_cone_angle, 0.5 * glm::pi<double>());
+  // Below the outer one, which glTF wants.
+  out.spot.innerConeAngle =
+      std::min<double>(light.inner_cone_angle, out.spot.outerConeAngle * (1.0 - 1e-7));
   model_.lights.push_back(out);
-  const glm::dvec3 target = light.position + glm::dvec3(light.direction);
-  const int node = add_node(light.name, look_at(light.position, target));
-  model_.nodes[static_cast<std::size_t>(node)].extensions["KHR_lights_punctual"] =
-      tinygltf::Value(tinygltf::Value::Object{
-          {"light", tinygltf::Value(static_cast<int>(model_.lights.size()) - 1)}});
+  tinygltf::Node& node = add_node(light.name, light_transform(light));
+  node.extensions["KHR_lights_punctual"] = tinygltf::Value(tinygltf::Value::Object{
+      {"light", tinygltf::Value(static_cast<int>(model_.lights.size()) - 1)}});
+  if (light.type != LightType::kDirectional) node.extras = lamp_extras(light);
+  return node;
+}
+
+void Writer::add_sun(const Sun& sun) {
+  Light light;
+  light.name = "sun";
+  light.type = LightType::kDirectional;
+  const glm::vec3& e = sun.irradiance;
+  light.intensity = std::max({1e-20f, e.r, e.g, e.b});
+  light.color = e / light.intensity;
+  light.direction = -sun.direction_to_sun;
+  add_light(light).extras = sun_extras(sun);
 }
 
 // Puts the finest mesh at the node itself and the others at nodes that no scene shows. [MSFT_lod]
@@ -267,19 +324,16 @@ void Writer::add_levels(int node, const Instance& instance) {
       tinygltf::Value(tinygltf::Value::Object{{"ids", tinygltf::Value(std::move(ids))}});
   written.extras = tinygltf::Value(
       tinygltf::Value::Object{{"MSFT_screencoverage", tinygltf::Value(std::move(coverages))}});
-  if (std::find(model_.extensionsUsed.begin(), model_.extensionsUsed.end(), "MSFT_lod") ==
-      model_.extensionsUsed.end()) {
-    model_.extensionsUsed.push_back("MSFT_lod");
-  }
+  add_instance_extras(written.extras, instance);
+  use_extension("MSFT_lod");
 }
 
 Result<std::vector<std::uint8_t>> Writer::run() {
   model_.asset.version = "2.0";
   model_.asset.generator = "kaamos";
-  model_.extensionsUsed = {"KHR_texture_transform", "KHR_materials_emissive_strength",
-                           "KHR_lights_punctual"};
   model_.scenes.emplace_back();
   model_.scenes[0].name = scene_.name;
+  model_.scenes[0].extras = scene_extras(scene_);
   model_.defaultScene = 0;
   for (const Sampler& sampler : scene_.samplers) {
     tinygltf::Sampler out;
@@ -296,25 +350,9 @@ Result<std::vector<std::uint8_t>> Writer::run() {
   }
   for (const Material& material : scene_.materials) add_material(material);
   for (const Mesh& mesh : scene_.meshes) add_mesh(mesh);
-  for (const Instance& instance : scene_.instances) {
-    const int node = add_node(instance.name, instance.transform);
-    if (instance.levels.empty()) {
-      model_.nodes[static_cast<std::size_t>(node)].mesh = static_cast<int>(instance.mesh);
-    } else {
-      add_levels(node, instance);
-    }
-  }
+  for (const Instance& instance : scene_.instances) add_instance(instance);
   for (const Camera& camera : scene_.cameras) add_camera(camera);
-  if (scene_.sun) {
-    Light sun;
-    sun.name = "sun";
-    sun.type = LightType::kDirectional;
-    const glm::vec3& e = scene_.sun->irradiance;
-    sun.intensity = std::max({1e-20f, e.r, e.g, e.b});
-    sun.color = e / sun.intensity;
-    sun.direction = -scene_.sun->direction_to_sun;
-    add_light(sun);
-  }
+  if (scene_.sun) add_sun(*scene_.sun);
   for (const Light& light : scene_.lights) add_light(light);
   if (data_.size() > 0xF0000000u)
     return make_error(ErrorId::kGltfWrite, "needs " + std::to_string(data_.size()) +
@@ -338,7 +376,8 @@ Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene) {
   const Status status = validate(scene);
   if (!status.ok()) return failed(status.error());
   try {
-    Result<std::vector<std::uint8_t>> bytes = Writer(scene).run();
+    const Scene posed = posed_scene(scene, 0.0);
+    Result<std::vector<std::uint8_t>> bytes = Writer(posed).run();
     if (!bytes.ok()) return failed(bytes.error());
     return bytes;
   } catch (const std::exception& error) {

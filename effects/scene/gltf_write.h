@@ -12,9 +12,11 @@
 
 namespace kaamos::effects {
 
-/// The bytes of a .glb: meshes, materials with their pictures as PNG, instances, cameras, lights,
-/// the sun as the first directional light. glTF has no place for the sky, the sun's angular radius,
-/// exposure and instance masks; they do not come back when the file is loaded.
+/// The bytes of a .glb that the Khronos glTF validator accepts: meshes, materials with their
+/// pictures as PNG, instances, cameras, lights, the sun as the first directional light; and in
+/// `extras` what glTF has no place for (README.md lists it): sky, exposure, the sun's and the
+/// lamps' sizes, instance masks. load_gltf brings all of it back. What moves is written as it is at
+/// time 0, without its animations.
 /// @errors KA3022 a scene that validate() refuses; KA3021 more than 4 GB.
 Result<std::vector<std::uint8_t>> encode_glb(const Scene& scene);
 

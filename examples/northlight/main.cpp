@@ -61,7 +61,8 @@ bool load_scene(const Options& options, Scene& scene) {
   }
   scene = std::move(loaded.value().scene);
   // A tree alone has nothing to cast its shadow on.
-  if (kaamos::effects::needs_ground(scene)) kaamos::effects::add_ground(scene);
+  if (!loaded.value().complete && kaamos::effects::needs_ground(scene))
+    kaamos::effects::add_ground(scene);
   return true;
 }
 

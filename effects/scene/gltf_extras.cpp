@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "effects/scene/gltf_extras.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace kaamos::effects {
+namespace {
+
+using tinygltf::Value;
+
+constexpr const char* kKey = "kaamos";
+
+// As a double with the float's value, which JSON's shortest form brings back bit for bit.
+Value number(float value) {
+  return Value(static_cast<double>(value));
+}
+
+Value triple(const glm::vec3& v) {
+  return Value(Value::Array{number(v.x), number(v.y), number(v.z)});
+}
+
+Value under_key(Value::Object members) {
+  return Value(Value::Object{{kKey, Value(std::move(members))}});
+}
+
+/// One object below the key, and the warnings about its values.
+class Reader {
+ public:
+  Reader(const Value& extras, const std::string& where, std::vector<std::string>& warnings)
+      : where_(where), warnings_(warnings) {
+    if (extras.IsObject() && extras.Has(kKey) && extras.Get(kKey).IsObject())
+      object_ = &extras.Get(kKey);
+  }
+
+  /// Goes to a member that is an object; false where there is none.
+  bool enter(const char* key) {
+    if (!has(key) || !object_->Get(key).IsObject()) return false;
+    object_ = &object_->Get(key);
+    return true;
+  }
+  bool has(const char* key) const { return object_ != nullptr && object_->Has(key); }
+
+  /// A member from 0 to `limit`; `fallback`, with a warning, where it is none.
+  double number(const char* key, double limit, double fallback) {
+    if (!has(key)) return fallback;
+    const Value& value = object_->Get(key);
+    if (usable(value, limit)) return value.GetNumberAsDouble();
+    warn(key, "a number from 0 to " + limit_text(limit));
+    return fallback;
+  }
+  /// The same for three numbers: a colour, radiance or irradiance.
+  glm::vec3 triple(const char* key) {
+    if (!has(key)) return glm::vec3(0.0f);
+    const Value& value = object_->Get(key);
+    glm::vec3 out(0.0f);
+    bool good = value.IsArray() && value.ArrayLen() == 3;
+    for (int c = 0; good && c < 3; ++c) {
+      good = usable(value.Get(c), kLargest);
+      if (good) out[c] = static_cast<float>(value.Get(c).GetNumberAsDouble());
+    }
+    if (good) return out;
+    warn(key, "three numbers from 0 to " + limit_text(kLargest));
+    return glm::vec3(0.0f);
+  }
+
+  static constexpr double kLargest = std::numeric_limits<float>::max();
+
+ private:
+  static bool usable(const Value& value, double limit) {
+    return value.IsNumber() && value.GetNumberAsDouble() >= 0.0 &&
+           value.GetNumberAsDouble() <= limit;
+  }
+  static std::string limit_text(double limit) {
+    std::ostringstream text;
+    text << limit;
+    return text.str();
+  }
+  void warn(const char* key, const std::string& allowed) {
+    warnings_.push_back(where_ + ", extras: " + key + " is not " + allowed + "; it is left out");
+  }
+
+  const Value* object_ = nullptr;
+  const std::string& where_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+Value scene_extras(const Scene& scene) {
+  Value::Object sky{{"zenith", triple(scene.sky.zenith)},
+                    {"horizon", triple(scene.sky.horizon)},
+                    {"ground", triple(scene.sky.ground)}};
+  return under_key({{"exposure", number(scene.exposure)}, {"sky", Value(std::move(sky))}});
+}
+
+Value sun_extras(const Sun& sun) {
+  Value::Object members{{"irradiance", triple(sun.irradiance)},
+                        {"angularRadius", number(sun.angular_radius)}};
+  return under_key({{"sun", Value(std::move(members))}});
+}
+
+Value lamp_extras(const Light& light) {
+  return under_key({{"lamp", Value(Value::Object{{"radius", number(light.radius)}})}});
+}
+
+void add_instance_extras(Value& extras, const Instance& instance) {
+  Value::Object all;
+  if (extras.IsObject()) all = extras.Get<Value::Object>();
+  all[kKey] = Value(Value::Object{{"mask", Value(static_cast<int>(instance.mask))}});
+  extras = Value(std::move(all));
+}
+
+std::optional<SceneExtras> read_scene_extras(const Value& extras, const std::string& where,
+                                             std::vector<std::string>& warnings) {
+  Reader reader(extras, where, warnings);
+  if (!reader.has("sky") && !reader.has("exposure")) return {};
+  SceneExtras out;
+  out.exposure = static_cast<float>(reader.number("exposure", Reader::kLargest, 1.0));
+  if (reader.enter("sky")) {
+    out.sky = {.zenith = reader.triple("zenith"),
+               .horizon = reader.triple("horizon"),
+               .ground = reader.triple("ground")};
+  }
+  return out;
+}
+
+std::optional<SunExtras> read_sun_extras(const Value& extras, const std::string& where,
+                                         std::vector<std::string>& warnings) {
+  Reader reader(extras, where, warnings);
+  if (!reader.enter("sun")) return {};
+  constexpr double kQuarterTurn = 1.5707963;
+  SunExtras out;
+  if (reader.has("irradiance")) out.irradiance = reader.triple("irradiance");
+  out.angular_radius =
+      static_cast<float>(reader.number("angularRadius", kQuarterTurn, kSunAngularRadius));
+  return out;
+}
+
+std::optional<float> read_lamp_radius(const Value& extras, const std::string& where,
+                                      std::vector<std::string>& warnings) {
+  Reader reader(extras, where, warnings);
+  if (!reader.enter("lamp") || !reader.has("radius")) return {};
+  return static_cast<float>(reader.number("radius", Reader::kLargest, Light{}.radius));
+}
+
+std::optional<std::uint8_t> read_instance_mask(const Value& extras, const std::string& where,
+                                               std::vector<std::string>& warnings) {
+  Reader reader(extras, where, warnings);
+  if (!reader.has("mask")) return {};
+  const double mask = reader.number("mask", 255.0, -1.0);
+  if (mask == std::floor(mask) && mask >= 0.0) return static_cast<std::uint8_t>(mask);
+  if (mask >= 0.0) warnings.push_back(where + ", extras: mask is not whole; it is left out");
+  return {};
+}
+
+}  // namespace kaamos::effects
