@@ -4,6 +4,7 @@
 #include "effects/scene/glass_scenes.h"
 #include "effects/scene/leak_scenes.h"
 #include "effects/scene/lounge.h"
+#include "effects/scene/matched_scenes.h"
 #include "effects/scene/mirror_hall.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/runner.h"
@@ -19,6 +20,9 @@ constexpr BuiltInScene kScenes[] = {
     {"oracle-box", [] { return make_oracle_box(); }},
     {"sealed-cells", [] { return make_sealed_cells({}); }},
     {"thin-dome", [] { return make_thin_dome({}); }},
+    {"matched-box", [] { return make_matched_box(); }},
+    {"matched-metal", [] { return make_matched_metal(); }},
+    {"matched-yard", [] { return make_matched_yard(); }},
 };
 
 }  // namespace
