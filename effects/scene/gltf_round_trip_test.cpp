@@ -182,7 +182,7 @@ Scene awkward_scene() {
   scene.sun.reset();
   scene.exposure = 0.3f;
   scene.sky = {.zenith = glm::vec3(0.1f, 0.2f, 30.0f), .ground = glm::vec3(0.7f)};
-  scene.instances[0].mask = kMaskOpaque | kMaskEmissiveProxy | kMaskFirstPerson;
+  scene.instances[0].mask = kMaskOpaque | kMaskEmissiveProxy;
   scene.instances[0].transform =
       glm::dmat4(1, 0.2, 0, 0, 0.7, 2, -0.4, 0, 0.1, 0.3, -1.5, 0, 4, 5, 6, 1);
   Light spot;

@@ -44,8 +44,8 @@ TEST(GltfWrite, TheLoungeComesBack) {
   const auto loaded = load(bytes.value());
   ASSERT_TRUE(loaded.ok()) << loaded.error().message;
   const Scene& back = loaded.value().scene;
-  ASSERT_EQ(loaded.value().warnings.size(), 1u);
-  EXPECT_NE(loaded.value().warnings[0].find("2 glowing shapes"), std::string::npos);
+  // Lamps' shapes come back by their instances' masks; nothing has to be guessed.
+  EXPECT_TRUE(loaded.value().warnings.empty());
   expect_same_geometry(lounge, back);
   for (std::size_t i = 0; i < lounge.instances.size(); ++i) {
     EXPECT_EQ(lounge.instances[i].mask, back.instances[i].mask) << lounge.instances[i].name;
