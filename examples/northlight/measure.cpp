@@ -297,7 +297,7 @@ std::string as_text(const MeasuredTable& table) {
     if (e.not_finite > 0) out += fmt::format("  {} values are not finite", e.not_finite);
     out += "\n";
   }
-  return out;
+  return out + table.summary;
 }
 
 Plot as_plot(const MeasuredTable& table) {

@@ -68,6 +68,7 @@ struct MeasuredTable {
   std::string subtitle;  // scene, size, references, repeats
   std::vector<std::string> about;
   std::vector<MeasuredRow> rows;
+  std::string summary;  // printed after the rows; may be empty
 };
 
 kaamos::effects::Table as_csv(const MeasuredTable& table);

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-// northlight --measure svgf: denoisers, with bias and variance separated. [effects-spec B0.6]
+// northlight --measure svgf: every denoiser on every signal of the frame, with the camera at rest
+// and on its path, bias and variance separated. [effects-spec B0.6]
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <optional>
 
 #include "effects/common/sampling.h"
-#include "effects/denoise/denoise.h"
-#include "effects/frame/picture.h"
 #include "effects/image/metrics.h"
 #include "failure.h"
 #include "measure.h"
 #include "measure_reference.h"
+#include "sequence.h"
 
 namespace northlight {
 
@@ -22,28 +22,28 @@ using namespace kaamos::effects;
 
 namespace {
 
-// Frames of a camera at rest; the history needs some of them to settle.
+// Frames of each sequence; histories need some of them to settle.
 constexpr std::uint32_t kFrames = 8;
 
 struct Method {
-  const char* group;
   const char* label;
   DenoiseMethod method;
   std::uint32_t iterations = 5;
-  std::uint32_t iterations_with_history = iterations;
+  std::uint32_t iterations_with_history = 3;
+  bool has_passes = false;  // stands for a number of SVGF's passes
 };
 
-constexpr Method kMethods[] = {{"in space", "gaussian", DenoiseMethod::kGaussian},
-                               {"in space", "bilateral", DenoiseMethod::kBilateral},
-                               {"svgf by iterations", "0", DenoiseMethod::kSvgf, 0},
-                               {"svgf by iterations", "1", DenoiseMethod::kSvgf, 1},
-                               {"svgf by iterations", "2", DenoiseMethod::kSvgf, 2},
-                               {"svgf by iterations", "3", DenoiseMethod::kSvgf, 3},
-                               {"svgf by iterations", "4", DenoiseMethod::kSvgf, 4},
-                               {"svgf by iterations", "5", DenoiseMethod::kSvgf, 5},
-                               {"svgf by iterations", "5, then 3", DenoiseMethod::kSvgf, 5, 3}};
+constexpr Method kMethods[] = {{"gaussian", DenoiseMethod::kGaussian},
+                               {"bilateral", DenoiseMethod::kBilateral},
+                               {"temporal", DenoiseMethod::kTemporal},
+                               {"svgf", DenoiseMethod::kSvgf},
+                               {"control", DenoiseMethod::kControl},
+                               {"svgf, 0 passes", DenoiseMethod::kSvgf, 0, 0, true},
+                               {"svgf, 1 pass", DenoiseMethod::kSvgf, 1, 1, true},
+                               {"svgf, 3 passes", DenoiseMethod::kSvgf, 3, 3, true},
+                               {"svgf, 5 passes", DenoiseMethod::kSvgf, 5, 5, true}};
 
-// The errors of one method at one frame of the sequence.
+// The errors of one method at one frame of a sequence.
 struct Place {
   std::vector<double> ms;
   Errors errors;
@@ -52,237 +52,289 @@ struct Place {
 };
 
 struct Subject {
-  const Method* method = nullptr;
-  Denoiser denoiser;
-  Place first, last;
-  FloatImage before;  // the second last frame
+  std::string label;
+  std::unique_ptr<SignalFilters> filters;    // null: the signals as they are
+  std::map<std::string, Place> first, last;  // by signal
+  std::map<std::string, FloatImage> before;  // the second last frame, by signal
 };
 
-// A signal and its denoisers, which all see the same frames.
-class Signal {
- public:
-  Signal(EffectRuns& runs, const Options& options)
-      : runs_(runs), renderer_(runs.renderer()), options_(options) {}
+// What a frame of the sequence shows is compared for each of these.
+struct MeasuredSignal {
+  std::string name;  // of its layer
+  Setting setting;
+  std::uint32_t channels = 1;
+  float exposure = 0;
+};
 
-  rtapi::Result<Outcome> create(const std::string& name, const Setting& setting, float exposure,
+// A sequence of frames, all denoisers over it, and what each signal converges to in its first and
+// in its last frame.
+class Motion {
+ public:
+  Motion(EffectRuns& runs, const Options& options, const CameraPath& path, bool is_still)
+      : runs_(runs),
+        renderer_(runs.renderer()),
+        options_(options),
+        path_(path),
+        is_still_(is_still) {}
+
+  std::string name() const {
+    if (is_still_) return "still";
+    return path_.name == "still" ? "in motion" : path_.name;
+  }
+  rtapi::Result<Outcome> create(const std::vector<MeasuredSignal>& signals,
                                 const Progress& progress);
   rtapi::Result<Outcome> measure(const Progress& progress);
   void add_rows(MeasuredTable& table) const;
 
  private:
-  rtapi::Status create_subject(const Method& method, const DenoiseLibraries& libraries);
-  rtapi::Result<FloatImage> read(const rtapi::Texture& picture) const;
-  rtapi::Status add(const FloatImage& image, Place& place);
+  FrameMoment moment(std::uint32_t frame) const;
+  rtapi::Result<Outcome> render(std::uint32_t frame);
+  rtapi::Status create_subject(const Method& method);
+  rtapi::Result<FloatImage> read(const Subject& subject, const MeasuredSignal& signal);
+  rtapi::Status look(Subject& subject, std::uint32_t frame, double ms);
   rtapi::Status run_frame(std::uint32_t frame);
-  rtapi::Status run_subject(Subject& subject, std::uint32_t frame, double trace_ms);
-  rtapi::Status run_raw();
-  void add_row(const std::string& group, const std::string& label, const Place& place,
-               std::uint32_t rays, double trace_ms, MeasuredTable& table) const;
+  void add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
+               MeasuredTable& table) const;
+  void add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTable& table) const;
 
   EffectRuns& runs_;
   FrameRenderer& renderer_;
   const Options& options_;
-  std::string name_;
-  Setting setting_;
-  Target target_;
-  rtapi::Texture mean_;
+  const CameraPath& path_;
+  bool is_still_;
+  std::vector<MeasuredSignal> signals_;
+  std::map<std::string, Target> first_targets_, last_targets_;  // by signal
   std::vector<Subject> subjects_;
-  std::vector<std::pair<std::uint32_t, Place>> raw_;  // by number of rays
-  std::vector<double> trace_ms_;
 };
 
-rtapi::Result<Outcome> Signal::create(const std::string& name, const Setting& setting,
-                                      float exposure, const Progress& progress) {
-  name_ = name;
-  setting_ = setting;
-  const auto made = make_reference(runs_, setting, options_.measure_reference, name,
-                                   options_.out + "/measure-cache", progress, target_);
-  if (!is_done(made)) return made;
-  target_.exposure = exposure;
-  const auto mean = renderer_.frame().create_picture(renderer_.device(), name + " mean",
-                                                     rtapi::Format::kR32G32B32A32Float);
-  if (!mean) return mean.error();
-  mean_ = *mean;
-  const auto libraries = denoise_libraries();
-  if (!libraries) return libraries.error();
-  for (const Method& method : kMethods) {
-    if (const auto s = create_subject(method, *libraries); !s) return s.error();
+FrameMoment Motion::moment(std::uint32_t frame) const {
+  FrameMoment out;
+  out.index = frame;
+  out.seconds = is_still_ ? 0 : frame / options_.frames_per_second;
+  out.camera = evaluate_camera(path_, renderer_.scene().cameras.front(), out.seconds);
+  out.cut = frame == 0;
+  return out;
+}
+
+rtapi::Result<Outcome> Motion::render(std::uint32_t frame) {
+  if (const auto s = renderer_.begin_frame(moment(frame)); !s) return s.error();
+  return renderer_.render();
+}
+
+rtapi::Result<Outcome> Motion::create(const std::vector<MeasuredSignal>& signals,
+                                      const Progress& progress) {
+  signals_ = signals;
+  for (const bool is_last : {false, true}) {
+    if (is_last && is_still_) {
+      last_targets_ = first_targets_;
+      continue;
+    }
+    if (const auto s = render(is_last ? kFrames - 1 : 0); !is_done(s)) return s;
+    for (const MeasuredSignal& signal : signals_) {
+      Target target;
+      const auto made =
+          make_reference(runs_, signal.setting, options_.measure_reference,
+                         fmt::format("{}-{}-{}", signal.name, name(), is_last ? kFrames : 1),
+                         options_.out + "/measure-cache", progress, target);
+      if (!is_done(made)) return made;
+      target.exposure = signal.exposure;
+      (is_last ? last_targets_ : first_targets_)[signal.name] = std::move(target);
+    }
   }
-  for (const std::uint32_t rays : {1u, 4u, 16u, 64u}) raw_.push_back({rays, {}});
+  subjects_.push_back({.label = "raw"});
+  for (const Method& method : kMethods) {
+    if (const auto s = create_subject(method); !s) return s.error();
+  }
   return Outcome::kDone;
 }
 
-rtapi::Status Signal::create_subject(const Method& method, const DenoiseLibraries& libraries) {
-  const rtapi::Device& device = renderer_.device();
-  const Frame& frame = renderer_.frame();
+rtapi::Status Motion::create_subject(const Method& method) {
+  Subject subject{.label = method.label, .filters = std::make_unique<SignalFilters>()};
+  for (const MeasuredSignal& signal : signals_) {
+    const Effect* effect = find_effect(renderer_.effects(), signal.setting.effect);
+    const auto s =
+        subject.filters->add(renderer_.device(), renderer_.frame(), effect->signals.front(),
+                             renderer_.sum(signal.name), signal.setting.settings);
+    if (!s) return s;
+  }
   DenoiseDesc desc = default_denoise(method.method);
   desc.iterations = method.iterations;
   desc.iterations_with_history = method.iterations_with_history;
-  auto denoiser =
-      Denoiser::create(device, frame, libraries, name_ + " " + method.label, mean_, desc);
-  if (!denoiser) return denoiser.error();
-  const auto loads = denoiser->create_load(device, frame, libraries, runs_.sum(setting_));
-  if (!loads) return loads;
-  Subject subject;
-  subject.method = &method;
-  subject.denoiser = std::move(*denoiser);
+  const auto libraries = denoise_libraries(renderer_.libraries());
+  const auto created =
+      subject.filters->create(renderer_.device(), renderer_.frame(), libraries, desc);
+  if (!created) return created;
   subjects_.push_back(std::move(subject));
   return {};
 }
 
-rtapi::Result<FloatImage> Signal::read(const rtapi::Texture& picture) const {
-  const auto image = renderer_.read(picture);
+rtapi::Result<FloatImage> Motion::read(const Subject& subject, const MeasuredSignal& signal) {
+  if (!subject.filters) return runs_.read(signal.setting);
+  const auto image = renderer_.read(subject.filters->denoised(*subject.filters->find(signal.name)));
   if (!image) return image.error();
-  const std::uint32_t channels = target_.image.channels;
-  FloatImage out(image->width, image->height, channels);
+  FloatImage out(image->width, image->height, signal.channels);
   for (std::size_t i = 0; i < out.values.size(); ++i) {
-    out.values[i] = image->values[i / channels * image->channels + i % channels];
+    out.values[i] = image->values[i / signal.channels * image->channels + i % signal.channels];
   }
   return out;
 }
 
-rtapi::Status Signal::add(const FloatImage& image, Place& place) {
-  const std::string error = place.errors.add(image, target_);
-  if (!error.empty()) return failure(error);
-  return {};
-}
-
-rtapi::Status Signal::run_subject(Subject& subject, std::uint32_t frame, double trace_ms) {
-  const bool temporal = subject.method->method == DenoiseMethod::kSvgf;
-  const bool looked_at = frame == 0 || frame + 2 >= kFrames;
-  if (!temporal && !looked_at) return {};
-  const auto loaded = renderer_.execute(
-      [&](rtapi::CommandList& list) { subject.denoiser.load(list, renderer_.frame(), 1.0f); });
-  if (!loaded) return loaded.error();
-  const auto ms = renderer_.execute(
-      [&](rtapi::CommandList& list) { subject.denoiser.dispatch(list, renderer_.frame()); });
-  if (!ms) return ms.error();
-  if (!looked_at) return {};
-  const bool last = frame + 1 == kFrames;
-  const auto image = read(subject.denoiser.result());
-  if (!image) return image.error();
-  if (frame + 2 == kFrames) subject.before = *image;
-  if (frame == 0 || last) {
-    Place& place = frame == 0 ? subject.first : subject.last;
-    place.ms.push_back(trace_ms + *ms);
-    if (temporal || frame == 0) {
-      if (const auto s = add(*image, place); !s) return s;
-    }
-  }
-  if (!last) return {};
-  const auto change = flicker(subject.before, *image, target_.image, target_.image);
-  if (!change.ok()) return change.error();
-  Place& place = temporal ? subject.last : subject.first;
-  place.flicker += change.value();
-  ++place.flicker_count;
-  return {};
-}
-
-rtapi::Status Signal::run_frame(std::uint32_t frame) {
-  Setting setting = setting_;
-  setting.first_sample = frame;  // each frame continues its pixels' sample sequences
-  const auto ran = runs_.run(setting);
-  if (!ran) return ran.error();
-  trace_ms_.push_back(ran->ms);
-  for (Subject& subject : subjects_) {
-    if (frame == 0) subject.denoiser.reset();
-    if (const auto s = run_subject(subject, frame, ran->ms); !s) return s;
-  }
-  return {};
-}
-
-rtapi::Status Signal::run_raw() {
-  for (auto& [rays, place] : raw_) {
-    Setting setting = setting_;
-    setting.settings.samples = rays;
-    const auto ran = runs_.run(setting);
-    if (!ran) return ran.error();
-    const auto image = runs_.read(setting);
+// Compares what the subject shows in this frame. Frames that nobody compares are only passed by.
+rtapi::Status Motion::look(Subject& subject, std::uint32_t frame, double ms) {
+  const bool is_last = frame + 1 == kFrames;
+  if (frame != 0 && frame + 2 < kFrames) return {};
+  for (const MeasuredSignal& signal : signals_) {
+    const auto image = read(subject, signal);
     if (!image) return image.error();
-    place.ms.push_back(ran->ms);
-    if (const auto s = add(*image, place); !s) return s;
+    if (frame + 2 == kFrames) subject.before[signal.name] = *image;
+    if (frame != 0 && !is_last) continue;
+    Place& place = (is_last ? subject.last : subject.first)[signal.name];
+    const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
+    place.ms.push_back(ms);
+    if (const auto error = place.errors.add(*image, target); !error.empty()) return failure(error);
+    if (!is_last || !is_still_) continue;
+    const auto change = flicker(subject.before[signal.name], *image, target.image, target.image);
+    if (!change.ok()) return change.error();
+    place.flicker += change.value();
+    ++place.flicker_count;
   }
   return {};
 }
 
-rtapi::Result<Outcome> Signal::measure(const Progress& progress) {
+rtapi::Status Motion::run_frame(std::uint32_t frame) {
+  if (const auto s = render(frame); !is_done(s)) return s.error();
+  double frame_ms = 0;
+  for (const PassStatistics& pass : renderer_.passes()) frame_ms += pass.ms;
+  for (Subject& subject : subjects_) {
+    double ms = frame_ms;
+    if (subject.filters) {
+      if (frame == 0) subject.filters->reset();
+      const auto took = renderer_.execute(
+          [&](rtapi::CommandList& list) { subject.filters->record_all(list, renderer_.frame()); });
+      if (!took) return took.error();
+      ms += *took;
+    }
+    if (const auto s = look(subject, frame, ms); !s) return s;
+  }
+  return {};
+}
+
+rtapi::Result<Outcome> Motion::measure(const Progress& progress) {
   for (std::uint32_t seed = 0; seed < options_.seeds; ++seed) {
-    if (const auto s = runs_.set_seed(pcg_hash(options_.frame.seed + seed)); !s) {
+    if (const auto s = renderer_.set_seed(pcg_hash(options_.frame.seed + seed)); !s) {
       return s.error();
     }
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
       if (const auto s = run_frame(frame); !s) return s.error();
+      const double done = (seed + (frame + 1.0) / kFrames) / options_.seeds;
+      if (!progress("denoising " + name(), done)) return Outcome::kStopped;
     }
-    if (const auto s = run_raw(); !s) return s.error();
-    if (!progress("denoising " + name_, (seed + 1.0) / options_.seeds)) return Outcome::kStopped;
   }
   return Outcome::kDone;
 }
 
-void Signal::add_row(const std::string& group, const std::string& label, const Place& place,
-                     std::uint32_t rays, double trace_ms, MeasuredTable& table) const {
-  MeasuredRow row{name_ + ", " + group, label, name_};
-  row.rays = rays;
-  row.traced = rays;
+void Motion::add_row(const MeasuredSignal& signal, const Subject& subject, bool is_last,
+                     MeasuredTable& table) const {
+  const Place& place = (is_last ? subject.last : subject.first).at(signal.name);
+  const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
+  MeasuredRow row{fmt::format("{}, {}, frame {}", signal.name, name(), is_last ? kFrames : 1),
+                  subject.label, signal.name};
+  row.rays = signal.setting.settings.samples;
+  row.traced = row.rays;
   row.ms = median(place.ms);
   row.ms_min = *std::min_element(place.ms.begin(), place.ms.end());
-  row.filter_ms = std::max(0.0, row.ms - trace_ms);
-  row.errors = place.errors.summary(target_);
-  row.reference_rmse = target_.own_rmse;
+  const Place& raw = (is_last ? subjects_[0].last : subjects_[0].first).at(signal.name);
+  row.filter_ms = std::max(0.0, row.ms - median(raw.ms));
+  row.errors = place.errors.summary(target);
+  row.reference_rmse = target.own_rmse;
   if (place.flicker_count > 0) row.flicker = place.flicker / place.flicker_count;
-  row.steps = group != "in space";
+  row.steps = false;
   table.rows.push_back(row);
 }
 
-void Signal::add_rows(MeasuredTable& table) const {
-  const double trace_ms = median(trace_ms_);
-  for (const auto& [rays, place] : raw_) {
-    const std::string label = fmt::format("{} {}", rays, rays == 1 ? "ray" : "rays");
-    add_row("raw", label, place, rays, median(place.ms), table);
+// A line of RMSE of all methods but those of other numbers of passes.
+void Motion::add_summary(const MeasuredSignal& signal, bool is_last, MeasuredTable& table) const {
+  if (table.summary.empty()) {
+    table.summary = fmt::format("\n{:<30}", "RMSE");
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      if (i > 0 && kMethods[i - 1].has_passes) continue;
+      table.summary += fmt::format("{:>11}", subjects_[i].label);
+    }
+    table.summary += "\n";
   }
-  for (const Subject& subject : subjects_) {
-    add_row(subject.method->group, subject.method->label, subject.first, 1, trace_ms, table);
+  table.summary += fmt::format(
+      "{:<30}", fmt::format("{}, {}, frame {}", signal.name, name(), is_last ? kFrames : 1));
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    if (i > 0 && kMethods[i - 1].has_passes) continue;
+    const Place& place = (is_last ? subjects_[i].last : subjects_[i].first).at(signal.name);
+    const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
+    table.summary += fmt::format("{:>11.4f}", place.errors.summary(target).rmse);
   }
-  for (const Subject& subject : subjects_) {
-    if (subject.method->method != DenoiseMethod::kSvgf) continue;
-    add_row(fmt::format("svgf by iterations, frame {}", kFrames), subject.method->label,
-            subject.last, 1, trace_ms, table);
+  table.summary += "\n";
+}
+
+void Motion::add_rows(MeasuredTable& table) const {
+  for (const MeasuredSignal& signal : signals_) {
+    // The first frame of a path is as good as that of a camera at rest.
+    for (const bool is_last : {false, true}) {
+      if (!is_last && !is_still_) continue;
+      for (const Subject& subject : subjects_) add_row(signal, subject, is_last, table);
+      add_summary(signal, is_last, table);
+      const Target& target = (is_last ? last_targets_ : first_targets_).at(signal.name);
+      if (is_last && is_still_) continue;  // it is that of the first frame
+      table.about.push_back(
+          fmt::format("reference {}, {}, frame {}: {} samples, its own RMSE {:.2g}", signal.name,
+                      name(), is_last ? kFrames : 1, options_.measure_reference, target.own_rmse));
+    }
   }
+}
+
+// The signals of the chosen effects that a denoiser has work with.
+std::vector<MeasuredSignal> measured_signals(const Options& options, const Scene& scene,
+                                             const FrameRenderer& renderer) {
+  std::vector<MeasuredSignal> out;
+  for (const Effect& effect : renderer.effects()) {
+    if (!effect.pass || !renderer.renders(effect.name)) continue;
+    const EffectSignal& signal = effect.signals.front();
+    if (!signal.is_sum) continue;
+    EffectSettings settings = options.effects.at(effect.name);
+    settings.pixel_step = 1;
+    out.push_back({.name = signal.name,
+                   .setting = {.effect = effect.name, .settings = settings},
+                   .channels = signal.channels,
+                   .exposure = signal.channels == 3 ? scene.exposure : 0.0f});
+  }
+  return out;
 }
 
 }  // namespace
 
 rtapi::Result<Outcome> measure_denoisers(const Options& options, const Scene& scene,
                                          const Progress& progress, MeasuredTable& table) {
+  std::vector<std::string> effects;
+  for (const auto& [name, ignored] : options.frame.effects) effects.push_back(name);
+  const auto path = choose_path(options, scene);
+  if (!path.ok()) return path.error();
+  Options own = options;
+  own.frame.moving = true;
   std::unique_ptr<EffectRuns> runs;
   const auto created = EffectRuns::create(
-      options, scene, {"ao", "gi"}, options.out + "/measure-cache", progress,
+      own, scene, effects, options.out + "/measure-cache", progress,
       [](const std::string& text) { std::fprintf(stderr, "northlight: %s\n", text.c_str()); },
       runs);
   if (!is_done(created)) return created;
-  table.title = "Denoising 1 ray per pixel: time against error";
+  const auto signals = measured_signals(options, scene, runs->renderer());
+  if (signals.empty()) return failure("no chosen effect has a signal that is denoised");
+  table.title = "Denoisers: error beside that of the raw signals";
   table.subtitle =
-      fmt::format("{}, {} x {}, {}; {} seeds, {} frames each{}", options.scene, options.frame.width,
-                  options.frame.height, options.backend, options.seeds, kFrames,
-                  options.cpu_clock ? ", CPU time over threads" : "");
-  Setting occlusion = setting_of("ao");
-  occlusion.settings.radius = options.effects.at("ao").radius;
-  const Setting indirect = setting_of("gi");
-  struct Entry {
-    const char* name;
-    Setting setting;
-    float exposure;
-  };
-  for (const Entry& entry : {Entry{"ao", occlusion, 0}, Entry{"gi", indirect, scene.exposure}}) {
-    Signal signal(*runs, options);
-    if (const auto s = signal.create(entry.name, entry.setting, entry.exposure, progress);
-        !is_done(s)) {
-      return s;
-    }
-    if (const auto s = signal.measure(progress); !is_done(s)) return s;
-    signal.add_rows(table);
-    table.about.push_back(fmt::format("reference {}: {} samples, its own RMSE {:.2g}", entry.name,
-                                      options.measure_reference, table.rows.back().reference_rmse));
+      fmt::format("{}, {} x {}, {}; {} seeds, {} frames each, path {}{}", options.scene,
+                  options.frame.width, options.frame.height, options.backend, options.seeds,
+                  kFrames, path.value().name, options.cpu_clock ? ", CPU time over threads" : "");
+  for (const bool is_still : {true, false}) {
+    Motion motion(*runs, options, path.value(), is_still);
+    if (const auto s = motion.create(signals, progress); !is_done(s)) return s;
+    if (const auto s = motion.measure(progress); !is_done(s)) return s;
+    motion.add_rows(table);
   }
   return Outcome::kDone;
 }

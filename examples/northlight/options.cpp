@@ -154,8 +154,7 @@ void add_sequence(CLI::App& app, Options& options) {
   app.add_option("--camera-path", options.camera_path,
                  std::string("camera of a sequence: ") + kCameraPaths +
                      "; or a file, lines of seconds, eye x y z, target x y z [fov=DEGREES] [cut]; "
-                     "default: still where something moves, else dolly")
-      ->needs(frames);
+                     "default: still where something moves, else dolly");
   app.add_option("--fps", options.frames_per_second, "frames per second of a sequence")
       ->needs(frames)
       ->capture_default_str()
@@ -195,6 +194,9 @@ std::string conflict(const Options& options) {
       (options.explain || options.pixel || !options.heatmap.empty())) {
     return "--sort-rays and what looks at pixels (--explain, --pixel, --heatmap) exclude each "
            "other: leave one out";
+  }
+  if (!options.camera_path.empty() && options.frames == 0 && options.measure != "svgf") {
+    return "--camera-path requires --frames or --measure svgf";
   }
   // Each of these prints or writes something instead of everything else.
   std::string instead;
@@ -511,6 +513,7 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
     if (app.count("--size") == 0) {
       std::tie(frame.width, frame.height) = default_measure_size(options.measure);
     }
+    if (options.measure == "svgf" && app.count("--effects") == 0) choose(options, {"all"});
     if (options.measure == "transparent" && app.count("--scene") == 0) {
       options.scene = "glass-stack";
     }

@@ -22,12 +22,6 @@ std::string frame_name(std::uint32_t index) {
   return fmt::format("frame_{:04}.png", index);
 }
 
-Result<CameraPath> choose_path(const Options& options, const Scene& scene) {
-  auto built_in = make_camera_path(scene, options.camera_path);
-  if (built_in.ok() || !std::filesystem::exists(options.camera_path)) return built_in;
-  return load_camera_path(options.camera_path);
-}
-
 // Follows pictures of the frame from one frame to the next.
 class FlickerMeter {
  public:
@@ -180,6 +174,12 @@ std::string describe_flicker(const std::vector<FlickerLine>& lines) {
 }
 
 }  // namespace
+
+kaamos::effects::Result<CameraPath> choose_path(const Options& options, const Scene& scene) {
+  auto built_in = make_camera_path(scene, options.camera_path);
+  if (built_in.ok() || !std::filesystem::exists(options.camera_path)) return built_in;
+  return load_camera_path(options.camera_path);
+}
 
 rtapi::Result<Outcome> render_sequence(FrameRenderer& renderer, const Options& options,
                                        const Progress& progress, StagedFiles& files,

@@ -37,6 +37,10 @@ struct SequenceResult {
   FrameResult last;  // with its layers
 };
 
+// The path of --camera-path: a built-in one or a file's.
+kaamos::effects::Result<kaamos::effects::CameraPath> choose_path(
+    const Options& options, const kaamos::effects::Scene& scene);
+
 // Renders options.frames frames and adds frame_0000.png ... to `files` without publishing them.
 // yet. Errors: those of the path, of rendering, and of files.
 rtapi::Result<Outcome> render_sequence(kaamos::effects::FrameRenderer& renderer,

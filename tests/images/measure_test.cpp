@@ -211,17 +211,24 @@ TEST(Measure, FrameAndItsPartsAgainstTheTruth) {
 }
 
 TEST(Measure, DenoisersTradeVarianceForBias) {
-  const auto rows = measure("svgf", "--seeds 4");
-  for (const std::string signal : {"ao", "gi"}) {
-    const Row raw = setting(group(rows, signal + ", raw"), "1 ray");
-    const Row gaussian = setting(group(rows, signal + ", in space"), "gaussian");
-    const Row first = setting(group(rows, signal + ", svgf"), "5");
-    const Row last = setting(group(rows, signal + ", svgf by iterations, frame"), "5");
-    EXPECT_LT(number(gaussian, "variance"), 0.5 * number(raw, "variance"));
-    EXPECT_LT(number(first, "variance"), 0.7 * number(raw, "variance"));
-    EXPECT_LT(number(last, "variance"), number(first, "variance"));
-    EXPECT_GT(number(gaussian, "bias_squared"), 0);
-    EXPECT_LT(number(last, "rmse"), number(raw, "rmse"));
+  const auto rows = measure("svgf", "--effects ao,gi --seeds 4 --camera-path orbit");
+  for (const std::string signal : {"ao", "indirect"}) {
+    const auto first = group(rows, signal + ", still, frame 1");
+    const auto last = group(rows, signal + ", still, frame 8");
+    const Row raw = setting(first, "raw");
+    EXPECT_LT(number(setting(first, "gaussian"), "variance"), 0.5 * number(raw, "variance"));
+    EXPECT_GT(number(setting(first, "gaussian"), "bias_squared"), 0);
+    EXPECT_LT(number(setting(first, "svgf"), "variance"), 0.7 * number(raw, "variance"));
+    EXPECT_LT(number(setting(last, "svgf"), "variance"),
+              number(setting(first, "svgf"), "variance"));
+    for (const std::string at : {", still, frame 1", ", still, frame 8", ", orbit, frame 8"}) {
+      const auto frame = group(rows, signal + at);
+      for (const std::string method : {"temporal", "svgf", "control"}) {
+        EXPECT_LT(number(setting(frame, method), "rmse"),
+                  number(setting(frame, "raw"), "rmse") + 0.002)
+            << signal << at << " " << method;
+      }
+    }
   }
 }
 
