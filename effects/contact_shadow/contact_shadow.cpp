@@ -14,8 +14,10 @@ RayPassDesc contact_shadow_pass(rtapi::ShaderLibrary library) {
   desc.name = "contact shadow";
   desc.library = std::move(library);
   desc.ray_generation = "ContactShadowRayGen";
-  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
-  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  desc.miss[kRayTypeVisibility] = "OccluderMiss";
+  desc.hit[kRayTypeVisibility].any_hit = "OccluderAnyHit";
+  desc.hit[kRayTypeVisibility].closest_hit = "OccluderClosestHit";
+  desc.payload_bytes = 8;  // OccluderPayload
   return desc;
 }
 

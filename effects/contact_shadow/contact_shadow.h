@@ -8,9 +8,10 @@
 
 namespace kaamos::effects {
 
-/// The pass. Registers u0 and u1 of space3: the lights that `direct` named, and a
-/// R32G32B32A32_FLOAT picture to whose r (point light) and g (spot light) the visible samples are
-/// added.
+/// The pass. Registers u0 to u2 of space3: the lights that `direct` named, and two
+/// R32G32B32A32_FLOAT pictures. To r (point light) and g (spot light) of the first it adds the
+/// visible part of the samples; to the second, of the blocked part, 1 / radius of the penumbra that
+/// the closest occluder casts, 1/m (r, g), and what of it is blocked by what moves (b, a).
 RayPassDesc contact_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.

@@ -5,6 +5,7 @@
 #include <shaders/spatial.h>
 #include <shaders/svgf.h>
 #include <shaders/upscale.h>
+#include <shaders/visibility_filter.h>
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,9 @@ rtapi::Result<DenoiseLibraries> denoise_libraries() {
   if (!control) return control.error();
   const auto upscale = rtapi::LoadShaderLibrary(kaamos_shaders_upscale());
   if (!upscale) return upscale.error();
-  return DenoiseLibraries{*spatial, *svgf, *control, *upscale};
+  const auto visibility = rtapi::LoadShaderLibrary(kaamos_shaders_visibility_filter());
+  if (!visibility) return visibility.error();
+  return DenoiseLibraries{*spatial, *svgf, *control, *upscale, *visibility};
 }
 
 rtapi::Result<Denoiser> Denoiser::create(const rtapi::Device& device, const Frame& frame,
@@ -316,19 +319,9 @@ rtapi::Status Denoiser::create_load(const rtapi::Device& device, const Frame& fr
                                     const DenoiseLibraries& libraries, const Texture& sum,
                                     std::uint32_t step, std::size_t index) {
   Channel& channel = channels_[index];
-  const bool scalar = sum.GetDesc().Format == rtapi::Format::kR32Float;
-  const auto& library = step == 2 ? libraries.upscale : libraries.spatial;
-  const char* const name = step == 2 ? (scalar ? "UpscaleScalar" : "UpscaleColor")
-                                     : (scalar ? "LoadScalar" : "LoadColor");
-  const auto pass = libraries.pipelines->get(device, frame, library, name);
-  if (!pass) return pass.error();
-  auto views = frame.create_pass_views(device);
-  if (!views) return views.error();
-  if (const auto s = views->set_unordered_access(1, channel.signal); !s) return s;
-  if (const auto s = views->set_unordered_access(scalar ? 2 : 0, sum); !s) return s;
-  channel.sum = sum;
-  channel.load_pass = *pass;
-  channel.load_views = *views;
+  const auto load = SumLoad::create(device, frame, libraries, sum, channel.signal, step);
+  if (!load) return load.error();
+  channel.load = *load;
   return {};
 }
 
@@ -336,8 +329,8 @@ std::uint64_t Denoiser::bytes() const {
   std::uint64_t sum = picture_bytes(guides_[0]) + picture_bytes(guides_[1]);
   for (const Channel& channel : channels_) {
     for (const Texture* texture :
-         {&channel.sum, &channel.signal, &channel.result, &channel.history, &channel.accumulated,
-          &channel.moments[0], &channel.moments[1], &channel.clamped}) {
+         {&channel.load.sum(), &channel.signal, &channel.result, &channel.history,
+          &channel.accumulated, &channel.moments[0], &channel.moments[1], &channel.clamped}) {
       sum += picture_bytes(*texture);
     }
   }
@@ -346,11 +339,7 @@ std::uint64_t Denoiser::bytes() const {
 
 void Denoiser::load(rtapi::CommandList& list, const Frame& frame, float scale,
                     std::size_t index) const {
-  const Channel& channel = channels_[index];
-  DenoiseConstants constants = desc_.constants;
-  constants.scale = scale;
-  channel.load_pass->dispatch(list, frame, {}, PassArguments(channel.load_views, constants),
-                              frame.width(), frame.height());
+  channels_[index].load.record(list, frame, scale);
 }
 
 void Denoiser::dispatch(rtapi::CommandList& list, const Frame& frame) {

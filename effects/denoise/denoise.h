@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "effects/denoise/sum_load.h"
 #include "effects/frame/compute_pass.h"
 #include "effects/frame/frame.h"
 
@@ -35,7 +36,7 @@ struct DenoiseConstants {
   std::int32_t step = 1;              ///< set by Denoiser: texels between taps
   std::int32_t radius = 4;            ///< taps to each side
   std::uint32_t vertical = 0;         ///< set by Denoiser: separable filters, 0 rows, 1 columns
-  float scale = 1.0f;                 ///< set by Denoiser: factor on the signal as it is loaded
+  float scale = 1.0f;                 ///< set by SumLoad: factor on the sum
   std::int32_t normal_squarings = 7;  ///< set by Denoiser: of sigma_n
   float lobe_scale = 0.0f;        ///< of the radius of a lobe's footprint; 0: the radius is fixed
   float sigma_hit = 0.5f;         ///< of hit distances, relative to the farther one
@@ -103,10 +104,11 @@ class DenoisePipelines {
 
 /// The shaders of every method, and the pipelines made of them.
 struct DenoiseLibraries {
-  rtapi::ShaderLibrary spatial;  ///< spatial.hlsl
-  rtapi::ShaderLibrary svgf;     ///< svgf.hlsl
-  rtapi::ShaderLibrary control;  ///< control.hlsl
-  rtapi::ShaderLibrary upscale;  ///< upscale.hlsl
+  rtapi::ShaderLibrary spatial;     ///< spatial.hlsl
+  rtapi::ShaderLibrary svgf;        ///< svgf.hlsl
+  rtapi::ShaderLibrary control;     ///< control.hlsl
+  rtapi::ShaderLibrary upscale;     ///< upscale.hlsl
+  rtapi::ShaderLibrary visibility;  ///< visibility_filter.hlsl
   /// Shared by all denoisers that are made of these libraries.
   std::shared_ptr<DenoisePipelines> pipelines = std::make_shared<DenoisePipelines>();
 };
@@ -177,9 +179,8 @@ class Denoiser {
   // Everything that belongs to one signal.
   struct Channel {
     std::string name;
-    rtapi::Texture sum, signal, result, history, accumulated, moments[2], clamped;
-    std::shared_ptr<ComputePass> load_pass;
-    PassViews load_views;
+    rtapi::Texture signal, result, history, accumulated, moments[2], clamped;
+    SumLoad load;
   };
 
   struct Binding {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <span>
+#include <string>
 
 #include "effects/denoise/denoise.h"
 #include "effects/frame/picture.h"
@@ -19,9 +20,12 @@ namespace kaamos::effects {
 
 class DenoiseFixture : public testing::Test {
  protected:
-  explicit DenoiseFixture(std::uint32_t width = 64, std::uint32_t height = 40)
+  explicit DenoiseFixture(std::uint32_t width = 64, std::uint32_t height = 40,
+                          const std::string& backend = "embree")
       : kWidth(width), kHeight(height), scene_(make_sphere_oracle(1.0, 1.5)) {
-    device_ = rtapi::CreateDevice().value();
+    rtapi::DeviceDesc device_desc;
+    device_desc.Backend = backend;
+    device_ = rtapi::CreateDevice(device_desc).value();
     queue_ = device_.CreateCommandQueue().value();
     const Camera& camera = scene_.cameras.front();
     gpu_ = create_gpu_scene(device_, queue_, scene_, camera.position()).value();

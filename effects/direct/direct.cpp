@@ -5,6 +5,16 @@
 
 namespace kaamos::effects {
 
+namespace {
+
+// Mirrors DirectConstants of direct.hlsl.
+struct DirectConstants {
+  std::uint32_t leave_out_strongest = 0;
+  std::uint32_t by_minimum = 0;
+};
+
+}  // namespace
+
 rtapi::Result<rtapi::ShaderLibrary> direct_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_direct());
 }
@@ -42,12 +52,14 @@ rtapi::Result<DirectLighting> DirectLighting::create(const rtapi::Device& device
 
 void DirectLighting::dispatch(rtapi::CommandList& list, const Frame& frame,
                               bool leave_out_strongest) const {
-  const std::uint32_t constants = leave_out_strongest ? 1 : 0;
+  const DirectConstants constants = {.leave_out_strongest = leave_out_strongest ? 1u : 0u};
   main_.dispatch(list, frame, {}, PassArguments(views_, constants), frame.width(), frame.height());
 }
 
-void DirectLighting::add_strongest(rtapi::CommandList& list, const Frame& frame) const {
-  add_.dispatch(list, frame, {}, PassArguments(views_), frame.width(), frame.height());
+void DirectLighting::add_strongest(rtapi::CommandList& list, const Frame& frame,
+                                   ContactCombination combination) const {
+  const DirectConstants constants = {.by_minimum = static_cast<std::uint32_t>(combination)};
+  add_.dispatch(list, frame, {}, PassArguments(views_, constants), frame.width(), frame.height());
 }
 
 rtapi::Status DirectLighting::set_contact(const rtapi::Texture& contact) {

@@ -5,6 +5,8 @@
 
 #include <rtapi/rtapi.h>
 
+#include <cstdint>
+
 #include "effects/frame/compute_pass.h"
 #include "effects/frame/frame.h"
 #include "effects/lights/lighting.h"
@@ -14,6 +16,12 @@ namespace kaamos::effects {
 /// The shaders that are built into the program.
 /// @errors KA0910 they were made for another version of the ABI.
 rtapi::Result<rtapi::ShaderLibrary> direct_library();
+
+/// How a light's shadow map and its contact shadow become its visibility. [effects-spec B2.12]
+enum class ContactCombination : std::uint32_t {
+  kProduct,  ///< as Control does; where both see the same penumbra, it counts twice
+  kMinimum,  ///< the darker of the two; where they see different occluders, one of them counts
+};
 
 /// The two passes of the local lights: all of them, or the two strongest of each pixel later, when
 /// their contact shadows are known.
@@ -27,8 +35,10 @@ class DirectLighting {
   /// Records the first pass: all lights with their shadow maps; or all but the two strongest of
   /// each pixel, which are named in strongest() and wait for add_strongest.
   void dispatch(rtapi::CommandList& list, const Frame& frame, bool leave_out_strongest) const;
-  /// Records the second pass: total() = direct() + the two lights, times their contact shadow.
-  void add_strongest(rtapi::CommandList& list, const Frame& frame) const;
+  /// Records the second pass: total() = direct() + the two lights, each with shadow map and contact
+  /// shadow.
+  void add_strongest(rtapi::CommandList& list, const Frame& frame,
+                     ContactCombination combination = ContactCombination::kProduct) const;
   /// Sets the contact shadow that add_strongest reads: visibility from 0 to 1, r of the point
   /// light, g of the spot light. It must outlive the dispatches.
   /// @errors those of PassViews::set_unordered_access.

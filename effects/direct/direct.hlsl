@@ -10,7 +10,8 @@ RWTexture2D<uint2> strongest : register(u1, space3);     // point light, spot li
 static const uint kNoLight = 0xFFFFFF;  // exact when stored as a float
 
 struct DirectConstants {
-  uint leave_out_strongest;
+  uint leave_out_strongest;  // MainLighting
+  uint by_minimum;           // AddStrongest: 0 shadow map times contact shadow, 1 the darker one
 };
 ConstantBuffer<DirectConstants> constants : register(b0, space3);
 
@@ -76,8 +77,8 @@ void MainLighting(uint3 id : SV_DispatchThreadID) {
 RWTexture2D<float4> contact : register(u2, space3);  // visibility; r: point light, g: spot light
 RWTexture2D<float4> total : register(u3, space3);
 
-// Adds the two lights that were left out, with shadow map times contact shadow. [Control: section
-// 5.3.1]
+// Adds the two lights that were left out, with shadow map times contact shadow [Control: section
+// 5.3.1], which counts a penumbra that both see twice, or with the darker of the two.
 [shader("compute")]
 [numthreads(8, 8, 1)]
 void AddStrongest(uint3 id : SV_DispatchThreadID) {
@@ -94,8 +95,10 @@ void AddStrongest(uint3 id : SV_DispatchThreadID) {
     for (uint kind = 0; kind < 2; ++kind) {
       const uint light = strongest[pixel][kind];
       if (light == kNoLight) continue;
-      sum += contact[pixel][kind] *
-             ShadowedLightRadiance(light, brdf, view, position, geometric_normal);
+      const float near = contact[pixel][kind];
+      const float far = ShadowMapVisibility(light, lights[light], position, geometric_normal);
+      const float3 radiance = LightRadiance(lights[light], brdf, view, position);
+      sum += constants.by_minimum != 0 ? min(near, far) * radiance : near * (radiance * far);
     }
   }
   total[pixel] = float4(sum, 1.0);

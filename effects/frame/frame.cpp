@@ -38,6 +38,7 @@ constexpr TextureInfo kTextures[kFrameTextureCount] = {
     {"sun visibility sum", Format::kR32Float},
     {"radiance", Format::kR32G32B32A32Float},
     {"motion", Format::kR32G32B32A32Float},
+    {"sun sharpness sum", Format::kR32G32B32A32Float},
 };
 
 // Layout of the view heap: t0..t6, then u0.., then the scene's textures, then the passes' own

@@ -78,6 +78,7 @@ enum FrameTexture : std::uint32_t {
   kSunVisibilitySum,     ///< R32_FLOAT: samples that see the sun
   kRadiance,             ///< R32G32B32A32_FLOAT: what the camera sees
   kMotion,               ///< R32G32B32A32_FLOAT: to where the surface was a frame ago
+  kSunSharpnessSum,      ///< R32G32B32A32_FLOAT: of the others, 1 / radius of the penumbra, 1/m
   kFrameTextureCount
 };
 
@@ -146,7 +147,7 @@ class Frame {
   /// may run meanwhile.
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_scene(const rtapi::Device& device, const GpuScene& gpu);
-  /// Sets what RaySorter made, a word for each pixel: the keys of rays (u13), and the pixels in
+  /// Sets what RaySorter made, a word for each pixel: the keys of rays (u14), and the pixels in
   /// their order (t5).
   /// @errors those of rtapi::Device::CreateShaderResourceView.
   rtapi::Status set_ray_order(const rtapi::Device& device, const rtapi::Buffer& keys,

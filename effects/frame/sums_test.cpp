@@ -110,13 +110,18 @@ TEST_F(Sums, OfVisibility) {
   expect_sums(ambient_occlusion_pass(ambient_occlusion_library().value()),
               frame_.texture(kAmbientOcclusionSum), {});
   expect_sums(sun_shadow_pass(sun_shadow_library().value()), frame_.texture(kSunVisibilitySum), {});
+  expect_sums(sun_shadow_pass(sun_shadow_library().value()), frame_.texture(kSunSharpnessSum), {});
 }
 
 TEST_F(Sums, OfContactShadows) {
   const rtapi::Texture sum = make_sum();
+  const rtapi::Texture sharpness = make_sum();
   PassViews views = views_of(sum, 1);
   views.set_unordered_access(0, direct_.strongest()).value();
+  views.set_unordered_access(2, sharpness).value();
   expect_sums(contact_shadow_pass(contact_shadow_library().value()), sum,
+              PassArguments(views, ContactShadowConstants{}));
+  expect_sums(contact_shadow_pass(contact_shadow_library().value()), sharpness,
               PassArguments(views, ContactShadowConstants{}));
 }
 

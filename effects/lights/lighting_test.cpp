@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <span>
 
 #include "effects/contact_shadow/contact_shadow.h"
 #include "effects/direct/direct.h"
@@ -59,9 +60,12 @@ struct Stage {
   FloatImage contact(float length, std::uint32_t samples) {
     const rtapi::Texture picture =
         frame.create_picture(device, "contact", rtapi::Format::kR32G32B32A32Float).value();
+    const rtapi::Texture sharpness =
+        frame.create_picture(device, "sharpness", rtapi::Format::kR32G32B32A32Float).value();
     PassViews views = frame.create_pass_views(device).value();
     views.set_unordered_access(0, direct.strongest()).value();
     views.set_unordered_access(1, picture).value();
+    views.set_unordered_access(2, sharpness).value();
     const RayPass pass =
         RayPass::create(device, frame, gpu, contact_shadow_pass(contact_shadow_library().value()))
             .value();
@@ -423,6 +427,42 @@ TEST(ContactShadows, AreSoftByTheLightsRadius) {
     partial += image.values[i] > 0.05f && image.values[i] < 0.95f;
   }
   EXPECT_GT(partial, 20);
+}
+
+// With a contact shadow that sees what the map sees, the product squares every penumbra; the
+// minimum leaves it as it is, and is exact where only one of the two sees a shadow.
+TEST(ContactShadows, ByMinimumCountNoPenumbraTwice) {
+  Stage stage(lamp_over_sphere());
+  const FloatImage all = stage.light();
+  stage.light(true);
+  const rtapi::Texture contact =
+      stage.frame.create_picture(stage.device, "contact", rtapi::Format::kR32G32B32A32Float)
+          .value();
+  stage.direct.set_contact(contact).value();
+  const auto total = [&](float visible, ContactCombination combination) {
+    const FloatImage image(kWidth, kHeight, 4, visible);
+    rtapi::UploadTexture(stage.device, stage.queue, contact, 0,
+                         std::as_bytes(std::span(image.values)))
+        .value();
+    rtapi::CommandList list = stage.device.CreateCommandList().value();
+    stage.direct.add_strongest(list, stage.frame, combination);
+    stage.queue.ExecuteAndWait(list).value();
+    return read_picture(stage.device, stage.queue, stage.direct.total()).value();
+  };
+  const FloatImage open = total(1, ContactCombination::kMinimum);
+  const FloatImage product = total(0.5f, ContactCombination::kProduct);
+  const FloatImage minimum = total(0.5f, ContactCombination::kMinimum);
+  int lit = 0, penumbra = 0;
+  for (std::size_t i = 0; i < all.values.size(); i += 4) {
+    ASSERT_NEAR(open.values[i], all.values[i], 1e-6 * all.values[i]);
+    ASSERT_NEAR(product.values[i], 0.5f * all.values[i], 1e-6 * all.values[i]);
+    ASSERT_LE(minimum.values[i], all.values[i] * 1.000001f);
+    ASSERT_GE(minimum.values[i], product.values[i] * 0.999999f);
+    lit += product.values[i] > 0 && minimum.values[i] == product.values[i];
+    penumbra += minimum.values[i] > 1.01f * product.values[i];
+  }
+  EXPECT_GT(lit, 100);
+  EXPECT_GT(penumbra, 5);
 }
 
 TEST(ContactShadows, StrongestLightsAreNamedByKind) {

@@ -66,6 +66,14 @@ struct EffectSignal {
   bool is_sum = true;
   bool of_lobe = false;   ///< [Denoiser::Signal]
   bool is_light = false;  ///< shown with the frame's exposure and tone curve
+  /// It is visibility, and the effect writes besides how sharp its shadows are
+  /// (VisibilityDenoiser::Signal::sharpness, summed up in the same way): into a picture that every
+  /// frame has, or into one of R32G32B32A32_FLOAT of this register u of space3.
+  ///@{
+  bool is_visibility = false;
+  std::optional<FrameTexture> sharpness_picture = {};
+  std::uint32_t sharpness_output = 0;
+  ///@}
   /// What the composition takes it for; null: nothing.
   const rtapi::Texture* FrameParts::*part = nullptr;
 };

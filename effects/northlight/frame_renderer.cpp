@@ -182,7 +182,7 @@ void FrameRenderer::record_lights(rtapi::CommandList& list) const {
 }
 
 void FrameRenderer::record_strongest_lights(rtapi::CommandList& list) const {
-  if (has_strongest_effect()) direct_->add_strongest(list, frame_);
+  if (has_strongest_effect()) direct_->add_strongest(list, frame_, settings_.contact);
 }
 
 void FrameRenderer::record_compose(rtapi::CommandList& list) const {
@@ -229,7 +229,7 @@ rtapi::Result<Outcome> FrameRenderer::finish_whole(const Progress& progress) {
     if (!is_done(s)) return s;
   }
   for (SignalFilters::Filter& filter : filters_.filters()) {
-    const auto s = run_compute(filter.name, filter.denoiser.bytes(),
+    const auto s = run_compute(filter.name, filter.bytes(),
                                [&](auto& list) { filters_.record(list, frame_, filter); });
     if (!s) return s.error();
   }

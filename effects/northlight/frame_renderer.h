@@ -132,6 +132,9 @@ class FrameRenderer {
   std::vector<std::string> layers() const;
   /// The picture that an effect adds its samples to. Null: no such signal.
   rtapi::Texture sum(const std::string& signal) const;
+  /// Adds a signal of this frame to denoisers that someone makes for themselves.
+  /// @errors KA3046 no such signal; those of SignalFilters::add.
+  rtapi::Status add_signal(SignalFilters& to, const std::string& signal) const;
 
   /// Executes what `record` records; milliseconds.
   /// @errors those of the device.
@@ -207,8 +210,9 @@ class FrameRenderer {
     std::optional<RayPass> keys;  // sorts its rays
     std::optional<PassViews> views, trace_views;
     std::optional<ComputePass> compose;
-    std::vector<rtapi::Texture> pictures;  // by signal
-    std::uint32_t samples = 0;             // that the sums hold
+    std::vector<rtapi::Texture> pictures;   // by signal
+    std::vector<rtapi::Texture> sharpness;  // by signal; empty where it is no visibility
+    std::uint32_t samples = 0;              // that the sums hold
   };
 
   FrameRenderer(const rtapi::Device& device, const Scene& scene, const FrameSettings& settings,
@@ -226,6 +230,7 @@ class FrameRenderer {
   rtapi::Status create_views(Active& effect, const GpuVolume& volume,
                              std::optional<PassViews>& views) const;
   rtapi::Status create_filters();
+  rtapi::Status add_signal(SignalFilters& to, const Active& effect, std::size_t index) const;
   rtapi::Status create_compose();
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   void list_left_out();

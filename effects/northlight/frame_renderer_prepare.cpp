@@ -342,6 +342,9 @@ rtapi::Status FrameRenderer::create_views(Active& effect, const GpuVolume& volum
     const EffectSignal& signal = effect.row->signals[i];
     if (signal.picture) continue;
     if (const auto s = views->set_unordered_access(signal.output, effect.pictures[i]); !s) return s;
+    if (!signal.is_visibility) continue;
+    const auto s = views->set_unordered_access(signal.sharpness_output, effect.sharpness[i]);
+    if (!s) return s;
   }
   if (needs.lights) {
     if (const auto s = lighting_->bind(*views); !s) return s;
@@ -358,6 +361,15 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
                       "effect \"" + row.name + "\" needs local lights, which are not rendered");
   }
   for (const EffectSignal& signal : row.signals) {
+    effect.sharpness.emplace_back();
+    if (signal.is_visibility && signal.sharpness_picture) {
+      effect.sharpness.back() = frame_.texture(*signal.sharpness_picture);
+    } else if (signal.is_visibility) {
+      const auto created =
+          frame_.create_picture(device_, signal.name + " sharpness sum", kSignalFormat);
+      if (!created) return created.error();
+      effect.sharpness.back() = *created;
+    }
     if (signal.picture) {
       effect.pictures.push_back(frame_.texture(*signal.picture));
       continue;
@@ -388,13 +400,28 @@ rtapi::Status FrameRenderer::create_effect(Active& effect) {
   return {};
 }
 
+rtapi::Status FrameRenderer::add_signal(SignalFilters& to, const Active& effect,
+                                        std::size_t index) const {
+  const EffectSignal& signal = effect.row->signals[index];
+  SignalSums sums = {effect.pictures[index], effect.sharpness[index], {}};
+  if (effect.row->needs.strongest_lights) sums.lights = direct_->strongest();
+  return to.add(device_, frame_, signal, sums, effect.settings);
+}
+
+rtapi::Status FrameRenderer::add_signal(SignalFilters& to, const std::string& name) const {
+  for (const auto& effect : active_) {
+    for (std::size_t i = 0; i < effect->pictures.size(); ++i) {
+      if (effect->row->signals[i].name == name) return add_signal(to, *effect, i);
+    }
+  }
+  return make_error(ErrorId::kFrameRenderer, "the frame has no signal \"" + name + "\"");
+}
+
 rtapi::Status FrameRenderer::create_filters() {
   for (const auto& effect : active_) {
     for (std::size_t i = 0; i < effect->pictures.size(); ++i) {
-      const EffectSignal& signal = effect->row->signals[i];
-      if (!signal.is_sum) continue;
-      const auto s = filters_.add(device_, frame_, signal, effect->pictures[i], effect->settings);
-      if (!s) return s;
+      if (!effect->row->signals[i].is_sum) continue;
+      if (const auto s = add_signal(filters_, *effect, i); !s) return s;
     }
   }
   return filters_.create(device_, frame_, denoise_libraries(libraries_), settings_.denoise);

@@ -5,6 +5,7 @@
 #include <shaders/spatial.h>
 #include <shaders/svgf.h>
 #include <shaders/upscale.h>
+#include <shaders/visibility_filter.h>
 
 #include "effects/composite/composite.h"
 #include "effects/direct/direct.h"
@@ -29,6 +30,9 @@ rtapi::Result<rtapi::ShaderLibrary> control_library() {
 rtapi::Result<rtapi::ShaderLibrary> upscale_library() {
   return rtapi::LoadShaderLibrary(kaamos_shaders_upscale());
 }
+rtapi::Result<rtapi::ShaderLibrary> visibility_filter_library() {
+  return rtapi::LoadShaderLibrary(kaamos_shaders_visibility_filter());
+}
 
 // What a frame has besides its effects, and which frames do.
 struct PartRow {
@@ -51,6 +55,7 @@ const std::vector<PartRow>& parts() {
       {{"denoise/svgf", svgf_library}, kWhole},
       {{"denoise/control", control_library}, kWhole},
       {{"denoise/upscale", upscale_library}, kWhole},
+      {{"denoise/visibility_filter", visibility_filter_library}, kWhole},
       {{"ray_order/ray_order", ray_order_library},
        [](const FrameSettings& s) { return s.order != RayOrder::kPixels; }},
       {{"taa/taa", taa_library}, [](const FrameSettings& s) { return s.taa; }}};
@@ -85,7 +90,8 @@ rtapi::Result<ShaderLibraries> load_libraries(const std::vector<EffectLibrary>& 
 
 DenoiseLibraries denoise_libraries(const ShaderLibraries& libraries) {
   return {libraries.at("denoise/spatial"), libraries.at("denoise/svgf"),
-          libraries.at("denoise/control"), libraries.at("denoise/upscale")};
+          libraries.at("denoise/control"), libraries.at("denoise/upscale"),
+          libraries.at("denoise/visibility_filter")};
 }
 
 }  // namespace kaamos::effects

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "effects/denoise/denoise.h"
+#include "effects/direct/direct.h"
 #include "effects/indirect_diffuse/volume.h"
 #include "effects/northlight/effect.h"
 #include "effects/ray_order/ray_order.h"
@@ -39,8 +40,10 @@ struct FrameSettings {
   bool whole_frame = true;
   DenoiseDesc denoise;    ///< of a whole frame
   VolumeSettings volume;  ///< for effects that read it
-  bool taa = false;       ///< antialiasing over the frames of a sequence
-  bool moving = false;    ///< frames of a sequence: structures are kept up with what moves
+  /// Of the strongest lights' shadow maps and contact shadows.
+  ContactCombination contact = ContactCombination::kProduct;
+  bool taa = false;     ///< antialiasing over the frames of a sequence
+  bool moving = false;  ///< frames of a sequence: structures are kept up with what moves
   RayOrder order = RayOrder::kPixels;   ///< of rays; the frame stays the same
   bool ray_cones = true;                ///< [FrameDesc]
   bool curvature_to_roughness = false;  ///< [curvature_pass]

@@ -4,35 +4,72 @@
 #include <algorithm>
 #include <utility>
 
+#include "effects/frame/picture.h"
+
 namespace kaamos::effects {
 
+namespace {
+
+bool is_temporal(DenoiseMethod method) {
+  return method == DenoiseMethod::kTemporal || method == DenoiseMethod::kSvgf ||
+         method == DenoiseMethod::kControl;
+}
+
+}  // namespace
+
+std::uint64_t SignalFilters::Filter::bytes() const {
+  return visibility ? visibility->bytes() + sums_bytes : denoiser->bytes();
+}
+
 rtapi::Status SignalFilters::add(const rtapi::Device& device, const Frame& frame,
-                                 const EffectSignal& row, const rtapi::Texture& sum,
+                                 const EffectSignal& row, const SignalSums& sums,
                                  const EffectSettings& settings) {
+  Signal signal = {.name = row.name,
+                   .sums = sums,
+                   .channels = row.channels,
+                   .of_lobe = row.of_lobe,
+                   .samples = settings.samples,
+                   .pixel_step = settings.pixel_step};
   const auto mean =
       frame.create_picture(device, row.name + " mean", rtapi::Format::kR32G32B32A32Float);
   if (!mean) return mean.error();
-  signals_.push_back({.name = row.name,
-                      .sum = sum,
-                      .mean = *mean,
-                      .of_lobe = row.of_lobe,
-                      .samples = settings.samples,
-                      .pixel_step = settings.pixel_step});
+  signal.mean = *mean;
+  if (sums.sharpness) {
+    const auto sharpness =
+        frame.create_picture(device, row.name + " sharpness", rtapi::Format::kR32G32B32A32Float);
+    if (!sharpness) return sharpness.error();
+    signal.sharpness = *sharpness;
+  }
+  signals_.push_back(std::move(signal));
   return {};
 }
 
 rtapi::Status SignalFilters::create(const rtapi::Device& device, const Frame& frame,
                                     const DenoiseLibraries& libraries, const DenoiseDesc& desc) {
-  std::vector<std::size_t> alike;
+  std::vector<std::size_t> alike, visibilities;
+  std::size_t channels = 0;  // of the visibilities
   for (std::size_t i = 0; i < signals_.size(); ++i) {
-    // Only such signals say how far away their hits are.
-    if (desc.method == DenoiseMethod::kControl && signals_[i].of_lobe) {
+    if (is_temporal(desc.method) && signals_[i].sharpness) {
+      if (channels + signals_[i].channels > kMostVisibilityChannels) {
+        const auto s = create_visibility_filter(device, frame, libraries, desc, visibilities);
+        if (!s) return s;
+        visibilities.clear();
+        channels = 0;
+      }
+      visibilities.push_back(i);
+      channels += signals_[i].channels;
+    } else if (desc.method == DenoiseMethod::kControl && signals_[i].of_lobe) {
+      // Only such signals say how far away their hits are.
       DenoiseDesc of_lobes = desc;
       of_lobes.constants.lobe_scale = 1;
       if (const auto s = create_filter(device, frame, libraries, of_lobes, {i}); !s) return s;
     } else {
       alike.push_back(i);
     }
+  }
+  if (!visibilities.empty()) {
+    const auto s = create_visibility_filter(device, frame, libraries, desc, visibilities);
+    if (!s) return s;
   }
   for (std::size_t first = 0; first < alike.size(); first += kMostSignals) {
     const auto begin = alike.begin() + static_cast<std::ptrdiff_t>(first);
@@ -43,13 +80,17 @@ rtapi::Status SignalFilters::create(const rtapi::Device& device, const Frame& fr
   return {};
 }
 
+std::string SignalFilters::filter_name(const std::vector<std::size_t>& signals) const {
+  return signals.size() == 1 ? "denoise " + signals_[signals[0]].name
+                             : "denoise " + std::to_string(signals.size()) + " signals";
+}
+
 rtapi::Status SignalFilters::create_filter(const rtapi::Device& device, const Frame& frame,
                                            const DenoiseLibraries& libraries,
                                            const DenoiseDesc& desc,
                                            const std::vector<std::size_t>& signals) {
   Filter filter;
-  filter.name = signals.size() == 1 ? "denoise " + signals_[signals[0]].name
-                                    : "denoise " + std::to_string(signals.size()) + " signals";
+  filter.name = filter_name(signals);
   filter.signals = signals;
   std::vector<Denoiser::Signal> inputs;
   for (const std::size_t i : signals) {
@@ -62,21 +103,58 @@ rtapi::Status SignalFilters::create_filter(const rtapi::Device& device, const Fr
   filter.denoiser = std::move(*denoiser);
   for (const std::size_t i : signals) {
     const Signal& signal = signals_[i];
-    const auto s = filter.denoiser.create_load(device, frame, libraries, signal.sum,
-                                               signal.pixel_step, signal.index);
+    const auto s = filter.denoiser->create_load(device, frame, libraries, signal.sums.sum,
+                                                signal.pixel_step, signal.index);
     if (!s) return s;
   }
   filters_.push_back(std::move(filter));
   return {};
 }
 
-void SignalFilters::record(rtapi::CommandList& list, const Frame& frame, Filter& filter) const {
-  for (const std::size_t i : filter.signals) {
-    const Signal& signal = signals_[i];
-    const float scale = 1.0f / static_cast<float>(std::max(signal.samples, 1u));
-    filter.denoiser.load(list, frame, scale, signal.index);
+rtapi::Status SignalFilters::create_visibility_filter(const rtapi::Device& device,
+                                                      const Frame& frame,
+                                                      const DenoiseLibraries& libraries,
+                                                      const DenoiseDesc& desc,
+                                                      const std::vector<std::size_t>& signals) {
+  Filter filter;
+  filter.name = filter_name(signals);
+  filter.signals = signals;
+  std::vector<VisibilityDenoiser::Signal> inputs;
+  for (const std::size_t i : signals) {
+    Signal& signal = signals_[i];
+    signal.filter = filters_.size();
+    signal.index = inputs.size();
+    inputs.push_back(
+        {signal.name, signal.channels, signal.mean, signal.sharpness, signal.sums.lights});
+    for (const auto& [sum, into] : {std::pair(&signal.sums.sum, &signal.mean),
+                                    std::pair(&signal.sums.sharpness, &signal.sharpness)}) {
+      const auto load = SumLoad::create(device, frame, libraries, *sum, *into, signal.pixel_step);
+      if (!load) return load.error();
+      filter.loads.push_back({*load, i});
+      filter.sums_bytes += picture_bytes(*sum) + picture_bytes(*into);
+    }
   }
-  filter.denoiser.dispatch(list, frame);
+  auto denoiser = VisibilityDenoiser::create(device, frame, libraries, inputs, desc.method, {},
+                                             desc.iterations);
+  if (!denoiser) return denoiser.error();
+  filter.visibility = std::move(*denoiser);
+  filters_.push_back(std::move(filter));
+  return {};
+}
+
+void SignalFilters::record(rtapi::CommandList& list, const Frame& frame, Filter& filter) const {
+  const auto scale = [&](std::size_t i) {
+    return 1.0f / static_cast<float>(std::max(signals_[i].samples, 1u));
+  };
+  if (filter.visibility) {
+    for (const Load& load : filter.loads) load.sum.record(list, frame, scale(load.signal));
+    filter.visibility->dispatch(list, frame);
+    return;
+  }
+  for (const std::size_t i : filter.signals) {
+    filter.denoiser->load(list, frame, scale(i), signals_[i].index);
+  }
+  filter.denoiser->dispatch(list, frame);
 }
 
 void SignalFilters::record_all(rtapi::CommandList& list, const Frame& frame) {
@@ -84,7 +162,10 @@ void SignalFilters::record_all(rtapi::CommandList& list, const Frame& frame) {
 }
 
 void SignalFilters::reset() {
-  for (Filter& filter : filters_) filter.denoiser.reset();
+  for (Filter& filter : filters_) {
+    if (filter.visibility) filter.visibility->reset();
+    if (filter.denoiser) filter.denoiser->reset();
+  }
 }
 
 SignalFilters::Signal* SignalFilters::find(const std::string& name) {

@@ -7,13 +7,23 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "effects/denoise/denoise.h"
+#include "effects/denoise/sum_load.h"
+#include "effects/denoise/visibility_denoiser.h"
 #include "effects/northlight/effect.h"
 
 namespace kaamos::effects {
+
+/// What an effect adds the samples of a signal to, and what tells its denoiser more.
+struct SignalSums {
+  rtapi::Texture sum;        ///< of light or visibility
+  rtapi::Texture sharpness;  ///< of visibility: EffectSignal::is_visibility; else null
+  rtapi::Texture lights;     ///< VisibilityDenoiser::Signal::lights; null: none
+};
 
 /// The signals of one frame and the denoisers that they share.
 class SignalFilters {
@@ -21,25 +31,38 @@ class SignalFilters {
   /// A signal of the frame.
   struct Signal {
     std::string name;              ///< of its layer
-    rtapi::Texture sum;            ///< what its pass adds to
+    SignalSums sums;               ///< what its pass adds to
     rtapi::Texture mean;           ///< the denoiser's input
+    rtapi::Texture sharpness;      ///< the same of SignalSums::sharpness
+    std::uint32_t channels = 3;    ///< that hold light or visibility
     bool of_lobe = false;          ///< [Denoiser::Signal]
     std::uint32_t samples = 1;     ///< that the sum holds
     std::uint32_t pixel_step = 1;  ///< [PassConstants::pixel_step]
     std::size_t filter = 0;        ///< which of filters()
     std::size_t index = 0;         ///< its place in that filter
   };
+  /// Makes a picture that the denoiser reads.
+  struct Load {
+    SumLoad sum;             ///< of the samples
+    std::size_t signal = 0;  ///< which of signals()
+  };
   /// A denoiser and what it filters.
   struct Filter {
-    std::string name;                  ///< "denoise 5 signals"
-    Denoiser denoiser;                 ///< of all of them
-    std::vector<std::size_t> signals;  ///< which of signals()
+    std::string name;                              ///< "denoise 5 signals"
+    std::optional<Denoiser> denoiser;              ///< of all of them, or
+    std::optional<VisibilityDenoiser> visibility;  ///< this one
+    std::vector<std::size_t> signals;              ///< which of signals()
+    std::vector<Load> loads;                       ///< of what `visibility` reads
+    std::uint64_t sums_bytes = 0;                  ///< of the pictures of `loads`
+
+    /// Bytes of the sums, the signals and the denoiser's own pictures.
+    std::uint64_t bytes() const;
   };
 
   /// Adds a signal; its mean's picture is made.
   /// @errors those of rtapi::Device::CreateTexture.
   rtapi::Status add(const rtapi::Device& device, const Frame& frame, const EffectSignal& row,
-                    const rtapi::Texture& sum, const EffectSettings& settings);
+                    const SignalSums& sums, const EffectSettings& settings);
   /// Makes the denoisers of all that were added.
   /// @errors those of Denoiser::create and of Denoiser::create_load.
   rtapi::Status create(const rtapi::Device& device, const Frame& frame,
@@ -62,14 +85,19 @@ class SignalFilters {
   const Signal* find(const std::string& name) const;
   /// What the denoiser makes of a signal.
   const rtapi::Texture& denoised(const Signal& signal) const {
-    return filters_[signal.filter].denoiser.result(signal.index);
+    const Filter& filter = filters_[signal.filter];
+    return filter.visibility ? filter.visibility->result(signal.index)
+                             : filter.denoiser->result(signal.index);
   }
 
  private:
   rtapi::Status create_filter(const rtapi::Device& device, const Frame& frame,
                               const DenoiseLibraries& libraries, const DenoiseDesc& desc,
                               const std::vector<std::size_t>& signals);
-
+  rtapi::Status create_visibility_filter(const rtapi::Device& device, const Frame& frame,
+                                         const DenoiseLibraries& libraries, const DenoiseDesc& desc,
+                                         const std::vector<std::size_t>& signals);
+  std::string filter_name(const std::vector<std::size_t>& signals) const;
   std::vector<Signal> signals_;
   std::vector<Filter> filters_;
 };

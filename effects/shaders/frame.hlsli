@@ -102,8 +102,12 @@ RWTexture2D<float4> radiance : register(u11);
 // and heights, z the change of its view depth in metres. Without jitter.
 RWTexture2D<float4> g_motion : register(u12);
 
+// Of the samples that do not see the sun, summed up: 1 / radius of their penumbra, 1/m, in x, and
+// how many were blocked by what moves in z.
+RWTexture2D<float4> sun_sharpness_sum : register(u13);
+
 // The key that each pixel's ray is sorted by. [effects/ray_order]
-RWStructuredBuffer<uint> ray_keys : register(u13);
+RWStructuredBuffer<uint> ray_keys : register(u14);
 
 // Arguments of hit group records. [Northlight deck: Root SRVs and Constants for Vertex Data]
 ByteAddressBuffer vertices : register(t0, space2);

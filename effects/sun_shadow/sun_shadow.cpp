@@ -15,8 +15,10 @@ RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library) {
   desc.library = std::move(library);
   desc.ray_generation = "SunShadowRayGen";
   desc.key_generation = "SunShadowKeys";
-  desc.miss[kRayTypeVisibility] = "VisibilityMiss";
-  desc.hit[kRayTypeVisibility].any_hit = "VisibilityAnyHit";
+  desc.miss[kRayTypeVisibility] = "OccluderMiss";
+  desc.hit[kRayTypeVisibility].any_hit = "OccluderAnyHit";
+  desc.hit[kRayTypeVisibility].closest_hit = "OccluderClosestHit";
+  desc.payload_bytes = 8;  // OccluderPayload
   return desc;
 }
 

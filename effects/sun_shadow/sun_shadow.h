@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file
 /// Shadow of a sun with an area. The pass adds the number of samples that see it to
-/// kSunVisibilitySum.
+/// kSunVisibilitySum, and how sharp the shadows of the others are to kSunSharpnessSum.
 #pragma once
 
 #include "effects/frame/ray_pass.h"
@@ -11,7 +11,9 @@ namespace kaamos::effects {
 /// Samples per pixel of the deck's timings. [effects-spec B2.11]
 inline constexpr std::uint32_t kDefaultSunSamples = 2;
 
-/// The pass. Each dispatch adds those of its samples that see the sun to kSunVisibilitySum.
+/// The pass. Each dispatch adds those of its samples that see the sun to kSunVisibilitySum, and of
+/// the others to kSunSharpnessSum: 1 / radius of the penumbra that the closest occluder casts, 1/m,
+/// and whether that moves.
 /// [effects-spec B2]
 RayPassDesc sun_shadow_pass(rtapi::ShaderLibrary library);
 /// The shaders that are built into the program.

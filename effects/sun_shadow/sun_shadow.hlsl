@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The visible fraction of the sun's disk, by rays to random points of it. [effects-spec B2.11]
-#include "visibility.hlsli"
+#include "occluder.hlsli"
 #include "ray_key.hlsli"
 #include "sampling.hlsli"
 
@@ -15,6 +15,7 @@ void SunShadowRayGen() {
   const uint count = pass_constants.sample_count;
   if (g_ids[pixel].x == 0) {
     sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + float(count);
+    sun_sharpness_sum[pixel] = float4(0, 0, 0, 0);
     return;
   }
   const float4 position = g_position[pixel];
@@ -23,14 +24,26 @@ void SunShadowRayGen() {
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kSunPair, frame.seed)];
 
   float visible = 0.0;
+  float sharpness = 0.0;
+  float moved = 0.0;
   for (uint i = 0; i < count; ++i) {
     const float3 direction = SunDirection(tile, pass_constants.first_sample + i);
-    // A surface that faces away from this point of the sun is dark without a ray.
-    if (dot(direction, normal) > 0.0) {
-      visible += TraceVisibility(origin, direction, kSunDistance);
+    // A surface that faces away from this point of the sun is dark without a ray. On a curved one
+    // that ends as sharply as where things touch.
+    if (!(dot(direction, normal) > 0.0)) {
+      sharpness += kSharpest;
+      continue;
+    }
+    const OccluderPayload occluder = TraceOccluder(origin, direction, kSunDistance);
+    if (occluder.distance == kNoOccluder) {
+      visible += 1.0;
+    } else {
+      sharpness += ShadowSharpness(occluder.distance * frame.tan_sun_radius);
+      moved += occluder.moved;
     }
   }
   sun_visibility_sum[pixel] = SumBefore(sun_visibility_sum, pixel) + visible;
+  sun_sharpness_sum[pixel] = SumBefore(sun_sharpness_sum, pixel) + float4(sharpness, 0, moved, 0);
 }
 
 [shader("raygeneration")]

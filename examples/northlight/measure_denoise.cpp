@@ -151,18 +151,15 @@ rtapi::Result<Outcome> Motion::create(const std::vector<MeasuredSignal>& signals
 rtapi::Status Motion::create_subject(const Method& method) {
   Subject subject{.label = method.label, .filters = std::make_unique<SignalFilters>()};
   for (const MeasuredSignal& signal : signals_) {
-    const Effect* effect = find_effect(renderer_.effects(), signal.setting.effect);
-    const auto s =
-        subject.filters->add(renderer_.device(), renderer_.frame(), effect->signals.front(),
-                             renderer_.sum(signal.name), signal.setting.settings);
-    if (!s) return s;
+    if (const auto s = renderer_.add_signal(*subject.filters, signal.name); !s) return s;
   }
   DenoiseDesc desc = default_denoise(method.method);
   desc.iterations = method.iterations;
   desc.iterations_with_history = method.iterations_with_history;
-  const auto libraries = denoise_libraries(renderer_.libraries());
+  const auto libraries = denoise_libraries();
+  if (!libraries) return libraries.error();
   const auto created =
-      subject.filters->create(renderer_.device(), renderer_.frame(), libraries, desc);
+      subject.filters->create(renderer_.device(), renderer_.frame(), *libraries, desc);
   if (!created) return created;
   subjects_.push_back(std::move(subject));
   return {};

@@ -44,6 +44,7 @@ struct Words {
   std::string texture_lod = "cone";
   float contact_length = ContactShadowConstants().length;
   std::string fireflies = "retrace";
+  std::string contact_combine = "product";
   float firefly_limit = 0;
   float gi_length = IndirectConstants().length;
   float reflection_length = ReflectionConstants().longest;
@@ -292,6 +293,8 @@ void apply(const Words& words, Options& options) {
   if (!words.sort_rays.empty()) {
     frame.order = words.sort_rays == "origin" ? RayOrder::kOrigin : RayOrder::kDirection;
   }
+  frame.contact =
+      words.contact_combine == "min" ? ContactCombination::kMinimum : ContactCombination::kProduct;
   frame.moving = options.frames > 0;
   options.cpu_clock = words.clock == "cpu";
   choose(options, words.effects);
@@ -373,6 +376,10 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
              join(sampled_effects()))
       ->delimiter(',')
       ->check(CLI::IsMember(sampled_effects()));
+  app.add_option("--contact-combine", words.contact_combine,
+                 "a light's shadow map and contact shadow: product, min (the darker of the two)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"product", "min"}));
   app.add_option("--contact-length", words.contact_length, "length of these rays, in metres")
       ->capture_default_str()
       ->check(CLI::Range(0.0f, 1e6f));

