@@ -19,6 +19,8 @@ constexpr BuiltInScene kScenes[] = {
     {"mirror-hall", [] { return make_mirror_hall(); }},
     {"oracle-box", [] { return make_oracle_box(); }},
     {"sealed-cells", [] { return make_sealed_cells({}); }},
+    {"sealed-hall", [] { return make_sealed_hall({}); }},
+    {"lit-hall", [] { return make_sealed_hall({.lit = true}); }},
     {"thin-dome", [] { return make_thin_dome({}); }},
     {"matched-box", [] { return make_matched_box(); }},
     {"matched-metal", [] { return make_matched_metal(); }},

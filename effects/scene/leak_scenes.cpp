@@ -136,4 +136,37 @@ Scene make_sealed_cells(const SealedCellsDesc& desc) {
   return scene;
 }
 
+Scene make_sealed_hall(const SealedHallDesc& desc) {
+  Scene scene = empty_scene(desc.lit ? "lit-hall" : "sealed-hall");
+  scene.sky = {.zenith = glm::vec3(0.5f, 0.7f, 1.1f),
+               .horizon = glm::vec3(0.9f, 1.0f, 1.2f),
+               .ground = glm::vec3(0.3f)};
+  scene.sun = Sun{};
+  const std::uint32_t grey = add_material(scene, "grey", glm::vec3(kHallAlbedo));
+  const glm::dvec3 low(-0.5 * kHallSize.x, 0, -0.5 * kHallSize.z), high = low + kHallSize;
+  const glm::dvec3 outer_low = low - kHallWall, outer_high = high + kHallWall;
+  add_box(scene, "floor", outer_low, {outer_high.x, 0, outer_high.z}, grey);
+  add_box(scene, "roof", {outer_low.x, high.y, outer_low.z}, outer_high, grey);
+  // The walls end inside the floor, the roof and each other, so that no edges have to match.
+  const double inside = 0.5 * kHallWall;
+  const double foot = -inside, top = high.y + inside;
+  add_box(scene, "wall -x", {outer_low.x, foot, outer_low.z}, {low.x, top, outer_high.z}, grey);
+  add_box(scene, "wall +x", {high.x, foot, outer_low.z}, {outer_high.x, top, outer_high.z}, grey);
+  add_box(scene, "wall -z", {low.x - inside, foot, outer_low.z}, {high.x + inside, top, low.z},
+          grey);
+  add_box(scene, "wall +z", {low.x - inside, foot, high.z}, {high.x + inside, top, outer_high.z},
+          grey);
+  if (desc.lit) {
+    Light light;
+    light.name = "lamp";
+    light.intensity = kHallLamp;
+    light.position = {0, 8, 0};
+    light.range = 1e3f;  // no loss of flux at the edge of the range
+    light.radius = 0.1f;
+    scene.lights.push_back(light);
+  }
+  add_camera(scene, "middle", {4, 3, 5}, {-3, 1.5, -6}, 1.2);
+  return scene;
+}
+
 }  // namespace kaamos::effects

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Scenes whose walls are thinner than the cells of a volume of indirect light. [effects-spec D.2:
-/// SC2, SC8]
+/// Scenes that are dark inside, where a volume of indirect light may let light in: through walls
+/// that are thinner than its cells, or in the middle of a room that is much larger than them.
+/// [effects-spec D.2: SC2, SC8]
 #pragma once
 
 #include "effects/scene/scene.h"
@@ -33,5 +34,21 @@ struct SealedCellsDesc {
 /// are black in truth. The first camera looks at the lit room's wall from the room behind it (+z),
 /// the second stands in the lit room.
 Scene make_sealed_cells(const SealedCellsDesc& desc);
+
+inline constexpr glm::dvec3 kHallSize{24, 12, 24};  ///< metres inside of the sealed hall
+inline constexpr double kHallWall = 0.3;            ///< metres, thickness of its walls
+inline constexpr float kHallAlbedo = 0.7f;          ///< of everything in it
+inline constexpr float kHallLamp = 600.0f;          ///< candela, of the lamp in the lit one
+
+/// What make_sealed_hall makes.
+struct SealedHallDesc {
+  bool lit = false;  ///< a lamp hangs in it
+};
+
+/// A closed hall on the ground, about the origin, under a bright sky and a sun. Without a lamp it
+/// is black in truth. With one, what its surfaces get from each other is known on average: all that
+/// the lamp sends out is absorbed in the end, so the irradiance is flux / (area * (1 - albedo)), of
+/// which flux / area comes from the lamp itself.
+Scene make_sealed_hall(const SealedHallDesc& desc);
 
 }  // namespace kaamos::effects
