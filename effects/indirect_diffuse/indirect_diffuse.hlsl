@@ -58,19 +58,28 @@ void IndirectClosestHit(inout IndirectPayload payload, in BuiltInTriangleInterse
   payload.radiance = float3(0, 0, 0);
   payload.distance = RayTCurrent();
   if (constants.mode == kModeHitBlack) return;
+  float3 position, normal;
   if (constants.mode == kModeNearFieldGlossy) {
     const Surface surface = LoadSurface(hit.barycentrics, RayTCurrent());
     payload.radiance = ShadeHit(surface, -WorldRayDirection(), constants.sun_at_hits != 0) +
                        IndirectAtHit(surface, jitter, -WorldRayDirection());
+    position = surface.position;
+    normal = surface.normal;
   } else {
     const MatteSurface surface = LoadMatteSurface(hit.barycentrics, RayTCurrent());
     payload.radiance =
         ShadeMatteHit(surface, constants.sun_at_hits != 0) + IndirectAtMatteHit(surface, jitter);
+    position = surface.position;
+    normal = surface.normal;
   }
-  // Near the ray's end, blend to the volume, so that no shell shows where rays end.
+  // Near the ray's end, blend to the volume, so that no shell shows where rays end. It is read in
+  // front of the surface: the ray's end lies behind it, maybe in another room.
   const float length = RayLength();
   const float far = smoothstep(0.8 * length, length, RayTCurrent());
-  if (far > 0.0) payload.radiance = lerp(payload.radiance, RadianceFromEnd(jitter), far);
+  if (far > 0.0) {
+    payload.radiance =
+        lerp(payload.radiance, VolumeRadianceAt(position, jitter, normal, WorldRayDirection()), far);
+  }
 }
 
 // Radiance from one direction; w is the distance that its ray reached.

@@ -64,7 +64,7 @@ TEST(IndirectDiffuse, CellsThatRaysChooseAverageToAllEight) {
     for (std::uint32_t x = 0; x < stage.width; ++x) {
       const glm::dvec3 p =
           eye + glm::dvec3(position.at(x, y, 0), position.at(x, y, 1), position.at(x, y, 2));
-      // Further out, rays end in bricks that are not stored.
+      // Further out, rays end outside of the volume.
       if (stage.ids.at(x, y, 0) == 0 || std::max(std::abs(p.x), std::abs(p.z)) > 5) continue;
       // On average a ray ends 2/3 of its length above the plane.
       const double expected = light(p + glm::dvec3(0, kLength * 2 / 3, 0));
@@ -230,8 +230,14 @@ TEST(IndirectVolumes, FilesComeBack) {
   EXPECT_EQ(std::memcmp(loaded.cells.data(), volume.cells.data(),
                         volume.cells.size() * sizeof(VolumeCell)),
             0);
-  // Damage is found wherever it is.
   std::vector<std::uint8_t> bytes = read_file(path).value();
+  // Version 1 had no levels: it is refused by name.
+  std::vector<std::uint8_t> old = bytes;
+  old[8] = 1;
+  ASSERT_TRUE(write_file_atomically(path, old).ok());
+  EXPECT_NE(load_volume(path).error().message.find("version is 1, this program reads 2"),
+            std::string::npos);
+  // Damage is found wherever it is.
   for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{56}, bytes.size() / 2}) {
     std::vector<std::uint8_t> damaged = bytes;
     damaged[at] ^= 0x55;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
@@ -16,9 +17,12 @@ namespace kaamos::effects {
 
 /// A scene with its G-buffer and lights, and the passes that gather light over them.
 struct Stage {
-  explicit Stage(Scene given, std::uint32_t picture_width = 24, std::uint32_t picture_height = 16)
+  explicit Stage(Scene given, std::uint32_t picture_width = 24, std::uint32_t picture_height = 16,
+                 const std::string& backend = "embree")
       : width(picture_width), height(picture_height), scene(std::move(given)) {
-    device = rtapi::CreateDevice().value();
+    rtapi::DeviceDesc device_desc;
+    device_desc.Backend = backend;
+    device = rtapi::CreateDevice(device_desc).value();
     queue = device.CreateCommandQueue().value();
     const Camera& camera = scene.cameras.front();
     gpu = create_gpu_scene(device, queue, scene, camera.position()).value();
@@ -39,13 +43,19 @@ struct Stage {
     ids = frame.read(device, queue, kIds).value();
   }
 
-  IndirectVolume bake(float cell, std::uint32_t samples, std::uint32_t bounces = 3) {
-    IndirectVolume volume = layout_volume(scene, cell).value();
+  /// All cells get all paths.
+  IndirectVolume bake(float cell, std::uint32_t samples, std::uint32_t bounces = 64) {
     BakeDesc desc;
     desc.samples = samples;
     desc.bounces = bounces;
-    bake_volume(device, queue, frame, gpu, lighting, scene.cameras.front().position(),
-                volume_bake_library().value(), desc, volume)
+    desc.error = 0;
+    return bake(cell, desc);
+  }
+
+  IndirectVolume bake(float cell, const BakeDesc& desc, BakeStatistics* statistics = nullptr) {
+    IndirectVolume volume = layout_volume(scene, cell).value();
+    bake_volume(device, queue, frame, gpu, scene, lighting, scene.cameras.front().position(),
+                volume_bake_library().value(), desc, volume, statistics)
         .value();
     return volume;
   }
@@ -121,7 +131,7 @@ inline IndirectVolume constant_volume(const Scene& scene, float light) {
 }
 
 /// A small plane with a sphere over it. The sky should be as bright as the volume, so that places
-/// where nothing is stored get the same light.
+/// outside of it get the same light.
 inline Scene small_scene(float sky) {
   Scene scene = make_sphere_oracle(1.0, 1.5);
   for (Mesh& mesh : scene.meshes) {

@@ -152,7 +152,7 @@ Scene room(bool with_table) {
   add({-2.3, -0.3, -2.3}, {2.3, 0, 2.3});
   add({-2.3, 0, -2.3}, {-2, 2, 2.3});
   add({-2, 0, -2.3}, {2.3, 2, -2});
-  if (with_table) add({-0.6, 0.2, -0.6}, {0.6, 0.25, 0.6});
+  if (with_table) add({-0.6, 0.25, -0.6}, {0.6, 0.3, 0.6});
   scene.materials.resize(1);
   scene.materials[0].constants = {};
   scene.materials[0].constants.base_color = glm::vec4(0.7f, 0.7f, 0.7f, 1);
@@ -181,10 +181,10 @@ double error_on(const FloatImage& image, const FloatImage& truth, const FloatIma
 // hit in a volume that does.
 TEST(VolumeFailures, DynamicObjectsNeedRays) {
   Stage baked(room(false));
-  const IndirectVolume volume = baked.bake(0.25f, 128);
+  const IndirectVolume volume = baked.bake(0.25f, 2048);
   Stage stage(room(true));
   const FloatImage truth =
-      stage.gather(stage.bake(0.25f, 128), mode(IndirectMode::kNearField, 1e3f), 1024);
+      stage.gather(stage.bake(0.25f, 2048), mode(IndirectMode::kNearField, 1e3f), 1024);
   const FloatImage direct = stage.gather(volume, mode(IndirectMode::kDirect), 1);
   FloatImage occluded = direct;
   const FloatImage open = stage.ambient(3, 256);

@@ -11,7 +11,7 @@ namespace kaamos::effects {
 namespace {
 
 constexpr char kMagic[8] = {'K', 'A', 'A', 'M', 'O', 'S', 'G', 'I'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  // 1 had no levels
 
 struct Header {
   char magic[8];
@@ -110,10 +110,15 @@ Result<IndirectVolume> load_volume(const std::string& path) {
     std::memcpy(volume.cells.data(), at + header.brick_count * 4,
                 header.cell_count * sizeof(VolumeCell));
   }
-  for (const std::uint32_t start : volume.brick_starts) {
-    if (start != kNoBrick && std::uint64_t{start} + kCellsPerBrick > header.cell_count) {
-      return damaged(path, "a brick starts at cell " + std::to_string(start) + " of " +
+  for (const std::uint32_t entry : volume.brick_starts) {
+    if (entry == kNoBrick) continue;
+    if (std::uint64_t{brick_start(entry)} + kCellsPerBrick > header.cell_count) {
+      return damaged(path, "a brick starts at cell " + std::to_string(brick_start(entry)) + " of " +
                                std::to_string(header.cell_count));
+    }
+    if (brick_level(entry) > kMaxBrickLevel) {
+      return damaged(path, "a brick has level " + std::to_string(brick_level(entry)) + ", " +
+                               std::to_string(kMaxBrickLevel) + " is the coarsest");
     }
   }
   return volume;

@@ -164,6 +164,8 @@ class FrameRenderer {
   const std::vector<PassStatistics>& passes() const { return statistics_; }
   /// What prepare() took; empty if there was nothing to bake or to load.
   const std::optional<PassStatistics>& set_up() const { return set_up_; }
+  /// What baking the volume of indirect light took; empty if nothing was baked.
+  const std::optional<BakeStatistics>& bake() const { return bake_; }
   /// Parts of the frame that this scene or these settings have no use for, and why.
   const std::vector<std::string>& left_out() const { return left_out_; }
 
@@ -225,7 +227,7 @@ class FrameRenderer {
   rtapi::Result<Outcome> prepare_whole(const Progress& progress);
   rtapi::Status create_lighting();
   rtapi::Result<Outcome> create_volume(const Progress& progress);
-  rtapi::Result<Outcome> bake(IndirectVolume& volume, const Progress& progress);
+  rtapi::Result<Outcome> bake_indirect(IndirectVolume& volume, const Progress& progress);
   rtapi::Status create_effect(Active& effect);
   rtapi::Status create_views(Active& effect, const GpuVolume& volume,
                              std::optional<PassViews>& views) const;
@@ -279,6 +281,7 @@ class FrameRenderer {
   std::function<double()> clock_ms_;
   std::vector<PassStatistics> statistics_;
   std::optional<PassStatistics> set_up_;
+  std::optional<BakeStatistics> bake_;
   std::vector<std::string> left_out_;
   bool has_begun_ = false;     // begin_frame was called since the last frame
   bool has_surfaces_ = false;  // the G-buffer and the lights of this frame are there

@@ -189,6 +189,7 @@ rtapi::Result<Outcome> FrameRenderer::prepare(const Progress& progress) {
   taa_.reset();
   left_out_.clear();
   set_up_.reset();
+  bake_.reset();
   has_surfaces_ = false;
   const std::vector<EffectLibrary> wanted = frame_libraries(settings_, effects_);
   if (!has_own_libraries_) {
@@ -292,7 +293,7 @@ rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
     auto loaded = load_volume(wanted.file);
     if (!loaded.ok()) return loaded.error();
     volume = std::move(loaded.value());
-  } else if (const auto baked = bake(volume, progress); !is_done(baked)) {
+  } else if (const auto baked = bake_indirect(volume, progress); !is_done(baked)) {
     return baked;
   }
   const glm::dvec3 origin = moment_.camera.position();
@@ -305,7 +306,8 @@ rtapi::Result<Outcome> FrameRenderer::create_volume(const Progress& progress) {
   return Outcome::kDone;
 }
 
-rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progress& progress) {
+rtapi::Result<Outcome> FrameRenderer::bake_indirect(IndirectVolume& volume,
+                                                    const Progress& progress) {
   const VolumeSettings& wanted = settings_.volume;
   auto laid_out = layout_volume(scene_, wanted.cell);
   if (!laid_out.ok()) return laid_out.error();
@@ -317,11 +319,13 @@ rtapi::Result<Outcome> FrameRenderer::bake(IndirectVolume& volume, const Progres
          << kVolumeCell << ")";
     left_out_.push_back(text.str());
   }
-  const BakeDesc desc = {wanted.samples, wanted.bounces, wanted.seed.value_or(settings_.seed)};
+  const BakeDesc desc = {wanted.samples, wanted.error, wanted.bounces,
+                         wanted.seed.value_or(settings_.seed), wanted.lights};
+  bake_.emplace();
   const auto step = [&](double done) { return !progress || progress("indirect light", done); };
   const auto baked =
-      bake_volume(device_, queue_, frame_, gpu_, *lighting_, moment_.camera.position(),
-                  libraries_.at("indirect_diffuse/volume_bake"), desc, volume, step);
+      bake_volume(device_, queue_, frame_, gpu_, scene_, *lighting_, moment_.camera.position(),
+                  libraries_.at("indirect_diffuse/volume_bake"), desc, volume, &*bake_, step);
   if (!is_done(baked) || wanted.file.empty()) return baked;
   if (const auto saved = save_volume(wanted.file, volume); !saved.ok()) {
     return saved.error();

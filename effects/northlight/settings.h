@@ -21,8 +21,10 @@ namespace kaamos::effects {
 /// The volume of indirect light, which effects read that need it.
 struct VolumeSettings {
   std::optional<float> cell;          ///< metres; none: by the size of the scene
-  std::uint32_t samples = 256;        ///< paths per cell
-  std::uint32_t bounces = 3;          ///< after the first hit
+  std::uint32_t samples = 1024;       ///< paths per cell at most [BakeDesc]
+  float error = 0.03f;                ///< standard error that is enough for a cell [BakeDesc]
+  std::uint32_t bounces = 64;         ///< after the first hit, at most
+  std::uint32_t lights = kBakeAll;    ///< BakedLights
   std::optional<std::uint32_t> seed;  ///< of the paths; none: the frame's
   std::string file;                   ///< read if it is there, else baked and written; empty: baked
   std::shared_ptr<const IndirectVolume> given;  ///< instead of a file and of baking

@@ -51,6 +51,13 @@ class Reader {
     warn(key, "a number from 0 to " + limit_text(limit));
     return fallback;
   }
+  /// A member that is true or false; `fallback`, with a warning, where it is neither.
+  bool flag(const char* key, bool fallback) {
+    if (!has(key)) return fallback;
+    if (object_->Get(key).IsBool()) return object_->Get(key).Get<bool>();
+    warn(key, "true or false");
+    return fallback;
+  }
   /// The same for three numbers: a colour, radiance or irradiance.
   glm::vec3 triple(const char* key) {
     if (!has(key)) return glm::vec3(0.0f);
@@ -103,7 +110,9 @@ Value sun_extras(const Sun& sun) {
 }
 
 Value lamp_extras(const Light& light) {
-  return under_key({{"lamp", Value(Value::Object{{"radius", number(light.radius)}})}});
+  Value::Object members{{"radius", number(light.radius)}};
+  if (!light.baked) members["baked"] = Value(false);
+  return under_key({{"lamp", Value(std::move(members))}});
 }
 
 void add_instance_extras(Value& extras, const Instance& instance) {
@@ -139,11 +148,12 @@ std::optional<SunExtras> read_sun_extras(const Value& extras, const std::string&
   return out;
 }
 
-std::optional<float> read_lamp_radius(const Value& extras, const std::string& where,
-                                      std::vector<std::string>& warnings) {
+void read_lamp_extras(const Value& extras, const std::string& where, Light& light,
+                      std::vector<std::string>& warnings) {
   Reader reader(extras, where, warnings);
-  if (!reader.enter("lamp") || !reader.has("radius")) return {};
-  return static_cast<float>(reader.number("radius", Reader::kLargest, Light{}.radius));
+  if (!reader.enter("lamp")) return;
+  light.radius = static_cast<float>(reader.number("radius", Reader::kLargest, light.radius));
+  light.baked = reader.flag("baked", light.baked);
 }
 
 std::optional<std::uint8_t> read_instance_mask(const Value& extras, const std::string& where,

@@ -45,8 +45,8 @@ std::optional<SceneExtras> read_scene_extras(const tinygltf::Value& extras,
                                              std::vector<std::string>& warnings);
 std::optional<SunExtras> read_sun_extras(const tinygltf::Value& extras, const std::string& where,
                                          std::vector<std::string>& warnings);
-std::optional<float> read_lamp_radius(const tinygltf::Value& extras, const std::string& where,
-                                      std::vector<std::string>& warnings);
+void read_lamp_extras(const tinygltf::Value& extras, const std::string& where, Light& light,
+                      std::vector<std::string>& warnings);
 std::optional<std::uint8_t> read_instance_mask(const tinygltf::Value& extras,
                                                const std::string& where,
                                                std::vector<std::string>& warnings);

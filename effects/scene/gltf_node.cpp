@@ -395,8 +395,7 @@ Status NodeReader::light(const tinygltf::Node& node, const std::string& where,
       std::clamp(static_cast<float>(from.spot.innerConeAngle), 0.0f, to.outer_cone_angle);
   to.position = glm::dvec3(world[3]);
   to.direction = glm::vec3(-axis(world, 2, {0, 0, 1}));
-  if (const auto radius = read_lamp_radius(node.extras, where, reader_.warnings))
-    to.radius = *radius;
+  read_lamp_extras(node.extras, where, to, reader_.warnings);
   if (to.type == LightType::kDirectional && !reader_.sun) {
     if (const auto sun = read_sun_extras(node.extras, where, reader_.warnings))
       reader_.sun = {reader_.scene.lights.size(), *sun};

@@ -93,6 +93,7 @@ void expect_same_light(const Scene& a, const Scene& b) {
     EXPECT_EQ(x.type, y.type) << x.name;
     EXPECT_EQ(x.position, y.position) << x.name;
     EXPECT_EQ(x.radius, y.radius) << x.name;
+    EXPECT_EQ(x.baked, y.baked) << x.name;
     EXPECT_EQ(x.range, y.range) << x.name;
     EXPECT_EQ(x.direction, y.direction) << x.name;
     const glm::vec3 p = x.color * x.intensity, q = y.color * y.intensity;
@@ -193,6 +194,7 @@ Scene awkward_scene() {
   spot.direction = glm::normalize(glm::vec3(1, -2, 0.3f));
   spot.position = {1e3, 2, 3};
   spot.radius = 0.0f;
+  spot.baked = false;
   scene.lights.push_back(spot);
   Light moon;
   moon.name = "moon";
@@ -220,6 +222,7 @@ TEST(GltfRoundTrip, AnAwkwardSceneKeepsTheRulesAndComesBack) {
   for (int c = 0; c < 4; ++c) EXPECT_LT(glm::distance(x[c], y[c]), 1e-13) << c;
   ASSERT_EQ(back.lights.size(), 2u);
   EXPECT_EQ(back.lights[0].radius, 0.0f);
+  EXPECT_FALSE(back.lights[0].baked);
   EXPECT_EQ(back.lights[0].direction, scene.lights[0].direction);
   const glm::vec3 intensity = back.lights[0].color * back.lights[0].intensity;
   EXPECT_LT(glm::distance(intensity, scene.lights[0].color), 1e-5f);

@@ -216,7 +216,8 @@ TEST(GltfLoad, CamerasAndLights) {
   file.nodes =
       R"([{"mesh":0},{"camera":0,"translation":[0,2,9],"scale":[3,3,3]},)"
       R"({"extensions":{"KHR_lights_punctual":{"light":0}},"rotation":[-0.70710678,0,0,0.70710678]},)"
-      R"({"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[1,2,3]}])";
+      R"({"extensions":{"KHR_lights_punctual":{"light":1}},"translation":[1,2,3],)"
+      R"("extras":{"kaamos":{"lamp":{"baked":false}}}}])";
   file.more =
       R"(,"cameras":[{"type":"perspective","name":"c","perspective":{"yfov":0.7,"znear":0.1}}],)"
       R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[)"
@@ -236,6 +237,7 @@ TEST(GltfLoad, CamerasAndLights) {
   EXPECT_EQ(scene.lights[0].type, LightType::kSpot);
   EXPECT_EQ(scene.lights[0].position, glm::dvec3(1, 2, 3));
   EXPECT_EQ(scene.lights[0].outer_cone_angle, 0.5f);
+  EXPECT_FALSE(scene.lights[0].baked);
 }
 
 // There is one sun: the strongest directional light. Loading names those that do not count.

@@ -157,7 +157,7 @@ std::vector<RaytracingInstanceDesc> instance_descs(const Scene& scene, const Gpu
     const glm::mat3x4 rows = transform_3x4(instance, origin);
     std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
     desc.InstanceID = i & 0xFFFFFFu;
-    desc.InstanceMask = instance.mask;
+    desc.InstanceMask = instance_mask(instance);
     desc.InstanceContributionToHitGroupIndex =
         (first_geometry[instance.mesh] * kRayTypeCount) & 0xFFFFFFu;
     // The traversal of opaque instances never looks for an any-hit shader. [Northlight deck:

@@ -50,6 +50,16 @@ glm::mat3x4 transform_3x4(const Instance& instance, const glm::dvec3& origin) {
   return glm::mat3x4(glm::transpose(m));
 }
 
+bool is_baked(const Instance& instance) {
+  constexpr unsigned kUnseen = kMaskTransparent | kMaskEmissiveProxy | kMaskBaked;
+  return (instance.mask & ~kUnseen) != 0 && instance.motion == Motion{};
+}
+
+std::uint8_t instance_mask(const Instance& instance) {
+  const unsigned own = instance.mask & ~unsigned{kMaskBaked};
+  return static_cast<std::uint8_t>(is_baked(instance) ? own | kMaskBaked : own);
+}
+
 bool is_mirrored(const Instance& instance) {
   return glm::determinant(glm::dmat3(instance.transform)) < 0.0;
 }

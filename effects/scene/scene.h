@@ -27,6 +27,8 @@ enum InstanceMask : std::uint8_t {
   /// Shows a lamp of the scene, whose light is counted as the lamp's: the camera and mirrors see
   /// it, all other rays pass through it.
   kMaskEmissiveProxy = 0x10,
+  /// What the bake of indirect light sees. Not set by hand: instance_mask follows is_baked.
+  kMaskBaked = 0x20,
 };
 
 /// What an acceleration structure is built for. [Northlight deck: Build Flags]
@@ -56,6 +58,12 @@ struct Instance {
   BuildClass build_class = BuildClass::kStatic;
 };
 
+/// Whether the bake of indirect light sees an instance: one that stands still and is neither glass
+/// nor the shape of a lamp.
+bool is_baked(const Instance& instance);
+/// The mask of an instance in the top level: its own, and kMaskBaked where is_baked says so.
+std::uint8_t instance_mask(const Instance& instance);
+
 /// How a light shines. [KHR_lights_punctual]
 enum class LightType : std::uint8_t { kDirectional, kPoint, kSpot };
 
@@ -84,6 +92,7 @@ struct Light {
   float outer_cone_angle = 0.785398f;
   ///@}
   float radius = 0.02f;  ///< of the sphere that soft shadows sample, metres
+  bool baked = true;     ///< indirect light has it; false for one that is switched or moves
 };
 
 /// Angular radius of the real sun as seen from the earth. [effects-spec B0.4]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Indirect light, stored in the cells of a sparse volume: per cell and colour a mean and a slope
-// over directions (spherical harmonics up to degree 1). [effects-spec B5.1]
+// over directions (spherical harmonics up to degree 1). Cells are small where there is geometry and
+// larger away from it, so that every place of the scene has one. [effects-spec B5.1]
 #ifndef KAAMOS_INDIRECT_VOLUME_HLSLI
 #define KAAMOS_INDIRECT_VOLUME_HLSLI
 
@@ -9,8 +10,8 @@
 // effects/indirect_diffuse/volume.h has the same layouts and binds all three buffers to a pass.
 struct VolumeConstants {
   float3 origin;    // of the corner of cell (0, 0, 0), relative to the camera
-  float cell;       // metres
-  uint3 bricks;     // along each axis of the grid
+  float cell;       // metres, of the finest cells (level 0)
+  uint3 bricks;     // of level 0 along each axis of the grid
   uint enabled;     // 0: there is no volume
   float over_cell;  // 1 / cell
 };
@@ -20,8 +21,8 @@ struct VolumeConstants {
 // A cell has 32 bytes, two to a cache line, because rays end anywhere and read cells from memory.
 // The upper 21 bits of a word are the top of a red (or green) float; the lower 11 bits are one half
 // of blue's upper 22: sign, exponent and 12 or 13 bits of mantissa. Light is never negative, so the
-// sign of red's mean marks a cell inside a solid. effects/indirect_diffuse/packed_cell.h is the
-// same for the host.
+// sign of red's mean marks a cell inside a solid. Such a cell holds the light of cells around it.
+// effects/indirect_diffuse/packed_cell.h is the same for the host.
 static const uint kUpper = 0xFFFFF800;
 struct VolumeCell {
   uint4 red;    // mean, slope
@@ -40,24 +41,40 @@ struct VolumeLight {
   float weight;  // divide the sums by it; 0: nothing is stored here
 };
 
-StructuredBuffer<uint> volume_bricks : register(t0, space3);  // a brick's first cell, or kNoBrick
+// By place in the grid of level 0: where the cells of the brick that is stored there start, plus the
+// brick's level; or kNoBrick. The cells of level n are 2^n times as large as those of level 0.
+StructuredBuffer<uint> volume_bricks : register(t0, space3);
 StructuredBuffer<VolumeCell> volume_cells : register(t1, space3);
 StructuredBuffer<VolumeConstants> volume_constants : register(t2, space3);
 
 static const uint kBrickCells = 8;  // along each axis
 static const uint kNoBrick = 0xFFFFFFFF;
+static const uint kBrickLevelBits = 0x1FF;  // bricks start at multiples of 8 x 8 x 8 cells
 
-// Reads a cell by its place in the grid. False: it lies outside, is not stored or lies in a solid.
-bool LoadVolumeCell(uint3 cell, uint3 bricks, out VolumeCell stored) {
-  stored.red = stored.green = uint4(0, 0, 0, 0);
-  if (any(cell >= bricks * kBrickCells)) return false;
+// Further away, in cells of level 0, the conversion to integers would overflow.
+static const float kFarthestCell = 1e9;
+
+// The brick that is stored at a cell of level 0; kNoBrick outside of the grid, too.
+uint FindBrick(uint3 cell, uint3 bricks) {
+  // Negative coordinates wrap to large ones, which are outside.
+  if (any(cell >= bricks * kBrickCells)) return kNoBrick;
   const uint3 brick = cell / kBrickCells;
-  const uint3 place = cell % kBrickCells;
-  const uint start = volume_bricks[brick.x + bricks.x * (brick.y + bricks.y * brick.z)];
-  if (start == kNoBrick) return false;
-  stored = volume_cells[start + place.x + kBrickCells * (place.y + kBrickCells * place.z)];
-  return int(stored.red.x) >= 0;
+  return volume_bricks[brick.x + bricks.x * (brick.y + bricks.y * brick.z)];
 }
+
+uint BrickLevel(uint brick) { return brick & kBrickLevelBits; }
+
+// The size of a brick's cells in cells of level 0: 2 to the power of its level.
+float BrickCellSize(uint brick) { return asfloat((127 + BrickLevel(brick)) << 23); }
+
+// Reads the cell of a brick that contains a cell of level 0.
+VolumeCell LoadVolumeCell(uint brick, uint3 cell) {
+  const uint3 place = (cell >> BrickLevel(brick)) % kBrickCells;
+  return volume_cells[(brick & ~kBrickLevelBits) + place.x +
+                      kBrickCells * (place.y + kBrickCells * place.z)];
+}
+
+bool IsInSolid(VolumeCell cell) { return int(cell.red.x) < 0; }
 
 void AddVolumeCell(inout VolumeLight sum, VolumeCell cell, float weight) {
   sum.red += weight * CellRed(cell);
@@ -73,44 +90,69 @@ VolumeLight NoVolumeLight() {
   return light;
 }
 
-// Trilinear interpolation of the eight cells about a point, without those in solids or not stored.
-VolumeLight SampleVolume(float3 position) {
+// Trilinear interpolation of the eight cells about `at`, given in cells of level 0, without those in
+// solids unless `with_solids`. The point's own brick sets the distance of the eight. Where a
+// neighbouring brick is finer, a single one of its cells stands for the eighth: the one in the
+// middle of the part of a cell-sized box about the point that lies there.
+VolumeLight InterpolateVolume(float3 at, float size, uint3 bricks, bool with_solids) {
   VolumeLight sum = NoVolumeLight();
-  const VolumeConstants volume = volume_constants[0];
-  if (volume.enabled == 0) return sum;
-  const float3 at = (position - volume.origin) * volume.over_cell - 0.5;
-  // Far away the conversion to integers would overflow.
-  if (any(abs(at) > 1e6)) return sum;
-  const float3 corner = floor(at);
-  const float3 part = at - corner;
+  const float3 middle = floor(at / size + 0.5) * size;  // the corner that the eight share
+  const float3 part = (at - middle) / size + 0.5;
   for (uint i = 0; i < 8; ++i) {
-    const uint3 offset = uint3(i & 1, (i >> 1) & 1, i >> 2);
-    VolumeCell cell;
-    // Negative coordinates wrap to large ones, which are outside.
-    if (!LoadVolumeCell(uint3(int3(corner)) + offset, volume.bricks, cell)) continue;
-    const float3 share = select(offset != 0, part, 1.0 - part);
-    AddVolumeCell(sum, cell, share.x * share.y * share.z);
+    const float3 side = float3(i & 1, (i >> 1) & 1, i >> 2);
+    const uint3 cell = uint3(int3(floor(middle + (0.5 * size) * (part + side - 1.0))));
+    const uint brick = FindBrick(cell, bricks);
+    if (brick == kNoBrick) continue;
+    VolumeCell stored = LoadVolumeCell(brick, cell);
+    if (IsInSolid(stored)) {
+      if (!with_solids) continue;
+      stored.red.x &= 0x7FFFFFFF;
+    }
+    const float3 share = abs(side + part - 1.0);
+    AddVolumeCell(sum, stored, share.x * share.y * share.z);
   }
   // A weight that is mere rounding error must not become a divisor.
   if (sum.weight < 1e-3) sum.weight = 0.0;
   return sum;
 }
 
-// Only the cell that contains the point; weight 0 if it is in a solid, not stored or outside.
-VolumeLight SampleVolumeCell(float3 position) {
+// The eight cells about a point; weight 0 outside of the volume.
+VolumeLight SampleVolume(float3 position) {
+  const VolumeConstants volume = volume_constants[0];
+  const float3 at = (position - volume.origin) * volume.over_cell;
+  if (volume.enabled == 0 || any(abs(at) > kFarthestCell)) return NoVolumeLight();
+  const uint brick = FindBrick(uint3(int3(floor(at))), volume.bricks);
+  const float size = brick == kNoBrick ? 1.0 : BrickCellSize(brick);
+  VolumeLight light = InterpolateVolume(at, size, volume.bricks, false);
+  // All of them in solids: what those hold is better than the sky.
+  if (light.weight == 0.0 && brick != kNoBrick) {
+    light = InterpolateVolume(at, size, volume.bricks, true);
+  }
+  return light;
+}
+
+// Only the cell at the point plus `jitter` cells; weight 0 if it is in a solid or outside of the
+// volume.
+VolumeLight SampleVolumeCell(float3 position, float3 jitter) {
   VolumeLight light = NoVolumeLight();
   const VolumeConstants volume = volume_constants[0];
-  if (volume.enabled == 0) return light;
-  const float3 at = floor((position - volume.origin) * volume.over_cell);
-  if (any(abs(at) > 1e6)) return light;
-  VolumeCell cell;
-  if (LoadVolumeCell(uint3(int3(at)), volume.bricks, cell)) AddVolumeCell(light, cell, 1.0);
+  const float3 at = (position - volume.origin) * volume.over_cell;
+  if (volume.enabled == 0 || any(abs(at) > kFarthestCell)) return light;
+  uint3 cell = uint3(int3(floor(at + jitter)));
+  uint brick = FindBrick(cell, volume.bricks);
+  if (BrickLevel(brick) != 0 && brick != kNoBrick) {
+    cell = uint3(int3(floor(at + jitter * BrickCellSize(brick))));
+    brick = FindBrick(cell, volume.bricks);
+  }
+  if (brick == kNoBrick) return light;
+  const VolumeCell stored = LoadVolumeCell(brick, cell);
+  if (!IsInSolid(stored)) AddVolumeCell(light, stored, 1.0);
   return light;
 }
 
 // Light stored for `direction`: the mean plus `slope_scale` times the directional part, or the
-// sky's where nothing is stored. `jitter`, uniform in -0.5..0.5 along each axis, picks a single
-// cell with the probability of its trilinear weight; if that cell is empty, all eight are read.
+// sky's outside of the volume. `jitter`, uniform in -0.5..0.5 along each axis, picks a single cell
+// with the probability of its trilinear weight; if that cell is in a solid, all eight are read.
 // Averaged over jitters the result is that of all eight cells, for a quarter of the work. [Pharr et
 // al. 2024, Filtering After Shading with Stochastic Texture Filtering]
 static const float3 kEveryCell = float3(1, 1, 1);  // as a jitter: reads all eight, without noise
@@ -118,9 +160,7 @@ static const float3 kEveryCell = float3(1, 1, 1);  // as a jitter: reads all eig
 float3 VolumeTowards(float3 position, float3 jitter, float3 direction, float slope_scale) {
   VolumeLight light;
   light.weight = 0.0;
-  if (jitter.x < kEveryCell.x) {
-    light = SampleVolumeCell(position + jitter * volume_constants[0].cell);
-  }
+  if (jitter.x < kEveryCell.x) light = SampleVolumeCell(position, jitter);
   if (light.weight == 0.0) light = SampleVolume(position);
   if (light.weight == 0.0) return SkyTowards(direction);
   const float4 terms = float4(1.0, direction * slope_scale);

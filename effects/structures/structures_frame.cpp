@@ -199,7 +199,7 @@ void StructureManager::write_instances(std::span<const InstanceState> states,
     const glm::mat3x4 rows = transform_3x4(now, origin);
     std::memcpy(desc.Transform, &rows, sizeof desc.Transform);
     desc.InstanceID = static_cast<std::uint32_t>(i) & 0xFFFFFFu;
-    desc.InstanceMask = now.mask;
+    desc.InstanceMask = instance_mask(now);
     const std::size_t first_record = body ? body->first_record : meshes_[now.mesh].first;
     desc.InstanceContributionToHitGroupIndex =
         static_cast<std::uint32_t>(first_record * kRayTypeCount) & 0xFFFFFFu;
