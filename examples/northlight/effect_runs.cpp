@@ -42,8 +42,8 @@ FloatImage first_channels(const FloatImage& image, std::uint32_t channels) {
 std::string volume_key(const Options& options) {
   std::error_code ignored;
   const VolumeSettings& volume = options.frame.volume;
-  std::string text = fmt::format("{} {} {} {}", options.scene, volume.cell.value_or(0),
-                                 volume.samples, options.frame.seed);
+  std::string text = fmt::format("{} {} {} {} {} {}", options.scene, volume.cell.value_or(0),
+                                 volume.samples, volume.error, volume.lights, options.frame.seed);
   for (const std::string& material : options.materials) text += " " + material;
   for (const std::string& file : {options.scene, std::string("/proc/self/exe")}) {
     const auto time = std::filesystem::last_write_time(file, ignored);

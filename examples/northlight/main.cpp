@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <string>
@@ -93,15 +94,33 @@ bool override_materials(const Options& options, Scene& scene) {
   return true;
 }
 
+// How long a pass that is partly done will still take, at the speed that it has had so far.
+std::string time_left(const std::string& pass, double done) {
+  using Clock = std::chrono::steady_clock;
+  static std::string current;
+  static Clock::time_point start;
+  static double done_at_start = 0;
+  if (pass != current || done < done_at_start) {
+    current = pass;
+    start = Clock::now();
+    done_at_start = done;
+  }
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+  if (elapsed < 2 || done >= 1 || done <= done_at_start) return "";
+  char text[32];
+  std::snprintf(text, sizeof text, ", %.0f s left", elapsed * (1 - done) / (done - done_at_start));
+  return text;
+}
+
 // A progress bar on a terminal, nothing in a log. False after Ctrl-C.
 bool show_progress(const std::string& pass, double done) {
   static const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!terminal) return !stop_requested;
   constexpr int kWidth = 40;
   const int filled = static_cast<int>(done * kWidth);
-  std::fprintf(stderr, "\r%-20s [%.*s%*s] %3.0f %%%s", pass.c_str(), filled,
+  std::fprintf(stderr, "\r%-20s [%.*s%*s] %3.0f %%%-16s%s", pass.c_str(), filled,
                "########################################", kWidth - filled, "", done * 100,
-               done >= 1 ? "\n" : "");
+               time_left(pass, done).c_str(), done >= 1 ? "\n" : "");
   std::fflush(stderr);
   return !stop_requested;
 }

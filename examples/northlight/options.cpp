@@ -40,6 +40,7 @@ struct Words {
   std::optional<std::uint32_t> denoise_passes;
   std::vector<std::string> half_resolution;
   std::string gi_mode = "near-field";
+  std::vector<std::string> bake_lights;
   std::string sort_rays;
   std::string texture_lod = "cone";
   float contact_length = ContactShadowConstants().length;
@@ -52,6 +53,17 @@ struct Words {
   std::uint32_t glass_layers = 1;
   float sun_angle = 0;  // the whole disk, degrees
 };
+
+std::uint32_t baked_lights(const std::vector<std::string>& names) {
+  std::uint32_t lights = 0;
+  for (const std::string& name : names) {
+    lights |= name == "sun"     ? kBakeSun
+              : name == "sky"   ? kBakeSky
+              : name == "local" ? kBakeLocal
+                                : kBakeEmissive;
+  }
+  return lights;
+}
 
 std::string parse_size(const std::string& text, Options& options) {
   unsigned width = 0;
@@ -271,6 +283,7 @@ void apply(const Words& words, Options& options) {
   IndirectConstants indirect;
   indirect.mode = indirect_mode(words.gi_mode);
   indirect.length = words.gi_length;
+  if (!words.bake_lights.empty()) frame.volume.lights = baked_lights(words.bake_lights);
   options.effects.at("gi").set_constants(indirect);
   ReflectionConstants reflection;
   reflection.firefly_limit = words.firefly_limit;
@@ -391,9 +404,17 @@ std::optional<Options> parse_options(int argc, char** argv, int& exit_code) {
   app.add_option("--gi-cell", options.frame.volume.cell,
                  "cells of the volume of indirect light, in metres (0.25, larger in large scenes)")
       ->check(CLI::Range(1e-3f, 1e3f));
-  app.add_option("--gi-bake-samples", options.frame.volume.samples, "paths per cell")
+  app.add_option("--gi-bake-samples", options.frame.volume.samples, "paths per cell, at most")
       ->capture_default_str()
       ->check(CLI::Range(1u, kMaxSamples));
+  app.add_option("--gi-bake-error", options.frame.volume.error,
+                 "relative standard error that is enough for a cell; 0: all paths")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0f, 1.0f));
+  app.add_option("--gi-bake-lights", words.bake_lights,
+                 "lights that the volume holds, comma-separated: sun, sky, local, emissive (all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"sun", "sky", "local", "emissive"}));
   app.add_option("--gi-volume", options.frame.volume.file,
                  "file of the volume: read if it exists, otherwise baked and written");
   app.add_option("--gi-length", words.gi_length, "length of indirect light's rays, in metres")

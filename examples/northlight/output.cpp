@@ -150,6 +150,12 @@ nlohmann::ordered_json statistics(const Options& options, const Scene& scene,
                               {"bytes", pass.bytes},
                               {"mrays_per_s", pass.ms > 0 ? rays / pass.ms / 1000 : 0.0}});
   }
+  if (const auto& bake = renderer.bake()) {
+    json["bake"] = {{"seconds", bake->seconds},     {"cells", bake->cells},
+                    {"in_solids", bake->in_solids}, {"at_bound", bake->at_bound},
+                    {"paths", bake->paths},         {"error", bake->error},
+                    {"bytes", bake->bytes}};
+  }
   json["left_out"] = result.left_out;
   return json;
 }
@@ -295,6 +301,15 @@ std::string describe(const FrameRenderer& renderer, const FrameResult& result) {
                        pass.rays.TraceRayCalls, pass.rays.Hits, pass.rays.AnyHitInvocations,
                        pass.ms > 0 ? rays / pass.ms / 1000 : 0.0,
                        pass.bytes == 0 ? "" : fmt::format("{:.1f}", mebibytes(pass.bytes)));
+  }
+  if (const auto& bake = renderer.bake()) {
+    out += fmt::format(
+        "baked {} cells in {:.1f} s with {:.0f} paths each, good to {:.1f} % on average; {:.1f} "
+        "MiB\n",
+        bake->cells, bake->seconds,
+        static_cast<double>(bake->paths) /
+            static_cast<double>(std::max<std::uint64_t>(bake->cells, 1)),
+        100 * bake->error, mebibytes(bake->bytes));
   }
   for (const std::string& part : result.left_out) out += "left out: " + part + "\n";
   if (!result.left_out.empty()) out += "--measure-left-out shows what this saves\n";
