@@ -67,6 +67,19 @@ struct Services {
     Replay::Frame& frame = frame_of(caller);
     frame.replay->trace_ray(frame, arguments, payload, ray);
   }
+  // Rays of a shader that runs several invocations at once; here only the explained one is active.
+  static void trace_rays(shader::Invocation& caller, const shader::TraceRayArguments& arguments,
+                         void* payloads, const shader::LaneRays& rays, uint32_t lanes) {
+    const uint32_t first = caller.index[0];
+    auto* payload = static_cast<std::byte*>(payloads);
+    for (int lane = 0; lane < shader::kLanes; ++lane, payload += arguments.payload_bytes) {
+      if ((lanes >> lane & 1) == 0) continue;
+      caller.index[0] = first + static_cast<uint32_t>(lane);
+      trace_ray(caller, arguments, payload, shader::origin_t_min(rays, lane),
+                shader::direction_t_max(rays, lane));
+    }
+    caller.index[0] = first;
+  }
   static shader::ReportHitResult report_hit(shader::Invocation& caller, float t, uint32_t hit_kind,
                                             const void* attributes, uint32_t bytes) {
     Replay::Frame& frame = frame_of(caller);
@@ -95,6 +108,7 @@ namespace {
 shader::Services make_services() {
   shader::Services table = {};
   table.trace_ray = Services::trace_ray;
+  table.trace_rays = Services::trace_rays;
   table.report_hit = Services::report_hit;
   table.call_shader = Services::call_shader;
   table.begin_query = Services::begin_query;

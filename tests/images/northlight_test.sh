@@ -88,6 +88,13 @@ pixel=$("$northlight" --size 64x36 --out "$work/none" --pixel 32,18) || fail "--
 grep -Eq '^ao +[0-9.]+$' <<< "$pixel" || fail "--pixel does not show ao: $pixel"
 [ ! -e "$work/none" ] || fail "--pixel wrote files"
 
+# Scenes without alpha-tested geometry run their rays eight at a time, which is explained too.
+for scene in lounge glass-stack; do
+  said=$("$northlight" --scene $scene --size 64x36 --effects ao --explain 32,18) || fail "--explain in $scene"
+  grep -q 'TraceRay\|ray 0\|hit' <<< "$said" || fail "--explain in $scene shows no rays: $said"
+  grep -q 'ended:' <<< "$said" && fail "--explain in $scene: $said"
+done
+
 # A complete run, then one that fails and one that is interrupted: the results stay.
 small=(--size 64x36 --out "$work/out")
 "$northlight" "${small[@]}" > /dev/null || fail "a plain run"
