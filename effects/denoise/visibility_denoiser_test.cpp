@@ -209,6 +209,22 @@ TEST_P(VisibilityDenoiserTest, AShadowThatMovesLeavesNoTrail) {
   }
 }
 
+// A shadow that passes by for one frame, half over each pixel. Nothing is in the way in the next
+// frame, and its half light is no penumbra.
+TEST_P(VisibilityDenoiserTest, AShadowThatPassesByIsGone) {
+  const auto open = [](auto, auto) { return 1.0f; };
+  const auto band = [](auto x, auto) { return x > 20 && x < 32 ? 0.5f : 1.0f; };
+  for (const DenoiseMethod method : kMethods) {
+    VisibilityDenoiser denoiser = make(method);
+    for (int frame = 0; frame < 7; ++frame) run(denoiser, open, kHard, true);
+    run(denoiser, band, kHard, true);
+    const FloatImage out = run(denoiser, open, kHard, true);
+    for_surface([&](auto x, auto y) {
+      ASSERT_GT(out.at(x, y), 0.99f) << static_cast<int>(method) << " " << x << "," << y;
+    });
+  }
+}
+
 TEST_P(VisibilityDenoiserTest, WhatIsNotFiniteIsDarkInItsPixelOnly) {
   for (const DenoiseMethod method : kMethods) {
     VisibilityDenoiser denoiser = make(method);

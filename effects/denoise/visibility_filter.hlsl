@@ -32,11 +32,11 @@ RWTexture2D<float4> drawn[kMostChannels] : register(u4, space3);
 // Accumulated over frames. x: visibility, y: frames, z: how much resampling has blurred it, the
 // square of a deviation in pixels, w: the light.
 RWTexture2D<float4> history[kMostChannels] : register(u8, space3);
-// The same where the surfaces are now, and w: whether a shadow near them moved.
+// The same where the surfaces are now, and w: whether a shadow near them moved, 0 to 1.
 RWTexture2D<float4> past[kMostChannels] : register(u12, space3);
 RWTexture2D<float4> accumulated[kMostChannels] : register(u16, space3);
 // Of the neighbourhood. x: blocked part, y: 1 / radius times the blocked part, z: the part that is
-// blocked by what moves.
+// blocked by what moves, or was a few frames ago.
 RWTexture2D<float4> blockers[kMostChannels] : register(u20, space3);
 RWTexture2D<float4> filtered[kMostChannels] : register(u24, space3);
 
@@ -246,8 +246,9 @@ float SampleCubic(Before before, int s, float light) {
   return saturate(sum);
 }
 
-// Blur by a cubic curve as a part of that by a linear one.
-static const float kCubicBlur = 0.2;
+// Blur by a cubic curve as a part of that by a linear one, in a penumbra of this radius in pixels.
+// Its error is of the fourth order, so wide penumbras hardly have any.
+float CubicBlur(float radius) { return clamp(0.06 / (radius * radius), 0.02, 1.0); }
 
 // Brings the history to where the surfaces are now: into past, with no frames where a surface was
 // not visible or was lit by another light.
@@ -287,11 +288,11 @@ void ReprojectVisibility(uint3 id : SV_DispatchThreadID) {
       const float cubic = SampleCubic(before, s, light);
       if (cubic >= 0.0) {
         sum.x = cubic;
-        blur *= kCubicBlur;
+        blur *= CubicBlur(PenumbraRadius(s, pixel, Footprint(guides[pixel].w, size), kWidest));
       }
     }
     past[s][pixel] = float4(saturate(sum.x), min(sum.y, float(constants.max_history)),
-                            sum.z + blur, moved > 0.0 ? 1.0 : 0.0);
+                            sum.z + blur, saturate(moved));
   }
 }
 
@@ -333,11 +334,16 @@ float OutdatedPart(int s, int2 pixel, int2 size, Surface surface, float radius) 
   const float prior = moves ? clamp(0.25 * radius * radius, 0.01, 0.5) : 0.5;
   const float rays = pixels * frames;
   const float p = (before * rays + prior) / (rays + 2.0 * prior);
-  const float deviation = sqrt(p * (1.0 - p) * (1.0 / pixels + 1.0 / rays));
+  float deviation = sqrt(p * (1.0 - p) * (1.0 / pixels + 1.0 / rays));
+  // Half lit where nothing is: that is a shadow that has gone on, not noise.
+  if (moves) deviation *= clamp(radius, 0.1, 1.0);
   // There a shadow that trails is worse than noise.
   const float allowed = moves ? kClipOfMoving * constants.clip : constants.clip;
   return saturate(abs(now - before) / deviation - allowed);
 }
+
+static const float kMemory = 0.5;       // of what moved, from frame to frame
+static const float kForgotten = 1e-3;
 
 [shader("compute")]
 [numthreads(8, 8, 1)]
@@ -349,6 +355,9 @@ void AccumulateVisibility(uint3 id : SV_DispatchThreadID) {
   for (int s = 0; s < constants.channels; ++s) {
     const float4 now = drawn[s][pixel];
     const float4 before = past[s][pixel];
+    // A shadow that has gone on stays in mind until nothing of it is left in the history.
+    const float fading = kMemory * before.w;
+    if (fading > kForgotten) blockers[s][pixel].z = max(blockers[s][pixel].z, fading);
     if (before.y == 0.0) {
       accumulated[s][pixel] = float4(now.x, 1.0, 0.0, now.w);
       continue;
@@ -356,7 +365,9 @@ void AccumulateVisibility(uint3 id : SV_DispatchThreadID) {
     float alpha = max(constants.alpha, 1.0 / (before.y + 1.0));
     const float radius = PenumbraRadius(s, pixel, surface.footprint, kWidest);
     if (constants.clip > 0.0) {
-      alpha = max(alpha, OutdatedPart(s, pixel, size, surface, radius));
+      // Where something moved and nothing is in the way any more, no penumbra is left.
+      const float tested = before.w > 0.0 && radius == kWidest ? 0.0 : radius;
+      alpha = max(alpha, OutdatedPart(s, pixel, size, surface, tested));
     }
     // Resampling must not blur more than the filter may.
     const float allowed = constants.reach * constants.reach * radius * radius;
