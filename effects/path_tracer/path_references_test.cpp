@@ -65,14 +65,16 @@ TEST_P(CommittedReference, IsWhatIsTracedToday) {
   }
 }
 
+std::string file_name_of(const testing::TestParamInfo<std::string>& info) {
+  std::string name = std::filesystem::path(info.param).stem().string();
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  }
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(Files, CommittedReference, testing::ValuesIn(reference_files()),
-                         [](const testing::TestParamInfo<std::string>& info) {
-                           std::string name = std::filesystem::path(info.param).stem().string();
-                           for (char& c : name) {
-                             if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-                           }
-                           return name;
-                         });
+                         file_name_of);
 
 }  // namespace
 }  // namespace kaamos::effects

@@ -103,7 +103,7 @@ rtapi::Status write_pictures(const Options& options, const Scene& scene, const P
                     {"seed", std::to_string(options.frame.seed)},
                     {"samples", std::to_string(sums.samples[0] + sums.samples[1])},
                     {"seconds", options.seconds ? fmt::format("{:.9g}", *options.seconds) : "none"},
-      {"bounces", options.bounces ? std::to_string(*options.bounces) : "unlimited"}};
+                    {"bounces", options.bounces ? std::to_string(*options.bounces) : "unlimited"}};
   for (const PathSums::Layer& layer : sums.layers) {
     const FloatImage mean = sums.mean(layer);
     exr.attributes["error." + layer.name] = fmt::format("{:.6g}", sums.error(layer));
