@@ -2,7 +2,8 @@
 // The reference: paths from the camera, next-event estimation of every light, multiple importance
 // sampling, Russian roulette. README.md has the equations; every light and lobe that the frame
 // treats on its own is a layer here.
-#include "alpha_test.hlsli"
+#include "path_glass.hlsli"
+#include "path_hit.hlsli"
 #include "path_lights.hlsli"
 #include "path_sampler.hlsli"
 
@@ -36,12 +37,9 @@ struct PathConstants {
 };
 ConstantBuffer<PathConstants> constants : register(b0, space3);
 
-static const uint kGlassOnly = 0x02;  // [effects/scene/scene.h: InstanceMask]
 // Bounces before Russian roulette may end a path.
 static const uint kSafeBounces = 3;
 static const float kSurest = 0.95;
-// Panes behind one another that a path walks through.
-static const uint kMaxPanes = 64;
 
 static const uint kLightsOnly = 1;
 static const uint kDirectionsOnly = 2;
@@ -58,121 +56,6 @@ float DirectionShare(float density, float other) {
   if (constants.ways == kDirectionsOnly) return 1.0;
   if (constants.ways == kLightsOnly) return other > 0.0 ? 0.0 : 1.0;
   return ShareOf(density, other);
-}
-
-struct PathHit {
-  float3 position;
-  float offset;
-  float3 normal;
-  float distance;  // negative: a miss
-  float3 shading_normal;
-  float roughness;
-  float3 base_color;
-  float metallic;
-  float3 emissive;
-  float emitter_density;  // of SampleEmitter at this point, 1/m^2
-  float opacity;
-  uint is_glass_ray;
-  uint is_camera_ray;     // textures are filtered over the pixel
-};
-
-PathHit NoHit() {
-  PathHit hit;
-  hit.position = hit.normal = hit.shading_normal = hit.base_color = hit.emissive = float3(0, 0, 0);
-  hit.offset = hit.roughness = hit.metallic = hit.emitter_density = hit.opacity = 0.0;
-  hit.distance = -1.0;
-  hit.is_glass_ray = hit.is_camera_ray = 0;
-  return hit;
-}
-
-[shader("miss")]
-void PathTracerMiss(inout PathHit payload) {
-  payload.distance = -1.0;
-}
-
-// Single-sided glass is seen from its front only.
-bool IsSeenGlass(float2 barycentrics) {
-  const MaterialConstants material = materials[hit_constants.material_id];
-  const uint3 corners = LoadTriangle(indices, hit_constants.index_size_bytes, PrimitiveIndex());
-  if ((material.flags & kMaterialDoubleSided) == 0) {
-    const float3 p0 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.x);
-    const float3 p1 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.y);
-    const float3 p2 = LoadVertexFloat3(vertices, hit_constants.vertex_stride, 0, corners.z);
-    if (dot(ObjectRayDirection(), cross(p1 - p0, p2 - p0)) > 0.0) return false;
-  }
-  const float2 uv = LoadUv(vertices, hit_constants, corners, barycentrics);
-  return material.base_color.a * SampleMaterial(material, kBaseColorTexture, uv, kFinestLevel).a > 0.0;
-}
-
-[shader("anyhit")]
-void PathTracerAnyHit(inout PathHit payload, in BuiltInTriangleIntersectionAttributes hit) {
-  if (payload.is_glass_ray != 0) {
-    if (!IsSeenGlass(hit.barycentrics)) {
-      IgnoreHit();
-    }
-  } else if (IsOpenAt(hit.barycentrics)) {
-    IgnoreHit();
-  }
-}
-
-[shader("closesthit")]
-void PathTracerClosestHit(inout PathHit payload, in BuiltInTriangleIntersectionAttributes hit) {
-  const Surface surface =
-      LoadSurface(hit.barycentrics, payload.is_camera_ray != 0 ? ConeWidth() : 0.0);
-  payload.position = surface.position;
-  payload.offset = surface.offset;
-  payload.normal = surface.normal;
-  payload.distance = RayTCurrent();
-  payload.shading_normal = surface.shading_normal;
-  payload.base_color = surface.base_color;
-  payload.roughness = surface.roughness;
-  payload.metallic = surface.metallic;
-  payload.emissive = surface.emissive;
-  payload.opacity = surface.opacity;
-  payload.emitter_density = emitting_instances[InstanceIndex()] != 0
-                                ? emitter_densities[hit_constants.material_id] : 0.0;
-}
-
-struct ShadowPayload {
-  uint is_free;
-};
-
-[shader("miss")]
-void PathShadowMiss(inout ShadowPayload payload) {
-  payload.is_free = 1;
-}
-
-[shader("anyhit")]
-void PathShadowAnyHit(inout ShadowPayload payload, in BuiltInTriangleIntersectionAttributes hit) {
-  if (IsOpenAt(hit.barycentrics)) {
-    IgnoreHit();
-  }
-}
-
-bool IsFree(float3 origin, float3 direction, float reach) {
-  RayDesc ray;
-  ray.Origin = origin;
-  ray.TMin = 0.0;
-  ray.Direction = direction;
-  ray.TMax = reach;
-  ShadowPayload payload;
-  payload.is_free = 0;
-  TraceRay(scene, RAY_FLAG_ACCEPT_FIRST_HIT_AND_END_SEARCH | RAY_FLAG_SKIP_CLOSEST_HIT_SHADER,
-           kMaskWithoutLamps, kRayTypeVisibility, kRayTypeCount, kRayTypeVisibility, ray, payload);
-  return payload.is_free != 0;
-}
-
-PathHit Follow(float3 origin, float3 direction, float t_min, uint mask, bool is_camera_ray) {
-  RayDesc ray;
-  ray.Origin = origin;
-  ray.TMin = t_min;
-  ray.Direction = direction;
-  ray.TMax = kLongestRay;
-  PathHit hit = NoHit();
-  hit.is_glass_ray = mask == kGlassOnly ? 1 : 0;
-  hit.is_camera_ray = is_camera_ray ? 1 : 0;
-  TraceRay(scene, RAY_FLAG_NONE, mask, kRayTypeSurface, kRayTypeCount, kRayTypeSurface, ray, hit);
-  return hit;
 }
 
 // What a path brings to the camera.
@@ -359,11 +242,6 @@ LightRay SampleLight(PathSampler sampler, Vertex vertex, uint number, float lamp
                        PathRandom(sampler, number, kPairLamp));
 }
 
-// What the first surface of a path is to the camera.
-static const uint kAsSolid = 0;     // what each lamp gives is a layer
-static const uint kAsPane = 1;      // its mirror image is a path of its own
-static const uint kAsMirrored = 2;  // seen in a pane
-
 // Adds what the camera sees of a sampled light on the first surface to its layer.
 void AddInView(inout PathLight light, uint kind, Lobes lobes, bool is_free, uint seen_as,
                uint2 pixel) {
@@ -457,72 +335,6 @@ PathLight LightFrom(PathSampler sampler, PathHit first, float3 view, uint seen_a
   }
   light.all = light.sun + light.lamps + light.indirect + light.reflection;
   return light;
-}
-
-// What a path meets of the panes in front of a surface.
-struct GlassStart {
-  float3 through;    // of the light behind all panes; 0 if the path stays at one
-  float3 weight;     // of the light that it finds where it stays
-  PathHit hit;       // the pane's surface, or what it mirrors; a miss: only `emission`
-  float3 view;       // from there
-  float3 emission;   // of the sky or the surface
-  uint seen_as;
-  uint layer;        // the pane where it stays
-};
-
-// Walks through the panes. At each the path is mirrored, stays with the pane's own colour, or goes
-// on.
-GlassStart WalkThroughGlass(PathSampler sampler, float3 direction, float solid_distance) {
-  GlassStart start;
-  start.through = float3(1, 1, 1);
-  start.weight = start.emission = float3(0, 0, 0);
-  start.hit = NoHit();
-  start.view = -normalize(direction);
-  start.seen_as = kAsPane;
-  start.layer = 0;
-  float3 mirrored_origin = float3(0, 0, 0);
-  float3 mirrored = float3(0, 0, 0);
-  uint mirrored_mask = 0;  // 0: no pane mirrors the path
-  float t_min = 0.0;
-  for (uint layer = 0; layer < kMaxPanes; ++layer) {
-    const PathHit pane = Follow(float3(0, 0, 0), direction, t_min, kGlassOnly, true);
-    if (pane.distance < 0.0 || (solid_distance >= 0.0 && pane.distance >= solid_distance)) break;
-    // A ray on the edge of two triangles may hit both, at the same distance but for rounding.
-    t_min = pane.distance * 1.000002;
-    const float3 f0 = 0.04 + (pane.base_color - 0.04) * pane.metallic;
-    const float3 fresnel = PathFresnel(f0, saturate(dot(start.view, pane.shading_normal)));
-    const float mirror_chance = saturate(Brightness(fresnel));
-    const float2 u = PathRandom(sampler, kPairPane + layer);
-    start.layer = layer;
-    if (u.x < mirror_chance) {
-      start.weight = start.through * fresnel / mirror_chance;
-      start.through = float3(0, 0, 0);
-      // A smooth pane shows the shapes of lamps; a rough one has highlights instead.
-      mirrored_mask = pane.roughness <= kPathMirrorRoughness ? kMaskSolid : kMaskWithoutLamps;
-      mirrored = reflect(-start.view, pane.shading_normal);
-      // A normal-mapped direction can point into the pane.
-      if (!(dot(mirrored, pane.normal) > 0.0)) mirrored = reflect(-start.view, pane.normal);
-      mirrored_origin = pane.position + pane.normal * pane.offset;
-      break;
-    }
-    // The pane's own light is over its coverage, whatever is mirrored: its diffuse lobe has what
-    // the specular one leaves.
-    if (u.y < saturate(pane.opacity)) {
-      start.weight = start.through / (1.0 - mirror_chance);
-      start.through = float3(0, 0, 0);
-      start.hit = pane;
-      start.emission = pane.emissive;
-      break;
-    }
-    start.through *= (1.0 - fresnel) / (1.0 - mirror_chance);
-  }
-  if (mirrored_mask != 0) {
-    start.hit = Follow(mirrored_origin, mirrored, 0.0, mirrored_mask, false);
-    start.emission = start.hit.distance < 0.0 ? SkyTowards(mirrored) : start.hit.emissive;
-    start.view = -mirrored;
-    start.seen_as = kAsMirrored;
-  }
-  return start;
 }
 
 // Whether a direction about the shading normal is free up to the radius of ambient occlusion.
