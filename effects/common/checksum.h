@@ -37,7 +37,7 @@ class Checksum {
     add_value(values.size());
     add({reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof(T)});
   }
-  /// Of everything that was added.
+  /// The checksum of everything that was added.
   std::uint64_t value() const { return value_; }
 
  private:

@@ -7,7 +7,7 @@
 RWTexture2D<uint2> strongest : register(u0, space3);
 // Sums over the samples; r: point light, g: spot light.
 RWTexture2D<float4> contact : register(u1, space3);    // visibility
-// Of the blocked part: 1 / radius of the penumbra, 1/m, in r and g, what moves in b and a.
+// What the blocked part holds: 1 / radius of the penumbra, 1/m, in r and g; what moves in b and a.
 RWTexture2D<float4> sharpness : register(u2, space3);
 
 struct ContactConstants {

@@ -8,7 +8,7 @@
 #include "effects/northlight/frame_renderer.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/shapes.h"
-#include "tests/vulkan/support.h"
+#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 namespace {
@@ -80,15 +80,7 @@ double error_after_eight_frames(const std::string& backend, const Scene& scene, 
   return std::sqrt(squares / (kWidth * kHeight));
 }
 
-class ReflectionHistory : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (GetParam() != "vulkan") return;
-    const std::string why = test::why_no_vulkan();
-    if (!why.empty() && test::vulkan_is_required()) FAIL() << why;
-    if (!why.empty()) GTEST_SKIP() << why;
-  }
-};
+class ReflectionHistory : public test::OnBackends {};
 
 TEST_P(ReflectionHistory, FollowsTheMirroredImage) {
   for (const float roughness : {0.08f, 0.2f}) {

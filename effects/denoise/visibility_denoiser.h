@@ -46,7 +46,7 @@ class VisibilityDenoiser {
   struct Signal {
     std::string name;            ///< for messages
     std::uint32_t channels = 1;  ///< 1, or 2: r and g
-    /// Of the frame's size, R32G32B32A32_FLOAT: the visible part of the samples, 0 to 1.
+    /// The visible part of the samples, 0 to 1; R32G32B32A32_FLOAT, as large as the frame.
     rtapi::Texture visibility;
     /// The same, means over all samples, those without an occluder being 0. r, g: 1 / radius of the
     /// penumbra that the closest occluder casts, 1/m. b, a: the part whose occluder moves.

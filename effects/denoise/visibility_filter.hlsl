@@ -35,7 +35,7 @@ RWTexture2D<float4> history[kMostChannels] : register(u8, space3);
 // The same where the surfaces are now, and w: whether a shadow near them moved, 0 to 1.
 RWTexture2D<float4> past[kMostChannels] : register(u12, space3);
 RWTexture2D<float4> accumulated[kMostChannels] : register(u16, space3);
-// Of the neighbourhood. x: blocked part, y: 1 / radius times the blocked part, z: the part that is
+// What the neighbourhood holds. x: blocked part, y: 1 / radius times the blocked part, z: the part that is
 // blocked by what moves, or was a few frames ago.
 RWTexture2D<float4> blockers[kMostChannels] : register(u20, space3);
 RWTexture2D<float4> filtered[kMostChannels] : register(u24, space3);

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "effects/common/checksum.h"
 #include "effects/common/file.h"
 #include "effects/indirect_diffuse/volume.h"
 
@@ -26,11 +27,10 @@ struct Header {
 };
 static_assert(sizeof(Header) == 80);
 
-// [FNV-1a, 64 bits]
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
-  return hash;
+  Checksum sum;
+  sum.add(bytes);
+  return sum.value();
 }
 
 template <class T>

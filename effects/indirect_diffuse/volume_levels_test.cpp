@@ -38,7 +38,7 @@ std::uint32_t entry_at(const IndirectVolume& volume, const glm::ivec3& place) {
                                   std::size_t{volume.bricks.y} * static_cast<std::size_t>(at.z))];
 }
 
-// Of all built-in scenes with cells of the default size: every place has cells, and neighbours
+// In all built-in scenes with cells of the default size, every place has cells, and neighbours
 // differ by one level at most.
 TEST(VolumeLayouts, CoverTheWholeScene) {
   std::set<std::uint32_t> levels;

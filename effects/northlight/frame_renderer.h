@@ -234,6 +234,7 @@ class FrameRenderer {
   rtapi::Status create_filters();
   rtapi::Status add_signal(SignalFilters& to, const Active& effect, std::size_t index) const;
   rtapi::Status create_compose();
+  const rtapi::Texture* composed(const Active& effect, std::size_t signal) const;
   rtapi::Result<FrameParts> parts_of(const std::vector<std::string>& signals) const;
   void list_left_out();
   // frame_renderer.cpp

@@ -441,10 +441,7 @@ rtapi::Status FrameRenderer::create_compose() {
         if (const auto s = direct_->set_contact(filters_.denoised(*filtered)); !s) return s;
       }
       if (signal.part == nullptr) continue;
-      parts.*signal.part = filtered != nullptr         ? &filters_.denoised(*filtered)
-                           : !effect->pictures.empty() ? &effect->pictures[i]
-                           : has_strongest_effect()    ? &direct_->total()
-                                                       : &direct_->direct();
+      parts.*signal.part = composed(*effect, i);
     }
   }
   const auto compose =

@@ -133,6 +133,14 @@ rtapi::Result<Outcome> FrameRenderer::accumulate(const std::string& name,
   return Outcome::kDone;
 }
 
+// What the composition takes for a signal: denoised, as its pass wrote it, or main lighting.
+const rtapi::Texture* FrameRenderer::composed(const Active& effect, std::size_t signal) const {
+  const SignalFilters::Signal* filtered = filters_.find(effect.row->signals[signal].name);
+  if (filtered != nullptr) return &filters_.denoised(*filtered);
+  if (!effect.pictures.empty()) return &effect.pictures[signal];
+  return has_strongest_effect() ? &direct_->total() : &direct_->direct();
+}
+
 rtapi::Result<FrameParts> FrameRenderer::parts_of(const std::vector<std::string>& signals) const {
   FrameParts parts;
   for (const std::string& name : signals) {
@@ -143,12 +151,7 @@ rtapi::Result<FrameParts> FrameRenderer::parts_of(const std::vector<std::string>
         if (signal.name != name || signal.part == nullptr) continue;
         is_part = true;
         const Active* effect = active(row.name);
-        if (effect == nullptr) continue;
-        const SignalFilters::Signal* filtered = filters_.find(name);
-        parts.*signal.part = filtered != nullptr         ? &filters_.denoised(*filtered)
-                             : !effect->pictures.empty() ? &effect->pictures[i]
-                             : has_strongest_effect()    ? &direct_->total()
-                                                         : &direct_->direct();
+        if (effect != nullptr) parts.*signal.part = composed(*effect, i);
       }
     }
     if (!is_part) {

@@ -6,13 +6,12 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "effects/path_tracer/path_reference.h"
 #include "effects/scene/shapes.h"
-#include "tests/vulkan/support.h"
+#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 
@@ -110,18 +109,7 @@ inline Scene plane_scene(const glm::vec3& color, float metallic, float roughness
   return scene;
 }
 
-// Tests that run on both backends.
-class OnBackends : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (GetParam() != "vulkan") return;
-    const std::string why = test::why_no_vulkan();
-    if (!why.empty() && test::vulkan_is_required()) FAIL() << why;
-    if (!why.empty()) GTEST_SKIP() << why;
-    guard_.emplace();
-  }
-  std::optional<test::ValidationGuard> guard_;
-};
+using test::OnBackends;
 
 inline std::string backend_of(const testing::TestParamInfo<std::string>& info) {
   return info.param == "embree" ? "Embree" : "Vulkan";

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "effects/lights/light_constants.h"
+#include "effects/northlight/settings.h"
 #include "effects/path_tracer/path_albedo.h"
 #include "effects/path_tracer/path_emitters.h"
 
@@ -31,12 +32,6 @@ RayPassDesc path_tracer_pass(rtapi::ShaderLibrary library) {
   return desc;
 }
 
-bool has_glass(const Scene& scene) {
-  return std::any_of(scene.instances.begin(), scene.instances.end(), [](const Instance& instance) {
-    return (instance.mask & kMaskTransparent) != 0;
-  });
-}
-
 }  // namespace
 
 const char* path_layer_name(PathLayer layer) {
@@ -58,7 +53,7 @@ rtapi::Status PathTracer::create_tables(const rtapi::Device& device, const Scene
   words_.emitters = static_cast<std::uint32_t>(emitters.triangles.size());
   words_.has_sky = bands.empty() ? 0 : 1;
   words_.has_sun = scene.sun && scene.sun->irradiance != glm::vec3(0.0f) ? 1 : 0;
-  words_.has_glass = has_glass(scene) ? 1 : 0;
+  words_.has_glass = scene_offers(scene, {.glass = true}) ? 1 : 0;
   // A view needs at least one element.
   if (emitters.triangles.empty()) emitters.triangles.emplace_back();
   if (emitters.instances.empty()) emitters.instances.push_back(0);

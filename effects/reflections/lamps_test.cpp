@@ -7,7 +7,7 @@
 
 #include "effects/northlight/frame_renderer.h"
 #include "effects/scene/mirror_hall.h"
-#include "tests/vulkan/support.h"
+#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 namespace {
@@ -52,15 +52,7 @@ double schlick(double f0, double cosine) {
   return f0 + (1 - f0) * std::pow(1 - cosine, 5);
 }
 
-class Lamps : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (GetParam() != "vulkan") return;
-    const std::string why = test::why_no_vulkan();
-    if (!why.empty() && test::vulkan_is_required()) FAIL() << why;
-    if (!why.empty()) GTEST_SKIP() << why;
-  }
-};
+class Lamps : public test::OnBackends {};
 
 // The image that a mirror shows of the bulb, in a plane through `point` with an axis as its normal.
 void expect_image(const std::string& backend, double f0, const Scene& scene, const glm::dvec3& eye,

@@ -17,7 +17,7 @@
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/scene/oracle_scenes.h"
 #include "effects/scene/runner.h"
-#include "tests/vulkan/support.h"
+#include "tests/vulkan/on_backends.h"
 
 namespace kaamos::effects {
 namespace {
@@ -85,17 +85,7 @@ std::vector<DeformedVertex> deformed(Stage& stage, std::uint32_t instance) {
   return out;
 }
 
-class Structures : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    if (GetParam() != "vulkan") return;
-    const std::string why = test::why_no_vulkan();
-    if (!why.empty() && test::vulkan_is_required()) FAIL() << why;
-    if (!why.empty()) GTEST_SKIP() << why;
-    guard_.emplace();
-  }
-  std::optional<test::ValidationGuard> guard_;
-};
+class Structures : public test::OnBackends {};
 
 std::string backend_name(const testing::TestParamInfo<std::string>& info) {
   return info.param == "embree" ? "Embree" : "Vulkan";
