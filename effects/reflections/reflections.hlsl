@@ -99,21 +99,22 @@ struct ReflectionPoint {
 ReflectionPoint LoadReflectionPoint(uint2 pixel) {
   const float4 position = g_position[pixel];
   const float3 view = normalize(-position.xyz);
-  ReflectionPoint point;
-  point.normal = OctahedralDecode(g_normal[pixel]);
-  point.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
-  point.origin = position.xyz + point.normal * position.w;
-  point.roughness = g_material[pixel].x;
-  point.brdf = MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, point.roughness);
-  point.cosine_view = max(dot(point.shading_normal, view), 1e-4);
-  point.local_view = ToLocal(view, point.shading_normal);
-  return point;
+  ReflectionPoint surface;
+  surface.normal = OctahedralDecode(g_normal[pixel]);
+  surface.shading_normal = OctahedralDecode(g_shading_normal[pixel]);
+  surface.origin = position.xyz + surface.normal * position.w;
+  surface.roughness = g_material[pixel].x;
+  surface.brdf =
+      MakeBrdf(DecodeColor(g_base_color[pixel].rgb), g_material[pixel].y, surface.roughness);
+  surface.cosine_view = max(dot(surface.shading_normal, view), 1e-4);
+  surface.local_view = ToLocal(view, surface.shading_normal);
+  return surface;
 }
 
 // In the surface's own frame, about +Z.
-float3 SampleHalfVector(ReflectionPoint point, float2 u) {
-  if (IsMirror(point.roughness)) return float3(0, 0, 1);
-  return SampleGgxHalfVector(u, point.local_view, point.brdf.alpha);
+float3 SampleHalfVector(ReflectionPoint surface, float2 u) {
+  if (IsMirror(surface.roughness)) return float3(0, 0, 1);
+  return SampleGgxHalfVector(u, surface.local_view, surface.brdf.alpha);
 }
 
 // Radiance that the pixel shows of a reflection, and whether it is a firefly.
@@ -122,31 +123,32 @@ bool IsTooBright(float3 light, float3 scale) {
 }
 
 // The light of one ray over `scale`, and the ray's length. `seed` and `index` choose the ray.
-float4 TraceReflection(uint2 pixel, ReflectionPoint point, float3 scale, uint index, uint seed) {
+float4 TraceReflection(uint2 pixel, ReflectionPoint surface, float3 scale, uint index, uint seed) {
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, seed)];
-  const float3 half_vector = SampleHalfVector(point, PixelSample(tile, index, kReflectionPair, seed));
-  const float3 local_light = reflect(-point.local_view, half_vector);
-  const float3 direction = ToWorld(local_light, point.shading_normal);
+  const float3 half_vector =
+      SampleHalfVector(surface, PixelSample(tile, index, kReflectionPair, seed));
+  const float3 local_light = reflect(-surface.local_view, half_vector);
+  const float3 direction = ToWorld(local_light, surface.shading_normal);
   // Below the surface, either the geometric or the normal-mapped one, there is no light.
-  if (!(local_light.z > 0.0) || !(dot(direction, point.normal) > 0.0)) return float4(0, 0, 0, 0);
+  if (!(local_light.z > 0.0) || !(dot(direction, surface.normal) > 0.0)) return float4(0, 0, 0, 0);
   const float2 length_tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair + 1, seed)];
   const float2 v = PixelSample(length_tile, index, kReflectionPair + 1, seed);
   RayDesc ray;
-  ray.Origin = point.origin;
+  ray.Origin = surface.origin;
   ray.TMin = 0.0;
   ray.Direction = direction;
-  ray.TMax = ReflectionLength(point.roughness, v.x);
+  ray.TMax = ReflectionLength(surface.roughness, v.x);
   ReflectionPayload payload;
   payload.radiance = float3(0, 0, 0);
   payload.distance = -1.0;
   payload.volume_jitter = kEveryCell;
-  if (point.roughness > kNoisyRoughness) {
+  if (surface.roughness > kNoisyRoughness) {
     payload.volume_jitter = PixelJitter(pixel, index, kReflectionPair + 1, seed);
   }
-  TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(point.roughness), kRayTypeSurface, kRayTypeCount,
+  TraceRay(scene, RAY_FLAG_NONE, ReflectionMask(surface.roughness), kRayTypeSurface, kRayTypeCount,
            kRayTypeSurface, ray, payload);
-  const float3 weight = GgxSampleWeight(point.brdf, point.cosine_view, local_light.z,
-                                        dot(point.local_view, half_vector));
+  const float3 weight = GgxSampleWeight(surface.brdf, surface.cosine_view, local_light.z,
+                                        dot(surface.local_view, half_vector));
   float3 light = payload.radiance * weight / scale;
   const float luminance = RadianceLuminance(light * scale);
   const float limit = constants.firefly_limit * frame.white;
@@ -161,12 +163,12 @@ void ReflectionRayGen() {
     reflection[pixel] = SumBefore(reflection, pixel);
     return;
   }
-  const ReflectionPoint point = LoadReflectionPoint(pixel);
+  const ReflectionPoint surface = LoadReflectionPoint(pixel);
   const float3 scale = ReflectionScale(
-      SpecularAlbedo(point.brdf.f0, point.brdf.roughness, point.cosine_view));
+      SpecularAlbedo(surface.brdf.f0, surface.brdf.roughness, surface.cosine_view));
   uint rays_per_sample = 1;
-  if (constants.fireflies == kRetrace && !IsMirror(point.roughness)) {
-    const float4 pilot = TraceReflection(pixel, point, scale, pass_constants.first_sample,
+  if (constants.fireflies == kRetrace && !IsMirror(surface.roughness)) {
+    const float4 pilot = TraceReflection(pixel, surface, scale, pass_constants.first_sample,
                                          frame.seed + kPilotSeed);
     if (IsTooBright(pilot.rgb, scale)) rays_per_sample += constants.more_rays;
   }
@@ -180,7 +182,7 @@ void ReflectionRayGen() {
       // The first ray is the one that would be traced alone.
       const uint ray_index = k == 0 ? index : index * constants.more_rays + k;
       const uint seed = k == 0 ? frame.seed : frame.seed + kFurtherSeed;
-      const float4 one = TraceReflection(pixel, point, scale, ray_index, seed);
+      const float4 one = TraceReflection(pixel, surface, scale, ray_index, seed);
       sample += one;
       if (k == 0 && constants.fireflies == kAverage && IsTooBright(one.rgb, scale)) {
         rays += constants.more_rays;
@@ -198,9 +200,9 @@ void ReflectionKeys() {
     WriteNoRayKey(pixel);
     return;
   }
-  const ReflectionPoint point = LoadReflectionPoint(pixel);
+  const ReflectionPoint surface = LoadReflectionPoint(pixel);
   const float2 tile = blue_noise[BlueNoiseIndex(pixel, kReflectionPair, frame.seed)];
   const float2 u = PixelSample(tile, pass_constants.first_sample, kReflectionPair, frame.seed);
-  const float3 local_light = reflect(-point.local_view, SampleHalfVector(point, u));
-  WriteRayKey(pixel, point.origin, ToWorld(local_light, point.shading_normal));
+  const float3 local_light = reflect(-surface.local_view, SampleHalfVector(surface, u));
+  WriteRayKey(pixel, surface.origin, ToWorld(local_light, surface.shading_normal));
 }

@@ -60,17 +60,17 @@ cbuffer Shared : register(b0, space2) {
   uint place;
   uint value;
 }
-ByteAddressBuffer shared : register(t0, space2);
+ByteAddressBuffer common : register(t0, space2);
 
 [shader("compute")]
 [numthreads(1, 1, 1)]
 void ComputeShared() {
-  words.Store(4 * place, value + shared.Load(0));
+  words.Store(4 * place, value + common.Load(0));
 }
 
 [shader("raygeneration")]
 void RaysShared() {
-  words.Store(4 * place + 4, value + shared.Load(0) + 1);
+  words.Store(4 * place + 4, value + common.Load(0) + 1);
 }
 
 RaytracingAccelerationStructure inTable : register(t1, space2);

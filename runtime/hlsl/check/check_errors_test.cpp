@@ -141,8 +141,6 @@ const std::vector<Case>& cases() {
        strict()},
       {"ImplicitLevelStrict", Id::kImplicitLevel,
        kernel("t.@Sample(s, 0);", "Texture2D t;\nSamplerState s;"), strict()},
-      {"ConstWithoutStaticStrict", Id::kConstWithoutStatic, kernel("", "const float @k = 1;"),
-       strict()},
       // Calls
       {"NoOverload", Id::kNoOverload, kernel("@f(1, 2);", "void f(int a) {}")},
       {"AmbiguousCall", Id::kAmbiguousCall,

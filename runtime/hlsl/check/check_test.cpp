@@ -389,5 +389,21 @@ TEST(Speed, MostlyDeadLibrary) {
   EXPECT_NE(compilation.module, nullptr) << compilation.messages();
 }
 
+// What DXC accepts with a warning.
+TEST(CheckStrict, RefusesNothingThatDxcTakes) {
+  using Id = DiagnosticId;
+  FrontendOptions options;
+  options.strict = true;
+  const std::pair<Id, std::string> accepted[] = {
+      {Id::kConstWithoutStatic, kernel("results.Store(0, k);", "const uint k = 1;")},
+      {Id::kMulShape, kernel("float4 a = 1;\nresults.Store(0, mul(a, (float3x3)1).x);")},
+      {Id::kFloatBecomesInfinite, kernel("results.Store(0, asuint(1e39f));")}};
+  for (const auto& [id, text] : accepted) {
+    const Compilation compilation(text, options);
+    EXPECT_NE(compilation.module, nullptr) << compilation.messages();
+    EXPECT_TRUE(compilation.has(id)) << compilation.messages();
+  }
+}
+
 }  // namespace
 }  // namespace kaamos::hlsl

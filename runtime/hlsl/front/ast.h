@@ -53,7 +53,12 @@ enum Modifier : Modifiers {
   kModNoPerspective = 1u << 19,
   kModSample = 1u << 20,
   kModShared = 1u << 21,
+  kModCenter = 1u << 22,
+  kModReorderCoherent = 1u << 23,
+  kModPrimitive = 1u << 24,  // point, line, lineadj, triangle, triangleadj.
+  kModMesh = 1u << 25,       // indices, vertices, primitives, payload.
 };
+inline constexpr size_t kModifierCount = 26;
 inline constexpr Modifiers kTypeModifiers =
     kModConst | kModVolatile | kModRowMajor | kModColumnMajor | kModSnorm | kModUnorm;
 

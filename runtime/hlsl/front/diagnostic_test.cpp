@@ -115,13 +115,18 @@ TEST(Engine, LimitEndsTheRun) {
 }
 
 TEST(Engine, StrictTurnsMarkedWarningsIntoErrors) {
-  const std::string source = "1e39f\n#pragma unicorn\n";
-  Preprocessed lenient(source);
-  EXPECT_EQ(lenient.diagnostics.error_count(), 0u);
-  EXPECT_EQ(lenient.diagnostics.warning_count(), 2u);
-  Preprocessed strict(source, {}, {}, {.strict = true});
-  EXPECT_EQ(strict.diagnostics.error_count(), 1u);
-  EXPECT_EQ(strict.diagnostics.warning_count(), 1u);
+  const auto report_both = [](DiagnosticEngine& engine) {
+    engine.report(DiagnosticId::kAccessSpecifier, {}, {"public"});
+    engine.report(DiagnosticId::kUnknownAttribute, {}, {"unicorn"});
+  };
+  DiagnosticEngine lenient(DiagnosticOptions{});
+  report_both(lenient);
+  EXPECT_EQ(lenient.error_count(), 0u);
+  EXPECT_EQ(lenient.warning_count(), 2u);
+  DiagnosticEngine strict({.strict = true});
+  report_both(strict);
+  EXPECT_EQ(strict.error_count(), 1u);
+  EXPECT_EQ(strict.warning_count(), 1u);
 }
 
 TEST(Engine, NotesBehindTheLimitGoNowhere) {

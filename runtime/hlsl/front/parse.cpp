@@ -143,10 +143,11 @@ bool Parser::expect_template_end(size_t open) {
   return false;
 }
 
-const Token* Parser::expect_name(std::string_view what) {
+const Token* Parser::expect_name(std::string_view what, NameKind kind) {
   if (panic_) return nullptr;
-  if (!at_name()) {
+  if (kind == NameKind::kAnyName ? !at_name() : !at(Kind::kIdentifier)) {
     if (is_keyword(token().kind) || at(Kind::kReservedWord)) {
+      refused_names_.push_back(token().value);
       fail_here(DiagnosticId::kKeywordAsName, {token().text, what});
     } else {
       fail_here(DiagnosticId::kExpectedName, {what, describe(token())});

@@ -76,7 +76,7 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
       break;
   }
   const bool is_technique =
-      is_global && at_name() && token().text.starts_with("technique") &&
+      is_global && at(Kind::kTechnique) &&
       (peek(1).is(Kind::kLeftBrace) || (is_name(pos_ + 1) && peek(2).is(Kind::kLeftBrace)));
   if (is_technique) {
     report(DiagnosticId::kStateBlockIgnored, here(), {"the technique"});
@@ -107,6 +107,7 @@ void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
   struct_prefix_ = nullptr;
   if (panic_) return;
   const bool is_definition = type->kind == TypeSyntaxKind::kDefinition;
+  const Modifiers all_modifiers = modifiers | (type->modifiers & (kModConst | kModVolatile));
   if (accept(Kind::kSemicolon)) {
     if (!is_definition && type->kind != TypeSyntaxKind::kError) {
       report(DiagnosticId::kDeclaresNothing, token_at(begin).location, {});
@@ -120,7 +121,10 @@ void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
     return;
   }
   reject_declarator_prefix();
+  const bool is_member = prefix.context == Context::kMember;
   if (starts_function_declarator(pos_)) {
+    check_modifiers(all_modifiers & ~kModConst,
+                    is_member ? Declared::kMethod : Declared::kFunction);
     if (prefix.context == Context::kLocal) {
       reject_local_declarator(prefix, modifiers, type, begin);
     } else {
@@ -132,6 +136,9 @@ void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
     fail_here(DiagnosticId::kTemplateOfWhat, {describe(token())});
     return;
   }
+  check_modifiers(all_modifiers, is_member                           ? Declared::kField
+                                 : prefix.context == Context::kLocal ? Declared::kLocal
+                                                                     : Declared::kGlobal);
   declarators(prefix, modifiers, type, out);
 }
 
@@ -150,7 +157,7 @@ void Parser::declarators(const Prefix& prefix, Modifiers modifiers, const TypeSy
 
 const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
                                      const TypeSyntax* type) {
-  const Token* name = expect_name(context_text(prefix.context));
+  const Token* name = expect_name(context_text(prefix.context), NameKind::kAnyName);
   if (name == nullptr) return nullptr;
   VariableDecl* decl = make<VariableDecl>(name->location);
   decl->name = name->text;
@@ -173,8 +180,7 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
 }
 
 const Expr* Parser::variable_initializer() {
-  const bool is_state =
-      at_name() && token().text == "sampler_state" && peek(1).is(Kind::kLeftBrace);
+  const bool is_state = at(Kind::kSamplerState) && peek(1).is(Kind::kLeftBrace);
   if (!is_state) return assignment_value();
   report(DiagnosticId::kStateBlockIgnored, here(), {"'sampler_state'"});
   advance();
@@ -275,7 +281,7 @@ void Parser::typedef_declaration(const Prefix& prefix, DeclList& out) {
   const ScopeId members = type_scope_;
   do {
     reject_declarator_prefix();
-    const Token* name = expect_name("a type");
+    const Token* name = expect_name("a type", NameKind::kAnyName);
     if (name == nullptr) return;
     TypeAliasDecl* decl = make<TypeAliasDecl>(name->location);
     decl->name = name->text;

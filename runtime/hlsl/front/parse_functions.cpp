@@ -77,7 +77,7 @@ bool Parser::function_name(FunctionDecl& decl, ScopeId* qualifier_scope) {
     return !panic_;
   }
   if (peek(1).is(Kind::kLeftParen)) {
-    const Token* name = expect_name("a function");
+    const Token* name = expect_name("a function", NameKind::kAnyName);
     if (name == nullptr) return false;
     decl.name = name->text;
     return true;
@@ -185,6 +185,7 @@ const ParameterDecl* Parser::parameter() {
   const TypeSyntax* type = type_specifier(decl->modifiers, nullptr);
   decl->type = type;
   if (panic_) return decl;
+  check_modifiers(decl->modifiers | (type->modifiers & kModVolatile), Declared::kParameter);
   reject_declarator_prefix();
   const bool is_unnamed = at(Kind::kComma) || at(Kind::kRightParen) || at(Kind::kColon) ||
                           at(Kind::kEqual) || at(Kind::kLeftBracket);
@@ -193,7 +194,7 @@ const ParameterDecl* Parser::parameter() {
     return decl;
   }
   if (!is_unnamed) {
-    const Token* name = expect_name("a parameter");
+    const Token* name = expect_name("a parameter", NameKind::kAnyName);
     if (name == nullptr) return decl;
     decl->name = name->text;
     decl->location = name->location;

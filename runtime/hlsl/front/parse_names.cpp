@@ -177,7 +177,12 @@ const QualifiedName* Parser::qualified_name(bool is_member, ParsedSymbol* symbol
       break;
     }
     const Token& name = token();
-    if (!parts.empty() || result->is_global) {
+    const bool is_scoped = !parts.empty() || result->is_global;
+    if (is_scoped && container == nullptr && !at(Kind::kIdentifier)) {
+      fail_here(DiagnosticId::kKeywordAsName, {name.text, "a member behind '::'"});
+      break;
+    }
+    if (is_scoped) {
       current = scopes_.find_in(scope, name);
       if (current.kind == ParsedKind::kUnknown && parts.empty()) current = scopes_.find(name);
     } else if (!is_member) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Expressions from postfix operators down: members, calls, indices, names, literals, lists.
+#include <algorithm>
+
 #include "runtime/hlsl/front/parser.h"
 
 namespace kaamos::hlsl {
@@ -137,6 +139,7 @@ const Expr* Parser::primary() {
       break;
   }
   if (at_name() || at(Kind::kColonColon)) return name_or_construct();
+  if (is_keyword(token().kind)) return keyword_expression();
   fail_here(DiagnosticId::kExpectedExpression, {describe(token())});
   return error_expr(location);
 }
@@ -222,6 +225,18 @@ const Expr* Parser::reserved_expression() {
     fail_here(DiagnosticId::kReservedWord, {word});
   }
   return error_expr(location);
+}
+
+// A keyword whose declaration as a name was refused has had its message.
+const Expr* Parser::keyword_expression() {
+  const bool is_refused = std::find(refused_names_.begin(), refused_names_.end(), token().value) !=
+                          refused_names_.end();
+  if (is_refused) {
+    panic_ = true;
+  } else {
+    fail_here(DiagnosticId::kKeywordInExpression, {token().text});
+  }
+  return error_expr(here());
 }
 
 const Expr* Parser::init_list() {

@@ -404,7 +404,8 @@ bool Parser::starts_declaration(size_t index) {
         return end != name.end && is_name(end);
       }
       default:
-        return can_be_name(next.kind);
+        // A keyword here is meant as a name, and the declaration says that it cannot be one.
+        return can_begin_type(next.kind) && !next.is(Kind::kColonColon);
     }
   }
   if (name.symbol.kind == ParsedKind::kSubobject) return can_be_name(next.kind);

@@ -179,8 +179,8 @@ TEST(ParseNames, BuiltInNamesThatAreNotReservedMayBeHidden) {
   EXPECT_EQ(dump_statements("float4x4 matrix; a = matrix * 2; float2 texture = 0; texture.x = 1;"),
             "var float4x4 matrix\n(= a (* matrix 2))\nvar float2 texture = 0\n"
             "(= (. texture x) 1)\n");
-  EXPECT_EQ(dump_statements("uint sample = 1; sample += 2; float linear = 3, precise = 4;"),
-            "var uint sample = 1\n(+= sample 2)\nvar float linear = 3\nvar float precise = 4\n");
+  EXPECT_EQ(dump_statements("uint sample = 1; sample += 2; float center = 3, precise = 4;"),
+            "var uint sample = 1\n(+= sample 2)\nvar float center = 3\nvar float precise = 4\n");
 }
 
 TEST(ParseNames, NamespacesAndNestedTypes) {
@@ -239,8 +239,8 @@ TEST(ParseType, Modifiers) {
             "var const float c = 1\n");
   EXPECT_EQ(dump_unit("groupshared uint a[2]; extern uniform float b; precise float c;"),
             "var groupshared uint[2] a\nvar extern uniform float b\nvar precise float c\n");
-  EXPECT_EQ(dump_unit("globallycoherent RWBuffer<snorm float> a; volatile int b;"),
-            "var globallycoherent RWBuffer<snorm float> a\nvar volatile int b\n");
+  EXPECT_EQ(dump_unit("globallycoherent RWBuffer<snorm float> a; __const int b;"),
+            "var globallycoherent RWBuffer<snorm float> a\nvar const int b\n");
   EXPECT_EQ(dump_unit("struct V { nointerpolation float a; linear centroid float b; "
                       "noperspective float c; sample float d; };"),
             "struct V\n  var nointerpolation float a\n  var linear centroid float b\n"

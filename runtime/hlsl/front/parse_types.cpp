@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// Types and the modifiers before them.
 #include <algorithm>
 
 #include "runtime/hlsl/front/parser.h"
@@ -7,77 +6,8 @@
 namespace kaamos::hlsl {
 namespace {
 
-Modifiers modifier_of(TokenKind kind) {
-  switch (kind) {
-    case TokenKind::kConst:
-      return kModConst;
-    case TokenKind::kVolatile:
-      return kModVolatile;
-    case TokenKind::kRowMajor:
-      return kModRowMajor;
-    case TokenKind::kColumnMajor:
-      return kModColumnMajor;
-    case TokenKind::kSnorm:
-      return kModSnorm;
-    case TokenKind::kUnorm:
-      return kModUnorm;
-    case TokenKind::kStatic:
-      return kModStatic;
-    case TokenKind::kExtern:
-      return kModExtern;
-    case TokenKind::kUniform:
-      return kModUniform;
-    case TokenKind::kGroupshared:
-      return kModGroupshared;
-    case TokenKind::kPrecise:
-      return kModPrecise;
-    case TokenKind::kGloballyCoherent:
-      return kModGloballyCoherent;
-    case TokenKind::kInline:
-      return kModInline;
-    case TokenKind::kExport:
-      return kModExport;
-    case TokenKind::kIn:
-      return kModIn;
-    case TokenKind::kOut:
-      return kModOut;
-    case TokenKind::kInout:
-      return kModIn | kModOut;
-    case TokenKind::kNoInterpolation:
-      return kModNoInterpolation;
-    case TokenKind::kLinear:
-      return kModLinear;
-    case TokenKind::kCentroid:
-      return kModCentroid;
-    case TokenKind::kNoPerspective:
-      return kModNoPerspective;
-    case TokenKind::kSample:
-      return kModSample;
-    case TokenKind::kShared:
-      return kModShared;
-    default:
-      return 0;
-  }
-}
-
-struct Conflict {
-  Modifiers first;
-  std::string_view first_text;
-  Modifiers second;
-  std::string_view second_text;
-};
-
-constexpr Conflict kConflicts[] = {
-    {kModRowMajor, "row_major", kModColumnMajor, "column_major"},
-    {kModSnorm, "snorm", kModUnorm, "unorm"},
-    {kModStatic, "static", kModExtern, "extern"},
-    {kModStatic, "static", kModUniform, "uniform"},
-    {kModNoInterpolation, "nointerpolation", kModLinear, "linear"},
-};
-
 bool is_word(TokenKind kind) {
-  return kind == TokenKind::kIdentifier || kind == TokenKind::kReservedWord || is_keyword(kind) ||
-         kind == TokenKind::kColonColon;
+  return can_begin_type(kind);
 }
 
 ScalarKind unsigned_of(ScalarKind kind) {
@@ -107,56 +37,11 @@ bool is_scalar_word(std::string_view text) {
 
 }  // namespace
 
-// ---- Modifiers
-
-Modifiers Parser::modifier_at(size_t index) const {
-  const Kind kind = token_at(index).kind;
-  const Modifiers modifier = modifier_of(kind);
-  // `sample = 3;`, `linear.x`: used as a name.
-  if (is_contextual_keyword(kind) && !is_word(token_at(index + 1).kind)) return 0;
-  return modifier;
-}
-
-void Parser::add_modifier(Modifiers& modifiers, Modifiers added, const Token& word) {
-  // `in out` means `inout`.
-  const bool repeats = (modifiers & added) == added;
-  if (repeats) report(DiagnosticId::kModifierTwice, word.location, {word.text});
-  const Modifiers both = modifiers | added;
-  for (const Conflict& conflict : kConflicts) {
-    const bool was_in = (modifiers & conflict.first) && (modifiers & conflict.second);
-    if ((both & conflict.first) && (both & conflict.second) && !was_in) {
-      report(DiagnosticId::kModifierConflict, word.location,
-             {conflict.first_text, conflict.second_text});
-      return;
-    }
-  }
-  modifiers = both;
-}
-
-void Parser::parse_modifiers(Modifiers& modifiers) {
-  for (;;) {
-    if (const Modifiers added = modifier_at(pos_); added != 0) {
-      add_modifier(modifiers, added, token());
-    } else if (at(Kind::kReservedWord) &&
-               (token().text == "virtual" || token().text == "mutable" ||
-                token().text == "friend" || token().text == "explicit")) {
-      const bool is_virtual = token().text == "virtual";
-      report(is_virtual ? DiagnosticId::kNoVirtual : DiagnosticId::kReservedWord, here(),
-             {token().text});
-    } else {
-      return;
-    }
-    advance();
-  }
-}
-
-// ---- Types
-
 const TypeSyntax* Parser::type_specifier(Modifiers& modifiers, DeclList* definitions) {
   parse_modifiers(modifiers);
   TypeSyntax* type = bare_type(definitions);
   while (!panic_ && (at(Kind::kConst) || at(Kind::kVolatile))) {
-    add_modifier(modifiers, modifier_of(token().kind), token());
+    add_modifier(modifiers, at(Kind::kConst) ? kModConst : kModVolatile, token());
     advance();
   }
   type->modifiers |= modifiers & kTypeModifiers;

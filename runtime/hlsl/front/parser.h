@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The recursive-descent parser; only parse() uses it. One class, split into one file per noun:
-// parse.cpp (tokens, errors, recovery), parse_names, parse_types, parse_expressions,
+// parse.cpp (tokens, errors, recovery), parse_names, parse_modifiers, parse_types, parse_expressions,
 // parse_primaries, parse_statements, parse_declarations, parse_functions, parse_structs,
 // parse_templates, parse_annotations, parse_attributes, parse_subobjects.
 //
@@ -97,8 +97,10 @@ class Parser {
   // The same where a ',' would be allowed too.
   bool expect_list_end(Kind kind, size_t open, std::string_view after);
   bool expect_template_end(size_t open);
-  // Consumes a name for `what` ("a variable"); null after an error.
-  const Token* expect_name(std::string_view what);
+  // Consumes a name for `what` ("a variable"); null after an error. `kAnyName`: also one of the
+  // keywords that can be names.
+  enum class NameKind : uint8_t { kIdentifier, kAnyName };
+  const Token* expect_name(std::string_view what, NameKind kind = NameKind::kIdentifier);
 
   // ---- parse.cpp: errors and recovery
   DiagnosticEngine::Report report(DiagnosticId id, SourceLocation location,
@@ -159,11 +161,15 @@ class Parser {
   std::span<const TemplateArgument> template_arguments();
   TemplateArgument template_argument();
 
-  // ---- parse_types.cpp
+  // ---- parse_modifiers.cpp
   // Adds modifiers to `modifiers` for as long as there are any.
   void parse_modifiers(Modifiers& modifiers);
   Modifiers modifier_at(size_t index) const;
   void add_modifier(Modifiers& modifiers, Modifiers added, const Token& token);
+  enum class Declared : uint8_t { kGlobal, kLocal, kField, kParameter, kFunction, kMethod };
+  void check_modifiers(Modifiers modifiers, Declared declared);
+
+  // ---- parse_types.cpp
   // Modifiers and a type. Those of kTypeModifiers go to the type, the others to `modifiers`.
   // Definitions of structs and enums are appended to `definitions`; if that is null, definitions
   // are an error here.
@@ -207,6 +213,7 @@ class Parser {
   const Expr* construct(const TypeSyntax* type);
   const Expr* size_of();
   const Expr* reserved_expression();
+  const Expr* keyword_expression();
   const Expr* init_list();
   std::span<const Expr* const> call_arguments();
   const Expr* error_expr(SourceLocation location) { return make<ErrorExpr>(location); }
@@ -333,6 +340,8 @@ class Parser {
   const Prefix* struct_prefix_ = nullptr;  // For a struct or enum that may come next.
   const Token* function_token_ = nullptr;  // The name of the enclosing function.
   int look_ahead_depth_ = 0;
+  const Token* modifier_words_[kModifierCount] = {};  // Where each was written last.
+  std::vector<uint32_t> refused_names_;  // Keywords that were declared as names (Token::value).
   std::vector<std::string_view> type_names_;  // All types declared so far, for suggestions.
 };
 

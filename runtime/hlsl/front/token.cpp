@@ -11,32 +11,10 @@ constexpr std::string_view kTexts[] = {
 #include "runtime/hlsl/front/token_kinds.inc"
 };
 
+// Words that DXC's lexer reserves without a meaning in HLSL.
 constexpr std::string_view kReserved[] = {
-    "asm",
-    "auto",
-    "catch",
-    "char",
-    "const_cast",
-    "delete",
-    "dynamic_cast",
-    "explicit",
-    "friend",
-    "goto",
-    "long",
-    "mutable",
-    "new",
-    "private",
-    "protected",
-    "public",
-    "reinterpret_cast",
-    "short",
-    "signed",
-    "static_cast",
-    "throw",
-    "try",
-    "typeid",
-    "union",
-    "virtual",
+#define KAAMOS_RESERVED(text) text,
+#include "runtime/hlsl/front/reserved_words.inc"
 };
 
 const std::unordered_map<std::string_view, TokenKind>& keywords() {
@@ -44,6 +22,7 @@ const std::unordered_map<std::string_view, TokenKind>& keywords() {
     std::unordered_map<std::string_view, TokenKind> result;
 #define KAAMOS_PUNCTUATOR(name, text)
 #define KAAMOS_KEYWORD(name, text) result.emplace(text, TokenKind::name);
+#define KAAMOS_ALIAS(name, text) result.emplace(text, TokenKind::name);
 #include "runtime/hlsl/front/token_kinds.inc"
     for (std::string_view word : kReserved) result.emplace(word, TokenKind::kReservedWord);
     return result;

@@ -5,6 +5,7 @@
 // EXPECT u32 8 820
 // EXPECT u32 12 56
 // EXPECT u32 16 3
+// DXC refuses the loop whose count it cannot deduce, which is a limit of its own.
 RWByteAddressBuffer results : register(u0);
 
 uint next(inout uint x) { return x++; }

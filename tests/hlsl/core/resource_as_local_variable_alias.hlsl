@@ -2,6 +2,7 @@
 // FEATURE: core resource as local variable/alias
 // EXPECT u32 0 5
 // EXPECT u32 4 3
+// DXC refuses the variable, because it has to know which resource it is when it compiles.
 ByteAddressBuffer a : register(t0);
 ByteAddressBuffer b[2] : register(t1);
 RWByteAddressBuffer results : register(u0);

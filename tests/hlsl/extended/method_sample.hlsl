@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // FEATURE: extended .Sample
 // EXPECT f32 0 2.0
+// DXC is right to refuse it in this stage; --strict does too.
 Texture2D<float4> image : register(t0);
 SamplerState point_sampler : register(s0);
 RWByteAddressBuffer results : register(u0);

@@ -44,7 +44,7 @@ static const float arr2[] = { 1, 2, 3 };
 RWStructuredBuffer<A> rw : register(u0, space3);
 struct D : A { float y; float sum() { return A::x + y; } };
 unsigned int ui(unsigned int p) { return p; }
-void g2() { f((float)1); Both(1, ga.x); (void)0; sizeof(A); precise float p = 1; linear = 3; vk::RawBufferLoad<uint>(3); this_is; }
+void g2() { f((float)1); Both(1, ga.x); (void)0; sizeof(A); precise float p = 1; sample = 3; vk::RawBufferLoad<uint>(3); this_is; }
 struct Fwd; struct Fwd { int i; }; Fwd fwd; Fwd fwd2 = { 3 };
 float4 swz(float4 v) { v.wzyx.xy = v.rg; return v.xxxx; }
 [shader("miss")]

@@ -120,10 +120,10 @@ float3x3 Basis(float3 n)
 
 // ---- Geometry
 
-uint3 LoadTriangle(uint buffer, uint triangle)
+uint3 LoadTriangle(uint buffer, uint face)
 {
     ByteAddressBuffer indices = g_index_buffers[NonUniformResourceIndex(buffer)];
-    return indices.Load3(triangle * 12);
+    return indices.Load3(face * 12);
 }
 
 Vertex Interpolate(uint buffer, uint primitive, float2 bary)

@@ -7,6 +7,7 @@
 // EXPECT u32 16 0
 // EXPECT u32 20 0
 // EXPECT u32 24 0
+// DXC's validator is right to refuse it: HLSL leaves the values undefined.
 struct S {
   float3 a;
   uint b[2];
