@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "runtime/hlsl/check/check_test_support.h"
+#include "runtime/hlsl/check/marked_test_support.h"
 
 namespace kaamos::hlsl {
 namespace {
@@ -333,53 +334,11 @@ const std::vector<Case>& cases() {
   return all;
 }
 
-struct Marked {
-  std::string text;
-  uint32_t line = 0;  // 0: no mark
-  uint32_t column = 0;
-};
-
-Marked strip_mark(const std::string& text) {
-  Marked result{text, 0, 0};
-  const size_t at = text.find('@');
-  if (at == std::string::npos) return result;
-  result.text.erase(at, 1);
-  result.line = 1;
-  result.column = 1;
-  for (size_t i = 0; i < at; ++i) {
-    if (text[i] == '\n') {
-      ++result.line;
-      result.column = 1;
-    } else {
-      ++result.column;
-    }
-  }
-  return result;
-}
-
 class CheckErrors : public testing::TestWithParam<size_t> {};
 
 TEST_P(CheckErrors, StandsAtTheMark) {
   const Case& one = cases()[GetParam()];
-  const Marked marked = strip_mark(one.text);
-  const Compilation compilation(marked.text, one.options);
-  const Severity wanted =
-      diagnostic_info(one.id).severity == DiagnosticClass::kError || one.options.strict
-          ? Severity::kError
-          : Severity::kWarning;
-  EXPECT_EQ(compilation.module == nullptr, wanted == Severity::kError);
-  for (const Diagnostic& diagnostic : compilation.diagnostics()) {
-    if (diagnostic.severity == Severity::kError && diagnostic.id != one.id) break;
-    if (diagnostic.id != one.id) continue;
-    EXPECT_EQ(diagnostic.severity, wanted);
-    if (marked.line == 0) return;
-    const ResolvedLocation at = compilation.resolve(diagnostic.location);
-    EXPECT_EQ(at.line, marked.line) << compilation.messages();
-    EXPECT_EQ(at.column, marked.column) << compilation.messages();
-    return;
-  }
-  ADD_FAILURE() << "not reported first: " << diagnostic_info(one.id).name << "\n"
-                << compilation.messages();
+  expect_at_mark(one.id, one.text, one.options);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, CheckErrors, testing::Range<size_t>(0, cases().size()),

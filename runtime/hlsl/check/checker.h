@@ -76,12 +76,14 @@ class Checker {
   const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
   const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
-  std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope);
+  std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope,
+                                        const Type** type = nullptr);
   static bool is_const_type(const TypeSyntax* syntax);
   const Type* apply_storage(const Type* type, Modifiers modifiers);
   Scalar scalar_of(ScalarKind kind, SourceLocation location);
+  // `type` receives the expression's type.
   std::optional<int64_t> constant_integer(const Expr* expression, Scope* scope,
-                                          std::string_view purpose);
+                                          std::string_view purpose, const Type** type = nullptr);
 
   // -- Declarations (declarations.cpp, structs.cpp)
   void declare_all(std::span<const Decl* const> declarations, Scope* scope);
@@ -94,6 +96,8 @@ class Checker {
   void declare_alias(const TypeAliasDecl* decl, Scope* scope);
   void declare_using(const QualifiedName& name, Scope* scope, SourceLocation location);
   void declare_enum(const EnumDecl* decl, Scope* scope);
+  const Type* enumerator_type(const Type* before, int64_t value, bool is_fixed);
+  void close_enum(const EnumDecl* decl, EnumInfo* info, Scope* inner);
   void declare_struct(const StructDecl* decl, Scope* scope);
   StructInfo* make_struct(const StructDecl* decl, Scope* parent, const std::string& name);
   void complete_struct(StructInfo* info);

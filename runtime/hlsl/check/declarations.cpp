@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Globals, namespaces, aliases, enums, functions.
+// Globals, namespaces, aliases, functions.
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -149,52 +149,6 @@ void Checker::declare_using(const QualifiedName& name, Scope* scope, SourceLocat
     return;
   }
   scope->symbols[last] = symbol;
-}
-
-void Checker::declare_enum(const EnumDecl* decl, Scope* scope) {
-  EnumInfo* info = &enums_.emplace_back();
-  info->name = decl->name.empty() ? "enum" : qualify(scope, decl->name);
-  info->is_class = decl->is_class;
-  if (decl->underlying) {
-    const Type* underlying = resolve_type(decl->underlying, scope);
-    if (underlying->is_scalar() && is_integer(underlying->scalar)) {
-      info->underlying = underlying->scalar;
-    } else if (!underlying->is_error()) {
-      report(CheckId::kEnumBase, decl->underlying->location, {to_string(underlying)});
-    }
-  }
-  const Type* type = types_.enumeration(info);
-  declared_types_[decl] = type;
-  Scope* inner = make_scope(ScopeKind::kEnum, scope, decl->name);
-  if (!decl->name.empty()) {
-    if (find_local(scope, decl->name)) {
-      report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
-    }
-    Symbol* symbol = add_symbol(scope, SymbolKind::kType, decl->name, decl->location);
-    symbol->type = type;
-    symbol->scope = inner;
-  }
-  int64_t next = 0;
-  for (const Enumerator& enumerator : decl->enumerators) {
-    if (enumerator.value) {
-      const auto value = constant_integer(enumerator.value, inner, "the value of an enumerator");
-      if (value) next = *value;
-    }
-    const auto add = [&](Scope* target) {
-      if (find_local(target, enumerator.name)) {
-        report(CheckId::kRedefinition, enumerator.location, {std::string(enumerator.name)});
-        return;
-      }
-      Symbol* symbol =
-          add_symbol(target, SymbolKind::kConstant, enumerator.name, enumerator.location);
-      symbol->type = type;
-      symbol->value = build_.literal(
-          type->ir, {normalise_bits(static_cast<uint64_t>(next), ir_scalar(info->underlying))});
-    };
-    add(inner);
-    if (!decl->is_class) add(scope);
-    next = static_cast<int64_t>(static_cast<uint64_t>(next) + 1);
-  }
 }
 
 bool Checker::check_variable_type(const Type* type, SourceLocation location,

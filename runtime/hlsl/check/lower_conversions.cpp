@@ -76,7 +76,7 @@ ConversionRank Lowerer::rank(const Type* from, const Type* to) {
   if (from->is_enum() && to->is_numeric() && !from->enumeration->is_class) {
     result.possible = true;
     result.shape = to->is_scalar() ? 0 : 1;
-    result.scalar = std::max<uint8_t>(kPromotion, scalar_rank(from->scalar, to->scalar));
+    result.scalar = std::max<uint8_t>(kPromotion, scalar_rank(Scalar::kInt32, to->scalar));
     return result;
   }
   if (from->is_numeric() && to->is_numeric()) {
@@ -237,8 +237,7 @@ const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocat
     return expr ? convert_numeric(expr, shape, to) : nullptr;
   }
   if (to->is_enum()) {
-    const bool is_literal_zero = from->is_scalar() && is_explicit;
-    if (!is_literal_zero && !(from->is_enum() && is_explicit)) return refuse();
+    if (!is_explicit || !(from->is_scalar() || from->is_enum())) return refuse();
     const ir::Expr* expr = load(value);
     return expr ? build_.convert(expr, ir_scalar(to->scalar)) : nullptr;
   }
@@ -431,7 +430,8 @@ const ir::Expr* Lowerer::lower_init_list(const InitListExpr* list, const Type* t
 const ir::Expr* Lowerer::as_condition(const Value& value, SourceLocation location) {
   if (value.failed()) return nullptr;
   const Type* type = value.type;
-  if (!type || !(type->is_scalar() || type->is_enum())) {
+  const bool is_unscoped = type && type->is_enum() && !type->enumeration->is_class;
+  if (!type || !(type->is_scalar() || is_unscoped)) {
     const bool single = type && type->is_numeric() && type->components() == 1;
     if (!single) {
       report(CheckId::kConditionType, location, {type ? to_string(type) : "a resource"});

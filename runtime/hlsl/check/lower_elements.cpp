@@ -29,6 +29,11 @@ const ir::Expr* Lowerer::index_value(const Value& value, SourceLocation location
                  true);
 }
 
+const Type* Lowerer::row_type(const Type* matrix) {
+  return matrix->columns == 1 ? types_.single(matrix->scalar)
+                              : types_.vector(matrix->scalar, matrix->columns);
+}
+
 Value Lowerer::memory_element(const Value& base, const ir::Expr* index) {
   Value result = base;
   const Type* type = base.type;
@@ -54,7 +59,7 @@ Value Lowerer::memory_element(const Value& base, const ir::Expr* index) {
     return result;
   }
   const uint32_t stride = matrix_stride(type, base.layout);
-  result.type = types_.vector(type->scalar, type->columns);
+  result.type = row_type(type);
   result.offset = build_.add_scaled(base.offset, index, type->row_major ? stride : bytes);
   if (!type->row_major && type->columns > 1) result.component_stride = stride;
   return result;
@@ -65,6 +70,7 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
   const Type* type = base.type;
   const uint32_t limit = type->is_array()    ? type->count
                          : type->is_matrix() ? type->rows
+                         : type->is_single   ? 1
                                              : type->columns;
   const ir::Expr* at_index = index_value(index, location);
   if (!at_index) return error_value();
@@ -75,6 +81,12 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
       return error_value();
     }
     at_index = build_.uint32(static_cast<uint64_t>(number));
+  }
+  if (type->is_single) {
+    // Its only component, whatever the index.
+    Value result = base;
+    result.type = types_.scalar(type->scalar);
+    return result;
   }
   if (base.kind == ValueKind::kBindings) {
     Value result = base;
@@ -89,7 +101,7 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
   }
   if (base.kind == ValueKind::kMemory) return memory_element(base, at_index);
   const Type* element = type->is_array()    ? type->element
-                        : type->is_matrix() ? types_.vector(type->scalar, type->columns)
+                        : type->is_matrix() ? row_type(type)
                                             : types_.scalar(type->scalar);
   if (base.kind == ValueKind::kTyped && at_index->kind == ir::ExprKind::kLiteral) {
     return component_of(base, {static_cast<uint8_t>(at_index->literal[0])});

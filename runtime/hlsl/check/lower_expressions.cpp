@@ -339,7 +339,8 @@ Value Lowerer::lower_index(const IndexExpr* expr) {
       return *result;
     }
   }
-  const bool indexable = base.type->is_array() || base.type->is_vector() || base.type->is_matrix();
+  const bool indexable = base.type->is_array() || base.type->is_vector() ||
+                         base.type->is_matrix() || base.type->is_single;
   if (!indexable) {
     report(CheckId::kNotIndexable, expr->location, {to_string(base.type)});
     return error_value();

@@ -129,7 +129,7 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
   // All arguments get the same shape and scalar, except for refract's last one.
   const size_t joined = shape == S::kRefract ? 2 : arguments.size();
   const Type* type =
-      arguments[0].type->is_enum() ? types_.scalar(arguments[0].type->scalar) : arguments[0].type;
+      arguments[0].type->is_enum() ? types_.scalar(Scalar::kInt32) : arguments[0].type;
   for (size_t i = 1; i < joined; ++i) {
     bool truncates = false;
     const Type* next = common_type(type, arguments[i].type, location, truncates);
@@ -312,7 +312,10 @@ Value Lowerer::call_mul(std::vector<Value>& arguments, SourceLocation location) 
   }
   const Type* a = arguments[0].type;
   const Type* b = arguments[1].type;
-  Scalar scalar = common_scalar(a->scalar, b->scalar);
+  const auto scalar_of = [](const Type* type) {
+    return type->is_enum() ? Scalar::kInt32 : type->scalar;
+  };
+  Scalar scalar = common_scalar(scalar_of(a), scalar_of(b));
   if (scalar == Scalar::kBool || scalar == Scalar::kLiteralInt) scalar = Scalar::kInt32;
   if (scalar == Scalar::kLiteralFloat) scalar = Scalar::kFloat32;
   const auto single = [](const Type* type) { return type->is_scalar() || type->is_enum(); };
@@ -371,7 +374,7 @@ Value Lowerer::call_select(std::vector<Value>& arguments, SourceLocation locatio
     }
   } else if (arguments[1].type && arguments[2].type &&
              same_type(arguments[1].type, arguments[2].type) && condition.type->is_scalar()) {
-    type = arguments[1].type;
+    return select_whole(arguments, location);
   } else {
     report(CheckId::kNoCommonType, location,
            {arguments[1].type ? to_string(arguments[1].type) : "a resource",
@@ -387,6 +390,20 @@ Value Lowerer::call_select(std::vector<Value>& arguments, SourceLocation locatio
   if (!test || !yes || !no) return error_value();
   at(location);
   return rvalue(build_.expr(ir::ExprKind::kSelect, type->ir, {test, yes, no}), type);
+}
+
+// Samplers, and what DXC leaves to ?: and if.
+Value Lowerer::select_whole(const std::vector<Value>& arguments, SourceLocation location) {
+  const Type* type = arguments[1].type;
+  if (!type->is_resource() || !is_sampler(type->resource)) {
+    report(CheckId::kSelectOfStructs, location, {to_string(type)});
+  }
+  const ir::Expr* test = convert(arguments[0], types_.boolean(), arguments[0].location);
+  const ir::Expr* yes = load(arguments[1]);
+  const ir::Expr* no = load(arguments[2]);
+  if (!test || !yes || !no) return error_value();
+  at(location);
+  return rvalue(build_.conditional(test, yes, no), type);
 }
 
 Value Lowerer::call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location) {

@@ -52,6 +52,12 @@ std::string_view spelling(BinaryOp op) {
   return kSpellings[static_cast<size_t>(op)];
 }
 
+// What an enum and another operand are both converted to.
+Scalar beside_enum(Scalar other) {
+  if (other == Scalar::kLiteralFloat) return Scalar::kFloat32;
+  return other == Scalar::kBool || other == Scalar::kLiteralInt ? Scalar::kInt32 : other;
+}
+
 bool is_bitwise(BinaryOp op) {
   return op == BinaryOp::kBitAnd || op == BinaryOp::kBitOr || op == BinaryOp::kBitXor;
 }
@@ -67,7 +73,14 @@ bool is_comparison(BinaryOp op) {
 const Type* Lowerer::common_type(const Type* a, const Type* b, SourceLocation location,
                                  bool& truncates) {
   truncates = false;
-  const Scalar scalar = common_scalar(a->scalar, b->scalar);
+  if (a->is_enum() && b->is_enum()) {
+    if (same_type(a, b)) return a;
+    report(CheckId::kNoCommonType, location, {to_string(a), to_string(b)});
+    return nullptr;
+  }
+  const Scalar scalar = a->is_enum()   ? beside_enum(b->scalar)
+                        : b->is_enum() ? beside_enum(a->scalar)
+                                       : common_scalar(a->scalar, b->scalar);
   const auto single = [](const Type* type) { return type->is_scalar() || type->is_enum(); };
   if (single(a) && single(b)) return types_.scalar(scalar);
   if (single(a)) return types_.with_scalar(b, scalar);
@@ -127,8 +140,8 @@ Value Lowerer::lower_unary(const UnaryExpr* expr) {
   const ir::Expr* value = load(operand);
   if (!value) return error_value();
   const Type* type = operand.type;
-  if (type->is_enum()) type = types_.scalar(type->scalar);
-  if (!type->is_numeric()) {
+  const bool is_unscoped = type->is_enum() && !type->enumeration->is_class;
+  if (!type->is_numeric() && !is_unscoped) {
     report(CheckId::kOperand, expr->location, {"this operator", to_string(type)});
     return error_value();
   }
@@ -194,7 +207,12 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
   }
   const bool is_class_enum = (left.type->is_enum() && left.type->enumeration->is_class) ||
                              (right.type->is_enum() && right.type->enumeration->is_class);
-  if (is_class_enum && !(is_comparison(op) && same_type(left.type, right.type))) {
+  const bool is_equality = op == BinaryOp::kEqual || op == BinaryOp::kNotEqual;
+  const bool same = same_type(left.type, right.type);
+  // The left operand decides what a shift results in, and a number does not become an enum.
+  const bool is_number_in_enum = left.type->is_enum() && is_shift(op) && !same;
+  const bool mixes = left.type->is_enum() && right.type->is_enum() && !same;
+  if ((is_class_enum && !(is_equality && same)) || is_number_in_enum || mixes) {
     report(CheckId::kOperands, location,
            {std::string(spelling(op)), to_string(left.type), to_string(right.type)});
     return error_value();
@@ -217,7 +235,7 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
       scalar = settled(settle(left).type)->scalar;
     }
     if (scalar == Scalar::kBool) scalar = Scalar::kInt32;
-    type = types_.with_scalar(type, scalar);
+    if (!type->is_enum()) type = types_.with_scalar(type, scalar);
   }
   const bool floating = is_floating(type->scalar);
   if (floating && (is_bitwise(op) || is_shift(op))) {
@@ -231,6 +249,7 @@ Value Lowerer::binary_value(BinaryOp op, const Value& left, const Value& right,
   const auto operand = [&](const Value& value) -> const ir::Expr* {
     const ir::Expr* expr = load(value);
     if (!expr) return nullptr;
+    if (same_type(value.type, type)) return expr;
     const Type* from = value.type->is_enum() ? types_.scalar(value.type->scalar) : value.type;
     at(location);
     if (is_shift(op) && &value == &right && from->is_scalar() == type->is_scalar() &&

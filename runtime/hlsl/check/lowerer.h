@@ -74,6 +74,7 @@ class Lowerer {
   Value swizzle_of(const Value& base, std::string_view text, SourceLocation location);
   Value matrix_swizzle_of(const Value& base, std::string_view text, SourceLocation location);
   Value component_of(const Value& base, const std::vector<uint8_t>& components);
+  const Type* row_type(const Type* matrix);
   Value memory_element(const Value& base, const ir::Expr* index);
   bool require_place(const Value& value, SourceLocation location, std::string_view purpose);
   void freeze(Value& value, size_t* position);
@@ -148,6 +149,7 @@ class Lowerer {
                    SourceLocation location);
   Value call_mul(std::vector<Value>& arguments, SourceLocation location);
   Value call_select(std::vector<Value>& arguments, SourceLocation location);
+  Value select_whole(const std::vector<Value>& arguments, SourceLocation location);
   Value call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location);
   std::optional<Value> call_wave(std::string_view name, std::vector<Value>& arguments,
                                  SourceLocation location);

@@ -82,6 +82,7 @@ const Type* Checker::resolve_type(const TypeSyntax* syntax, Scope* scope) {
       const bool row_major = syntax->modifiers & kModRowMajor
                                  ? true
                                  : options_.row_major && !(syntax->modifiers & kModColumnMajor);
+      if (syntax->rows == 0 && syntax->columns == 1) return types_.single(scalar);
       return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
     }
     case TypeSyntaxKind::kNamed:
@@ -178,12 +179,14 @@ const Type* Checker::type_argument(const TemplateArgument& argument, Scope* scop
   return types_.error();
 }
 
-std::optional<int64_t> Checker::value_argument(const TemplateArgument& argument, Scope* scope) {
-  if (argument.value) return constant_integer(argument.value, scope, "a template argument");
+std::optional<int64_t> Checker::value_argument(const TemplateArgument& argument, Scope* scope,
+                                               const Type** type) {
+  if (argument.value) return constant_integer(argument.value, scope, "a template argument", type);
   if (argument.type && argument.type->kind == TypeSyntaxKind::kNamed) {
     Symbol* symbol = resolve_name(*argument.type->name, scope, true);
     if (symbol && symbol->kind == SymbolKind::kConstant && symbol->value) {
       const auto value = evaluate(symbol->value);
+      if (type) *type = symbol->type;
       if (value) return static_cast<int64_t>((*value)[0]);
     }
   }
@@ -222,6 +225,7 @@ const Type* Checker::resolve_builtin(const NamePart& part, SourceLocation locati
       }
       sizes[i - 1] = *size;
     }
+    if (is_vector && sizes[0] == 1) return types_.single(scalar);
     if (is_vector) return types_.vector(scalar, static_cast<uint32_t>(sizes[0]));
     return types_.matrix(scalar, static_cast<uint32_t>(sizes[0]), static_cast<uint32_t>(sizes[1]),
                          options_.row_major);
@@ -289,7 +293,7 @@ const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
 }
 
 std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* scope,
-                                                 std::string_view purpose) {
+                                                 std::string_view purpose, const Type** type) {
   ir::Block ignored;
   Lowerer::BodyScope body(lower_, lower_.function_, &ignored, scope);
   lower_.this_variable_ = nullptr;
@@ -316,6 +320,7 @@ std::optional<int64_t> Checker::constant_integer(const Expr* expression, Scope* 
            {std::string(purpose), to_string(value.type)});
     return std::nullopt;
   }
+  if (type) *type = value.type;
   return static_cast<int64_t>((*bits)[0]);
 }
 

@@ -76,7 +76,8 @@ struct StageUse {
 struct TemplateValue {
   const Type* type = nullptr;
   const ir::Expr* value = nullptr;
-  const Type* value_type = nullptr;
+  const Type* value_type = nullptr;    // the parameter's, once known
+  const Type* written_type = nullptr;  // of a written value; null: deduced
   bool is_set() const { return type || value; }
 };
 using TemplateValues = std::vector<TemplateValue>;

@@ -29,7 +29,7 @@ bool Checker::bind_arguments(std::span<const TemplateParameter> parameters,
       if (values[i].type->is_error()) return false;
       continue;
     }
-    const auto value = value_argument(written[i], use_scope);
+    const auto value = value_argument(written[i], use_scope, &values[i].written_type);
     if (!value) return false;
     values[i].value =
         build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
@@ -45,7 +45,8 @@ bool Checker::complete_arguments(std::span<const TemplateParameter> parameters, 
     if (!values[i].is_set() && parameter.default_type) {
       values[i].type = resolve_type(parameter.default_type, known);
     } else if (!values[i].is_set() && parameter.default_value) {
-      const auto value = constant_integer(parameter.default_value, known, "a template argument");
+      const auto value = constant_integer(parameter.default_value, known, "a template argument",
+                                          &values[i].written_type);
       if (!value) return false;
       values[i].value =
           build_.literal(types_.scalar(Scalar::kInt64)->ir, {static_cast<uint64_t>(*value)});
@@ -54,6 +55,9 @@ bool Checker::complete_arguments(std::span<const TemplateParameter> parameters, 
     if (parameter.value_type && !values[i].value_type) {
       const Type* type = resolve_type(parameter.value_type, known);
       if (!(type->is_scalar() || type->is_enum())) return false;
+      // A number does not become an enum by itself.
+      const Type* written = values[i].written_type;
+      if (type->is_enum() && written && !same_type(type, written)) return false;
       values[i].value_type = type;
       values[i].value =
           build_.literal(type->ir, {convert_bits(values[i].value->literal[0],
@@ -209,6 +213,10 @@ bool Checker::deduce(const TypeSyntax* syntax, const Type* type,
     deduce_number(1, type->rows);
     deduce_number(2, type->columns);
     return deduce_type(0, types_.scalar(type->scalar));
+  }
+  if (type->is_query() && part.identifier == resource_name(type->resource)) {
+    deduce_number(0, type->ray_query_flags);
+    return true;
   }
   if (type->is_resource() && part.identifier == resource_name(type->resource)) {
     return !type->element || deduce_type(0, type->element);

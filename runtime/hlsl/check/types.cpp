@@ -123,6 +123,17 @@ const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, b
   return type;
 }
 
+const Type* TypeTable::single(Scalar scalar_kind) {
+  const Type*& slot = singles_[scalar_kind];
+  if (slot) return slot;
+  Type* type = make(TypeKind::kNumeric);
+  type->scalar = scalar_kind;
+  type->is_single = true;
+  type->canonical = scalar(scalar_kind);
+  type->ir = type->canonical->ir;
+  return slot = type;
+}
+
 const Type* TypeTable::with_scalar(const Type* shape, Scalar scalar) {
   return numeric(scalar, shape->rows, shape->columns, shape->row_major);
 }
@@ -225,6 +236,7 @@ std::string to_string(const Type* type) {
                std::to_string(type->columns);
       }
       if (type->columns) text += std::to_string(type->columns);
+      if (type->is_single) text += '1';
       return text;
     }
     case TypeKind::kArray: {

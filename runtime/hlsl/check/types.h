@@ -76,6 +76,7 @@ struct Type {
   uint8_t rows = 0;     // 0: not a matrix
   uint8_t columns = 0;  // 0: a scalar
   bool row_major = false;
+  bool is_single = false;         // float1: a scalar that can be indexed
   const Type* element = nullptr;  // array; resource
   uint32_t count = 0;             // array; 0: unbounded
   StructInfo* structure = nullptr;
@@ -160,8 +161,10 @@ class TypeTable {
   const Type* matrix(Scalar scalar, uint32_t rows, uint32_t columns, bool row_major = false) {
     return numeric(scalar, rows, columns, row_major);
   }
-  // `float1` is the type `float`: rows 0 and columns 1 give the scalar.
+  // `float1` is a float in everything but that it can be indexed: single() makes it, and here rows
+  // 0 and columns 1 give the scalar.
   const Type* numeric(Scalar scalar, uint32_t rows, uint32_t columns, bool row_major = false);
+  const Type* single(Scalar scalar);
   const Type* with_scalar(const Type* shape, Scalar scalar);
   const Type* array(const Type* element, uint32_t count);
   const Type* resource(ir::ResourceKind kind, const Type* element, bool written = true);
@@ -180,6 +183,7 @@ class TypeTable {
   const Type* void_ = nullptr;
   const Type* string_ = nullptr;
   std::unordered_map<uint32_t, const Type*> numeric_;
+  std::map<Scalar, const Type*> singles_;
   std::map<std::pair<const Type*, uint32_t>, const Type*> arrays_;
   std::map<std::tuple<ir::ResourceKind, const Type*, bool>, const Type*> resources_;
   std::map<std::pair<ir::ResourceKind, const ir::Type*>, const ir::Type*> ir_resources_;

@@ -31,6 +31,12 @@ class WideEmitter;
 
 // "0, 2": the components of a swizzle.
 std::string component_list(const std::vector<uint8_t>& components);
+// What follows the subscript of a matrix's row, which is a vector even if the IR has a scalar
+// there.
+inline std::string behind_row(const ir::Type* indexed) {
+  const bool has_one_column = indexed->kind == ir::TypeKind::kMatrix && indexed->columns == 1;
+  return has_one_column ? "[0]" : "";
+}
 
 class CppEmitter {
  public:

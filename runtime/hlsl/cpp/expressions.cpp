@@ -259,10 +259,10 @@ std::string CppEmitter::element(const Expr& expr, bool as_place) {
     return base;  // a vector with one component
   }
   if (index->kind == ExprKind::kLiteral && index->literal[0] < count) {
-    return base + "[" + std::to_string(index->literal[0]) + "]";
+    return base + "[" + std::to_string(index->literal[0]) + "]" + behind_row(indexed);
   }
   return std::string(as_place ? "ks::element_ref(" : "ks::element(") + base + ", " + value(index) +
-         ")";
+         ")" + behind_row(indexed);
 }
 
 std::string CppEmitter::system_value(const Expr& expr) {

@@ -121,16 +121,18 @@ std::string WideEmitter::element(const Expr& expr) {
   const Type* indexed = base->type;
   if (indexed->kind == TypeKind::kScalar) return value(base);  // a vector of one component
   if (is_varying(index)) {
-    return "ks::element_at<" + type(expr.type) + ">(" +
-           (is_varying(base) ? varying(*base) : out_.value(base)) + ", " + varying(*index) + ")";
+    const std::string only = behind_row(indexed);
+    const std::string row = only.empty() ? type(expr.type) : "ks::vec<" + type(expr.type) + ", 1>";
+    return "ks::element_at<" + row + ">(" + (is_varying(base) ? varying(*base) : out_.value(base)) +
+           ", " + varying(*index) + ")" + only;
   }
   const uint32_t count = indexed->kind == TypeKind::kArray    ? indexed->count
                          : indexed->kind == TypeKind::kMatrix ? indexed->rows
                                                               : indexed->columns;
   if (index->kind == ExprKind::kLiteral && index->literal[0] < count) {
-    return varying(*base) + "[" + std::to_string(index->literal[0]) + "]";
+    return varying(*base) + "[" + std::to_string(index->literal[0]) + "]" + behind_row(indexed);
   }
-  return "ks::element(" + varying(*base) + ", " + out_.value(index) + ")";
+  return "ks::element(" + varying(*base) + ", " + out_.value(index) + ")" + behind_row(indexed);
 }
 
 std::string WideEmitter::construct(const Expr& expr) {
@@ -387,7 +389,8 @@ std::string WideEmitter::place(const Expr* e) {
       return base() + "." + field(expr);
     case ExprKind::kElement: {
       if (expr.operands[0]->type->kind == TypeKind::kScalar) return base();
-      return "ks::element_ref(" + base() + ", " + out_.value(expr.operands[1]) + ")";
+      return "ks::element_ref(" + base() + ", " + out_.value(expr.operands[1]) + ")" +
+             behind_row(expr.operands[0]->type);
     }
     case ExprKind::kSwizzle:
       return expr.operands[0]->type->kind == TypeKind::kScalar

@@ -87,7 +87,8 @@ void WideEmitter::write_lanes(const Expr* target, const std::string& text) {
       case ExprKind::kElement:
         if (expr.operands[0]->type->kind == TypeKind::kScalar) return base;
         add_operand(operands, expr.operands[1]);
-        return "ks::element_ref(" + base + ", " + operands.text[expr.operands[1]] + ")";
+        return "ks::element_ref(" + base + ", " + operands.text[expr.operands[1]] + ")" +
+               behind_row(expr.operands[0]->type);
       case ExprKind::kSwizzle:
         return expr.operands[0]->type->kind == TypeKind::kScalar
                    ? base

@@ -116,6 +116,48 @@ TEST(Lex, SuffixFRoundsOnceToFloat) {
   EXPECT_EQ(number("0.1").real, 0.1);
 }
 
+TEST(Lex, HexadecimalFloats) {
+  EXPECT_TRUE(number("0x1p0").is_float);
+  EXPECT_FALSE(number("0x1p0").is_decimal);
+  EXPECT_EQ(number("0x1p0").real, 1.0);
+  EXPECT_EQ(number("0XA.8P-1").real, 5.25);
+  EXPECT_EQ(number("0x.8p+2").real, 2.0);
+  EXPECT_EQ(number("0x1.p3").real, 8.0);
+  EXPECT_EQ(number("0x1.fffffffffffffp1023").real, std::numeric_limits<double>::max());
+  EXPECT_EQ(number("0x1p-1074").real, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(number("0x1p-149f").real, double{std::numeric_limits<float>::denorm_min()});
+  EXPECT_EQ(number("0x1p-150f").real, 0.0);  // halfway, to even
+  EXPECT_EQ(number("0x1.8p-150f").real, double{std::numeric_limits<float>::denorm_min()});
+  EXPECT_EQ(number("0x1p-9999").real, 0.0);
+  EXPECT_EQ(number("0x0p9999").real, 0.0);
+  EXPECT_EQ(number("0x1p-1").suffix, LiteralSuffix::kNone);
+  EXPECT_EQ(number("0x1p-1F").suffix, LiteralSuffix::kF);
+  EXPECT_EQ(number("0x1p-1h").suffix, LiteralSuffix::kH);
+  EXPECT_EQ(number("0x1p-1l").suffix, LiteralSuffix::kL);
+  EXPECT_EQ(number("0x1.001p0h").real, 1.000244140625);  // the type rounds it
+  // Halfway between two floats, except for bits that double drops.
+  EXPECT_EQ(number("0x1.00000100000000000000000001p0f").real, 0x1.000002p0);
+  EXPECT_EQ(number("0x1.000001p0f").real, 1.0);
+}
+
+TEST(Lex, CharactersAreUints) {
+  const auto character = [](const char* text) {
+    Preprocessed input(text);
+    EXPECT_EQ(input.rendered(), "") << text;
+    EXPECT_TRUE(input.list.tokens[0].is(TokenKind::kIntLiteral)) << text;
+    EXPECT_EQ(input.list.numbers[0].suffix, LiteralSuffix::kU) << text;
+    return input.list.numbers[0].integer;
+  };
+  EXPECT_EQ(character("'a'"), 97u);
+  EXPECT_EQ(character("'\\n'"), 10u);
+  EXPECT_EQ(character("'\\''"), 39u);
+  EXPECT_EQ(character("'\"'"), 34u);
+  EXPECT_EQ(character("'\\0'"), 0u);
+  EXPECT_EQ(character("'\\x7f'"), 127u);
+  EXPECT_EQ(character("'\\200'"), 0xFFFFFF80u);
+  EXPECT_EQ(character("'\xE4'"), 0xFFFFFFE4u);
+}
+
 TEST(Lex, InfinityAsFxcWritesIt) {
   EXPECT_EQ(number("1.#INF").real, std::numeric_limits<double>::infinity());
   EXPECT_EQ(number("1.#INFf").suffix, LiteralSuffix::kF);

@@ -33,9 +33,9 @@ class NumberReader {
       : text_(text), location_(location), diagnostics_(diagnostics) {}
 
   NumberLiteral read() {
-    bool is_hex = text_.size() > 1 && text_[0] == '0' && lower(text_[1]) == 'x';
+    is_hex_ = text_.size() > 1 && text_[0] == '0' && lower(text_[1]) == 'x';
     bool is_binary = text_.size() > 1 && text_[0] == '0' && lower(text_[1]) == 'b';
-    if (is_hex) {
+    if (is_hex_) {
       read_hex();
     } else if (is_binary) {
       result_.is_decimal = false;
@@ -67,13 +67,39 @@ class NumberReader {
 
   void read_hex() {
     result_.is_decimal = false;
-    size_t end = 2;
-    while (end < text_.size() && digit_value(text_[end]) < 16) ++end;
-    if (end < text_.size() && (text_[end] == '.' || lower(text_[end]) == 'p')) {
-      report(DiagnosticId::kHexFloat, 0, {text_});
-      return;
+    const size_t end = hex_digits(2);
+    const bool has_point = end < text_.size() && text_[end] == '.';
+    if (!has_point && (end == text_.size() || lower(text_[end]) != 'p')) {
+      return read_integer(2, 16, "hexadecimal");
     }
-    read_integer(2, 16, "hexadecimal");
+    result_.is_float = true;
+    const size_t at = has_point ? hex_digits(end + 1) : end;
+    if (at == (has_point ? size_t{3} : size_t{2})) {
+      return report(DiagnosticId::kDigitsExpected, 0, {"hexadecimal", text_});
+    }
+    if (at == text_.size() || lower(text_[at]) != 'p') {
+      return report(DiagnosticId::kHexExponentMissing, at, {text_});
+    }
+    read_exponent(at);
+  }
+
+  size_t hex_digits(size_t at) const {
+    while (at < text_.size() && digit_value(text_[at]) < 16) ++at;
+    return at;
+  }
+
+  // From the letter of the exponent to the end of the number.
+  void read_exponent(size_t at) {
+    size_t digits = at + 1;
+    if (digits < text_.size() && (text_[digits] == '+' || text_[digits] == '-')) ++digits;
+    const size_t end = decimal_digits(digits);
+    if (end == digits) return report(DiagnosticId::kExponentEmpty, at, {text_});
+    finish_float(end);
+  }
+
+  void finish_float(size_t end) {
+    read_float_suffix(end);
+    if (is_valid_) convert(text_.substr(0, end));
   }
 
   void read_integer(size_t begin, uint64_t base, std::string_view kind) {
@@ -124,16 +150,8 @@ class NumberReader {
       result_.real = std::numeric_limits<double>::infinity();
       return read_float_suffix(at + 4);
     }
-    if (at < text_.size() && lower(text_[at]) == 'e') {
-      size_t digits = at + 1;
-      if (digits < text_.size() && (text_[digits] == '+' || text_[digits] == '-')) ++digits;
-      size_t end = decimal_digits(digits);
-      if (end == digits) return report(DiagnosticId::kExponentEmpty, at, {text_});
-      at = end;
-    }
-    read_float_suffix(at);
-    if (!is_valid_) return;
-    convert(text_.substr(0, at));
+    if (at < text_.size() && lower(text_[at]) == 'e') return read_exponent(at);
+    finish_float(at);
   }
 
   void read_float_suffix(size_t at) {
@@ -156,23 +174,26 @@ class NumberReader {
   template <class Float>
   std::optional<Float> parse(std::string_view digits) const {
     Float value = 0;
-    auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto format = is_hex_ ? std::chars_format::hex : std::chars_format::general;
+    auto [end, failure] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value, format);
     if (failure != std::errc::result_out_of_range) return value;
     return is_large(digits) ? std::nullopt : std::optional<Float>(Float{0});
   }
 
   // Whether an out-of-range number is too large rather than too small.
-  static bool is_large(std::string_view digits) {
-    size_t e = digits.find_first_of("eE");
+  bool is_large(std::string_view digits) const {
+    size_t e = digits.find_first_of(is_hex_ ? "pP" : "eE");
     std::string_view mantissa = digits.substr(0, e);
     bool is_negative_exponent = e != std::string_view::npos && digits[e + 1] == '-';
-    size_t first = mantissa.find_first_of("123456789");
+    size_t first = mantissa.find_first_not_of("0.");
     size_t point = std::min(mantissa.find('.'), mantissa.size());
     if (e == std::string_view::npos) return first < point;
     return !is_negative_exponent;
   }
 
   void convert(std::string_view digits) {
+    if (is_hex_) digits.remove_prefix(2);
     std::optional<double> value = parse<double>(digits);
     if (!value) {
       result_.real = std::numeric_limits<double>::infinity();
@@ -181,6 +202,9 @@ class NumberReader {
     result_.real = *value;
     bool is_half = result_.suffix == LiteralSuffix::kH;
     if (result_.suffix != LiteralSuffix::kF && !is_half) return;
+    // A hexadecimal half has few enough digits to be exact as a double; the type decides how far it
+    // is rounded.
+    if (is_hex_ && is_half && *value < kMaxHalf + 16) return;
     // Converted directly to float, because going through double could round twice.
     std::optional<float> narrow = parse<float>(digits);
     result_.real = narrow ? *narrow : std::numeric_limits<float>::infinity();
@@ -195,6 +219,7 @@ class NumberReader {
   SourceLocation location_;
   DiagnosticEngine& diagnostics_;
   NumberLiteral result_;
+  bool is_hex_ = false;
   bool is_valid_ = true;
 };
 
@@ -211,6 +236,23 @@ std::optional<char> simple_escape(char c) {
 NumberLiteral parse_number(std::string_view text, SourceLocation location,
                            DiagnosticEngine& diagnostics) {
   return NumberReader(text, location, diagnostics).read();
+}
+
+NumberLiteral parse_character(std::string_view text, SourceLocation location,
+                              DiagnosticEngine& diagnostics) {
+  const std::string bytes = parse_quoted(text, location, diagnostics);
+  NumberLiteral result;
+  result.is_decimal = false;
+  result.suffix = LiteralSuffix::kU;
+  if (bytes.empty()) {
+    diagnostics.report(DiagnosticId::kEmptyCharacter, location);
+  } else if (bytes.size() > 1) {
+    diagnostics.report(DiagnosticId::kCharacterNotSingle, location,
+                       {text, std::to_string(bytes.size())});
+  } else {
+    result.integer = static_cast<uint32_t>(static_cast<signed char>(bytes[0]));
+  }
+  return result;
 }
 
 std::string parse_quoted(std::string_view text, SourceLocation location,

@@ -59,6 +59,7 @@ bool Parser::begins_template_arguments(size_t index, size_t name_index, const Pa
   }
   if (symbol.kind == ParsedKind::kValue) return false;
   const bool is_template = is_member && scopes_.is_template_function(token_at(name_index).value);
+  if (is_template && is_called(behind_template_arguments(index))) return true;
   if (look_ahead_depth_ >= kMaxLookAheadDepth) return false;
   ++look_ahead_depth_;
   const bool result = is_called(behind_plain_template_arguments(index, !is_template));

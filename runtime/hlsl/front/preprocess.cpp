@@ -120,19 +120,15 @@ void Preprocessor::emit(Token token) {
     case TokenKind::kIdentifier:
       token.kind = identifiers_[token.value].keyword;
       break;
+    case TokenKind::kCharacter:
     case TokenKind::kNumber: {
-      NumberLiteral number = parse_number(token.text, token.location, diagnostics_);
+      const auto parse = token.is(TokenKind::kNumber) ? parse_number : parse_character;
+      NumberLiteral number = parse(token.text, token.location, diagnostics_);
       token.kind = number.is_float ? TokenKind::kFloatLiteral : TokenKind::kIntLiteral;
       token.value = static_cast<uint32_t>(output_.numbers.size());
       output_.numbers.push_back(number);
       break;
     }
-    case TokenKind::kCharacter:
-      diagnostics_.report(DiagnosticId::kCharacterNotSupported, token.location, {token.text});
-      token.kind = TokenKind::kIntLiteral;
-      token.value = static_cast<uint32_t>(output_.numbers.size());
-      output_.numbers.push_back({});
-      break;
     case TokenKind::kUnknown:
       if (token.flags & Token::kQuotedBroken) {
         diagnostics_.report(token.text[0] == '"' ? DiagnosticId::kUnterminatedString

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// What the checker refuses about types and their values: `@` marks the place.
+#include "runtime/hlsl/check/marked_test_support.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+using Id = DiagnosticId;
+
+struct TypeCase {
+  const char* name;
+  Id id;
+  std::string text;
+};
+
+std::string enums(const std::string& body, const std::string& globals = {}) {
+  return kernel("const uint z = results.Load(0);\n" + body,
+                "enum E { kA = 1, kB = 2 };\nenum F { kC = 4 };\n"
+                "enum class Mode { kX, kY };\nvoid take(E e) {}\n"
+                "template <E e> struct S { int i; };\n"
+                "template <E e> uint get() { return e; }\n" +
+                    globals);
+}
+
+const std::vector<TypeCase>& type_cases() {
+  static const std::vector<TypeCase> all = {
+      {"EnumFromNumber", Id::kConversion, enums("E e = @1;")},
+      {"EnumFromSum", Id::kConversion, enums("E e = kA @+ 1;")},
+      {"EnumArgumentFromNumber", Id::kNoOverload, enums("@take(1);")},
+      {"EnumFromOtherEnum", Id::kConversion, enums("E e = @kC;")},
+      {"EnumOrNumber", Id::kConversion, enums("E e = kA;\ne @|= 2;")},
+      {"EnumOrOtherEnum", Id::kOperands, enums("uint u = kA @| kC;")},
+      {"EnumBesideOtherEnum", Id::kOperands, enums("bool b = kA @== kC;")},
+      {"EnumOrOtherEnumChosen", Id::kNoCommonType, enums("uint u = z @? kA : kC;")},
+      {"EnumShifted", Id::kOperands, enums("uint u = kA @<< 1;")},
+      {"EnumIncremented", Id::kOperand, enums("E e = kA;\n@++e;")},
+      {"ScopedToInt", Id::kConversion, enums("int i = Mode::@kY;")},
+      {"ScopedSum", Id::kOperands, enums("int i = (int)(Mode::kY @+ 1);")},
+      {"ScopedOr", Id::kOperands, enums("Mode m = Mode::kY @| Mode::kX;")},
+      {"ScopedOrder", Id::kOperands, enums("bool b = Mode::kX @< Mode::kY;")},
+      {"ScopedNot", Id::kOperand, enums("bool b = @!Mode::kX;")},
+      {"ScopedComplement", Id::kOperand, enums("Mode m = @~Mode::kX;")},
+      {"ScopedCondition", Id::kConditionType, enums("Mode m = Mode::kX;\nif (@m) return;")},
+      {"ScopedAnd", Id::kConditionType, enums("bool b = z != 0 && Mode::@kX;")},
+      {"EnumBaseFloat", Id::kEnumBase, enums("", "enum G : @float { kG };")},
+      {"EnumeratorTwice", Id::kRedefinition, enums("", "enum G { @kA };")},
+      {"NumberForEnumParameter", Id::kTemplateArguments, enums("@S<1> s;")},
+      {"OtherEnumForEnumParameter", Id::kTemplateArguments, enums("@S<kC> s;")},
+      {"SumForEnumParameter", Id::kTemplateArguments, enums("@S<kA + 1> s;")},
+      {"NumberForEnumParameterOfFunction", Id::kNoOverload, enums("uint u = @get<1>();")},
+      {"NumberAsDefaultOfEnumParameter", Id::kTemplateArguments,
+       enums("@T<> t;", "template <E e = 1> struct T { int i; };\n")},
+      {"ScalarIndexed", Id::kNotIndexable, kernel("float f = 1;\nfloat g = f@[0];")},
+      {"SingleColumnIndex", Id::kIndexRange, kernel("float3x1 m;\nm[0][@1] = 1;")},
+      {"SingleColumnRow", Id::kIndexRange, kernel("float3x1 m;\nm[@3][0] = 1;")},
+      {"SingleRowColumn", Id::kIndexRange, kernel("float1x3 m;\nm[0][@3] = 1;")},
+      {"SelectOfStructs", Id::kSelectOfStructs,
+       kernel("P a = {1}; P b = {2};\nP c = @select(true, a, b);", "struct P { int i; };")},
+      {"SelectOfDifferentStructs", Id::kNoCommonType,
+       kernel("P a = {1}; Q b = {2};\nP c = @select(true, a, b);",
+              "struct P { int i; };\nstruct Q { int i; };")},
+  };
+  return all;
+}
+
+class TypeErrors : public testing::TestWithParam<size_t> {};
+
+TEST_P(TypeErrors, StandsAtTheMark) {
+  const TypeCase& one = type_cases()[GetParam()];
+  expect_at_mark(one.id, one.text);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TypeErrors, testing::Range<size_t>(0, type_cases().size()),
+                         [](const testing::TestParamInfo<size_t>& one) {
+                           return std::string(type_cases()[one.param].name);
+                         });
+
+}  // namespace
+}  // namespace kaamos::hlsl
