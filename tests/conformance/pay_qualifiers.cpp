@@ -4,6 +4,7 @@
 // fields unchanged.
 #include <shaders/qualified.h>
 #include <shaders/qualified66.h>
+#include <shaders/standard.h>
 
 #include "tests/conformance/compile.h"
 #include "tests/conformance/program.h"
@@ -40,14 +41,20 @@ Words seen_after(const Words& words) {
   return part(words, 512);
 }
 
+// Adds qualified.hlsl, which is a library of its own: a lib_6_7 has only payloads with qualifiers.
+void add_qualified(Program& program, const std::vector<std::string>& exports) {
+  DxilLibraryDesc code;
+  code.DXILLibrary = LoadShaderLibrary(kaamos_shaders_qualified()).value();
+  for (const std::string& name : exports) code.Exports.push_back({name, ""});
+  program.desc.Add(code);
+}
+
 // One ray against one triangle; hit record 0 belongs to group "Qualified".
 struct Qualified : Standard {
   explicit Qualified(Context& t, const char* closest = "ClosestQualified", const char* any = "")
-      : Standard(t, kaamos_shaders_qualified(),
-                 {"TraceQualified", "ClosestQualified", "ClosestIdle", "ClosestNested",
-                  "MissQualified", "AnyQualified"}),
-        context(&t),
-        any_hit(*any != 0) {
+      : Standard(t), context(&t), any_hit(*any != 0) {
+    add_qualified(*this, {"TraceQualified", "ClosestQualified", "ClosestIdle", "ClosestNested",
+                          "MissQualified", "AnyQualified"});
     group("Qualified", closest, any);
     if (any_hit) local(kRecordSignature, {"Qualified"});
     raygen("TraceQualified");
@@ -117,10 +124,10 @@ void payload_limit(Context& t) {
   qualified.rays = t.upload(std::vector<Ray>{Ray{}});
   t.equal("answer with MaxPayloadSizeInBytes of 0", seen_after(qualified.run())[kAnswer], 101u);
 
-  Program plain(t, kaamos_shaders_qualified(), {"Miss"});
+  Program plain(t, kaamos_shaders_standard(), {"Miss"});
   plain.local(kRecordSignature, {"Miss"});
   set_payload_limit(plain, 0);
-  t.refused("a payload without qualifiers in lib_6_7, with a limit of 0", plain.try_create());
+  t.refused("a payload without qualifiers, with a limit of 0", plain.try_create());
   Program older(t, kaamos_shaders_qualified66(), {"MissQualified66"});
   set_payload_limit(older, 0);
   t.refused("a payload with qualifiers in lib_6_6, with a limit of 0", older.try_create());
@@ -129,19 +136,24 @@ void payload_limit(Context& t) {
 }
 
 void annotated_and_plain_payloads(Context& t) {
-  Standard program(t, kaamos_shaders_qualified(),
-                   {"TraceMixed", "ClosestQualified", "MissQualified"});
+  Standard program(t);
+  add_qualified(program, {"TraceQualified", "ClosestQualified", "MissQualified"});
   program.group("Qualified", "ClosestQualified");
-  program.raygen("TraceMixed");
+  program.raygen("TraceQualified");
+  program.raygen("Trace");
   program.hit("Qualified");
   program.record("Plain");
   program.miss("MissQualified");
   program.miss_records(1);
   program.scene = t.scene({triangle(5)});
   program.prepare({Ray{}});
-  const Words words = program.run();
-  t.equal("answer in the annotated payload", words[0], 101u);
-  t.equal("end in the plain payload", words[1], kClosestHitRan);
+  t.equal("answer in the annotated payload", seen_after(program.run())[kAnswer], 101u);
+  Ray plain;
+  plain.contribution = plain.miss = 1;
+  program.prepare({plain});
+  DispatchRaysDesc dispatch = program.tables();
+  dispatch.RayGenerationShaderRecord = program.shader_tables[0].GetRecord(1);
+  t.equal("end in the plain payload", seen_of(program.run(dispatch), 1)[0].end, kClosestHitRan);
 }
 
 void fields_are_copied_by_stage(Context& t) {

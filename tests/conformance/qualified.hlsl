@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Payload access qualifiers, in lib_6_7. The payload of standard.hlsl has none.
-#include "standard.hlsl"
+// Payload access qualifiers, in lib_6_7, where DXC takes no payload without them.
+#include "common.hlsli"
 
 #ifdef ENABLED_IN_6_6
 #define QUALIFIED(name) name##66
@@ -109,14 +109,4 @@ void QUALIFIED(AnyQualified)(inout Qualified q, BuiltInTriangleIntersectionAttri
   if (ordinal == 3) IgnoreHit();
   if (ordinal == 4) AcceptHitAndEndSearch();
   if (ordinal == 5) endFrom(q);
-}
-
-[shader("raygeneration")]
-void QUALIFIED(TraceMixed)() {
-  Qualified q = numbered(10);
-  TraceRay(scene, 0, 0xFF, 0, 0, 0, describe(rays[0]), q);
-  words.Store(0, q.answer);
-  Seen seen = nothingSeen();
-  TraceRay(scene, 0, 0xFF, 1, 0, 1, describe(rays[0]), seen);
-  words.Store(4, seen.end);
 }
