@@ -37,7 +37,7 @@ TEST(Overloads, ExactBeatsConversion) {
   const std::string functions =
       "uint f(float x) { return 1; }\nuint f(int x) { return 2; }\nuint f(uint x) { return 3; }";
   EXPECT_EQ(picked(functions, "f(1.0f)"), "1u");
-  EXPECT_EQ(picked(functions, "f(1)"), "2u");
+  EXPECT_EQ(picked(functions, "f(int(1))"), "2u");
   EXPECT_EQ(picked(functions, "f(1u)"), "3u");
   EXPECT_EQ(picked(functions, "f(1.5)"), "1u");
 }

@@ -5,54 +5,6 @@
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
-namespace {
-
-enum ScalarRank : uint8_t {
-  kSame = 0,
-  kToDefault = 1,
-  kPromotion = 2,
-  kConversion = 3,
-  kWorst = 4
-};
-
-uint8_t scalar_rank(Scalar from, Scalar to) {
-  if (from == to) return kSame;
-  if (from == Scalar::kLiteralInt) {
-    if (to == Scalar::kInt32) return kToDefault;
-    return to == Scalar::kUint32 || to == Scalar::kLiteralFloat ? kPromotion : kConversion;
-  }
-  if (from == Scalar::kLiteralFloat) {
-    if (to == Scalar::kFloat32) return kToDefault;
-    return is_floating(to) ? kPromotion : kWorst;
-  }
-  if (from == Scalar::kBool) return to == Scalar::kInt32 ? kPromotion : kConversion;
-  const bool same_class =
-      is_floating(from) == is_floating(to) && is_signed_integer(from) == is_signed_integer(to);
-  if (same_class && to != Scalar::kBool && scalar_bytes(to) > scalar_bytes(from)) return kPromotion;
-  return kConversion;
-}
-
-}  // namespace
-
-Scalar Lowerer::common_scalar(Scalar a, Scalar b) {
-  if (a == b) return a;
-  if (is_literal(b)) std::swap(a, b);
-  if (is_literal(a)) {
-    if (a == Scalar::kLiteralInt) {
-      return b == Scalar::kBool ? Scalar::kInt32 : b;
-    }
-    return is_floating(b) || b == Scalar::kLiteralInt
-               ? (b == Scalar::kLiteralInt ? Scalar::kLiteralFloat : b)
-               : Scalar::kFloat32;
-  }
-  if (is_floating(a) != is_floating(b)) return is_floating(a) ? a : b;
-  if (is_floating(a)) return std::max(a, b);
-  if (a == Scalar::kBool) return b;
-  if (b == Scalar::kBool) return a;
-  if (scalar_bytes(a) != scalar_bytes(b)) return scalar_bytes(a) > scalar_bytes(b) ? a : b;
-  return is_signed_integer(a) ? b : a;
-}
-
 bool Lowerer::convertible_numeric(const Type* from, const Type* to, bool) {
   if (from->components() == 1 && !from->is_matrix()) return true;
   if (from->is_matrix() && to->is_matrix()) {
@@ -75,23 +27,29 @@ ConversionRank Lowerer::rank(const Type* from, const Type* to) {
   }
   if (from->is_enum() && to->is_numeric() && !from->enumeration->is_class) {
     result.possible = true;
-    result.shape = to->is_scalar() ? 0 : 1;
-    result.scalar = std::max<uint8_t>(kPromotion, scalar_rank(Scalar::kInt32, to->scalar));
+    result.cost = enum_cost(to->scalar) + size_cost(1, to->components());
     return result;
   }
   if (from->is_numeric() && to->is_numeric()) {
     result.possible = convertible_numeric(from, to, false);
-    const bool same_shape = from->rows == to->rows && from->columns == to->columns;
-    result.shape = same_shape ? 0 : from->is_scalar() ? 1 : 2;
-    result.scalar = scalar_rank(from->scalar, to->scalar);
+    result.cost =
+        scalar_cost(from->scalar, to->scalar) + size_cost(from->components(), to->components());
+    return result;
+  }
+  // half[2] and float[2].
+  if (from->is_array() && to->is_array() && from->ir == to->ir) {
+    while (from->is_array()) from = from->element, to = to->element;
+    result.possible = true;
+    if (from->is_numeric() && to->is_numeric()) result.cost = scalar_cost(from->scalar, to->scalar);
     return result;
   }
   if (from->is_struct() && to->is_struct()) {
-    uint8_t distance = 1;
+    // The nearest base wins, where DXC calls several bases ambiguous.
+    ConversionCost distance = 1;
     for (StructInfo* base = from->structure->base; base; base = base->base, ++distance) {
       if (base == to->structure) {
         result.possible = true;
-        result.scalar = distance;
+        result.cost = size_cost(flat_component_count(from), flat_component_count(to)) + distance;
         return result;
       }
     }
@@ -103,7 +61,7 @@ ConversionRank Lowerer::rank(const Type* from, const Type* to) {
   if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&
       to->is_struct()) {
     result = rank(from->element, to);
-    if (result.possible) result.scalar = kPromotion;
+    ++result.cost;
   }
   return result;
 }
@@ -224,6 +182,7 @@ const ir::Expr* Lowerer::convert(const Value& value, const Type* to, SourceLocat
     return nullptr;
   };
   if (same_type(from, to)) return load(value);
+  if (from->is_array() && to->is_array() && from->ir == to->ir) return load(value);
   const bool numbers = (from->is_numeric() || from->is_enum()) && to->is_numeric();
   if (numbers) {
     if (from->is_enum() && from->enumeration->is_class && !is_explicit) return refuse();
@@ -312,7 +271,8 @@ const ir::Expr* Lowerer::take(const Type* type, std::vector<Piece>& queue, bool&
     failed = true;
     return nullptr;
   }
-  if (same_type(queue.back().type, type)) {
+  const Type* back = queue.back().type;
+  if (same_type(back, type) || (back->is_array() && type->is_array() && back->ir == type->ir)) {
     const ir::Expr* expr = queue.back().expr;
     queue.pop_back();
     return expr;

@@ -23,8 +23,8 @@ const ir::Expr* Lowerer::index_value(const Value& value, SourceLocation location
     report(CheckId::kIndexType, location, {to_string(type)});
     return nullptr;
   }
-  const bool is_unsigned = type->scalar == Scalar::kUint32 || type->scalar == Scalar::kUint64 ||
-                           type->scalar == Scalar::kUint16;
+  const Scalar scalar = type->scalar;
+  const bool is_unsigned = is_integer(scalar) && !is_signed_integer(scalar);
   return convert(value, types_.scalar(is_unsigned ? Scalar::kUint32 : Scalar::kInt32), location,
                  true);
 }

@@ -211,13 +211,14 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
     case S::kAsFloat:
     case S::kAsInt:
     case S::kAsUint: {
-      const bool fits = type->scalar == Scalar::kInt32 || type->scalar == Scalar::kUint32 ||
-                        type->scalar == Scalar::kFloat32;
+      const Scalar plain = plain_scalar(type->scalar);
+      const bool fits =
+          plain == Scalar::kInt32 || plain == Scalar::kUint32 || plain == Scalar::kFloat32;
       if (!fits) return refuse(0, "components of 32 bits (int, uint or float)");
       result = types_.with_scalar(type, shape == S::kAsFloat ? Scalar::kFloat32
                                         : shape == S::kAsInt ? Scalar::kInt32
                                                              : Scalar::kUint32);
-      if (same_type(type, result)) return rvalue(convert(arguments[0], type, location), type);
+      if (type->ir == result->ir) return rvalue(convert(arguments[0], type, location), result);
       break;
     }
     case S::kAsFloat16:
@@ -315,7 +316,7 @@ Value Lowerer::call_mul(std::vector<Value>& arguments, SourceLocation location) 
   const auto scalar_of = [](const Type* type) {
     return type->is_enum() ? Scalar::kInt32 : type->scalar;
   };
-  Scalar scalar = common_scalar(scalar_of(a), scalar_of(b));
+  Scalar scalar = combined_scalar(scalar_of(a), scalar_of(b));
   if (scalar == Scalar::kBool || scalar == Scalar::kLiteralInt) scalar = Scalar::kInt32;
   if (scalar == Scalar::kLiteralFloat) scalar = Scalar::kFloat32;
   const auto single = [](const Type* type) { return type->is_scalar() || type->is_enum(); };

@@ -80,7 +80,7 @@ const Type* Lowerer::common_type(const Type* a, const Type* b, SourceLocation lo
   }
   const Scalar scalar = a->is_enum()   ? beside_enum(b->scalar)
                         : b->is_enum() ? beside_enum(a->scalar)
-                                       : common_scalar(a->scalar, b->scalar);
+                                       : combined_scalar(a->scalar, b->scalar);
   const auto single = [](const Type* type) { return type->is_scalar() || type->is_enum(); };
   if (single(a) && single(b)) return types_.scalar(scalar);
   if (single(a)) return types_.with_scalar(b, scalar);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Overload resolution: a call means the function whose conversions are nowhere worse and somewhere
-// better than those of every other candidate. [hlsl-subset 3.5]
+// Overload resolution: a call means the function whose conversions cost least in sum. OVERLOADS.md
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"
@@ -34,29 +33,27 @@ std::string Lowerer::describe(const std::vector<Value>& arguments) {
 }
 
 bool Lowerer::is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
-                        std::vector<uint32_t>& costs) {
+                        ConversionCost& cost) {
   const auto& parameters = function->parameters;
   if (function->signature_failed || arguments.size() > parameters.size()) return false;
   for (size_t i = arguments.size(); i < parameters.size(); ++i) {
     if (!parameters[i].default_value) return false;
   }
-  costs.clear();
+  cost = 0;
   for (size_t i = 0; i < arguments.size(); ++i) {
     const Value& argument = arguments[i];
     const ParameterInfo& parameter = parameters[i];
-    uint32_t cost = 0;
     if (parameter.is_in) {
       const ConversionRank in = rank(argument, parameter.type);
       if (!in.possible) return false;
-      cost = in.cost();
+      cost += in.cost;
     }
     if (parameter.is_out && !argument.failed()) {
       if (!argument.type) return false;
       const ConversionRank out = rank(parameter.type, argument.type);
       if (!out.possible) return false;
-      cost = std::max(cost, out.cost());
+      cost += out.cost;
     }
-    costs.push_back(cost);
   }
   return true;
 }
@@ -66,7 +63,7 @@ FunctionInfo* Lowerer::resolve_overload(const std::vector<FunctionInfo*>& candid
                                         SourceLocation location, bool quiet) {
   struct Viable {
     FunctionInfo* function;
-    std::vector<uint32_t> costs;
+    ConversionCost cost;
     bool is_instance;
   };
   std::vector<Viable> viable;
@@ -80,21 +77,17 @@ FunctionInfo* Lowerer::resolve_overload(const std::vector<FunctionInfo*>& candid
     } else if (part.has_template_arguments) {
       continue;
     }
-    std::vector<uint32_t> costs;
-    if (is_viable(function, arguments, costs)) {
+    ConversionCost cost = 0;
+    if (is_viable(function, arguments, cost)) {
       const bool repeated = std::any_of(viable.begin(), viable.end(), [&](const Viable& other) {
         return other.function == function;
       });
-      if (!repeated) viable.push_back({function, std::move(costs), candidate->is_template});
+      if (!repeated) viable.push_back({function, cost, candidate->is_template});
     }
   }
+  // Between equal costs, a function that is not a template wins; DXC calls them ambiguous.
   const auto better = [](const Viable& a, const Viable& b) {
-    bool somewhere = false;
-    for (size_t i = 0; i < a.costs.size(); ++i) {
-      if (a.costs[i] > b.costs[i]) return false;
-      somewhere = somewhere || a.costs[i] < b.costs[i];
-    }
-    return somewhere || (!a.is_instance && b.is_instance);
+    return a.cost < b.cost || (a.cost == b.cost && !a.is_instance && b.is_instance);
   };
   std::vector<const Viable*> best;
   for (const Viable& one : viable) {

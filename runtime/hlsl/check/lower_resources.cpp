@@ -50,7 +50,7 @@ Value Lowerer::index_resource(const Value& base, const Value& index, SourceLocat
     return error_value();
   }
   const bool is_unsigned = index.type && index.type->is_numeric() &&
-                           index.type->scalar != Scalar::kInt32 &&
+                           plain_scalar(index.type->scalar) != Scalar::kInt32 &&
                            index.type->scalar != Scalar::kLiteralInt;
   const ir::Expr* coordinates = to_vector(index, is_unsigned ? Scalar::kUint32 : Scalar::kInt32,
                                           traits.coordinates, location);
@@ -121,8 +121,9 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     if (!offset) return error_value();
     const bool wide = name.ends_with("64");
     const Type* given = arguments[1].type;
-    const bool is_signed = given && given->is_numeric() &&
-                           (given->scalar == Scalar::kInt32 || given->scalar == Scalar::kInt64);
+    const bool is_signed =
+        given && given->is_numeric() &&
+        (plain_scalar(given->scalar) == Scalar::kInt32 || given->scalar == Scalar::kInt64);
     const Type* type = types_.scalar(wide        ? (is_signed ? Scalar::kInt64 : Scalar::kUint64)
                                      : is_signed ? Scalar::kInt32
                                                  : Scalar::kUint32);
@@ -160,7 +161,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     }
     type = settled_value.type->is_numeric() && settled_value.type->is_scalar() &&
                    scalar_bytes(settled_value.type->scalar) == 4 &&
-                   settled_value.type->scalar != Scalar::kFloat32
+                   plain_scalar(settled_value.type->scalar) != Scalar::kFloat32
                ? types_.scalar(Scalar::kUint32)
                : settled_value.type;
   }

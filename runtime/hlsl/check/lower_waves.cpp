@@ -126,7 +126,7 @@ std::optional<Value> Lowerer::call_wave(std::string_view name, std::vector<Value
     case R::kNothing:
       return rvalue(build_.zero(type->ir), type);
     case R::kNeutral: {
-      const ir::Expr* one = build_.convert(build_.uint32(1), static_cast<ir::Scalar>(type->scalar));
+      const ir::Expr* one = build_.convert(build_.uint32(1), ir_scalar(type->scalar));
       return rvalue(type->is_scalar() ? one : build_.splat(one, type->ir), type);
     }
     case R::kArgument:

@@ -36,7 +36,6 @@ class Lowerer {
   // -- Conversions (lower_conversions.cpp)
   ConversionRank rank(const Value& value, const Type* to);
   ConversionRank rank(const Type* from, const Type* to);
-  Scalar common_scalar(Scalar a, Scalar b);
   // An explicit conversion also allows what only a cast may do.
   const ir::Expr* convert(const Value& value, const Type* to, SourceLocation location,
                           bool is_explicit = false);
@@ -132,8 +131,7 @@ class Lowerer {
   FunctionInfo* resolve_overload(const std::vector<FunctionInfo*>& candidates, const NamePart& part,
                                  const std::vector<Value>& arguments, SourceLocation location,
                                  bool quiet);
-  bool is_viable(FunctionInfo* function, const std::vector<Value>& arguments,
-                 std::vector<uint32_t>& costs);
+  bool is_viable(FunctionInfo* function, const std::vector<Value>& arguments, ConversionCost& cost);
   Value call(FunctionInfo* function, const Value* object, std::vector<Value> arguments,
              SourceLocation location);
   std::string describe(const FunctionInfo& function);

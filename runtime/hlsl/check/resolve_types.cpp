@@ -24,9 +24,11 @@ Scalar Checker::scalar_of(ScalarKind kind, SourceLocation location) {
     case ScalarKind::kUint:
       return Scalar::kUint32;
     case ScalarKind::kHalf:
+      return native ? Scalar::kFloat16 : Scalar::kHalf;
     case ScalarKind::kMin10Float:
+      return native ? Scalar::kFloat16 : Scalar::kMin10Float;
     case ScalarKind::kMin16Float:
-      return native ? Scalar::kFloat16 : Scalar::kFloat32;
+      return native ? Scalar::kFloat16 : Scalar::kMin16Float;
     case ScalarKind::kFloat:
       return Scalar::kFloat32;
     case ScalarKind::kDouble:
@@ -42,10 +44,11 @@ Scalar Checker::scalar_of(ScalarKind kind, SourceLocation location) {
     case ScalarKind::kUint64:
       return Scalar::kUint64;
     case ScalarKind::kMin12Int:
+      return native ? Scalar::kInt16 : Scalar::kMin12Int;
     case ScalarKind::kMin16Int:
-      return native ? Scalar::kInt16 : Scalar::kInt32;
+      return native ? Scalar::kInt16 : Scalar::kMin16Int;
     case ScalarKind::kMin16Uint:
-      return native ? Scalar::kUint16 : Scalar::kUint32;
+      return native ? Scalar::kUint16 : Scalar::kMin16Uint;
   }
   return Scalar::kInt32;
 }

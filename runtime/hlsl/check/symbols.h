@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "runtime/hlsl/check/conversion_costs.h"
 #include "runtime/hlsl/check/types.h"
 #include "runtime/hlsl/front/ast.h"
 #include "runtime/hlsl/ir/ir.h"
@@ -204,12 +205,9 @@ struct Value {
   bool failed() const { return kind == ValueKind::kError; }
 };
 
-// The cost of a conversion; lower is better.
 struct ConversionRank {
   bool possible = false;
-  uint8_t shape = 0;   // 0 same, 1 splat, 2 truncation or another shape
-  uint8_t scalar = 0;  // 0 same, 1 literal to its default, 2 promotion, 3 conversion
-  uint32_t cost() const { return shape * 8u + scalar; }
+  ConversionCost cost = 0;  // lower is better
 };
 
 }  // namespace kaamos::hlsl

@@ -7,10 +7,28 @@
 
 namespace kaamos::hlsl {
 
+Scalar plain_scalar(Scalar scalar) {
+  switch (scalar) {
+    case Scalar::kLiteralInt:
+      return Scalar::kInt64;
+    case Scalar::kLiteralFloat:
+      return Scalar::kFloat64;
+    case Scalar::kHalf:
+    case Scalar::kMin16Float:
+    case Scalar::kMin10Float:
+      return Scalar::kFloat32;
+    case Scalar::kMin16Int:
+    case Scalar::kMin12Int:
+      return Scalar::kInt32;
+    case Scalar::kMin16Uint:
+      return Scalar::kUint32;
+    default:
+      return scalar;
+  }
+}
+
 ir::Scalar ir_scalar(Scalar scalar) {
-  if (scalar == Scalar::kLiteralInt) return ir::Scalar::kInt64;
-  if (scalar == Scalar::kLiteralFloat) return ir::Scalar::kFloat64;
-  return static_cast<ir::Scalar>(scalar);
+  return static_cast<ir::Scalar>(plain_scalar(scalar));
 }
 
 uint32_t scalar_bytes(ir::Scalar scalar) {
@@ -33,9 +51,10 @@ uint32_t scalar_bytes(Scalar scalar) {
 }
 
 std::string_view name_of(Scalar scalar) {
-  static constexpr std::string_view kNames[] = {"bool",  "int16_t", "uint16_t",    "int",
-                                                "uint",  "int64_t", "uint64_t",    "float16_t",
-                                                "float", "double",  "literal int", "literal float"};
+  static constexpr std::string_view kNames[] = {
+      "bool",     "int16_t",    "uint16_t",   "int",      "uint",        "int64_t",
+      "uint64_t", "float16_t",  "float",      "double",   "literal int", "literal float",
+      "half",     "min16float", "min10float", "min16int", "min12int",    "min16uint"};
   return kNames[static_cast<size_t>(scalar)];
 }
 
@@ -106,10 +125,8 @@ const Type* TypeTable::numeric(Scalar scalar, uint32_t rows, uint32_t columns, b
   if (canonical) {
     type->canonical = canonical;
     type->ir = canonical->ir;
-  } else if (scalar == Scalar::kLiteralInt) {
-    type->ir = numeric(Scalar::kInt64, rows, columns)->ir;
-  } else if (scalar == Scalar::kLiteralFloat) {
-    type->ir = numeric(Scalar::kFloat64, rows, columns)->ir;
+  } else if (plain_scalar(scalar) != scalar) {
+    type->ir = numeric(plain_scalar(scalar), rows, columns)->ir;
   } else {
     ir::Type* ir_type = make_ir(rows      ? ir::TypeKind::kMatrix
                                 : columns ? ir::TypeKind::kVector
@@ -138,6 +155,11 @@ const Type* TypeTable::with_scalar(const Type* shape, Scalar scalar) {
   return numeric(scalar, shape->rows, shape->columns, shape->row_major);
 }
 
+const Type* TypeTable::plain(const Type* type) {
+  if (type->is_array()) return array(plain(type->element), type->count);
+  return type->is_numeric() ? with_scalar(type, plain_scalar(type->scalar)) : type;
+}
+
 const Type* TypeTable::array(const Type* element, uint32_t count) {
   const Type*& slot = arrays_[{element, count}];
   if (slot) return slot;
@@ -149,6 +171,8 @@ const Type* TypeTable::array(const Type* element, uint32_t count) {
   if (canonical) {
     type->canonical = canonical;
     type->ir = canonical->ir;
+  } else if (plain(element) != element) {
+    type->ir = array(plain(element), count)->ir;
   } else {
     ir::Type* ir_type = make_ir(ir::TypeKind::kArray);
     ir_type->element = element->ir;

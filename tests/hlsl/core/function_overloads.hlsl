@@ -17,6 +17,6 @@ RWByteAddressBuffer results : register(u0);
 [numthreads(1, 1, 1)]
 void main() {
   const uint z = results.Load(65532);  // 0, known at run time only
-  results.Store4(0, uint4(f(1.0), f(1), f(1u), f(float3(1, 2, 3))));
+  results.Store4(0, uint4(f(1.0), f(int(1)), f(1u), f(float3(1, 2, 3))));
   results.Store2(16, uint2(f(1, 2), f(int3(1, 2, 3) + z)));
 }
