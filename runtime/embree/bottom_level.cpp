@@ -79,16 +79,12 @@ uint32_t class_of(const GeometryInfo& info) {
 void bounds_of_box(const RTCBoundsFunctionArguments* arguments) {
   const BuilderCallback callback;
   const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
-  const runtime::PaddedBounds box = runtime::padded_bounds(info.boxes[arguments->primID]);
-  RTCBounds& out = *arguments->bounds_o;
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const bool active = box.active;
-  out.lower_x = active ? box.lower[0] : kInfinity;
-  out.lower_y = active ? box.lower[1] : kInfinity;
-  out.lower_z = active ? box.lower[2] : kInfinity;
-  out.upper_x = active ? box.upper[0] : -kInfinity;
-  out.upper_y = active ? box.upper[1] : -kInfinity;
-  out.upper_z = active ? box.upper[2] : -kInfinity;
+  const PaddedBox& box = info.padded[arguments->primID];
+  alignas(16) float lower[4];
+  alignas(16) float upper[4];
+  _mm_store_ps(lower, box.lower);
+  _mm_store_ps(upper, box.upper);
+  *arguments->bounds_o = {lower[0], lower[1], lower[2], 0, upper[0], upper[1], upper[2], 0};
 }
 
 std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint32_t index) {
@@ -97,10 +93,13 @@ std::unique_ptr<GeometryInfo> describe(const RaytracingGeometryDesc& desc, uint3
   return info;
 }
 
-void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc,
-                std::vector<rtapi::RaytracingAabb>& boxes) {
-  boxes.resize(desc.AABBCount);
-  for (uint64_t i = 0; i < desc.AABBCount; ++i) boxes[i] = runtime::aabb_at(desc, i);
+void copy_boxes(const rtapi::RaytracingGeometryAabbsDesc& desc, GeometryInfo& info) {
+  info.boxes.resize(desc.AABBCount);
+  info.padded.resize(desc.AABBCount);
+  for (uint64_t i = 0; i < desc.AABBCount; ++i) {
+    info.boxes[i] = runtime::aabb_at(desc, i);
+    info.padded[i] = PaddedBox::of(info.boxes[i]);
+  }
 }
 
 bool in_embree_range(const float* values, uint64_t count) {
@@ -273,7 +272,7 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
                                      std::unique_ptr<GeometryInfo> info) {
   GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
   if (user->primitives == 0) return {};
-  copy_boxes(desc, user->boxes);
+  copy_boxes(desc, *user);
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
   if (geometry == nullptr) return embree_status(context.device, "new geometry");
   rtcSetGeometryUserPrimitiveCount(geometry, user->primitives);
@@ -372,7 +371,7 @@ rtapi::Status BottomLevel::update(const BuildContext& context,
       if (!was_inside || !in_embree_range(vertices, count)) quality = geometry_quality(flags_);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     } else {
-      copy_boxes(geometries[i].AABBs, info.boxes);
+      copy_boxes(geometries[i].AABBs, info);
       // Boxes may become inactive or active again; inactive ones are not in the tree.
       quality = geometry_quality(flags_);
     }

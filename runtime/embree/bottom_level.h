@@ -13,6 +13,7 @@
 
 #include "runtime/embree/embree_shim.h"
 #include "runtime/embree/exact.h"
+#include "runtime/embree/padded_box.h"
 #include "runtime/structures/structure_map.h"
 
 namespace kaamos::embree {
@@ -29,6 +30,7 @@ struct BuildContext {
 // The user pointer that Embree's callbacks get for a geometry.
 struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
+  std::vector<PaddedBox> padded;             // the same as rays meet them
   std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
 };
 

@@ -3,6 +3,7 @@
 // Intersection shaders and ReportHit: rules TRV-04, 07, 16 to 19, 35 to 43.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -93,6 +94,46 @@ TEST(Trv19, FlatBoxesAndTouchedFacesAreNotLost) {
   auto ray = ray_along_z(scene);
   ray.ray = {{-5, 0, 3}, 0, {1, 0, 0}, 100};
   EXPECT_EQ(h.trace(ray).end, End::kClosestHit);
+}
+
+// Boxes share leaves in the trees that can be updated or are built fast; a shader runs for those
+// that the ray meets. [DXR: AABB volume]
+TEST(Trv16, BoxesOfOneLeafAreTestedOneByOne) {
+  using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
+  GeometryInput row;
+  for (int i = 0; i < 32; ++i) {
+    const float x = 3 * static_cast<float>(i % 8), z = 4 * static_cast<float>(i / 8);
+    row.boxes.push_back({x, 0, z + 1, x + 1, 1, z + 2});
+  }
+  row.flags = kNonOpaque;
+  for (const auto flags :
+       {BuildFlags::kNone, BuildFlags::kAllowUpdate, BuildFlags::kPreferFastBuild}) {
+    Harness h;
+    h.use_standard_pipeline(any_hit_ignore, report_all);
+    auto command = h.bottom_level_command({row}, flags);
+    ASSERT_TRUE(h.execute(command).ok());
+    const uint64_t scene = h.top_level({instance_of(command.dest)});
+    for (uint32_t column = 0; column < 8; ++column) {
+      const float x = 3 * static_cast<float>(column) + 0.5f;
+      for (uint32_t reached = 0; reached < 4; ++reached) {
+        // Up to the middle of a box; those behind TMax do not run.
+        auto ray = ray_along_z(scene, x, 0.5f);
+        ray.ray.t_max = 4 * static_cast<float>(reached) + 1.5f;
+        set_reports({{0.5f, 1, {}}});
+        EXPECT_EQ(h.trace(ray).any_hits, reached + 1);
+        auto met = report_log().primitives;
+        std::sort(met.begin(), met.end());
+        std::vector<uint32_t> expected;
+        for (uint32_t i = 0; i <= reached; ++i) expected.push_back(8 * i + column);
+        EXPECT_EQ(met, expected) << column;
+        set_reports({{0.5f, 1, {}}});
+        ray.ray_flags = kRayAcceptFirstHitAndEndSearch | kRaySkipClosestHitShader;
+        EXPECT_EQ(h.trace(ray).any_hits, reached + 1);
+      }
+      set_reports({{1, 1, {}}});
+      EXPECT_EQ(h.trace(ray_along_z(scene, x + 1, 0.5f)).any_hits, 0u);  // between two columns
+    }
+  }
 }
 
 TEST(Trv36And37And38, EachReportIsTestedAgainstTheIntervalOfThen) {
