@@ -48,37 +48,18 @@ std::string GeometryText(size_t index) {
   return Text("geometry ", index);
 }
 
-Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
-                      size_t index) {
-  const std::string where = GeometryText(index);
-  const VertexFormatInfo* format = FindVertexFormat(t.VertexFormat);
-  if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
-    return MakeError(Id::kVertexFormat, where, ": vertex format ",
-                     static_cast<uint32_t>(t.VertexFormat),
-                     format ? " needs tier 1.1; this device was created with tier 1.0"
-                            : " is not one of DXR's vertex formats");
-  }
-  // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
-  const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
-  const uint32_t unit = format->component_bytes;
-  if (t.VertexBuffer.StartAddress % unit != 0 || stride % unit != 0 ||
-      (format->stride && t.VertexCount > 1 && stride != format->stride)) {
+// What a description is checked for. Sizes depend on no address; at most on whether one is null.
+// [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
+enum class Purpose { kSize, kBuild };
+
+Status CheckAddresses(const RaytracingGeometryTrianglesDesc& t, uint32_t vertex_unit,
+                      const std::string& where) {
+  if (t.VertexBuffer.StartAddress % vertex_unit != 0) {
     return MakeError(Id::kVertexBufferAlignment, where, ": vertices are at ",
-                     Hex(t.VertexBuffer.StartAddress), " with stride ", stride,
-                     "; this format needs an address and a stride that are multiples of ", unit,
-                     format->stride ? ", and a stride of 4" : "");
+                     Hex(t.VertexBuffer.StartAddress),
+                     "; this format needs an address that is a multiple of ", vertex_unit);
   }
   const bool none = t.IndexFormat == Format::kUnknown;
-  if (!none && t.IndexFormat != Format::kR16Uint && t.IndexFormat != Format::kR32Uint) {
-    return MakeError(Id::kIndexBuffer, where, ": index format ",
-                     static_cast<uint32_t>(t.IndexFormat),
-                     "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
-  }
-  if (none && (t.IndexBuffer != 0 || t.IndexCount != 0)) {
-    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
-                     t.IndexBuffer ? std::string("an index buffer is given")
-                                   : Text("IndexCount is ", t.IndexCount));
-  }
   if (!none && t.IndexBuffer == 0) {
     return MakeError(Id::kIndexBuffer, where, ": IndexCount is ", t.IndexCount, " and the format ",
                      static_cast<uint32_t>(t.IndexFormat),
@@ -97,8 +78,42 @@ Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTriangle
   return {};
 }
 
-Status CheckAabbs(const RaytracingGeometryAabbsDesc& a, size_t index) {
-  if (a.AABBs.StartAddress % kRaytracingAabbByteAlignment == 0 &&
+Status CheckTriangles(const DeviceImpl& device, const RaytracingGeometryTrianglesDesc& t,
+                      size_t index, Purpose purpose) {
+  const std::string where = GeometryText(index);
+  const VertexFormatInfo* format = FindVertexFormat(t.VertexFormat);
+  if (!format || (format->tier_1_1 && device.desc.Tier < RaytracingTier::kTier1_1)) {
+    return MakeError(Id::kVertexFormat, where, ": vertex format ",
+                     static_cast<uint32_t>(t.VertexFormat),
+                     format ? " needs tier 1.1; this device was created with tier 1.0"
+                            : " is not one of DXR's vertex formats");
+  }
+  // Only the low 32 bits of the stride count. [DXR: D3D12_GPU_VIRTUAL_ADDRESS_AND_STRIDE]
+  const uint64_t stride = t.VertexBuffer.StrideInBytes & 0xFFFFFFFFu;
+  const uint32_t unit = format->component_bytes;
+  if (stride % unit != 0 || (format->stride && t.VertexCount > 1 && stride != format->stride)) {
+    return MakeError(Id::kVertexBufferAlignment, where, ": vertices have stride ", stride,
+                     "; this format needs ",
+                     format->stride ? std::string("a stride of 4")
+                                    : Text("a stride that is a multiple of ", unit));
+  }
+  const bool none = t.IndexFormat == Format::kUnknown;
+  if (!none && t.IndexFormat != Format::kR16Uint && t.IndexFormat != Format::kR32Uint) {
+    return MakeError(Id::kIndexBuffer, where, ": index format ",
+                     static_cast<uint32_t>(t.IndexFormat),
+                     "; it must be kR16Uint, kR32Uint, or kUnknown without an index buffer");
+  }
+  if (none && (t.IndexBuffer != 0 || t.IndexCount != 0)) {
+    return MakeError(Id::kIndexBuffer, where, ": index format is kUnknown, but ",
+                     t.IndexBuffer ? std::string("an index buffer is given")
+                                   : Text("IndexCount is ", t.IndexCount));
+  }
+  return purpose == Purpose::kBuild ? CheckAddresses(t, unit, where) : Status();
+}
+
+Status CheckAabbs(const RaytracingGeometryAabbsDesc& a, size_t index, Purpose purpose) {
+  const uint64_t address = purpose == Purpose::kBuild ? a.AABBs.StartAddress : 0;
+  if (address % kRaytracingAabbByteAlignment == 0 &&
       a.AABBs.StrideInBytes % kRaytracingAabbByteAlignment == 0) {
     return {};
   }
@@ -120,7 +135,7 @@ const RaytracingGeometryDesc* GeometryAt(const BuildRaytracingAccelerationStruct
 }
 
 Status CheckGeometries(const DeviceImpl& device,
-                       const BuildRaytracingAccelerationStructureInputs& inputs) {
+                       const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.NumDescs > kRaytracingMaxGeometriesPerBottomLevelAccelerationStructure) {
     return MakeError(Id::kGeometryLimits, inputs.NumDescs, " geometries; at most 2^24 are allowed");
   }
@@ -151,8 +166,9 @@ Status CheckGeometries(const DeviceImpl& device,
       return MakeError(Id::kBuildInputs, GeometryText(i), " has undefined flags ",
                        Hex(static_cast<uint32_t>(g->Flags)));
     }
-    Status s = type == RaytracingGeometryType::kTriangles ? CheckTriangles(device, g->Triangles, i)
-                                                          : CheckAabbs(g->AABBs, i);
+    Status s = type == RaytracingGeometryType::kTriangles
+                   ? CheckTriangles(device, g->Triangles, i, purpose)
+                   : CheckAabbs(g->AABBs, i, purpose);
     if (!s.ok()) return s;
     const uint64_t count = PrimitiveCount(*g);
     primitives = std::min(primitives, UINT64_MAX - count) + count;
@@ -238,10 +254,8 @@ Status CheckScratch(const DeviceImpl& device, const BuildRaytracingAccelerationS
   return CheckLive(device, scratch, bytes, "scratch");
 }
 
-}  // namespace
-
-Status CheckBuildInputs(const DeviceImpl& device,
-                        const BuildRaytracingAccelerationStructureInputs& inputs) {
+Status CheckInputs(const DeviceImpl& device,
+                   const BuildRaytracingAccelerationStructureInputs& inputs, Purpose purpose) {
   if (inputs.Type > StructureType::kBottomLevel) {
     return MakeError(Id::kBuildInputs, "Type is ", static_cast<uint32_t>(inputs.Type),
                      "; it must be kTopLevel (0) or kBottomLevel (1)");
@@ -259,11 +273,18 @@ Status CheckBuildInputs(const DeviceImpl& device,
     return MakeError(Id::kBuildFlagsExclusive,
                      "kPreferFastTrace and kPreferFastBuild are both set");
   }
-  if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs);
+  if (inputs.Type == StructureType::kBottomLevel) return CheckGeometries(device, inputs, purpose);
   if (inputs.NumDescs > kRaytracingMaxInstancesPerTopLevelAccelerationStructure) {
     return MakeError(Id::kGeometryLimits, inputs.NumDescs, " instances; at most 2^24 are allowed");
   }
   return {};
+}
+
+}  // namespace
+
+Status CheckBuildInputs(const DeviceImpl& device,
+                        const BuildRaytracingAccelerationStructureInputs& inputs) {
+  return CheckInputs(device, inputs, Purpose::kBuild);
 }
 
 std::vector<RaytracingGeometryDesc> CopyGeometryDescs(
@@ -389,7 +410,7 @@ Device::GetRaytracingAccelerationStructurePrebuildInfo(
     return MakeError(Id::kNullHandle,
                      "GetRaytracingAccelerationStructurePrebuildInfo "
                      "on an empty device handle");
-  if (Status s = CheckBuildInputs(*impl_, inputs); !s.ok()) return s.error();
+  if (Status s = CheckInputs(*impl_, inputs, Purpose::kSize); !s.ok()) return s.error();
   const bool top = inputs.Type == RaytracingAccelerationStructureType::kTopLevel;
   return impl_->backend->prebuild_info(inputs.Type, inputs.Flags, CopyGeometryDescs(inputs),
                                        top ? inputs.NumDescs : 0);

@@ -148,7 +148,7 @@ TEST_F(BuildTest, AS_11_VertexAlignmentAndStride) {
   EXPECT_ERROR(Build(), "KA0705", "13");
   v.StrideInBytes = 12;
   v.StartAddress += 2;
-  EXPECT_ERROR(Build(), "KA0705", "multiples of 4");
+  EXPECT_ERROR(Build(), "KA0705", "multiple of 4");
   v.StartAddress -= 2;
   geometry_.Triangles.VertexFormat = Format::kR10G10B10A2Unorm;
   EXPECT_ERROR(Build(), "KA0705", "stride of 4");
@@ -306,6 +306,32 @@ TEST_F(BuildTest, AS_40_PrebuildReadsNoGpuMemory) {
   geometry_.Triangles.VertexBuffer.StartAddress = 0xDEAD0000;
   geometry_.Triangles.Transform3x4 = 0xDEAD0010;
   EXPECT_OK(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs));
+  // Any number will do where an address is to come; a build needs the address.
+  geometry_.Triangles.VertexBuffer.StartAddress = geometry_.Triangles.Transform3x4 = 1;
+  geometry_.Triangles.IndexFormat = Format::kR32Uint;
+  geometry_.Triangles.IndexCount = 30;
+  geometry_.Triangles.IndexBuffer = 1;
+  EXPECT_OK(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs));
+  EXPECT_ERROR(Build(), "KA0705", "0x1", "multiple of 4");
+  geometry_.Triangles.VertexBuffer.StartAddress = input_.GetGPUVirtualAddress();
+  EXPECT_ERROR(Build(), "KA0704", "0x1", "multiple of 4");
+  geometry_.Triangles.IndexBuffer = 0;
+  EXPECT_OK(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs));
+  EXPECT_ERROR(Build(), "KA0704", "no index buffer");
+  geometry_.Triangles.IndexBuffer = input_.GetGPUVirtualAddress();
+  EXPECT_ERROR(Build(), "KA0707", "0x1", "16");
+  // Everything that is no address is checked.
+  geometry_.Triangles.VertexBuffer.StrideInBytes = 13;
+  EXPECT_ERROR(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs), "KA0705",
+               "13");
+  geometry_ = {};
+  geometry_.Type = RaytracingGeometryType::kProceduralPrimitiveAabbs;
+  geometry_.AABBs = {4, {1, 24}};
+  EXPECT_OK(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs));
+  EXPECT_ERROR(Build(), "KA0708", "0x1");
+  geometry_.AABBs.AABBs.StrideInBytes = 28;
+  EXPECT_ERROR(device_.GetRaytracingAccelerationStructurePrebuildInfo(desc_.Inputs), "KA0708",
+               "28");
 }
 
 TEST_F(BuildTest, AS_70_Copies) {

@@ -353,7 +353,7 @@ TEST(As32, ATopLevelMayComeBeforeItsBottomLevels) {
   copy.source = top_bytes;
   const uint64_t new_level = h.buffer(1 << 16)->address();
   const uint64_t new_top = h.buffer(1 << 16)->address();
-  std::memcpy(h.addresses().host(top_bytes) + 56, &new_level, 8);
+  std::memcpy(h.addresses().host(top_bytes) + 64, &new_level, 8);
   copy.dest = new_top;
   ASSERT_TRUE(h.execute(copy).ok());
   EXPECT_TRUE(h.messages.empty());
@@ -368,7 +368,7 @@ TEST(As32, ATopLevelMayComeBeforeItsBottomLevels) {
   EXPECT_EQ(payload.end, End::kClosestHit);
   EXPECT_EQ(payload.values.instance_index, 1u);
   const uint64_t nowhere = 0x1000;
-  std::memcpy(h.addresses().host(top_bytes) + 56, &nowhere, 8);
+  std::memcpy(h.addresses().host(top_bytes) + 64, &nowhere, 8);
   copy.source = top_bytes;
   copy.dest = new_top;
   const auto status = h.execute(copy);

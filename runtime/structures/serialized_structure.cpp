@@ -3,7 +3,6 @@
 
 #include <cstring>
 #include <string>
-#include <unordered_map>
 
 #include "runtime/backend/errors.h"
 #include "runtime/structures/serialized_identifier.h"
@@ -103,19 +102,6 @@ uint64_t checksum_of(std::span<const uint8_t> bytes, const Header& header, uint6
     add(word);
   }
   return sum;
-}
-
-// The different addresses, in the order in which the instances first use them.
-std::vector<uint64_t> bottom_levels_of(const AccelerationStructure& structure,
-                                       std::unordered_map<uint64_t, uint64_t>& places) {
-  std::vector<uint64_t> addresses;
-  for (const auto& instance : *structure.instances) {
-    const uint64_t address = instance.AccelerationStructure;
-    if (address != 0 && places.try_emplace(address, addresses.size() + 1).second) {
-      addresses.push_back(address);
-    }
-  }
-  return addresses;
 }
 
 GeometryRecord record_of(const GeometryShape& shape) {
@@ -335,10 +321,8 @@ SerializedSize serialized_size(const AccelerationStructure& structure) {
   SerializedSize size;
   size.bytes = sizeof(Header) + sizeof(PayloadHeader);
   if (structure.bottom_level == nullptr) {
-    std::unordered_map<uint64_t, uint64_t> places;
-    size.pointers = bottom_levels_of(structure, places).size();
-    size.bytes +=
-        size.pointers * 8 + structure.instances->size() * sizeof(rtapi::RaytracingInstanceDesc);
+    size.pointers = structure.instances->size();
+    size.bytes += size.pointers * (8 + sizeof(rtapi::RaytracingInstanceDesc));
     return size;
   }
   for (const GeometryShape& shape : structure.bottom_level->geometry_shapes()) {
@@ -349,11 +333,12 @@ SerializedSize serialized_size(const AccelerationStructure& structure) {
 
 void serialize(const AccelerationStructure& structure, std::span<uint8_t> out) {
   const bool top = structure.bottom_level == nullptr;
-  std::unordered_map<uint64_t, uint64_t> places;
   std::vector<uint64_t> pointers;
   std::vector<GeometryShape> shapes;
   if (top) {
-    pointers = bottom_levels_of(structure, places);
+    for (const auto& instance : *structure.instances) {
+      pointers.push_back(instance.AccelerationStructure);
+    }
   } else {
     shapes = structure.bottom_level->geometry_shapes();
   }
@@ -371,10 +356,9 @@ void serialize(const AccelerationStructure& structure, std::span<uint8_t> out) {
   writer.put_array(std::span<const uint64_t>(pointers));
   writer.put(payload);
   if (top) {
+    uint64_t place = 0;
     for (rtapi::RaytracingInstanceDesc instance : *structure.instances) {
-      if (instance.AccelerationStructure != 0) {
-        instance.AccelerationStructure = places[instance.AccelerationStructure];
-      }
+      instance.AccelerationStructure = ++place;
       writer.put(instance);
     }
   }

@@ -4,7 +4,7 @@
 // for tools.
 //
 // The serialized form contains what a build read, decoded, and not the tree: reading it is a build.
-// D3D12's header and the addresses of the bottom levels come first. Then comes a checksum over
+// D3D12's header and an address for each instance come first. Then comes a checksum over
 // everything but the header's identifier and those addresses, which the application may replace;
 // then records of geometries with their arrays, or of instances. Little-endian, in units of 4
 // bytes.
@@ -23,7 +23,7 @@ namespace kaamos::runtime {
 
 struct SerializedSize {
   uint64_t bytes = 0;     // including header and addresses
-  uint64_t pointers = 0;  // number of different bottom levels of a top level; 0 for a bottom level
+  uint64_t pointers = 0;  // one for each instance of a top level, null or not; 0 for a bottom level
 };
 SerializedSize serialized_size(const AccelerationStructure& structure);
 // `out` has serialized_size() bytes.

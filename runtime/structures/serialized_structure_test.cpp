@@ -120,23 +120,24 @@ TEST(SerializedStructure, BoxesComeBack) {
   EXPECT_EQ(aabb_at(desc.AABBs, 1).MaxZ, 7);
 }
 
+// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_SERIALIZATION_DESC]: each instance
+// has an address of its own, so that two of one bottom level can become two of different ones.
 TEST(SerializedStructure, InstancesComeBackWithPatchedAddresses) {
   auto bytes = bytes_of(instances());
-  EXPECT_EQ(serialized_size(instances()).pointers, 2u);
-  const uint64_t patched[2] = {0xAAAA00, 0xBBBB00};
-  uint64_t before[2];
+  EXPECT_EQ(serialized_size(instances()).pointers, 5u);
+  EXPECT_EQ(serialized_size(instances()).bytes, sizeof(Header) + 5 * 8 + 24 + 5 * 64);
+  const uint64_t patched[5] = {0, 0xCC0000, 0xAAAA00, 0xBBBB00, 0};
+  uint64_t before[5];
   std::memcpy(before, &bytes[sizeof(Header)], sizeof(before));
-  EXPECT_EQ(before[0], 0x10000u);
-  EXPECT_EQ(before[1], 0x20000u);
+  for (uint64_t i = 0; i < 5; ++i) EXPECT_EQ(before[i], i / 2 * 0x10000) << i;
   std::memcpy(&bytes[sizeof(Header)], patched, sizeof(patched));
   bytes.resize(bytes.size() + 100);  // a larger buffer
   const auto parsed = parse_serialized(bytes);
   ASSERT_TRUE(parsed) << parsed.error().message;
   ASSERT_EQ(parsed->instances.size(), 5u);
-  const uint64_t expected[] = {0, 0, patched[0], patched[0], patched[1]};
   for (uint32_t i = 0; i < 5; ++i) {
     EXPECT_EQ(parsed->instances[i].InstanceID, 10 + i);
-    EXPECT_EQ(parsed->instances[i].AccelerationStructure, expected[i]);
+    EXPECT_EQ(parsed->instances[i].AccelerationStructure, patched[i]);
   }
 }
 

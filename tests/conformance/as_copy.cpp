@@ -133,6 +133,7 @@ void serialized_form(Context& t) {
     const auto words = words64(t.read(dest));
     t.equal("SerializedSizeInBytesIncludingHeader", words[4], sizes[0]);
     t.equal("NumBottomLevelAccelerationStructurePointersAfterHeader", words[6], sizes[1]);
+    t.equal("the same", sizes[1], structure == top ? uint64_t{2} : uint64_t{0});
     t.holds("DeserializedSizeInBytes is at most the original size",
             words[5] > 0 && words[5] <= sizes_of(t, inputs).ResultDataMaxSizeInBytes);
     for (size_t i = 0; i < sizes[1]; ++i) {
@@ -170,11 +171,11 @@ void deserialized_structures(Context& t) {
   }
   const Buffer new_bottom = copy_new(t, t.upload(saved[0]), CopyMode::kDeserialize);
   const Buffer new_procedural = copy_new(t, t.upload(saved[1]), CopyMode::kDeserialize);
-  for (uint64_t i = 0; i < saved[2][6]; ++i) {
-    uint64_t& pointer = saved[2][7 + i];
-    pointer = pointer == bottom.GetGPUVirtualAddress() ? new_bottom.GetGPUVirtualAddress()
-                                                       : new_procedural.GetGPUVirtualAddress();
-  }
+  t.equal("addresses, one for each instance",
+          std::vector<uint64_t>(saved[2].begin() + 6, saved[2].begin() + 10),
+          {3, bottom.GetGPUVirtualAddress(), 0, procedural.GetGPUVirtualAddress()});
+  saved[2][7] = new_bottom.GetGPUVirtualAddress();
+  saved[2][9] = new_procedural.GetGPUVirtualAddress();
   const Buffer new_top = copy_new(t, t.upload(saved[2]), CopyMode::kDeserialize);
   same_picture(t, "deserialized", picture(t, new_top), expected);
   meets_boxes(t, "deserialized boxes", t.top_level({instance(new_procedural)}));

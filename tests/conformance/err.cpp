@@ -183,7 +183,10 @@ void geometry_descriptions(Context& t) {
   geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
   geometry.Triangles.IndexFormat = Format::kR32Uint;
   geometry.Triangles.IndexCount = 3;
-  c.refused("indices without a buffer", try_it());
+  c.accepted("indices without a buffer are sized", try_it());
+  BuildRaytracingAccelerationStructureDesc desc;
+  desc.Inputs = inputs_of(geometry);
+  c.refused("but not built", record_and_close(c, desc));
   geometry.Triangles.IndexFormat = Format::kR8G8Unorm;
   c.refused("index format", try_it());
 }

@@ -266,11 +266,11 @@ class Device {
   // Acceleration structures
 
   /// Bytes that suffice for this build and for every one with the same flags and formats and with
-  /// equal or smaller counts. Geometry descs are read, GPU memory is not: addresses are only tested
-  /// for 0 and for alignment, so that any address does while buffers do not exist yet.
-  /// [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
+  /// equal or smaller counts. Geometry descs are read, GPU memory is not, and addresses are not
+  /// looked at: any number does while buffers do not exist yet, and indices are counted without an
+  /// index buffer. [DXR: GetRaytracingAccelerationStructurePrebuildInfo]
   /// @errors KA0904 empty handle; KA0700 types, layout or flags; KA0701 build flags; KA0702 mixed
-  /// geometry; KA0703 vertex format; KA0704 index buffer; KA0705, KA0707, KA0708 alignment; KA0709
+  /// geometry; KA0703 vertex format; KA0704 index format; KA0705, KA0708 stride; KA0709
   /// more than 2^24 geometries or instances, or 2^29 primitives; KA0710 null pointers.
   Result<RaytracingAccelerationStructurePrebuildInfo>
   GetRaytracingAccelerationStructurePrebuildInfo(

@@ -236,7 +236,9 @@ struct RaytracingAccelerationStructurePostbuildInfoToolsVisualizationDesc {
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_SERIALIZATION_DESC]
 struct RaytracingAccelerationStructurePostbuildInfoSerializationDesc {
   uint64_t SerializedSizeInBytes = 0;  ///< what kSerialize writes, header and pointers included
-  uint64_t NumBottomLevelAccelerationStructurePointers = 0;  ///< of a bottom level 0
+  /// One for each instance, also where several name one bottom level or one names none; of a bottom
+  /// level 0.
+  uint64_t NumBottomLevelAccelerationStructurePointers = 0;
 };
 /// The 8 bytes that kCurrentSize writes.
 /// [DXR: D3D12_RAYTRACING_ACCELERATION_STRUCTURE_POSTBUILD_INFO_CURRENT_SIZE_DESC]
@@ -288,8 +290,9 @@ struct SerializedDataDriverMatchingIdentifier {
   uint8_t DriverOpaqueVersioningData[16] = {};  ///< of the form of the data
 };
 
-/// What kSerialize writes begins with it. Then come the 8-byte addresses of the bottom levels,
-/// which the application replaces by those of their copies before kDeserialize, and opaque data.
+/// What kSerialize writes begins with it. Then come the 8-byte addresses of the bottom levels, one
+/// for each instance in their order, which the application replaces by those of their copies before
+/// kDeserialize, and opaque data. The address of an instance without a bottom level is 0.
 /// [DXR: D3D12_SERIALIZED_RAYTRACING_ACCELERATION_STRUCTURE_HEADER]
 struct SerializedRaytracingAccelerationStructureHeader {
   SerializedDataDriverMatchingIdentifier DriverMatchingIdentifier = {};  ///< who can read it
