@@ -121,7 +121,9 @@ Status FillSlot(const RootSignature& signature, const BindingDesc& binding,
                 const RegisterRange& range, const std::string& where, BindingSlot& slot) {
   slot.kind = KindOf(binding.type);
   slot.access = AccessOf(binding.register_class);
-  if (binding.type == BindingType::kStructuredBuffer) slot.stride_bytes = binding.size_bytes;
+  if (binding.type == BindingType::kStructuredBuffer || binding.type == BindingType::kTexture) {
+    slot.stride_bytes = binding.size_bytes;
+  }
   if (range.static_sampler) {
     if (binding.count != 1) {
       return MakeError(Id::kBindingMismatch, where, ": resource ", Describe(binding),

@@ -33,7 +33,20 @@ void CommandListImpl::ClearArgument(uint32_t offset_bytes, uint32_t size_bytes) 
   std::memset(WritableArguments().bytes.data() + offset_bytes, 0, size_bytes);
 }
 
-runtime::RootBindings CommandListImpl::Snapshot() {
+void CommandListImpl::Use(const char* call, GpuVirtualAddress address, std::string role) {
+  MemoryUse use = UseOf(*device, address, std::move(role));
+  if (use.address == 0) return;
+  use.call = call;
+  use.command = commands->size();
+  uses->push_back(std::move(use));
+}
+
+runtime::RootBindings CommandListImpl::Snapshot(const char* call) {
+  for (const auto& [parameter, view] : root_views) {
+    MemoryUse& use = uses->emplace_back(view);
+    use.call = call;
+    use.command = commands->size();
+  }
   runtime::RootBindings state;
   state.root_arguments = arguments;
   if (view_heap) state.view_heap = view_heap.impl()->memory;
@@ -127,6 +140,10 @@ void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootPa
     return;
   }
   WriteArgument(*list, index, 0, &address, sizeof address);
+  list->root_views.erase(index);
+  if (address != 0) {
+    list->root_views[index] = UseOf(*list->device, address, Text("root parameter ", index));
+  }
 }
 
 // Turns a rule that the host's arguments break into its error.
@@ -221,6 +238,7 @@ void CommandList::SetComputeRootSignature(const RootSignature& signature) {
   if (impl_->root_signature && SameDefinition(impl_->root_signature, signature)) return;
   impl_->root_signature = signature;
   impl_->arguments = std::make_shared<runtime::RootArguments>();
+  impl_->root_views.clear();
 }
 
 void CommandList::SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value,
@@ -316,8 +334,18 @@ void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
       !s.ok()) {
     return impl_->Fail(s.error());
   }
-  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline, impl_->Snapshot(), desc,
-                                             pipeline->stack_bytes.load(), pipeline->linked});
+  const std::pair<const char*, GpuVirtualAddressRangeAndStride> tables[] = {
+      {"RayGenerationShaderRecord",
+       {desc.RayGenerationShaderRecord.StartAddress, desc.RayGenerationShaderRecord.SizeInBytes,
+        0}},
+      {"MissShaderTable", desc.MissShaderTable},
+      {"HitGroupTable", desc.HitGroupTable},
+      {"CallableShaderTable", desc.CallableShaderTable}};
+  for (const auto& [name, table] : tables) {
+    if (table.SizeInBytes != 0) impl_->Use("DispatchRays", table.StartAddress, name);
+  }
+  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline, impl_->Snapshot("DispatchRays"),
+                                             desc, pipeline->stack_bytes.load(), pipeline->linked});
 }
 
 void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
@@ -333,7 +361,7 @@ void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
   }
   command.pipeline = pipeline->pipeline;
   command.linked = pipeline->linked;
-  command.state = impl_->Snapshot();
+  command.state = impl_->Snapshot("Dispatch");
   impl_->Record(std::move(command));
 }
 

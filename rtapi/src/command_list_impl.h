@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <rtapi/command_list.h>
 
 #include "rtapi/src/device_impl.h"
+#include "rtapi/src/memory_use.h"
 #include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
@@ -24,13 +26,15 @@ struct CommandListImpl {
   std::vector<Error> errors;
   // Shared with queues, so that a list can be reset while its work still waits for a fence.
   std::shared_ptr<CommandVector> commands = std::make_shared<CommandVector>();
+  std::shared_ptr<MemoryUses> uses = std::make_shared<MemoryUses>();  // of all commands
 
   // State that the application sets.
   DescriptorHeap view_heap;
   DescriptorHeap sampler_heap;
   RootSignature root_signature;
   std::shared_ptr<runtime::RootArguments> arguments = std::make_shared<runtime::RootArguments>();
-  PipelineState compute_pipeline;  // at most one of the two is set
+  std::map<uint32_t, MemoryUse> root_views;  // by root parameter: what they refer to
+  PipelineState compute_pipeline;            // at most one of the two is set
   StateObject raytracing_pipeline;
   uint32_t open_events = 0;
 
@@ -41,7 +45,10 @@ struct CommandListImpl {
   // Returns arguments that no recorded dispatch shares, so that they can be written.
   runtime::RootArguments& WritableArguments();
   void ClearArgument(uint32_t offset_bytes, uint32_t size_bytes);
-  runtime::RootBindings Snapshot();
+  // For the next command that is recorded, and what it uses of memory.
+  runtime::RootBindings Snapshot(const char* call);
+  // The next command uses the memory at an address; one that is in no live buffer is ignored.
+  void Use(const char* call, GpuVirtualAddress address, std::string role);
   // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);

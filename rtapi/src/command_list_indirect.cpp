@@ -87,7 +87,11 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   command.arguments_offset = arguments_offset;
   if (count) command.count = count.impl()->memory;
   command.count_offset = count_offset;
-  command.state = impl_->Snapshot();
+  // What the commands bring along is looked at when they are read.
+  for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
+    impl_->root_views.erase(argument.root_parameter);
+  }
+  command.state = impl_->Snapshot("ExecuteIndirect");
   impl_->Record(std::move(command));
   // After ExecuteIndirect, everything that the signature sets is zero or null. [D3D12: Indirect
   // drawing]

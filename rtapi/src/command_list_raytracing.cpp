@@ -7,6 +7,28 @@ namespace rtapi {
 
 using namespace detail;
 
+namespace {
+
+void UseInputs(CommandListImpl& list, const char* call,
+               const std::vector<RaytracingGeometryDesc>& geometries) {
+  for (size_t i = 0; i < geometries.size(); ++i) {
+    const RaytracingGeometryDesc& geometry = geometries[i];
+    const auto use = [&](uint64_t count, GpuVirtualAddress address, const char* what) {
+      if (count != 0) list.Use(call, address, Text("geometry ", i, " ", what));
+    };
+    if (geometry.Type == RaytracingGeometryType::kProceduralPrimitiveAabbs) {
+      use(geometry.AABBs.AABBCount, geometry.AABBs.AABBs.StartAddress, "AABBs");
+      continue;
+    }
+    const auto& t = geometry.Triangles;
+    use(t.VertexCount, t.VertexBuffer.StartAddress, "vertices");
+    use(t.IndexCount, t.IndexBuffer, "indices");
+    use(1, t.Transform3x4, "Transform3x4");
+  }
+}
+
+}  // namespace
+
 void CommandList::BuildRaytracingAccelerationStructure(
     const BuildRaytracingAccelerationStructureDesc& desc,
     std::span<const RaytracingAccelerationStructurePostbuildInfoDesc> postbuild_infos) {
@@ -42,13 +64,20 @@ void CommandList::BuildRaytracingAccelerationStructure(
     command.instance_descs = desc.Inputs.InstanceDescs;
   }
   command.postbuild_infos.assign(postbuild_infos.begin(), postbuild_infos.end());
+  impl_->Use(kCall, command.dest, "dest");
+  impl_->Use(kCall, command.source, "source");
+  impl_->Use(kCall, command.scratch, "scratch");
+  UseInputs(*impl_, kCall, command.geometries);
+  if (command.instance_count != 0) impl_->Use(kCall, command.instance_descs, "instance descs");
+  for (const auto& info : postbuild_infos) impl_->Use(kCall, info.DestBuffer, "postbuild info");
   impl_->Record(std::move(command));
 }
 
 void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
     const RaytracingAccelerationStructurePostbuildInfoDesc& desc,
     std::span<const GpuVirtualAddress> sources) {
-  if (!impl_ || !impl_->CheckOpen("EmitRaytracingAccelerationStructurePostbuildInfo")) return;
+  static constexpr char kCall[] = "EmitRaytracingAccelerationStructurePostbuildInfo";
+  if (!impl_ || !impl_->CheckOpen(kCall)) return;
   const DeviceImpl& device = *impl_->device;
   if (Status s = CheckPostbuildInfo(device, desc, sources.size()); !s.ok()) {
     return impl_->Fail(s.error());
@@ -58,6 +87,8 @@ void CommandList::EmitRaytracingAccelerationStructurePostbuildInfo(
       return impl_->Fail(s.error());
     }
   }
+  impl_->Use(kCall, desc.DestBuffer, "postbuild info");
+  for (size_t i = 0; i < sources.size(); ++i) impl_->Use(kCall, sources[i], Text("source ", i));
   impl_->Record(runtime::EmitPostbuildInfoCommand{desc, {sources.begin(), sources.end()}});
 }
 
@@ -65,7 +96,8 @@ void CommandList::CopyRaytracingAccelerationStructure(
     GpuVirtualAddress dest, GpuVirtualAddress source,
     RaytracingAccelerationStructureCopyMode mode) {
   using Mode = RaytracingAccelerationStructureCopyMode;
-  if (!impl_ || !impl_->CheckOpen("CopyRaytracingAccelerationStructure")) return;
+  static constexpr char kCall[] = "CopyRaytracingAccelerationStructure";
+  if (!impl_ || !impl_->CheckOpen(kCall)) return;
   const DeviceImpl& device = *impl_->device;
   if (mode > Mode::kDeserialize) {
     return impl_->Fail(MakeError(Id::kAccelerationStructureCopy, "mode ",
@@ -87,6 +119,8 @@ void CommandList::CopyRaytracingAccelerationStructure(
                                  "source and dest are the same address (",
                                  device.DescribeAddress(dest), "); they must not overlap"));
   }
+  impl_->Use(kCall, dest, "dest");
+  impl_->Use(kCall, source, "source");
   impl_->Record(runtime::CopyAccelerationStructureCommand{dest, source, mode});
 }
 

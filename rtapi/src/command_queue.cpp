@@ -73,6 +73,10 @@ void CommandQueueImpl::Run(const Operation& operation) {
   }
   const auto* execute = std::get_if<Execute>(&operation);
   if (!execute || !device->removed().ok()) return;
+  // Freed while the list waited for a fence, or by another thread between the check and here. What
+  // is held now stays until the list has run.
+  const auto held = HoldAll(*execute->uses);
+  if (!held) return device->Remove(held.error());
   std::lock_guard lock(device->execute_mutex);
   if (device->checks) device->checks->begin_list();
   if (Status s = device->backend->execute(*execute->commands); !s.ok()) device->Remove(s.error());
@@ -141,9 +145,10 @@ Status CommandQueue::ExecuteCommandLists(std::span<const CommandList> lists) {
       return MakeError(Id::kListNotExecutable, "recording failed with ", list.GetErrors().size(),
                        " errors; the first is: ", list.GetErrors().front().message);
     }
+    if (const auto held = HoldAll(*list.impl()->uses); !held) return held.error();
   }
   for (const CommandList& list : lists) {
-    impl_->Submit(CommandQueueImpl::Execute{list.impl()->commands});
+    impl_->Submit(CommandQueueImpl::Execute{list.impl()->commands, list.impl()->uses});
   }
   return impl_->device->removed();
 }

@@ -35,6 +35,7 @@ struct FenceImpl {
 struct CommandQueueImpl : std::enable_shared_from_this<CommandQueueImpl> {
   struct Execute {
     std::shared_ptr<const CommandVector> commands;
+    std::shared_ptr<const MemoryUses> uses;
   };
   struct SignalFence {
     std::shared_ptr<FenceImpl> fence;

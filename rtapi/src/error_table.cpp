@@ -13,7 +13,10 @@ namespace {
 constexpr ErrorEntry kTable[] = {
 #define KAAMOS_RTAPI_ERROR(number, name, code, title, rule, cure) \
   {Id::name, ErrorCode::code, title, rule, cure},
+#define KAAMOS_RTAPI_WARNING(number, name, title, rule, cure) \
+  {Id::name, ErrorCode::kFailed, title, rule, cure},
 #include "rtapi/src/errors.inc"
+#undef KAAMOS_RTAPI_WARNING
 #undef KAAMOS_RTAPI_ERROR
 };
 

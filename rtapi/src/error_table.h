@@ -15,7 +15,9 @@ namespace rtapi::detail {
 // The number in KAnnnn.
 enum class Id : uint16_t {
 #define KAAMOS_RTAPI_ERROR(number, name, code, title, rule, cure) name = number,
+#define KAAMOS_RTAPI_WARNING(number, name, title, rule, cure) name = number,
 #include "rtapi/src/errors.inc"
+#undef KAAMOS_RTAPI_WARNING
 #undef KAAMOS_RTAPI_ERROR
 };
 

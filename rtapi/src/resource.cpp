@@ -211,7 +211,7 @@ Result<Buffer> Device::CreateBuffer(const BufferDesc& desc) const {
   buffer->memory = std::move(*memory);
   impl_->addresses.insert({buffer->memory->address(), desc.SizeInBytes, desc.Heap, desc.Flags,
                            desc.InitialState == ResourceStates::kRaytracingAccelerationStructure,
-                           desc.Name, buffer->memory->host()});
+                           desc.Name, buffer->memory->host(), buffer});
   return Buffer(std::move(buffer));
 }
 

@@ -162,6 +162,8 @@ Result<StateObject> Device::AddToStateObject(const StateObjectDesc& addition,
   auto made = LinkStateObject(std::move(merged), true);
   if (!made.ok()) return made.error();
   (*made)->stack_bytes = parent.impl()->stack_bytes.load();
+  (*made)->ancestors = parent.impl()->ancestors;
+  (*made)->ancestors.push_back(parent.impl()->linked);
   return StateObject(std::move(*made));
 }
 

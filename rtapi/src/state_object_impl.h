@@ -115,8 +115,10 @@ struct StateObjectImpl {
   // used.
   std::vector<ExplicitAssociation> outward_associations;
   std::shared_ptr<const runtime::LinkedPipeline> linked;  // in collections, what is resolved
-  std::shared_ptr<runtime::BackendPipeline> pipeline;     // pipelines only
-  std::vector<RootSignature> global_root_signatures;      // of ray generation shaders
+  // Of the state objects that additions have extended to this one: identifiers point into them.
+  std::vector<std::shared_ptr<const runtime::LinkedPipeline>> ancestors;
+  std::shared_ptr<runtime::BackendPipeline> pipeline;  // pipelines only
+  std::vector<RootSignature> global_root_signatures;   // of ray generation shaders
   std::atomic<uint64_t> stack_bytes{0};
   // Records by plain and mangled name; null where overloads share a plain name.
   std::map<std::string, const runtime::LinkedRecord*, std::less<>> records_by_name;

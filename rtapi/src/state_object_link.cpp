@@ -6,6 +6,7 @@
 #include <set>
 
 #include "rtapi/src/bindings.h"
+#include "rtapi/src/hit_attributes.h"
 #include "rtapi/src/root_signature_impl.h"
 #include "rtapi/src/shader_library_impl.h"
 #include "rtapi/src/state_object_impl.h"
@@ -21,36 +22,9 @@ using shader::Stage;
 
 constexpr uint32_t kMaxStaticSamplers = 2032;  // [D3D12: root signature limits]
 
-const char* StageName(Stage stage) {
-  switch (stage) {
-    case Stage::kCompute:
-      return "compute";
-    case Stage::kLibrary:
-      return "library function";
-    case Stage::kRayGeneration:
-      return "ray generation";
-    case Stage::kIntersection:
-      return "intersection";
-    case Stage::kAnyHit:
-      return "any-hit";
-    case Stage::kClosestHit:
-      return "closest-hit";
-    case Stage::kMiss:
-      return "miss";
-    case Stage::kCallable:
-      return "callable";
-  }
-  return "unknown";
-}
-
 bool IsEntry(const Subject& s) {
   return s.code && (s.code->stage == Stage::kRayGeneration || s.code->stage == Stage::kMiss ||
                     s.code->stage == Stage::kCallable);
-}
-
-std::string Describe(const Subject& s) {
-  return s.is_group() ? Text("hit group ", Quoted(s.name))
-                      : Text(StageName(s.code->stage), " shader ", Quoted(s.name));
 }
 
 // The definitions that apply to one shader or hit group, after the rules for hit groups.
@@ -113,7 +87,7 @@ class Linker {
       }
       group.members[i] = *found;
     }
-    return CheckAttributes(group);
+    return CheckAttributes(*parts_.device, group);
   }
 
   Result<SubjectPtr> FindShader(const std::string& name, const Subject& group) {
@@ -141,26 +115,6 @@ class Linker {
                        "(kAllowExternalDependenciesOnLocalDefinitions)");
     }
     return found;
-  }
-
-  static Status CheckAttributes(const Subject& group) {
-    const Subject* first = nullptr;
-    for (const SubjectPtr& m : group.members) {
-      if (!m || m->code->attribute_bytes == 0) continue;
-      if (group.group.Type == HitGroupType::kTriangles && m->code->attribute_bytes != 8) {
-        return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*m), " takes ",
-                         m->code->attribute_bytes,
-                         " bytes of attributes, but triangles pass "
-                         "BuiltInTriangleIntersectionAttributes (8 bytes)");
-      }
-      if (first && first->code->attribute_bytes != m->code->attribute_bytes) {
-        return MakeError(Id::kAttributesDisagree, Describe(group), ": ", Describe(*first), " has ",
-                         first->code->attribute_bytes, " bytes of attributes, but ", Describe(*m),
-                         " has ", m->code->attribute_bytes);
-      }
-      first = m.get();
-    }
-    return {};
   }
 
   // [DXR: Subobject associations for hit groups] Associations that name the group or one of its

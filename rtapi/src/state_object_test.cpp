@@ -307,6 +307,45 @@ TEST_F(StateObjectTest, PAY_04_AttributesAgreeWithinAGroup) {
   EXPECT_ERROR(Make(desc), "KA0524", "12", "16");
 }
 
+// A hit shader of triangles may serve boxes, too, if it reads no attributes.
+TEST_F(StateObjectTest, PAY_04_UnreadAttributesOfAnotherSizeAreAWarning) {
+  std::vector<Message> messages;
+  const Device device =
+      CreateNullDevice({.OnMessage = [&](const Message& m) { messages.push_back(m); }});
+  const auto make = [&](uint32_t flags, HitGroupType type = HitGroupType::kProceduralPrimitive) {
+    messages.clear();
+    LibraryBuilder b;
+    b.Export("I", Stage::kIntersection).attribute_bytes = 12;
+    auto& hit = b.Export("H", Stage::kClosestHit);
+    hit.attribute_bytes = 8;
+    hit.flags = flags;
+    auto& any = b.Export("A", Stage::kAnyHit);
+    any.attribute_bytes = 12;
+    any.flags = shader::kExportIgnoresAttributes;
+    StateObjectDesc desc;
+    desc.Add(DxilLibraryDesc{b.Build()});
+    desc.Add(RaytracingShaderConfig{16, 32});
+    desc.Add(RaytracingPipelineConfig{});
+    HitGroupDesc group = Triangles("group", "H", "A");
+    group.Type = type;
+    if (type != HitGroupType::kTriangles) group.IntersectionShaderImport = "I";
+    desc.Add(group);
+    return device.CreateStateObject(desc);
+  };
+  EXPECT_OK(make(shader::kExportIgnoresAttributes));
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].Severity, MessageSeverity::kWarning);
+  EXPECT_EQ(messages[0].Id.text(), "KA0553");
+  for (const char* part : {"\"group\"", "\"H\" declares 8", "\"I\" has 12"}) {
+    EXPECT_THAT(messages[0].Text, ::testing::HasSubstr(part));
+  }
+  EXPECT_ERROR(make(0), "KA0524", "\"H\"", "8", "12");
+  EXPECT_TRUE(messages.empty());
+  // Triangles have only one struct, read or not.
+  EXPECT_ERROR(make(shader::kExportIgnoresAttributes, HitGroupType::kTriangles), "KA0524",
+               "\"A\" takes 12");
+}
+
 TEST_F(StateObjectTest, UndefinedStateObjectFlags) {
   EXPECT_ERROR(Make(WithFlags(static_cast<StateObjectFlags>(8))), "KA0539", "0x8");
   StateObjectDesc desc = WithFlags(kAdditions);

@@ -187,6 +187,18 @@ Status CheckSubresources(const Texture& texture, TextureView& view) {
   return {};
 }
 
+// As shader::texture_shape() counts.
+uint32_t NumberClass(Format format) {
+  switch (GetFormatInfo(format).type) {
+    case FormatClass::kSint:
+      return 1;
+    case FormatClass::kUint:
+      return 2;
+    default:
+      return 0;
+  }
+}
+
 Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture& texture,
                         TextureView view, uint32_t mapping, CpuDescriptorHandle dest) {
   if (Status s = CheckHandle(device, texture, "the viewed texture"); !s.ok()) return s;
@@ -233,7 +245,8 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   descriptor.kind = DescriptorKind::kTexture;
   descriptor.access =
       view.uav ? DescriptorAccess::kUnorderedAccess : DescriptorAccess::kShaderResource;
-  descriptor.stride_bytes = static_cast<uint32_t>(view.dimension);
+  descriptor.stride_bytes = kaamos::shader::texture_shape(static_cast<uint32_t>(view.dimension),
+                                                          NumberClass(view.format));
   descriptor.address = *object;
   descriptor.format = static_cast<uint32_t>(view.format);
   return WriteSlot(*device, dest, descriptor);

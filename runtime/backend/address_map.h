@@ -25,9 +25,10 @@ struct Allocation {
   uint64_t size_bytes = 0;
   rtapi::HeapType heap = rtapi::HeapType::kDefault;
   rtapi::ResourceFlags flags = rtapi::ResourceFlags::kNone;
-  bool acceleration_structure = false;  // created in the acceleration structure state
-  std::string name;                     // "" if unnamed
-  uint8_t* host = nullptr;              // where the host sees it; null: at `address` itself
+  bool acceleration_structure = false;   // created in the acceleration structure state
+  std::string name;                      // "" if unnamed
+  uint8_t* host = nullptr;               // where the host sees it; null: at `address` itself
+  std::weak_ptr<const void> owner = {};  // what it is freed with
 };
 
 // Set in a view's key in AddressMap::ranges() while its texture is in a state that forbids its use.

@@ -208,6 +208,20 @@ class ArgumentCheck {
                                : "an unordered access view, but the shader declares a shader "
                                  "resource view."));
     }
+    if (wanted == DescriptorKind::kTexture) {
+      check_shape(place, descriptor.stride_bytes, slot.stride_bytes);
+    }
+  }
+
+  void check_shape(const std::string& place, uint32_t view, uint32_t declared) {
+    if (declared == 0 || view == declared) return;
+    const bool fits = shader::fits_shape(view, declared);
+    report(Id::kRecordArgumentKind,
+           place + "a view as " + texture_name(view) + ", but the shader declares " +
+               texture_name(declared) + ": their " +
+               ((view & 0xFF) != (declared & 0xFF) ? "dimensions" : "numbers") + " differ. " +
+               (fits ? "It reads the first element of the array, and D3D12 leaves it undefined."
+                     : "It reads as a null descriptor."));
   }
 
   const ProofInputs& inputs_;

@@ -37,11 +37,15 @@ const char* kind_name(uint64_t kind) {
       "a typed buffer", "a texture",         "a sampler",    "an acceleration structure"};
   return kind < std::size(kNames) ? kNames[kind] : "an unknown kind";
 }
+// `access` as shader::checked::with_shape() makes it.
 std::string descriptor_name(uint64_t kind, uint64_t access) {
   const bool has_access = kind >= 2 && kind <= 5;
-  return std::string(kind_name(kind)) + (!has_access || access > 1 ? ""
-                                         : access == 0             ? " to read (SRV)"
-                                                                   : " to write (UAV)");
+  const auto shape = static_cast<uint32_t>(access >> 8);
+  access &= 0xFF;
+  return std::string(kind_name(kind)) + (shape != 0 ? " (" + texture_name(shape) + ")" : "") +
+         (!has_access || access > 1 ? ""
+          : access == 0             ? " to read (SRV)"
+                                    : " to write (UAV)");
 }
 
 // The first of ERR-18's rules that `flags` break.

@@ -65,7 +65,7 @@ const char* layout_of(const runtime::LinkedShader& shader) {
 
 }  // namespace
 
-// The creation of a state object already refuses sizes that disagree; types that differ but have
+// The creation of a state object already reports sizes that disagree; types that differ but have
 // the same size show only here. [DXR: Intersection attributes structure]
 void Layer::created(const runtime::LinkedPipeline& pipeline) {
   identifiers_.add(pipeline);
@@ -78,6 +78,8 @@ void Layer::created(const runtime::LinkedPipeline& pipeline) {
       }
       if (first == nullptr) first = shader;
       if (first->code->attribute_type == shader->code->attribute_type) continue;
+      // The creation of the state object warned of it.
+      if (first->code->attribute_bytes != shader->code->attribute_bytes) continue;
       const auto with = [](const runtime::LinkedShader& s) {
         const std::string layout = layout_of(s);
         return std::string(stage_name(s.stage)) + " shader " + quoted(s.name) +

@@ -2,6 +2,7 @@
 #include "runtime/checks/names.h"
 
 #include <cstdio>
+#include <iterator>
 
 namespace kaamos::checks {
 namespace {
@@ -144,6 +145,17 @@ std::string argument_name(const runtime::LinkedShader& shader, bool local,
     text += (text.empty() ? "" : " and ") + binding_name(shader.library->bindings[i]);
   }
   return text;
+}
+
+std::string texture_name(uint32_t shape) {
+  static constexpr const char* kDimensions[] = {
+      "Texture1D", "Texture1DArray", "Texture2D",   "Texture2DArray",  "?",
+      "?",         "Texture3D",      "TextureCube", "TextureCubeArray"};
+  static constexpr const char* kNumbers[] = {"float", "int", "uint"};
+  const uint32_t dimension = (shape & 0xFF) - 2;
+  const uint32_t number = shape >> 8;
+  return std::string(dimension < std::size(kDimensions) ? kDimensions[dimension] : "?") + " of " +
+         (number < std::size(kNumbers) ? kNumbers[number] : "?");
 }
 
 std::string pixel_name(const uint32_t index[3], uint32_t depth) {

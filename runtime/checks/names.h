@@ -34,6 +34,8 @@ std::string binding_name(const shader::BindingDesc& binding);
 // a table); "" if there is none.
 std::string argument_name(const runtime::LinkedShader& shader, bool local,
                           uint32_t argument_offset);
+// "Texture2DArray of uint", for shader::texture_shape().
+std::string texture_name(uint32_t shape);
 // "pixel (812,440)", with a third index only where the dispatch has a depth.
 std::string pixel_name(const uint32_t index[3], uint32_t depth);
 

@@ -16,8 +16,9 @@ static_assert(static_cast<uint32_t>(BindlessArray::kStorageImages) ==
               shader::spirv::kStorageImageBinding);
 static_assert(static_cast<uint32_t>(BindlessArray::kSamplers) == shader::spirv::kSamplerBinding);
 
-// Plenty for a scene; takes a few MiB in drivers that keep the whole array in memory.
-constexpr uint32_t kImages = 65536;
+// Plenty for a scene, two for each view; takes a few MiB in drivers that keep the whole array in
+// memory.
+constexpr uint32_t kImages = 131072;
 constexpr uint32_t kSamplers = 4000;  // a D3D12 heap has 2048
 
 constexpr VkDescriptorType kTypes[3] = {
@@ -46,6 +47,7 @@ rtapi::Status DescriptorSet::start() {
     arrays_[0].size = std::min(arrays_[0].size, all / 2);
     arrays_[1].size = std::min(arrays_[1].size, all / 2 - std::min(arrays_[2].size, all / 4));
   }
+  arrays_[2].each = arrays_[2].next = 1;
   VkDescriptorSetLayoutBinding bindings[3] = {};
   VkDescriptorPoolSize sizes[3] = {};
   VkDescriptorBindingFlags flags[3];
@@ -89,25 +91,30 @@ DescriptorSet::~DescriptorSet() {
   gpu_->vk().vkDestroyDescriptorSetLayout(gpu_->device(), layout_, nullptr);
 }
 
-rtapi::Result<uint32_t> DescriptorSet::add_sampled_image(VkImageView view) {
-  return add(BindlessArray::kSampledImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
+rtapi::Result<uint32_t> DescriptorSet::add_sampled_images(VkImageView view,
+                                                          VkImageView other_form) {
+  return add(BindlessArray::kSampledImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL},
+             other_form);
 }
 
-rtapi::Result<uint32_t> DescriptorSet::add_storage_image(VkImageView view) {
-  return add(BindlessArray::kStorageImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL});
+rtapi::Result<uint32_t> DescriptorSet::add_storage_images(VkImageView view,
+                                                          VkImageView other_form) {
+  return add(BindlessArray::kStorageImages, {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_GENERAL},
+             other_form);
 }
 
 rtapi::Result<uint32_t> DescriptorSet::add_sampler(VkSampler sampler) {
-  return add(BindlessArray::kSamplers, {sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
+  return add(BindlessArray::kSamplers, {sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED},
+             VK_NULL_HANDLE);
 }
 
-rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
-                                           const VkDescriptorImageInfo& image) {
+rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which, const VkDescriptorImageInfo& image,
+                                           VkImageView other_form) {
   const std::lock_guard lock(mutex_);
   Array& array = arrays_[static_cast<uint32_t>(which)];
   uint32_t index = array.next;
-  if (array.next < array.size) {
-    ++array.next;
+  if (array.next + array.each <= array.size) {
+    array.next += array.each;
   } else if (!array.free.empty()) {
     index = array.free.front();
     array.free.pop_front();
@@ -115,10 +122,13 @@ rtapi::Result<uint32_t> DescriptorSet::add(BindlessArray which,
     return runtime::make_error(runtime::Id::kVulkanLimit,
                                "too many " + std::string(kNames[static_cast<uint32_t>(which)]) +
                                    " alive: the Vulkan backend has room for " +
-                                   std::to_string(array.size - 1) +
+                                   std::to_string(array.size / array.each - 1) +
                                    "; free textures that are no longer used.");
   }
   write(which, index, image);
+  if (array.each == 2 && (other_form != VK_NULL_HANDLE || gpu_->features().null_descriptor)) {
+    write(which, index + 1, {VK_NULL_HANDLE, other_form, VK_IMAGE_LAYOUT_GENERAL});
+  }
   return index;
 }
 
@@ -137,6 +147,7 @@ void DescriptorSet::remove(BindlessArray array, uint32_t index) {
   const std::lock_guard lock(mutex_);
   if (array != BindlessArray::kSamplers && gpu_->features().null_descriptor) {
     write(array, index, {VK_NULL_HANDLE, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL});
+    write(array, index + 1, {VK_NULL_HANDLE, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_GENERAL});
   }
   arrays_[static_cast<uint32_t>(array)].free.push_back(index);
 }

@@ -31,24 +31,28 @@ class DescriptorSet {
     return arrays_[static_cast<uint32_t>(array)].size;
   }
 
-  // Writes a descriptor to a free index. Images must be in layout GENERAL. Thread-safe. Errors:
-  // KA0956 when all indices are taken.
-  rtapi::Result<uint32_t> add_sampled_image(VkImageView view);
-  rtapi::Result<uint32_t> add_storage_image(VkImageView view);
+  // Writes a descriptor to a free index, for images also that of the other form, or null, to the
+  // next one. Images must be in layout GENERAL. Thread-safe. Errors: KA0956 when all indices are
+  // taken.
+  rtapi::Result<uint32_t> add_sampled_images(VkImageView view, VkImageView other_form);
+  rtapi::Result<uint32_t> add_storage_images(VkImageView view, VkImageView other_form);
   rtapi::Result<uint32_t> add_sampler(VkSampler sampler);
-  // Makes it a null descriptor if the device has those, so that leftover uses of the index read
-  // zeros; the index is reused as late as possible. No running work may use it.
+  // Makes it, and an image's other form, a null descriptor if the device has those, so that
+  // leftover uses of the index read zeros; the index is reused as late as possible. No running work
+  // may use it.
   void remove(BindlessArray array, uint32_t index);
 
  private:
   struct Array {
     uint32_t size = 0;
-    uint32_t next = 1;          // the lowest index never given out
+    uint32_t each = 2;          // indices of one descriptor
+    uint32_t next = 2;          // the lowest index never given out; none is 0
     std::deque<uint32_t> free;  // oldest first
   };
   explicit DescriptorSet(std::shared_ptr<Gpu> gpu) : gpu_(std::move(gpu)) {}
   rtapi::Status start();
-  rtapi::Result<uint32_t> add(BindlessArray array, const VkDescriptorImageInfo& image);
+  rtapi::Result<uint32_t> add(BindlessArray array, const VkDescriptorImageInfo& image,
+                              VkImageView other_form);
   void write(BindlessArray array, uint32_t index, const VkDescriptorImageInfo& image);
 
   std::shared_ptr<Gpu> gpu_;

@@ -103,6 +103,7 @@ Image::~Image() {
         view.desc.unordered_access ? BindlessArray::kStorageImages : BindlessArray::kSampledImages,
         view.index);
     gpu_->vk().vkDestroyImageView(gpu_->device(), view.view, nullptr);
+    gpu_->vk().vkDestroyImageView(gpu_->device(), view.other_form, nullptr);
   }
   gpu_->vk().vkDestroyImage(gpu_->device(), handle_, nullptr);
   gpu_->vk().vkFreeMemory(gpu_->device(), memory_, nullptr);
@@ -231,13 +232,19 @@ rtapi::Result<uint64_t> Image::view(const TextureViewDesc& desc) {
   if (auto s = check_view(desc); !s) return s.error();
   auto view = create_view(desc);
   if (!view) return view.error();
-  auto index = desc.unordered_access ? descriptors_->add_storage_image(*view)
-                                     : descriptors_->add_sampled_image(*view);
+  auto other = create_other_form(desc);
+  if (!other) {
+    gpu_->vk().vkDestroyImageView(gpu_->device(), *view, nullptr);
+    return other.error();
+  }
+  auto index = desc.unordered_access ? descriptors_->add_storage_images(*view, *other)
+                                     : descriptors_->add_sampled_images(*view, *other);
   if (!index) {
     gpu_->vk().vkDestroyImageView(gpu_->device(), *view, nullptr);
+    gpu_->vk().vkDestroyImageView(gpu_->device(), *other, nullptr);
     return index.error();
   }
-  views_.push_back({desc, *view, *index});
+  views_.push_back({desc, *view, *other, *index});
   return uint64_t{*index};
 }
 
@@ -308,6 +315,39 @@ rtapi::Result<VkImageView> Image::create_view(const TextureViewDesc& desc) const
   const VkResult r = gpu_->vk().vkCreateImageView(gpu_->device(), &info, nullptr, &view);
   if (r != VK_SUCCESS) return gpu_->error(r, "view of texture " + describe(desc_));
   return view;
+}
+
+// An array of one for a single texture, the first element for an array.
+// [kaamos::shader::fits_shape]
+rtapi::Result<VkImageView> Image::create_other_form(const TextureViewDesc& desc) const {
+  TextureViewDesc other = desc;
+  switch (desc.dimension) {
+    case SrvDimension::kTexture1D:
+      other.dimension = SrvDimension::kTexture1DArray;
+      break;
+    case SrvDimension::kTexture2D:
+      other.dimension = SrvDimension::kTexture2DArray;
+      break;
+    case SrvDimension::kTexture1DArray:
+      other.dimension = SrvDimension::kTexture1D;
+      other.slice_count = 1;
+      break;
+    case SrvDimension::kTexture2DArray:
+      other.dimension = SrvDimension::kTexture2D;
+      other.slice_count = 1;
+      break;
+    case SrvDimension::kTextureCube:
+      if (!gpu_->features().image_cube_array) return VkImageView{VK_NULL_HANDLE};
+      other.dimension = SrvDimension::kTextureCubeArray;
+      break;
+    case SrvDimension::kTextureCubeArray:
+      other.dimension = SrvDimension::kTextureCube;
+      other.slice_count = 6;
+      break;
+    default:
+      return VkImageView{VK_NULL_HANDLE};
+  }
+  return create_view(other);
 }
 
 }  // namespace kaamos::vulkan

@@ -33,7 +33,8 @@ class Image final : public runtime::BackendTexture {
     return type_ == VK_IMAGE_TYPE_3D ? 1 : uint32_t{desc_.DepthOrArraySize};
   }
 
-  // The view's index in the bindless set; equal descs share one. Thread-safe. Errors: KA0961 the
+  // The view's index in the bindless set; equal descs share one. The same view as an array, or of
+  // its first element alone, has the next index. Thread-safe. Errors: KA0961 the
   // device does not support such views, KA0956 too many views.
   rtapi::Result<uint64_t> view(const runtime::TextureViewDesc& desc);
   // The unordered access view with that index; none if it is not a view of this texture.
@@ -43,6 +44,7 @@ class Image final : public runtime::BackendTexture {
   struct View {
     runtime::TextureViewDesc desc;
     VkImageView view;
+    VkImageView other_form;  // null if it has none
     uint32_t index;
   };
   Image(std::shared_ptr<Gpu> gpu, std::shared_ptr<DescriptorSet> descriptors,
@@ -53,6 +55,7 @@ class Image final : public runtime::BackendTexture {
   rtapi::Status fill_with_zeros();
   rtapi::Status check_view(const runtime::TextureViewDesc& desc) const;
   rtapi::Result<VkImageView> create_view(const runtime::TextureViewDesc& desc) const;
+  rtapi::Result<VkImageView> create_other_form(const runtime::TextureViewDesc& desc) const;
   bool typeless() const;
 
   std::shared_ptr<Gpu> gpu_;

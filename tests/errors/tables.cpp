@@ -32,7 +32,10 @@ std::vector<Row> api(bool of_compiler) {
   std::vector<Row> rows = {
 #define KAAMOS_RTAPI_ERROR(number, name, code, title, rule, cure) \
   {number, "error", #code, title, rule, cure},
+#define KAAMOS_RTAPI_WARNING(number, name, title, rule, cure) \
+  {number, "warning", "", title, rule, cure},
 #include "rtapi/src/errors.inc"
+#undef KAAMOS_RTAPI_WARNING
 #undef KAAMOS_RTAPI_ERROR
   };
   std::erase_if(rows,

@@ -68,10 +68,13 @@ class CommandQueue {
 
   /// Submits lists, which are closed and without error. A list may be reset, and its handle
   /// dropped, at once: the queue keeps the commands. Buffers that commands name by address must
-  /// live until the work has completed. [D3D12: ID3D12CommandQueue::ExecuteCommandLists]
-  /// @errors KA0904 an empty handle; KA0903 a list of another device; KA0823 a list that is open or
-  /// that has errors. Nothing is submitted then. Otherwise what Device::GetDeviceRemovedReason
-  /// says: an error met while a list executes removes the device, see CommandList for the ids.
+  /// live until the work has begun, see Buffer. If one was freed before this call, nothing is
+  /// submitted; if it is freed while the queue waits for a fence, the device is removed.
+  /// [D3D12: ID3D12CommandQueue::ExecuteCommandLists]
+  /// @errors KA0904 an empty handle; KA0903 a list of another device; KA0856 freed memory; KA0823 a
+  /// list that is open or that has errors. Nothing is submitted then. Otherwise what
+  /// Device::GetDeviceRemovedReason says: an error met while a list executes removes the device,
+  /// see CommandList for the ids.
   Status ExecuteCommandLists(std::span<const CommandList> lists);
   /// @overload
   Status ExecuteCommandLists(std::initializer_list<CommandList> lists) {
@@ -90,7 +93,8 @@ class CommandQueue {
 
   /// Closes the list if it is open, executes it and waits until it has completed.
   /// @errors KA0904 an empty handle; KA0903 a list of another device; the first error of recording;
-  /// KA0823 the list was closed with errors; what Device::GetDeviceRemovedReason says.
+  /// KA0823 the list was closed with errors; KA0856 freed memory; what
+  /// Device::GetDeviceRemovedReason says.
   Status ExecuteAndWait(CommandList& list);
 
   /// For the library itself.

@@ -78,8 +78,23 @@ struct BufferDesc {
 };
 
 /// Linear memory with a GPU virtual address, which is a multiple of 64 KiB as in D3D12. A copyable
-/// handle. The address is live as long as a handle exists; views, root arguments, shader records
-/// and build inputs hold addresses only and keep nothing alive. [D3D12: ID3D12Resource]
+/// handle. The address is live as long as a handle exists.
+///
+/// What keeps a buffer alive, and what does not:
+/// - A call that takes the handle (copies, barriers, ExecuteIndirect, clears) keeps it until the
+/// list
+///   is reset and its work is done.
+/// - A call that takes an address keeps nothing: shader tables, root views, inputs and results of
+///   builds. Executing a list after such a buffer was freed is an error that names the table,
+///   parameter or input and the buffer (KA0856), in every mode and on every backend, even if
+///   another buffer has the address by now. From the begin of its execution to the end a list holds
+///   them all.
+/// - What is in memory keeps nothing and is not looked at beforehand: views in descriptor heaps,
+///   addresses in shader records, instances of a top level. Reading freed memory through them gives
+///   any value or removes the device; checked mode names the view or argument (KA0419, KA0425,
+///   KA0437), and a top level misses the instance (KA0797).
+///
+/// [D3D12: ID3D12Resource]
 class Buffer {
  public:
   /// An empty handle, or one that the library makes. A handle is false when it is empty, and two

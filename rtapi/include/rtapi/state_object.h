@@ -217,9 +217,10 @@ class StateObject {
 
   /// The identifier of a ray generation, miss or callable shader or of a hit group, by its plain or
   /// mangled name; null for every other name, for exports that are not resolved yet, and for a
-  /// plain name that several exports have. The pointer is valid as long as the state object; the
-  /// bytes may be copied into any number of records. A collection's export has the same identifier
-  /// in every pipeline that includes it. [DXR: GetShaderIdentifier]
+  /// plain name that several exports have. The pointer is valid as long as the state object, or one
+  /// that AddToStateObject has made from it; the bytes may be copied into any number of records. A
+  /// collection's export has the same identifier in every pipeline that includes it. [DXR:
+  /// GetShaderIdentifier]
   const ShaderIdentifier* GetShaderIdentifier(std::string_view export_name) const;
 
   /// Stack of one invocation of a shader, in bytes. Inside a hit group: "group::intersection",

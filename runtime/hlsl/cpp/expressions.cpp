@@ -8,6 +8,7 @@
 
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/cpp/emitter.h"
+#include "runtime/hlsl/ir/texture_shape.h"
 
 namespace kaamos::hlsl {
 
@@ -472,7 +473,12 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kHeapResource: {
       if (module_.check_access) {
         return "ks::checked::heap_resource(ctx.invocation, " + site(expr.location) + ", " +
-               value(expr.operands[0]) + ", " + descriptor_words(expr.type->resource) + ")";
+               value(expr.operands[0]) + ", " + descriptor_words(expr.type->resource) + ", " +
+               std::to_string(texture_shape(*expr.type)) + "u)";
+      }
+      if (const uint32_t shape = texture_shape(*expr.type)) {
+        return "ks::heap_texture(ctx.invocation, " + value(expr.operands[0]) + ", " +
+               std::to_string(shape) + "u)";
       }
       const bool sampler = expr.type->resource == ResourceKind::kSampler ||
                            expr.type->resource == ResourceKind::kSamplerComparison;

@@ -2,9 +2,11 @@
 //
 // The tables of a library: what a backend can read from it without running it.
 // [kaamos/shader/abi.h]
+#include "runtime/hlsl/analysis/read_attributes.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/cpp/emitter.h"
 #include "runtime/hlsl/ir/payload_layout.h"
+#include "runtime/hlsl/ir/texture_shape.h"
 
 namespace kaamos::hlsl {
 
@@ -85,8 +87,9 @@ void CppEmitter::emit_tables() {
   for (const Binding& b : module_.bindings) {
     line("{" + quote(b.name) + ", ks::RegisterClass::" + register_class_name(b.register_class) +
          ", ks::BindingType::" + binding_type(b.type->resource) + ", " + number(b.register_index) +
-         ", " + number(b.space) + ", " + number(b.count) + ", " + number(b.size_bytes) + ", " +
-         (b.automatic ? "true" : "false") + "},");
+         ", " + number(b.space) + ", " + number(b.count) + ", " +
+         number(b.size_bytes + texture_shape(*b.type)) + ", " + (b.automatic ? "true" : "false") +
+         "},");
   }
   line("{}};");
   --indent_;
@@ -127,7 +130,8 @@ void CppEmitter::emit_tables() {
                      (e.function->may_call ? 2u : 0u) | (e.uses_view_heap ? 4u : 0u) |
                      (e.uses_sampler_heap ? 8u : 0u) |
                      (hit_kind_readers_.count(e.function) != 0 ? 16u : 0u) |
-                     (e.unbounded_payload ? 64u : 0u) | (reads_bound_ && !compute ? 128u : 0u);
+                     (e.unbounded_payload ? 64u : 0u) | (reads_bound_ && !compute ? 128u : 0u) |
+                     (e.attributes != nullptr && !reads_attributes(e) ? 256u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +
          (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +

@@ -6,6 +6,7 @@
 
 #include "runtime/hlsl/analysis/checked_access.h"
 #include "runtime/hlsl/glsl/emitter.h"
+#include "runtime/hlsl/ir/texture_shape.h"
 
 namespace kaamos::hlsl {
 
@@ -301,12 +302,13 @@ std::string GlslEmitter::dimensions(const Expr& expr) {
   if (is_buffer(resource)) {
     return "k_buffer_dimensions(" + descriptor + ")";
   }
+  const std::string number = std::to_string(texture_shape(*resource) >> 8) + "u";
   if (is_writable_texture(resource)) {
     return std::string("k_image_dimensions_") + dimension_name(resource->resource) + "(" +
-           descriptor + ")";
+           descriptor + ", " + number + ")";
   }
   return std::string("k_texture_dimensions_") + dimension_name(resource->resource) + "(" +
-         descriptor + ", " +
+         descriptor + ", " + number + ", " +
          (expr.operands.size() > 1 ? "uint(" + value(expr.operands[1]) + ")" : "0u") + ")";
 }
 

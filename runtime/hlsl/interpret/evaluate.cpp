@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "runtime/hlsl/ir/texture_shape.h"
+
 namespace kaamos::hlsl::interpret {
 
 using ir::QueryValue;
@@ -250,12 +252,16 @@ const std::byte* heap_resource(const Node& node, Frame& frame) {
   const bool sampler =
       kind == ir::ResourceKind::kSampler || kind == ir::ResourceKind::kSamplerComparison;
   const auto index = evaluate_as<uint32_t>(*node.operands[0], frame);
+  const uint32_t shape = ir::texture_shape(*node.expr->type);
   if (frame.context->program->checked) {
     const ResourceClass wanted = class_of(kind);
     return keep(
         node, frame,
         shader::checked::heap_resource(*frame.context->invocation, site_of(node.expr->location),
-                                       index, wanted.kind, wanted.access));
+                                       index, wanted.kind, wanted.access, shape));
+  }
+  if (shape != 0) {
+    return keep(node, frame, shader::heap_texture(*frame.context->invocation, index, shape));
   }
   return keep(node, frame, shader::heap_resource(*frame.context->invocation, index, sampler));
 }

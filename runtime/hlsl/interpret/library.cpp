@@ -5,9 +5,11 @@
 
 #include <deque>
 
+#include "runtime/hlsl/analysis/read_attributes.h"
 #include "runtime/hlsl/analysis/trace_calls.h"
 #include "runtime/hlsl/interpret/closure.h"
 #include "runtime/hlsl/ir/payload_layout.h"
+#include "runtime/hlsl/ir/texture_shape.h"
 
 namespace kaamos::hlsl {
 
@@ -80,7 +82,7 @@ shader::BindingDesc describe(const ir::Binding& b) {
           b.register_index,
           b.space,
           b.count,
-          b.size_bytes,
+          b.size_bytes + ir::texture_shape(*b.type),
           b.automatic};
 }
 
@@ -121,13 +123,16 @@ shader::ExportDesc describe(const EntryCode& code) {
   out.attribute_type = entry.attribute_type;
   out.callable_data_bytes = callable ? entry.payload_bytes : 0;
   out.stack_bytes = code.code->stack_bytes + code.static_bytes;
-  out.flags = (entry.function->may_trace ? shader::kExportTraces : 0u) |
-              (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
-              (entry.function->may_call ? shader::kExportCalls : 0u) |
-              (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
-              (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
-              (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u) |
-              (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u);
+  out.flags =
+      (entry.function->may_trace ? shader::kExportTraces : 0u) |
+      (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
+      (entry.function->may_call ? shader::kExportCalls : 0u) |
+      (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
+      (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
+      (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u) |
+      (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u) |
+      (entry.attributes != nullptr && !reads_attributes(entry) ? shader::kExportIgnoresAttributes
+                                                               : 0u);
   out.bindings = entry.bindings.data();
   out.binding_count = static_cast<uint32_t>(entry.bindings.size());
   return out;

@@ -7,16 +7,12 @@ namespace {
 bool is_1d(TextureDimension dimension) {
   return dimension == TextureDimension::k1D || dimension == TextureDimension::k1DArray;
 }
-bool has_slices(TextureDimension dimension) {
-  return dimension != TextureDimension::k1D && dimension != TextureDimension::k2D;
-}
 
 // A negative coordinate becomes a large unsigned one and is out of range, too.
 uint8_t* addressed(const TextureView& view, uint32_t bytes, const int32_t at[4]) {
   return texel_pointer(view, bytes, static_cast<uint32_t>(at[0]),
                        is_1d(view.dimension) ? 0 : static_cast<uint32_t>(at[1]),
-                       has_slices(view.dimension) ? static_cast<uint32_t>(at[2]) : 0,
-                       static_cast<uint32_t>(at[3]));
+                       static_cast<uint32_t>(at[2]), static_cast<uint32_t>(at[3]));
 }
 
 bool is_r32(const FormatCodec& codec) {

@@ -18,28 +18,36 @@ layout(set = 0, binding = 2) uniform sampler k_samplers[];
 //@ k_comparison_samplers
 layout(set = 0, binding = 2) uniform samplerShadow k_comparison_samplers[];
 
-// 0 float (including all normalized formats), 1 sint, 2 uint.
-//@ k_number_class
-uint k_number_class(uint format) {
-  if (format >= 64u) return format == 64u ? 1u : 0u;
-  if ((0x0810084100044110UL >> format & 1UL) != 0UL) return 1u;
-  return (0x4204041042021088UL >> format & 1UL) != 0UL ? 2u : 0u;
-}
+// Number classes of texture_shape() in kaamos/shader/abi.h.
 //@ k_class_f
 const uint k_class_f = 0u;
 //@ k_class_i
 const uint k_class_i = 1u;
 //@ k_class_u
 const uint k_class_u = 2u;
+// An array fits the declaration of a single one, and the other way round. Each has a view of its
+// own in the set, the one of the other form right after that of the descriptor. `dimension` is a
+// literal, so this is one comparison.
+//@ k_other_form
+uint k_other_form(uint dimension) {
+  return dimension < 6u ? dimension ^ 1u : dimension == 8u ? 8u : 19u - dimension;
+}
+//@ k_fits
+bool k_fits(k_Descriptor t, uint dimension, uint number) {
+  uint form = t.stride ^ number << 8;
+  return t.address != 0UL && (form == dimension || form == k_other_form(dimension));
+}
+//@ k_view
+uint k_view(k_Descriptor t, uint dimension) {
+  return uint(t.address) + ((t.stride & 0xFFu) == dimension ? 0u : 1u);
+}
 //@ k_can_read
 bool k_can_read(k_Descriptor t, uint dimension, uint number) {
-  return t.kind_access == 5u && t.address != 0UL && t.stride == dimension &&
-         k_number_class(t.format) == number;
+  return t.kind_access == 5u && k_fits(t, dimension, number);
 }
 //@ k_can_write
 bool k_can_write(k_Descriptor t, uint dimension, uint number) {
-  return t.kind_access == (5u | 1u << 16) && t.address != 0UL && t.stride == dimension &&
-         k_number_class(t.format) == number;
+  return t.kind_access == (5u | 1u << 16) && k_fits(t, dimension, number);
 }
 //@ k_can_sample
 bool k_can_sample(k_Descriptor t, k_Descriptor s, uint dimension, uint number) {
@@ -110,9 +118,9 @@ ivec3 k_moved(ivec3 at, ivec3 offset) { return at + offset; }
 // Samples
 
 //@ k_texture_$D_$C
-#define k_texture_$D_$C(t) k_textures_$D_$C[nonuniformEXT(uint(t.address))]
+#define k_texture_$D_$C(t) k_textures_$D_$C[nonuniformEXT(k_view(t, $Ru))]
 //@ k_image_$D_$C 1d 1d_array 2d 2d_array 3d
-#define k_image_$D_$C(t) k_images_$D_$C[nonuniformEXT(uint(t.address))]
+#define k_image_$D_$C(t) k_images_$D_$C[nonuniformEXT(k_view(t, $Ru))]
 //@ k_sampled_$D_$C
 #define k_sampled_$D_$C(t, s) \
   $Psampler$DIM(k_texture_$D_$C(t), k_samplers[nonuniformEXT(uint(s.address))])
@@ -306,28 +314,28 @@ uvec3 k_extent(int size) { return uvec3(size, 1, 1); }
 uvec3 k_extent(ivec2 size) { return uvec3(size, 1); }
 uvec3 k_extent(ivec3 size) { return uvec3(size); }
 //@ k_texture_dimensions_$D 1d 2d 2d_array 3d cube cube_array
-uvec4 k_texture_dimensions_$D(k_Descriptor t, uint mip) {
-  if (t.kind_access != 5u || t.address == 0UL || t.stride != $Ru) return uvec4(0u);
+uvec4 k_texture_dimensions_$D(k_Descriptor t, uint number, uint mip) {
+  if (!k_can_read(t, $Ru, number)) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_$D_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
   return uvec4(k_extent(k_size_$D_f(t, int(mip))), levels);
 }
 //@ k_texture_dimensions_1d_array
-uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint mip) {
-  if (t.kind_access != 5u || t.address == 0UL || t.stride != 3u) return uvec4(0u);
+uvec4 k_texture_dimensions_1d_array(k_Descriptor t, uint number, uint mip) {
+  if (!k_can_read(t, 3u, number)) return uvec4(0u);
   uint levels = uint(textureQueryLevels(k_texture_1d_array_f(t)));
   if (mip >= levels) return uvec4(0u, 0u, 0u, levels);
   uvec2 size = uvec2(k_size_1d_array_f(t, int(mip)));
   return uvec4(size.x, 1u, size.y, levels);
 }
 //@ k_image_dimensions_$D 1d 2d 2d_array 3d
-uvec4 k_image_dimensions_$D(k_Descriptor t) {
-  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL || t.stride != $Ru) return uvec4(0u);
+uvec4 k_image_dimensions_$D(k_Descriptor t, uint number) {
+  if (!k_can_write(t, $Ru, number)) return uvec4(0u);
   return uvec4(k_extent(imageSize(k_image_$D_f(t))), 1u);
 }
 //@ k_image_dimensions_1d_array
-uvec4 k_image_dimensions_1d_array(k_Descriptor t) {
-  if (t.kind_access != (5u | 1u << 16) || t.address == 0UL || t.stride != 3u) return uvec4(0u);
+uvec4 k_image_dimensions_1d_array(k_Descriptor t, uint number) {
+  if (!k_can_write(t, 3u, number)) return uvec4(0u);
   uvec2 size = uvec2(imageSize(k_image_1d_array_f(t)));
   return uvec4(size.x, 1u, size.y, 1u);
 }
@@ -341,7 +349,7 @@ layout(set = 0, binding = 1, r32i) uniform iimage$DIM k_atomic_images_$D_i[];
 //@ k_atomic_images_$D_u 1d 1d_array 2d 2d_array 3d
 layout(set = 0, binding = 1, r32ui) uniform uimage$DIM k_atomic_images_$D_u[];
 //@ k_atomic_image_$D_$C 1d 1d_array 2d 2d_array 3d
-#define k_atomic_image_$D_$C(t) k_atomic_images_$D_$C[nonuniformEXT(uint(t.address))]
+#define k_atomic_image_$D_$C(t) k_atomic_images_$D_$C[nonuniformEXT(k_view(t, $Ru))]
 //@ k_atomic_images_$D_f 1d 1d_array 2d 2d_array 3d
 layout(set = 0, binding = 1, r32f) uniform image$DIM k_atomic_images_$D_f[];
 //@ k_r32_f

@@ -14,7 +14,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 11;
+inline constexpr uint32_t kAbiVersion = 12;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -39,7 +39,7 @@ enum class DescriptorAccess : uint16_t { kShaderResource = 0, kUnorderedAccess =
 struct alignas(8) Descriptor {
   DescriptorKind kind = DescriptorKind::kNull;
   DescriptorAccess access = DescriptorAccess::kShaderResource;
-  uint32_t stride_bytes = 0;  // structured buffers; for textures: D3D12_SRV_DIMENSION of the view
+  uint32_t stride_bytes = 0;  // structured buffers; for textures: texture_shape() of the view
   uint64_t address = 0;       // GPU virtual address, or the backend's object
   uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
   uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
@@ -48,6 +48,21 @@ struct alignas(8) Descriptor {
   uint32_t origin = 0;
 };
 static_assert(sizeof(Descriptor) == 32);
+
+// What a view and an HLSL declaration must have in common: D3D12_SRV_DIMENSION, and the type of
+// numbers, 0 float (also normalized ones), 1 signed, 2 unsigned.
+constexpr uint32_t texture_shape(uint32_t dimension, uint32_t number_class) {
+  return dimension | number_class << 8;
+}
+// Whether a texture declared as `declared`, 0 if that is unknown, can read a view. An array and a
+// single one fit each other: the declaration without an element reads the view's first, and a view
+// without elements has one.
+constexpr bool fits_shape(uint32_t view, uint32_t declared) {
+  if (view == declared || declared == 0) return true;
+  const uint32_t low = view < declared ? view : declared;
+  const uint32_t single = low & 0xFF;
+  return view + declared == 2 * low + 1 && (single == 2 || single == 4 || single == 9);
+}
 inline constexpr uint32_t kFromRoot = 0x80000000u;
 
 // ---------------------------------------------------------------------------------------------
@@ -71,7 +86,8 @@ struct BindingSlot {
       0;  // first descriptor of the binding, counted from the table's handle
   uint32_t descriptor_count = 0;  // how many descriptors it has in its range; or kUnbounded
   uint32_t size_bytes = 0;        // kRootConstants
-  uint32_t stride_bytes = 0;      // structured buffers: the HLSL element's size
+  // Structured buffers: the HLSL element's size; textures: texture_shape() of the declaration.
+  uint32_t stride_bytes = 0;
   const Descriptor* static_sampler = nullptr;
 };
 
@@ -442,20 +458,22 @@ struct BindingDesc {
   BindingType type;
   uint32_t register_index;
   uint32_t space;
-  uint32_t count;       // 1, the array's size, or kUnbounded
-  uint32_t size_bytes;  // constant buffers: bytes; structured buffers: element stride
-  bool automatic;       // the compiler assigned the register; the source does not
+  uint32_t count;  // 1, the array's size, or kUnbounded
+  // Constant buffers: bytes; structured buffers: element stride; textures: texture_shape().
+  uint32_t size_bytes;
+  bool automatic;  // the compiler assigned the register; the source does not
 };
 
 enum ExportFlags : uint32_t {
-  kExportTraces = 1,             // can reach TraceRay
-  kExportCalls = 2,              // can reach CallShader
-  kExportUsesViewHeap = 4,       // ResourceDescriptorHeap[]
-  kExportUsesSamplerHeap = 8,    // SamplerDescriptorHeap[]
-  kExportUsesRayQuery = 32,      // TraceRayInline
-  kExportQualifiedPayload = 64,  // shader model 6.7+: not limited by MaxPayloadSizeInBytes
-  kExportReadsHitKind = 16,      // HitKind; without it a closest-hit shader may see any value
-  kExportReadsBound = 128,       // Invocation::bound must have the bindings of the export
+  kExportTraces = 1,               // can reach TraceRay
+  kExportCalls = 2,                // can reach CallShader
+  kExportUsesViewHeap = 4,         // ResourceDescriptorHeap[]
+  kExportUsesSamplerHeap = 8,      // SamplerDescriptorHeap[]
+  kExportUsesRayQuery = 32,        // TraceRayInline
+  kExportQualifiedPayload = 64,    // shader model 6.7+: not limited by MaxPayloadSizeInBytes
+  kExportReadsHitKind = 16,        // HitKind; without it a closest-hit shader may see any value
+  kExportReadsBound = 128,         // Invocation::bound must have the bindings of the export
+  kExportIgnoresAttributes = 256,  // a hit shader that declares attributes and reads none of them
 };
 
 struct ComputeDesc {

@@ -18,13 +18,23 @@ KAAMOS_INLINE uint64_t read_address(const uint8_t* argument) {
   return address;
 }
 
-constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, DescriptorAccess access) {
+// `shape`: of a texture as it is declared, or 0.
+constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, DescriptorAccess access,
+                       uint32_t shape) {
   if (kind == DescriptorKind::kNull) return true;  // the slot does not know
   if (descriptor.kind != kind) return false;
+  if (kind == DescriptorKind::kTexture && !fits_shape(descriptor.stride_bytes, shape)) return false;
   const bool has_access = kind != DescriptorKind::kConstantBuffer &&
                           kind != DescriptorKind::kSampler &&
                           kind != DescriptorKind::kAccelerationStructure;
   return !has_access || access == DescriptorAccess::kOther || descriptor.access == access;
+}
+
+// Whether it is what the declaration says in every respect, as most are. The access is always exact
+// for what shaders read most.
+KAAMOS_INLINE bool is_exactly(const Descriptor& found, const BindingSlot& slot) {
+  return found.kind == slot.kind && found.access == slot.access &&
+         (found.kind != DescriptorKind::kTexture || found.stride_bytes == slot.stride_bytes);
 }
 
 // The heap slot at `address`, or null if no slot of [begin, end) starts there. Addresses are
@@ -50,7 +60,9 @@ KAAMOS_INLINE Descriptor from_table(const DispatchConstants& dispatch, const Bin
   if (sampler || (found == nullptr && slot.kind == DescriptorKind::kNull)) {
     found = heap_slot(address, dispatch.sampler_heap_begin, dispatch.sampler_heap_end);
   }
-  return found != nullptr && matches(*found, slot.kind, slot.access) ? *found : Descriptor{};
+  return found != nullptr && matches(*found, slot.kind, slot.access, slot.stride_bytes)
+             ? *found
+             : Descriptor{};
 }
 
 KAAMOS_INLINE const uint8_t* arguments_of(const Invocation& invocation, const BindingSlot& slot) {
@@ -114,8 +126,7 @@ KAAMOS_INLINE const Descriptor* from_global_table(const Invocation& invocation,
   const uint64_t at = address - first;
   if (at >= last - first || at % sizeof(Descriptor) != 0) return nullptr;
   const auto* found = dispatch.view_heap_begin + at / sizeof(Descriptor);
-  // Requires both; the access is always exact for what shaders read most.
-  return found->kind == slot.kind && found->access == slot.access ? found : nullptr;
+  return is_exactly(*found, slot) ? found : nullptr;
 }
 
 }  // namespace bindings
@@ -154,6 +165,14 @@ KAAMOS_INLINE Descriptor heap_resource(const Invocation& invocation, uint32_t in
   const Descriptor* begin = sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin;
   const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;
   return index < static_cast<uint64_t>(end - begin) ? begin[index] : Descriptor{};
+}
+// The same for a texture, declared as `shape`.
+KAAMOS_INLINE Descriptor heap_texture(const Invocation& invocation, uint32_t index,
+                                      uint32_t shape) {
+  const Descriptor found = heap_resource(invocation, index, false);
+  const bool other =
+      found.kind == DescriptorKind::kTexture && !fits_shape(found.stride_bytes, shape);
+  return other ? Descriptor{} : found;
 }
 
 }  // namespace kaamos::shader

@@ -135,7 +135,7 @@ KAAMOS_INLINE const Descriptor& bound_array_element(
   const BindingSlot& binding = invocation.slots[slot];
   if (index < bound.elements) [[likely]] {
     const Descriptor& found = bound.array[index];
-    if (found.kind == binding.kind && found.access == binding.access) [[likely]]
+    if (bindings::is_exactly(found, binding)) [[likely]]
       return found;
   }
   return *new (unbound.bytes) Descriptor(bindings::resolve(invocation, binding, index));
@@ -181,8 +181,8 @@ KAAMOS_INLINE uint8_t* texel_in_place(const BoundResource& texture, const int4& 
                                       uint32_t bytes) {
   const auto x = static_cast<uint32_t>(at.e[0]);
   const auto y = static_cast<uint32_t>(at.e[1]);
-  const bool is_direct =
-      texture.direct_format == format && x < texture.width && y < texture.height && at.e[3] == 0;
+  const bool is_direct = texture.direct_format == format && x < texture.width &&
+                         y < texture.height && (at.e[2] | at.e[3]) == 0;
   if (!is_direct) return nullptr;
   return texture.texels + static_cast<uint64_t>(y) * texture.row_pitch + uint64_t{x} * bytes;
 }

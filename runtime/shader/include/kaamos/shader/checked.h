@@ -47,6 +47,12 @@ inline uint64_t bytes_from(const DispatchConstants& dispatch, uint64_t address) 
 // ---------------------------------------------------------------------------------------------
 // Descriptors
 
+// For Finding::kWrongDescriptor: an access and, for a texture, its shape.
+constexpr uint64_t with_shape(DescriptorAccess access, DescriptorKind kind, uint32_t shape) {
+  return static_cast<uint64_t>(access) |
+         (kind == DescriptorKind::kTexture ? uint64_t{shape} << 8 : 0);
+}
+
 [[gnu::noinline, gnu::cold]] inline void explain_missing(Invocation& invocation, uint32_t site,
                                                          uint32_t slot, uint32_t index) {
   const BindingSlot& binding = invocation.slots[slot];
@@ -73,8 +79,10 @@ inline uint64_t bytes_from(const DispatchConstants& dispatch, uint64_t address) 
   }
   if (found->kind == DescriptorKind::kNull) return;  // a null descriptor: legal
   report(invocation, Finding::kWrongDescriptor, site, slot + 1, 0,
-         static_cast<uint64_t>(found->kind), static_cast<uint64_t>(found->access),
-         static_cast<uint64_t>(binding.kind), static_cast<uint64_t>(binding.access));
+         static_cast<uint64_t>(found->kind),
+         with_shape(found->access, found->kind, found->stride_bytes),
+         static_cast<uint64_t>(binding.kind),
+         with_shape(binding.access, binding.kind, binding.stride_bytes));
 }
 
 // A view whose resource no longer exists reads as a null descriptor. One whose texture is in a
@@ -121,19 +129,20 @@ inline uint64_t bytes_from(const DispatchConstants& dispatch, uint64_t address) 
 // ResourceDescriptorHeap[index] or SamplerDescriptorHeap[index], as a resource of that kind.
 [[gnu::noinline]] inline Descriptor heap_resource(Invocation& invocation, uint32_t site,
                                                   uint32_t index, DescriptorKind kind,
-                                                  DescriptorAccess access) {
+                                                  DescriptorAccess access, uint32_t shape = 0) {
   const DispatchConstants& dispatch = *invocation.dispatch;
   const bool sampler = kind == DescriptorKind::kSampler;
   const Descriptor* begin = sampler ? dispatch.sampler_heap_begin : dispatch.view_heap_begin;
   const Descriptor* end = sampler ? dispatch.sampler_heap_end : dispatch.view_heap_end;
   const uint64_t count = static_cast<uint64_t>(end - begin);
-  const Descriptor found = shader::heap_resource(invocation, index, sampler);
+  const Descriptor held = shader::heap_resource(invocation, index, sampler);
+  const Descriptor found = shape != 0 ? shader::heap_texture(invocation, index, shape) : held;
   if (index >= count) {
     report(invocation, Finding::kOutsideHeap, site, 0, 0, index, count);
-  } else if (found.kind != DescriptorKind::kNull && !bindings::matches(found, kind, access)) {
-    report(invocation, Finding::kWrongDescriptor, site, 0, 0, static_cast<uint64_t>(found.kind),
-           static_cast<uint64_t>(found.access), static_cast<uint64_t>(kind),
-           static_cast<uint64_t>(access));
+  } else if (held.kind != DescriptorKind::kNull && !bindings::matches(held, kind, access, shape)) {
+    report(invocation, Finding::kWrongDescriptor, site, 0, 0, static_cast<uint64_t>(held.kind),
+           with_shape(held.access, held.kind, held.stride_bytes), static_cast<uint64_t>(kind),
+           with_shape(access, kind, shape));
   } else {
     return usable(invocation, site, 0, found, index);
   }

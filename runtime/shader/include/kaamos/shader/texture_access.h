@@ -160,7 +160,7 @@ KAAMOS_INLINE uint8_t* texel_in_place(const Descriptor& texture, const int4& at,
   const TextureMip& mip = view->mips[0];
   const auto x = static_cast<uint32_t>(at.e[0]);
   const auto y = static_cast<uint32_t>(at.e[1]);
-  if (x >= mip.width || y >= mip.height || at.e[3] != 0) return nullptr;
+  if (x >= mip.width || y >= mip.height || (at.e[2] | at.e[3]) != 0) return nullptr;
   return mip.texels + static_cast<uint64_t>(y) * mip.row_pitch + uint64_t{x} * bytes;
 }
 
