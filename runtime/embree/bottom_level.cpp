@@ -110,6 +110,15 @@ bool in_embree_range(const float* values, uint64_t count) {
 
 }  // namespace
 
+// Any-hit shaders see each triangle that a ray hits, so where they may run, shared edges count.
+bool BuildContext::is_exact(std::span<const RaytracingGeometryDesc> geometries) const {
+  if (exact != Exact::kNonOpaque) return exact == Exact::kAll;
+  return std::any_of(geometries.begin(), geometries.end(), [](const RaytracingGeometryDesc& desc) {
+    return desc.Type == RaytracingGeometryType::kTriangles &&
+           !HasAny(desc.Flags, rtapi::RaytracingGeometryFlags::kOpaque);
+  });
+}
+
 BottomLevel::~BottomLevel() {
   if (scene_ != nullptr) rtcReleaseScene(scene_);
 }
@@ -119,6 +128,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::build(
     BuildFlags flags, std::span<const runtime::GeometryShape> shapes) {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags;
+  level->exact_ = context.is_exact(geometries);
   if (auto s = level->create_scene(context); !s) return s.error();
   if (auto s = level->add_geometries(context, geometries, nullptr); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
@@ -132,6 +142,7 @@ rtapi::Result<std::shared_ptr<BottomLevel>> BottomLevel::updated_copy(
     const BuildContext& context, std::span<const RaytracingGeometryDesc> geometries) const {
   std::shared_ptr<BottomLevel> level(new BottomLevel);
   level->flags_ = flags_;
+  level->exact_ = exact_;
   if (auto s = level->create_scene(context); !s) return s.error();
   if (auto s = level->add_geometries(context, geometries, this); !s) return s.error();
   if (auto s = level->commit(context); !s) return s.error();
@@ -158,7 +169,7 @@ rtapi::Status BottomLevel::add_geometries(const BuildContext& context,
       if (auto s = add_boxes(context, desc.AABBs, std::move(info)); !s) return s;
       continue;
     }
-    if (context.exact) {
+    if (exact_) {
       GeometryInfo* user = geometries_.emplace_back(std::move(info)).get();
       const auto* built = indices_of != nullptr ? indices_of->geometries_[i]->exact.get() : nullptr;
       add_exact_triangles(desc.Triangles, user, built != nullptr ? &built->indices : nullptr);
@@ -289,7 +300,7 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
 }
 
 rtapi::Status BottomLevel::commit(const BuildContext& context) {
-  const bool own_bounds = context.exact && !procedural_;
+  const bool own_bounds = exact();
   if (own_bounds) {
     if (auto s = pack_exact_triangles(context); !s) return s;
   }

@@ -23,8 +23,10 @@ using runtime::BuildFlags;
 struct BuildContext {
   RTCDevice device = nullptr;
   bool robust = true;  // RTC_SCENE_FLAG_ROBUST: only with it is DXR's open t interval exact
-  bool exact = false;  // triangles are tested by our own code: exact.h
+  // Which bottom levels have their triangles tested by our own code: exact.h.
+  enum class Exact : uint8_t { kNone, kNonOpaque, kAll } exact = Exact::kNone;
   PackFilter pack_filter = nullptr;  // for exact
+  bool is_exact(std::span<const rtapi::RaytracingGeometryDesc> geometries) const;
 };
 
 // The user pointer that Embree's callbacks get for a geometry.
@@ -58,6 +60,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
 
   RTCScene scene() const { return scene_; }
   bool procedural() const { return procedural_; }
+  bool exact() const { return exact_ && !procedural_; }
   const ExactFrame& exact_frame() const { return exact_frame_; }
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
@@ -89,6 +92,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
   RTCScene scene_ = nullptr;
   BuildFlags flags_ = BuildFlags::kNone;
   bool procedural_ = false;
+  bool exact_ = false;
   bool empty_ = true;
   RTCBounds bounds_ = {};
   ExactFrame exact_frame_;

@@ -55,6 +55,17 @@ int arena_threads(uint32_t wanted) {
   return static_cast<int>(wanted == 0 ? hardware_threads() : std::min(wanted, 1024u));
 }
 
+BuildContext::Exact exact_of(rtapi::TraversalPrecision precision) {
+  switch (precision) {
+    case rtapi::TraversalPrecision::kExact:
+      return BuildContext::Exact::kAll;
+    case rtapi::TraversalPrecision::kRobust:
+      return BuildContext::Exact::kNonOpaque;
+    default:
+      return BuildContext::Exact::kNone;
+  }
+}
+
 rtapi::Error out_of_memory(const std::string& what, uint64_t bytes) {
   return runtime::make_error(runtime::Id::kOutOfMemory, what + " of " + std::to_string(bytes) +
                                                             " bytes could not be allocated.");
@@ -66,7 +77,7 @@ Device::Device(const rtapi::DeviceDesc& desc, const runtime::Context& context)
     : info_(device_info()),
       context_(context),
       robust_(desc.Precision != rtapi::TraversalPrecision::kFast),
-      exact_(desc.Precision == rtapi::TraversalPrecision::kExact),
+      exact_(exact_of(desc.Precision)),
       arena_(arena_threads(desc.Threads)) {
   if (desc.Threads > hardware_threads()) {
     parallelism_.emplace(tbb::global_control::max_allowed_parallelism, arena_threads(desc.Threads));

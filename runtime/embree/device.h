@@ -73,7 +73,7 @@ class Device final : public runtime::BackendDevice {
   runtime::Context context_;
   bool robust_ = true;
   PackFilter pack_filter_ = filter_pack_sse2;
-  bool exact_ = false;
+  BuildContext::Exact exact_ = BuildContext::Exact::kNone;
   std::optional<tbb::global_control> parallelism_;  // allows more threads than the machine has
   tbb::task_arena arena_;
   RTCDevice embree_ = nullptr;

@@ -52,7 +52,7 @@ struct ExactTriangles {
 // Per instance, for rays.
 struct ExactInstance {
   double world_to_object[12];  // 3x4, row-major: the inverse of the float matrix, in double
-  const ExactFrame* frame;     // of the bottom level; null: it has no triangles
+  const ExactFrame* frame;     // of the bottom level; null: it is not exact
 };
 
 struct RayInDouble {

@@ -161,6 +161,23 @@ bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCR
   return true;
 }
 
+// Nor have the triangles of a bottom level that is not exact.
+bool enter_robust(RayState& state, const InstanceNode& node, RTCRay& ray) {
+  const ObjectRay object =
+      to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
+                      without_fourth_lane(_mm_load_ps(state.values.ray.direction)));
+  if (!is_traceable(object)) return false;
+  _mm_store_ps(&ray.org_x, with_fourth_lane(object.origin, state.t_near));
+  _mm_store_ps(&ray.dir_x, object.direction);
+  ray.tfar = std::min(state.t_far, next_below(state.committed_t));
+  return ray.tfar >= state.t_near;
+}
+
+// Whether a hit of Embree's only keeps a later search of a RayQuery short.
+bool is_limit(const RayState& state) {
+  return state.search != nullptr && !state.search->first;
+}
+
 struct Visit {
   template <typename HitHere, typename Trace>
   void operator()(RayState& state, uint32_t index, uint32_t classes, RTCRay& ray, bool committed,
@@ -169,23 +186,31 @@ struct Visit {
     const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
     const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
     const float t_far = ray.tfar;
-    const bool entered = node.procedural
-                             ? enter_boxes(state, node, committed, ray)
-                             : enter_triangles(state, state.top_level->exact_instance(index), ray);
+    const ExactInstance& instance = state.top_level->exact_instance(index);
+    const bool robust = !node.procedural && instance.frame == nullptr;
+    const bool entered = node.procedural ? enter_boxes(state, node, committed, ray)
+                         : robust        ? enter_robust(state, node, ray)
+                                         : enter_triangles(state, instance, ray);
     if (entered) {
       ray.mask = classes;
       state.instance = &node;
       shim::set_instance(state.query, index);
+      if (robust) select_filter(state, node);
       trace(node.scene);
+      if (robust) shim::set_all_hits_filter(state.query, nullptr);
       ray.mask = kAllClasses;
       shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
     }
     _mm_store_ps(&ray.org_x, origin);
     _mm_store_ps(&ray.dir_x, direction);
     if (entered && ray.tfar < 0) return;  // the search is over
-    const bool hit = entered && hit_here();
-    if (hit && node.procedural) state.exact->hit_opaque = false;
-    ray.tfar = hit ? state.exact->in_top_level.far_of(state.committed_t) : t_far;
+    if (!entered || !hit_here() || (robust && is_limit(state))) {
+      ray.tfar = t_far;
+      return;
+    }
+    if (robust) state.committed_t = ray.tfar;
+    if (robust || node.procedural) state.exact->hit_opaque = false;
+    ray.tfar = state.exact->in_top_level.far_of(state.committed_t);
   }
 };
 

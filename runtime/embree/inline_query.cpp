@@ -75,7 +75,8 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
-  if (state.top_level->exact_frame() != nullptr) {
+  const bool any_exact = state.top_level->exact_frame() != nullptr;
+  if (any_exact && state.top_level->exact_instance(index).frame != nullptr) {
     search.opaque = triangle_of(ray_hit.hit, state.committed_t, index, ray_hit.hit.geomID,
                                 state.exact->hit_kind == kHitKindTriangleFrontFace);
     search.has_opaque = true;
@@ -85,7 +86,8 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   _mm_store_ps(direction, to_object_vector(instance, _mm_load_ps(&ray_hit.ray.dir_x)));
   const bool front =
       triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction) == kHitKindTriangleFrontFace;
-  search.opaque = triangle_of(ray_hit.hit, ray_hit.ray.tfar, index, ray_hit.hit.geomID, front);
+  const float t = any_exact ? state.committed_t : ray_hit.ray.tfar;
+  search.opaque = triangle_of(ray_hit.hit, t, index, ray_hit.hit.geomID, front);
   search.has_opaque = true;
 }
 

@@ -9,9 +9,23 @@
 // there was a hit before; hit_here() says whether this instance was hit.
 #pragma once
 
+#include "runtime/embree/inline_query.h"
 #include "runtime/embree/ray_state.h"
 
 namespace kaamos::embree {
+
+// Facing flags, and an opacity that overrides the geometry's, affect hits that have no filter of
+// their own; in these cases every hit must go through the filter.
+inline void select_filter(RayState& state, const InstanceNode& node) {
+  const OpacityOverride opacity =
+      state.opacity != OpacityOverride::kNone ? state.opacity : node.opacity;
+  constexpr uint32_t kFacingFlags = kRayCullBackFacingTriangles | kRayCullFrontFacingTriangles;
+  const bool culls_facing =
+      (state.ray_flags & kFacingFlags) != 0 && (node.flags & kInstanceTriangleCullDisable) == 0;
+  const bool all_hits = culls_facing || opacity == OpacityOverride::kNonOpaque ||
+                        (state.search != nullptr && state.search->any);
+  shim::set_all_hits_filter(state.query, all_hits ? filter_every_triangle : nullptr);
+}
 
 template <typename Visit>
 struct InstanceLevel {

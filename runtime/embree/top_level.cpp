@@ -77,7 +77,7 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
     const auto& level = static_cast<const BottomLevel&>(*instances[i].bottom_level);
     const float* matrix = &instances[i].desc.Transform[0][0];
     invert_in_double(matrix, exact_instances_[i].world_to_object);
-    exact_instances_[i].frame = level.procedural() ? nullptr : &level.exact_frame();
+    exact_instances_[i].frame = level.exact() ? &level.exact_frame() : nullptr;
     const runtime::Bounds object = level.object_bounds();
     for (int row = 0; row < 3; ++row) {
       double& low = boxes[i].lower[row];
@@ -89,7 +89,7 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
         low += std::min(a, b);
         high += std::max(a, b);
       }
-      if (level.procedural()) {  // traced in float, and widened for it
+      if (!level.exact()) {  // traced in float, and widened for it
         low = instances[i].bounds.lower[row];
         high = instances[i].bounds.upper[row];
       }
@@ -122,7 +122,10 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
   level->pack_filter_ = context.pack_filter;
-  if (context.exact) level->add_exact_instances(instances, bounds);
+  const bool exact = std::any_of(kept.begin(), kept.end(), [](const auto& bottom_level) {
+    return static_cast<const BottomLevel&>(*bottom_level).exact();
+  });
+  if (exact) level->add_exact_instances(instances, bounds);
   if (bounds.size() <= kMostInstanceBoxes) {
     level->boxes_.set(bounds);
     return level;
@@ -132,16 +135,15 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   level->scene_ = rtcNewScene(context.device);
   RTCGeometry geometry = rtcNewGeometry(context.device, RTC_GEOMETRY_TYPE_USER);
   if (level->scene_ != nullptr && geometry != nullptr) {
-    rtcSetSceneFlags(level->scene_, context.robust && !context.exact ? RTC_SCENE_FLAG_ROBUST
-                                                                     : RTC_SCENE_FLAG_NONE);
+    rtcSetSceneFlags(level->scene_,
+                     context.robust && !exact ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(level->scene_, RTC_BUILD_QUALITY_MEDIUM);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<uint32_t>(bounds.size()));
     rtcSetGeometryUserData(geometry, bounds.data());  // only needed until the commit
     rtcSetGeometryBoundsFunction(geometry, bounds_of_instance, nullptr);
     rtcSetGeometryIntersectFunction(geometry,
-                                    context.exact ? intersect_exact_instance : intersect_instance);
-    rtcSetGeometryOccludedFunction(geometry,
-                                   context.exact ? occlude_exact_instance : occlude_instance);
+                                    exact ? intersect_exact_instance : intersect_instance);
+    rtcSetGeometryOccludedFunction(geometry, exact ? occlude_exact_instance : occlude_instance);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFu);
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(level->scene_, geometry, 0);

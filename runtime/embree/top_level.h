@@ -44,7 +44,7 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // In exact precision, where Embree's coordinates have their origin; null in the others.
+  // Where Embree's coordinates have their origin; null if no bottom level is exact.
   const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }

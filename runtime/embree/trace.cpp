@@ -26,7 +26,7 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
-// `exact`: the search ran in exact precision.
+// `exact`: a bottom level of the top level is exact.
 template <bool exact>
 void run_closest_hit(Worker& worker, const shader::Invocation& caller,
                      const TraceRayArguments& arguments, RayState& state,
@@ -48,7 +48,9 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
   float barycentrics[2];
   if (!instance.procedural) [[likely]] {
     if (shader.reads_hit_kind) {
-      hit_kind = exact ? state.exact->hit_kind : committed_hit_kind(instance, ray_hit);
+      hit_kind = exact && state.top_level->exact_instance(index).frame != nullptr
+                     ? state.exact->hit_kind
+                     : committed_hit_kind(instance, ray_hit);
     }
     barycentrics[0] = ray_hit.hit.u;
     barycentrics[1] = ray_hit.hit.v;

@@ -21,10 +21,9 @@ constexpr char kLavapipesEdges[] =
 constexpr char kMesa[] = "Mesa 25.0.";
 
 constexpr Deviation kDeviations[] = {
-    {"TRV-03", "embree/fast", "", kEmbreesT},       {"TRV-70", "embree/fast", "", kEmbreesEdges},
-    {"TRV-71", "embree/fast", "", kEmbreesEdges},   {"TRV-72", "embree/fast", "", kEmbreesEdges},
-    {"TRV-70", "embree/robust", "", kEmbreesEdges}, {"TRV-71", "embree/robust", "", kEmbreesEdges},
-    {"TRV-70", "vulkan", kMesa, kLavapipesEdges},   {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
+    {"TRV-03", "embree/fast", "", kEmbreesT},     {"TRV-70", "embree/fast", "", kEmbreesEdges},
+    {"TRV-71", "embree/fast", "", kEmbreesEdges}, {"TRV-72", "embree/fast", "", kEmbreesEdges},
+    {"TRV-70", "vulkan", kMesa, kLavapipesEdges}, {"TRV-71", "vulkan", kMesa, kLavapipesEdges},
 };
 
 }  // namespace

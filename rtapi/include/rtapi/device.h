@@ -38,9 +38,12 @@ struct DeviceInfo {
 /// tests/numerics/PRECISION.md. [DXR: Watertightness; Fixed function ray-triangle intersection
 /// specification]
 enum class TraversalPrecision : uint32_t {
-  kFast,    ///< Embree's default; a rare ray slips through an edge that two triangles share
-  kRobust,  ///< no gaps between triangles in practice
-  kExact    ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
+  kFast,  ///< Embree's default; a rare ray slips through an edge that two triangles share
+  /// No gaps between triangles in practice. Bottom levels whose triangles are not all opaque keep
+  /// the rules of kExact, so that any-hit shaders and RayQuery see one triangle at a shared edge;
+  /// what only an instance or a ray forces to be non-opaque does not.
+  kRobust,
+  kExact  ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
 };
 
 /// How grave a message is.
