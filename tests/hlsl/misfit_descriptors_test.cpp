@@ -162,16 +162,15 @@ std::vector<uint32_t> run(const char* backend) {
   return twin.words(results);
 }
 
-TEST(VulkanMisfitDescriptors, ReadZeroAndAreNotWritten) {
-  KAAMOS_NEED_VULKAN();
-  const std::vector<uint32_t> results = run("vulkan");
+void expect_zeros(const char* backend) {
+  const std::vector<uint32_t> results = run(backend);
   ASSERT_EQ(results.size(), kThreads * 8);
   const std::vector<uint32_t> none(8);
   const std::vector<uint32_t> expected[kSlots] = {{1, 1, 441, 0, 0, 0, 0, 0},
                                                   {2, 2, 1621, 0, 0, 0, 0, 0},
                                                   none,
                                                   {0, 0, 0, 3, 0, 0, 0, 0},
-                                                  {0, 0, 441, 0, 4, 0, 0, 0},
+                                                  {0, 0, 0, 0, 4, 0, 0, 0},
                                                   {0, 0, 0, 0, 0, 5, 84, 7},
                                                   none,
                                                   none,
@@ -182,24 +181,13 @@ TEST(VulkanMisfitDescriptors, ReadZeroAndAreNotWritten) {
   }
 }
 
-TEST(MisfitDescriptors, WhatFitsIsTheSameOnTheCpu) {
-  const std::vector<uint32_t> results = run("embree");
-  ASSERT_EQ(results.size(), kThreads * 8);
-  for (uint32_t i = 0; i < kThreads; ++i) {
-    const uint32_t* is = &results[i * 8];
-    const uint32_t slot = i % kSlots;
-    const uint32_t expected = slot == kWideImage   ? 1621u
-                              : slot == kVolume    ? 3u
-                              : slot == kUintImage ? 4u
-                              : slot == kRwImage   ? 7u
-                                                   : 0u;
-    const uint32_t what = slot == kWideImage   ? 2
-                          : slot == kVolume    ? 3
-                          : slot == kUintImage ? 4
-                          : slot == kRwImage   ? 7
-                                               : 5;
-    EXPECT_EQ(is[what], expected) << "thread " << i << ", slot " << slot;
-  }
+TEST(VulkanMisfitDescriptors, ReadZeroAndAreNotWritten) {
+  KAAMOS_NEED_VULKAN();
+  expect_zeros("vulkan");
+}
+
+TEST(MisfitDescriptors, ReadZeroAndAreNotWrittenOnTheCpu) {
+  expect_zeros("embree");
 }
 
 // ---------------------------------------------------------------------------------------------
