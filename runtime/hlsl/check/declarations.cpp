@@ -350,7 +350,7 @@ void Checker::resolve_signature(FunctionInfo* function) {
     if (!is_own && !check_variable_type(info.type, parameter->location, parameter->name)) {
       info.type = types_.error();
       function->signature_failed = true;
-    } else if (info.type->is_array() && info.type->count == 0) {
+    } else if (info.is_unbounded() && (info.is_out || !info.type->element->is_resource())) {
       report(CheckId::kUnboundedVariable, parameter->location, {std::string(parameter->name)});
       info.type = types_.error();
       function->signature_failed = true;

@@ -165,6 +165,8 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
     scope_ = scope;
     if (arguments.back().failed()) return error_value();
   }
+  function = bind_unbounded_arrays(function, arguments);
+  if (!function) return error_value();
   lower_function(function, location);
   if (!function->ir) return error_value();
   at(location);
@@ -235,6 +237,7 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
   for (size_t i = 0; i < arguments.size(); ++i) {
     const ParameterInfo& parameter = function->parameters[i];
     const Value& argument = arguments[i];
+    if (parameter.binding) continue;
     if (parameter.type->is_query()) {
       // The parameter is a second name for the same object, whatever its direction. [DXR: RayQuery]
       const ir::Expr* query = query_object(argument, parameter.type);
@@ -272,6 +275,34 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
   return rvalue(build_.read(result), function->result);
 }
 
+// An unbounded array has no value that could be passed: a function that takes one is lowered again
+// for every array that calls pass to it.
+FunctionInfo* Lowerer::bind_unbounded_arrays(FunctionInfo* function,
+                                             const std::vector<Value>& arguments) {
+  std::vector<const BindingInfo*> bindings;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (!function->parameters[i].is_unbounded()) continue;
+    if (arguments[i].kind != ValueKind::kBindings) {
+      load(arguments[i]);
+      return nullptr;
+    }
+    bindings.push_back(arguments[i].binding);
+  }
+  if (bindings.empty() || !function->definition) return function;
+  FunctionInfo*& instance = function->bound_instances[bindings];
+  if (!instance) {
+    instance = &checker_.functions_.emplace_back(*function);
+    instance->bound_instances.clear();
+    instance->state = FunctionInfo::State::kPending;
+    function->state = FunctionInfo::State::kDone;  // only its instances have bodies
+    for (size_t i = 0; i < arguments.size(); ++i) {
+      ParameterInfo& parameter = instance->parameters[i];
+      if (parameter.is_unbounded()) parameter.binding = arguments[i].binding;
+    }
+  }
+  return instance;
+}
+
 ir::Function* Lowerer::make_ir_function(FunctionInfo* function) {
   ir::Function* node = &checker_.module_->function_pool.emplace_back();
   node->name = function->qualified;
@@ -285,6 +316,7 @@ ir::Function* Lowerer::make_ir_function(FunctionInfo* function) {
     node->parameters.push_back(self);
   }
   for (const ParameterInfo& parameter : function->parameters) {
+    if (parameter.binding) continue;
     if (parameter.decl) at(parameter.decl->location);
     ir::Variable* variable =
         build_.variable(std::string(parameter.name), parameter.type->ir, ir::Storage::kParameter);
@@ -337,7 +369,7 @@ void Lowerer::lower_function(FunctionInfo* function, SourceLocation use) {
       index = 1;
     }
     for (const ParameterInfo& parameter : function->parameters) {
-      ir::Variable* variable = function->ir->parameters[index++];
+      ir::Variable* variable = parameter.binding ? nullptr : function->ir->parameters[index++];
       if (parameter.name.empty()) continue;
       if (checker_.find_local(scope, parameter.name)) {
         report(CheckId::kRedefinition, parameter.decl->location, {std::string(parameter.name)});
@@ -347,6 +379,8 @@ void Lowerer::lower_function(FunctionInfo* function, SourceLocation use) {
       info->name = parameter.name;
       info->type = parameter.type;
       info->is_const = parameter.is_const;
+      info->kind = parameter.binding ? VariableKind::kBinding : VariableKind::kLocal;
+      info->binding = parameter.binding;
       info->variable = variable;
       checker_.add_symbol(scope, SymbolKind::kVariable, parameter.name, parameter.decl->location)
           ->variable = info;

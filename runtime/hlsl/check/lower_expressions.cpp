@@ -160,6 +160,7 @@ Value Lowerer::variable_value(VariableInfo* variable, SourceLocation location) {
   if (variable->type->is_error()) return error_value();
   switch (variable->kind) {
     case VariableKind::kLocal:
+      if (!variable->variable) declare_variable(variable);
       if (variable->constant) {
         Value value = rvalue(variable->constant, variable->type);
         value.is_const = true;

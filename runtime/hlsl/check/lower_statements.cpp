@@ -206,6 +206,11 @@ bool Lowerer::is_result_of_last_call(const ir::Expr* value) const {
          block_->back()->result == call_result_;
 }
 
+void Lowerer::declare_variable(VariableInfo* info) {
+  info->variable = build_.variable(std::string(info->name), info->type->ir, ir::Storage::kLocal);
+  info->variable->is_const = info->is_const;
+}
+
 void Lowerer::lower_local(const VariableDecl* decl) {
   const Type* type = checker_.resolve_type(decl->type, scope_);
   at(decl->location);
@@ -232,9 +237,9 @@ void Lowerer::lower_local(const VariableDecl* decl) {
     if (valid) lower_local_static(decl, type);
     return;
   }
-  // The name is declared after its initialiser: `int x = x;` means the outer x.
   const ir::Expr* value = nullptr;
-  if (valid && type->is_array() && type->count == 0) {
+  const bool is_sized_by_value = valid && type->is_array() && type->count == 0;
+  if (is_sized_by_value) {
     const auto* list = as<InitListExpr>(decl->initializer);
     if (!list) {
       report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
@@ -250,34 +255,46 @@ void Lowerer::lower_local(const VariableDecl* decl) {
     type = types_.array(type->element,
                         static_cast<uint32_t>(std::clamp<uint64_t>(count / element, 1, 1u << 20)));
     value = build_from_pieces(type, std::move(pieces), decl->initializer->location, false);
-  } else if (valid && decl->initializer) {
+  }
+  if (valid) info->type = type;
+  // The scope of a name begins before its initialiser, as in C: `int x = x;` means the new x, which
+  // is zero there.
+  checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+  const size_t before = block_->size();
+  if (valid && decl->initializer && !is_sized_by_value) {
     value = initial_value(decl->initializer, type);
-  } else if (decl->initializer) {
+  } else if (decl->initializer && !is_sized_by_value) {
     lower(decl->initializer);
-  } else if (valid && info->is_const) {
+  } else if (valid && !decl->initializer && info->is_const) {
     report(CheckId::kConstWithoutValue, decl->location, {std::string(decl->name)});
   }
+  if (!valid) return;
   at(decl->location);
-  if (valid) {
-    info->type = type;
-    if (is_result_of_last_call(value)) {
-      info->variable = call_result_;
-      info->variable->name = decl->name;
-      call_result_ = nullptr;  // now owned by the variable
-    } else {
-      info->variable = build_.variable(std::string(decl->name), type->ir, ir::Storage::kLocal);
-      ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
-      node->variable = info->variable;
-      node->value = value;
-      emit(node);
-    }
+  const bool uses_itself = info->variable;
+  if (uses_itself) {
+    report(CheckId::kOwnInitialiser, decl->location, {std::string(decl->name)});
+    ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
+    node->variable = info->variable;
+    info->variable->is_const = false;
+    block_->insert(block_->begin() + static_cast<ptrdiff_t>(before), node);
+    if (value) assign(info->variable, value);
+  } else if (is_result_of_last_call(value)) {
+    info->variable = call_result_;
+    info->variable->name = decl->name;
     info->variable->is_const = info->is_const;
-    // `const uint n = 4; float a[n];`
-    const bool is_known = info->is_const && value && type->ir->kind == ir::TypeKind::kScalar &&
-                          value->kind == ir::ExprKind::kLiteral;
-    if (is_known) info->constant = value;
+    call_result_ = nullptr;  // now owned by the variable
+  } else {
+    declare_variable(info);
+    ir::Stmt* node = build_.stmt(ir::StmtKind::kDeclare);
+    node->variable = info->variable;
+    node->value = value;
+    emit(node);
   }
-  checker_.add_symbol(scope_, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
+  // `const uint n = 4; float a[n];`
+  const bool is_known = info->is_const && !uses_itself && value &&
+                        type->ir->kind == ir::TypeKind::kScalar &&
+                        value->kind == ir::ExprKind::kLiteral;
+  if (is_known) info->constant = value;
 }
 
 // There is one per shader invocation, as if it were declared globally. Its initialiser must not use

@@ -137,6 +137,7 @@ class Lowerer {
   std::string describe(const FunctionInfo& function);
   std::string describe(const std::vector<Value>& arguments);
   void lower_function(FunctionInfo* function, SourceLocation use);
+  FunctionInfo* bind_unbounded_arrays(FunctionInfo* function, const std::vector<Value>& arguments);
   ir::Function* make_ir_function(FunctionInfo* function);
 
   // -- Intrinsics (lower_intrinsics.cpp, lower_atomics.cpp, lower_waves.cpp,
@@ -195,6 +196,7 @@ class Lowerer {
   void lower_statement(const Stmt* statement);
   void lower_block(std::span<const Stmt* const> statements);
   void lower_body(const Stmt* statement, ir::Block& target);
+  void declare_variable(VariableInfo* info);
   void lower_local(const VariableDecl* decl);
   bool is_result_of_last_call(const ir::Expr* value) const;
   void lower_local_static(const VariableDecl* decl, const Type* type);

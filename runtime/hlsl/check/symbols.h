@@ -4,6 +4,7 @@
 // expressions evaluate to.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -43,7 +44,7 @@ struct VariableInfo {
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
-  ir::Variable* variable = nullptr;
+  ir::Variable* variable = nullptr;    // a local one has it once something refers to it
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember
   const ir::Expr* constant = nullptr;  // kLocal: a const scalar whose value is known
@@ -64,6 +65,8 @@ struct ParameterInfo {
   bool is_const = false;
   const ParameterDecl* decl = nullptr;
   const Expr* default_value = nullptr;
+  BindingInfo* binding = nullptr;  // an unbounded array of resources: what the call passes
+  bool is_unbounded() const { return type->is_array() && type->count == 0; }
 };
 
 // An operation that only some stages allow.
@@ -101,6 +104,8 @@ struct FunctionInfo {
 
   bool is_template = false;
   std::unordered_map<std::string, FunctionInfo*> instances;
+  // One for each combination of unbounded arrays that calls pass.
+  std::map<std::vector<const BindingInfo*>, FunctionInfo*> bound_instances;
   std::string template_suffix;  // "<float>" for an instance
   TemplateValues template_values;
 

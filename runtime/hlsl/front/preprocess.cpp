@@ -69,18 +69,24 @@ std::vector<SourceText*> Preprocessor::define_options() const {
   std::vector<SourceText*> texts;
   for (const std::string& option : options_.defines) {
     size_t equal = option.find('=');
-    std::string name = option.substr(0, equal);
+    // A macro with parameters, `F(x)=x`, keeps them: what is wrong with them is told like in a
+    // file.
+    const size_t parenthesis = option.substr(0, equal).find('(');
+    std::string name = option.substr(0, std::min(parenthesis, equal));
     std::string value = equal == std::string::npos ? "1" : option.substr(equal + 1);
+    const std::string parameters =
+        parenthesis == std::string::npos ? "" : option.substr(parenthesis, equal - parenthesis);
     bool is_name = !name.empty() && !(name[0] >= '0' && name[0] <= '9');
     for (char c : name) {
       is_name = is_name && (c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
                             (c >= 'A' && c <= 'Z'));
     }
-    if (!is_name || value.find_first_of("\r\n") != std::string::npos || name == "defined") {
+    if (!is_name || option.find_first_of("\r\n") != std::string::npos || name == "defined") {
       diagnostics_.report(DiagnosticId::kDefineOptionMalformed, {}, {option});
       continue;
     }
-    texts.push_back(sources_.add_text("<command line>", "#define " + name + " " + value + "\n"));
+    texts.push_back(
+        sources_.add_text("<command line>", "#define " + name + parameters + " " + value + "\n"));
   }
   return texts;
 }

@@ -152,10 +152,18 @@ TEST(Errors, MissingMainFile) {
 
 TEST(Errors, DefineOption) {
   PreprocessOptions options;
-  options.defines = {"1A=2", "OK=1", "B=1\n#error x"};
+  options.defines = {"1A=2", "OK=1", "B=1\n#error x", "F(x\n)=1", "(x)=1"};
   Preprocessed input("OK", {}, options);
   EXPECT_EQ(input.text(), "1");
-  EXPECT_EQ(input.places(), (std::vector<std::string>{":0:0 KA2047", ":0:0 KA2047"}));
+  EXPECT_EQ(input.places(), (std::vector<std::string>(4, ":0:0 KA2047")));
+}
+
+TEST(Errors, DefineOptionWithBrokenParameters) {
+  PreprocessOptions options;
+  options.defines = {"F(x=2"};
+  Preprocessed input("OK", {}, options);
+  EXPECT_EQ(input.places().size(), 1u);
+  EXPECT_EQ(input.places()[0].substr(0, 16), "<command line>:1");
 }
 
 TEST(Errors, UnterminatedIfInAnInclude) {

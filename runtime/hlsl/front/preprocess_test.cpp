@@ -144,6 +144,12 @@ TEST(Predefined, OptionsDefine) {
   EXPECT_EQ(expand("A | B | C | E", {}, options), "1 | 2 + 3 | | 1");
 }
 
+TEST(Predefined, OptionsDefineMacrosWithParameters) {
+  PreprocessOptions options;
+  options.defines = {"F(x, y)=x + y", "G(x)="};
+  EXPECT_EQ(expand("F(1, 2) G(3) 4", {}, options), "1 + 2 4");
+}
+
 std::string condition(const std::string& expression) {
   return expand("#define ONE 1\n#define F(x) ((x) * 2)\n#if " + expression +
                 "\nyes\n#else\nno\n#endif");
