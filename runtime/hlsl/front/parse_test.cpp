@@ -287,7 +287,10 @@ TEST(ParseType, EveryResourceIsATypeWithoutDeclaration) {
                            "sampler",
                            "RaytracingAccelerationStructure",
                            "RayDesc",
-                           "BuiltInTriangleIntersectionAttributes"}) {
+                           "BuiltInTriangleIntersectionAttributes",
+                           "RAY_FLAG",
+                           "CANDIDATE_TYPE",
+                           "COMMITTED_STATUS"}) {
     EXPECT_EQ(dump_unit(std::string(type) + " a[2];"), "var " + std::string(type) + "[2] a\n");
   }
 }
