@@ -45,10 +45,11 @@ void Checker::apply_register(BindingInfo* binding, const Annotations& annotation
   }
 }
 
-void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope* scope) {
+VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
+                                    SourceLocation location) {
   BindingInfo* binding = &bindings_.emplace_back();
-  binding->name = qualify(scope, decl->name);
-  binding->location = decl->location;
+  binding->name = name;
+  binding->location = location;
   binding->is_array = type->is_array();
   const Type* element = type;
   for (; element->is_array(); element = element->element) {
@@ -64,13 +65,18 @@ void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope*
   } else if (is_structured(element->resource)) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kStructured).size;
   }
-  apply_register(binding, decl->annotations);
   VariableInfo* info = &variables_.emplace_back();
   info->kind = VariableKind::kBinding;
-  info->name = decl->name;
   info->type = type;
   info->is_const = true;
   info->binding = binding;
+  return info;
+}
+
+void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope* scope) {
+  VariableInfo* info = make_binding(qualify(scope, decl->name), type, decl->location);
+  info->name = decl->name;
+  apply_register(info->binding, decl->annotations);
   add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
 }
 
@@ -111,11 +117,11 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
         declare_binding(variable, type, scope);
         continue;
       }
-      if (contains_resource(type)) {
-        report(
-            CheckId::kUnsupported, variable->location,
-            {"a constant buffer member of type '" + to_string(type) + "', which holds resources"});
-      } else if (type->is_array() && type->count == 0) {
+      if (contains_resource(type) && !(type->is_array() && type->count == 0)) {
+        declare_split(variable, type, scope, binding, structure->ir, &offset);
+        continue;
+      }
+      if (type->is_array() && type->count == 0) {
         report(CheckId::kUnboundedVariable, variable->location, {std::string(variable->name)});
       } else {
         info->kind = VariableKind::kBufferMember;
@@ -154,24 +160,30 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
   }
 }
 
+void Checker::open_globals_buffer(SourceLocation location) {
+  if (globals_buffer_) return;
+  StructInfo* structure = make_struct(nullptr, global_, "$Globals");
+  structure->complete = true;
+  globals_struct_ = structure->ir;
+  globals_buffer_ = &bindings_.emplace_back();
+  globals_buffer_->name = "$Globals";
+  globals_buffer_->register_class = 2;
+  globals_buffer_->location = location;
+  globals_buffer_->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
+}
+
 // A global that is neither static nor a resource is a member of the constant buffer $Globals.
 void Checker::declare_uniform(const VariableDecl* decl, const Type* type, Scope* scope) {
   if (type->is_array() && type->count == 0) {
     report(CheckId::kUnboundedVariable, decl->location, {std::string(decl->name)});
     return;
   }
-  if (!globals_buffer_) {
-    StructInfo* structure = make_struct(nullptr, global_, "$Globals");
-    structure->complete = true;
-    globals_struct_ = structure->ir;
-    globals_buffer_ = &bindings_.emplace_back();
-    globals_buffer_->name = "$Globals";
-    globals_buffer_->register_class = 2;
-    globals_buffer_->location = decl->location;
-    globals_buffer_->type = types_.resource(ir::ResourceKind::kConstantBuffer, structure->type);
-  }
+  open_globals_buffer(decl->location);
   if (decl->initializer) {
     report(CheckId::kUniformInitialiser, decl->location, {std::string(decl->name)});
+  }
+  if (contains_resource(type)) {
+    return declare_split(decl, type, scope, globals_buffer_, globals_struct_, &globals_offset_);
   }
   VariableInfo* info = &variables_.emplace_back();
   info->kind = VariableKind::kBufferMember;

@@ -102,6 +102,7 @@ class Checker {
   StructInfo* make_struct(const StructDecl* decl, Scope* parent, const std::string& name);
   void complete_struct(StructInfo* info);
   void declare_member(StructInfo* info, const Decl* member);
+  void declare_bit_field(StructInfo* info, const VariableDecl* decl, const Type* type);
   void declare_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
   FunctionInfo* make_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
   void resolve_signature(FunctionInfo* function);
@@ -134,8 +135,18 @@ class Checker {
 
   // -- Bindings (bindings.cpp)
   void declare_binding(const VariableDecl* decl, const Type* type, Scope* scope);
+  VariableInfo* make_binding(const std::string& name, const Type* type, SourceLocation location);
   void declare_buffer(const BufferDecl* decl, Scope* scope);
   void declare_uniform(const VariableDecl* decl, const Type* type, Scope* scope);
+  void open_globals_buffer(SourceLocation location);
+
+  // -- Global structs that hold resources (split_structs.cpp)
+  struct SplitPlan;
+  void declare_split(const VariableDecl* decl, const Type* type, Scope* scope, BindingInfo* buffer,
+                     ir::Struct* members, uint32_t* offset);
+  SplitPart split(const Type* type, const std::string& name, SplitPlan& plan);
+  SplitPart split_memory(const Type* type, const std::string& name, SplitPlan& plan);
+  SplitPart split_resource(const Type* type, const std::string& name, SplitPlan& plan);
   void finish_globals_buffer();
   void apply_register(BindingInfo* binding, const Annotations& annotations);
   void assign_registers();

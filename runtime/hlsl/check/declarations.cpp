@@ -202,11 +202,6 @@ void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
     declare_binding(decl, type, scope);
     return;
   }
-  if (!is_static && contains_resource(type)) {
-    report(CheckId::kUnsupported, decl->location,
-           {"a global variable of type '" + to_string(type) + "', which holds resources"});
-    return;
-  }
   const bool is_const = is_const_type(decl->type);
   if (is_static || (is_const && decl->initializer)) {
     if (!is_static) report(CheckId::kConstWithoutStatic, decl->location, {std::string(decl->name)});

@@ -51,7 +51,9 @@ uint32_t payload_bytes(const Type* type) {
       return clamp_size(uint64_t{payload_bytes(type->element)} * type->count);
     case TypeKind::kStruct: {
       uint64_t bytes = type->structure->base ? payload_bytes(type->structure->base->type) : 0;
-      for (const FieldInfo& field : type->structure->fields) bytes += payload_bytes(field.type);
+      for (const FieldInfo& field : type->structure->fields) {
+        if (field.begins_field()) bytes += payload_bytes(field.unit ? field.unit : field.type);
+      }
       return clamp_size(bytes);
     }
     default:

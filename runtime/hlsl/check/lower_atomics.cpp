@@ -22,6 +22,10 @@ Value Lowerer::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
     return rvalue(build_.int32(0), types_.void_type());
   }
   Value& original = arguments[index];
+  if (!require_whole_field(original, original.location,
+                           "the original value of an atomic operation")) {
+    return error_value();
+  }
   if (!require_place(original, original.location, "the original value of an atomic operation")) {
     return error_value();
   }
@@ -41,7 +45,8 @@ Value Lowerer::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
   const size_t highest = 2 + (rule.has_compare ? 1 : 0) + (rule.has_result ? 1 : 0);
   if (!check_count(rule.name, arguments.size(), lowest, highest, location)) return error_value();
   Value target = arguments[0];
-  if (!require_place(target, target.location, "the target of an atomic operation")) {
+  if (!require_whole_field(target, target.location, "the target of an atomic operation") ||
+      !require_place(target, target.location, "the target of an atomic operation")) {
     return error_value();
   }
   const Type* type = target.type;

@@ -247,7 +247,10 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
       const std::string purpose = std::string("an argument of ") +
                                   (parameter.is_in ? "inout" : "out") + " parameter '" +
                                   std::string(parameter.name) + "'";
-      if (!require_place(argument, argument.location, purpose)) return error_value();
+      if (!require_whole_field(argument, argument.location, purpose) ||
+          !require_place(argument, argument.location, purpose)) {
+        return error_value();
+      }
       if (!by_reference(argument, parameter.type, parameter.is_in, true, i)) return error_value();
     } else {
       const ir::Expr* value = convert(argument, parameter.type, argument.location);

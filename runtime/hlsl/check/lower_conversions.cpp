@@ -259,7 +259,9 @@ void Lowerer::split(const Piece& piece, std::vector<Piece>& queue) {
     if (type->structure->base)
       parts.push_back({build_.field(expr, 0), type->structure->base->type});
     for (const FieldInfo& field : type->structure->fields) {
-      parts.push_back({build_.field(expr, field.index), field.type});
+      if (field.is_padding()) continue;
+      const ir::Expr* part = build_.field(expr, field.index);
+      parts.push_back({field.unit ? extract_bits(part, field) : part, field.type});
     }
   }
   queue.insert(queue.end(), parts.rbegin(), parts.rend());
@@ -316,7 +318,14 @@ const ir::Expr* Lowerer::take(const Type* type, std::vector<Piece>& queue, bool&
     if (type->structure->base) take_part(type->structure->base->type);
     for (const FieldInfo& field : type->structure->fields) {
       if (failed) break;
-      take_part(field.type);
+      if (!field.unit) {
+        take_part(field.type);
+        continue;
+      }
+      if (field.begins_field()) parts.push_back(build_.zero(field.unit->ir));
+      if (field.is_padding()) continue;
+      const ir::Expr* part = take(field.type, queue, failed, location);
+      if (part) parts.back() = insert_bits(parts.back(), field, part);
     }
   } else {
     failed = true;

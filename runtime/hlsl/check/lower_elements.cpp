@@ -88,6 +88,13 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
     result.type = types_.scalar(type->scalar);
     return result;
   }
+  if (base.kind == ValueKind::kSplit) {
+    if (at_index->kind == ir::ExprKind::kLiteral) {
+      return split_value(base.split->parts[at_index->literal[0]], location);
+    }
+    report(CheckId::kSplitIndex, location, {to_string(type)});
+    return error_value();
+  }
   if (base.kind == ValueKind::kBindings) {
     Value result = base;
     result.type = type->element;
@@ -127,6 +134,11 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
 }
 
 Value Lowerer::component_of(const Value& base, const std::vector<uint8_t>& components) {
+  if (base.bits) {
+    if (components.size() == 1) return base;
+    const Type* type = types_.vector(base.type->scalar, static_cast<uint32_t>(components.size()));
+    return rvalue(build_.swizzle(load(base), components), type);
+  }
   Value result = base;
   result.type = types_.vector(base.type->scalar, static_cast<uint32_t>(components.size()));
   if (has_repeats(components)) result.is_place = false;

@@ -191,8 +191,20 @@ Value Lowerer::variable_value(VariableInfo* variable, SourceLocation location) {
       value.offset = build_.uint32(0);
       return value;
     }
+    case VariableKind::kSplit:
+      return split_value(variable->split, location);
   }
   return error_value();
+}
+
+Value Lowerer::split_value(const SplitPart& part, SourceLocation location) {
+  if (part.variable) return variable_value(part.variable, location);
+  Value value;
+  value.kind = ValueKind::kSplit;
+  value.type = part.type;
+  value.is_const = true;
+  value.split = &part;
+  return value;
 }
 
 Value Lowerer::symbol_value(Symbol* symbol, SourceLocation location) {
@@ -304,6 +316,7 @@ Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
     if (field.type->is_error()) return error_value();
     Value owner = base_of(object, info);
     if (owner.failed()) return owner;
+    if (field.unit) return bit_field_of(owner, field);
     const Value result = field_of(owner, field.index, field.type);
     const bool is_access = info->is_payload && result.kind == ValueKind::kExpr &&
                            result.expr->kind == ir::ExprKind::kField;
@@ -423,6 +436,7 @@ Value Lowerer::lower_sizeof(const SizeofExpr* expr) {
     Value value = lower(expr->operand);
     block_ = outer;
     if (value.failed() || !value.type) return error_value();
+    if (!require_whole_field(value, expr->location, "the operand of sizeof")) return error_value();
     type = settled(value.type);
   }
   if (type->is_error()) return error_value();

@@ -178,6 +178,10 @@ void Lowerer::freeze(Value& value, size_t* position) {
 
 const ir::Expr* Lowerer::load(const Value& value) {
   if (value.saved) return value.saved;
+  if (value.bits) {
+    const ir::Expr* unit = load(unit_of(value));
+    return unit ? extract_bits(unit, *value.bits) : nullptr;
+  }
   if (value.type && value.type->is_query()) {
     report(CheckId::kRayQueryCopy, value.location, {to_string(value.type)});
     return nullptr;
@@ -243,6 +247,15 @@ const ir::Expr* Lowerer::load(const Value& value) {
       }
       return build_.construct(type->ir, std::move(parts));
     }
+    case ValueKind::kSplit: {
+      std::vector<const ir::Expr*> parts;
+      for (const SplitPart& part : value.split->parts) {
+        const ir::Expr* loaded = load(split_value(part, value.location));
+        if (!loaded) return nullptr;
+        parts.push_back(loaded);
+      }
+      return build_.construct(value.type->ir, std::move(parts));
+    }
     case ValueKind::kHeap:
       report(CheckId::kHeapUntyped, value.location);
       return nullptr;
@@ -303,7 +316,10 @@ void Lowerer::store_memory(const Value& target, const ir::Expr* value) {
 
 void Lowerer::store(const Value& target, const ir::Expr* value) {
   if (!value) return;
-  if (target.kind == ValueKind::kMemory) {
+  if (target.bits) {
+    const Value unit = unit_of(target);
+    store(unit, insert_bits(load(unit), *target.bits, value));
+  } else if (target.kind == ValueKind::kMemory) {
     store_memory(target, value);
   } else if (target.kind == ValueKind::kTyped) {
     const ir::Expr* stored = value;
@@ -336,6 +352,9 @@ void Lowerer::store(const Value& target, const ir::Expr* value) {
 
 Value Lowerer::field_of(const Value& base, uint32_t index, const Type* type) {
   if (base.saved) return rvalue(build_.field(base.saved, index), type);
+  if (base.kind == ValueKind::kSplit) {
+    return split_value(base.split->parts[index], base.location);
+  }
   Value result = base;
   result.type = type;
   if (base.kind == ValueKind::kMemory) {

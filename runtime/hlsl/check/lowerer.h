@@ -68,6 +68,12 @@ class Lowerer {
   Value memory(const ir::Expr* resource, const ir::Expr* element, const ir::Expr* offset,
                const Type* type, ir::Layout layout, bool is_const);
   Value field_of(const Value& base, uint32_t index, const Type* type);
+  // -- Bit fields (lower_bit_fields.cpp)
+  Value bit_field_of(const Value& owner, const FieldInfo& field);
+  const ir::Expr* extract_bits(const ir::Expr* unit, const FieldInfo& field);
+  const ir::Expr* insert_bits(const ir::Expr* unit, const FieldInfo& field, const ir::Expr* value);
+  static Value unit_of(const Value& value);
+  bool require_whole_field(const Value& value, SourceLocation location, std::string_view purpose);
   Value base_of(const Value& value, StructInfo* base);
   Value element_of(const Value& base, const Value& index, SourceLocation location);
   Value swizzle_of(const Value& base, std::string_view text, SourceLocation location);
@@ -101,6 +107,7 @@ class Lowerer {
   Value lower_name(const NameExpr* expr);
   Value symbol_value(Symbol* symbol, SourceLocation location);
   Value variable_value(VariableInfo* variable, SourceLocation location);
+  Value split_value(const SplitPart& part, SourceLocation location);
   Value lower_this(SourceLocation location);
   Value lower_member(const MemberExpr* expr);
   Value member_of(const Value& base, const QualifiedName& name);

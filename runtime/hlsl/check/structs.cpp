@@ -98,6 +98,56 @@ void Checker::complete_struct(StructInfo* info) {
   check_payload_struct(info);
 }
 
+// A bit field goes into the field before it if that holds bit fields of types of the same size and
+// has enough bits left. [Microsoft's C++ ABI, which DXC uses]
+void Checker::declare_bit_field(StructInfo* info, const VariableDecl* decl, const Type* type) {
+  const std::string name(decl->name.empty() ? "(unnamed)" : decl->name);
+  const auto width = constant_integer(decl->bit_width, info->scope, "the width of a bit field");
+  if (type->is_error() || !width) return;
+  if (options_.hlsl_version < 2021) {
+    report(CheckId::kBitFieldVersion, decl->bit_width->location,
+           {name, std::to_string(options_.hlsl_version)});
+    return;
+  }
+  if (!(type->is_enum() || (type->is_scalar() && !is_floating(type->scalar)))) {
+    report(CheckId::kBitFieldType, decl->location, {name, to_string(type)});
+    return;
+  }
+  const uint32_t unit_bits = scalar_bytes(type->scalar) * 8;
+  if (*width == 0 && decl->name.empty()) {
+    info->open_bits = 0;
+    return;
+  }
+  if (*width < 1 || *width > unit_bits) {
+    report(CheckId::kBitFieldWidth, decl->bit_width->location,
+           {name, std::to_string(*width), std::to_string(unit_bits), to_string(type)});
+    return;
+  }
+  const auto bits = static_cast<uint8_t>(*width);
+  const Type* unit = types_.scalar(unit_bits == 16   ? Scalar::kUint16
+                                   : unit_bits == 64 ? Scalar::kUint64
+                                                     : Scalar::kUint32);
+  const bool joins = info->open_bits >= bits && same_type(info->fields.back().unit, unit);
+  if (!joins) {
+    ir::Field& ir_field = info->ir->fields.emplace_back();
+    ir_field.name = "bits";
+    ir_field.type = unit->ir;
+    info->open_bits = unit_bits;
+  }
+  FieldInfo& field = info->fields.emplace_back();
+  field.name = decl->name;
+  field.type = type;
+  field.decl = decl;
+  field.index = static_cast<uint32_t>(info->ir->fields.size() - 1);
+  field.unit = unit;
+  field.bit_offset = static_cast<uint8_t>(unit_bits - info->open_bits);
+  field.bit_width = bits;
+  info->open_bits -= bits;
+  if (decl->name.empty()) return;
+  Symbol* symbol = add_symbol(info->scope, SymbolKind::kField, decl->name, {});
+  symbol->field = static_cast<uint32_t>(info->fields.size() - 1);
+}
+
 void Checker::declare_member(StructInfo* info, const Decl* member) {
   const auto* variable = as<VariableDecl>(member);
   if (const auto* function = as<FunctionDecl>(member)) {
@@ -114,8 +164,12 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
     report(CheckId::kRayQueryPlace, variable->location, {to_string(type), "a member of a struct"});
     type = types_.error();
   }
-  if (find_local(info->scope, variable->name)) {
+  if (!variable->name.empty() && find_local(info->scope, variable->name)) {
     report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
+    return;
+  }
+  if (variable->bit_width) {
+    declare_bit_field(info, variable, type);
     return;
   }
   if (variable->modifiers & kModStatic) {
@@ -129,6 +183,7 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
   if (variable->initializer) {
     report(CheckId::kMemberInitialiser, variable->location, {std::string(variable->name)});
   }
+  info->open_bits = 0;
   FieldInfo& field = info->fields.emplace_back();
   field.name = variable->name;
   field.type = type;

@@ -35,9 +35,18 @@ struct BindingInfo {
   std::vector<ir::Expr*> uses;
 };
 
-enum class VariableKind : uint8_t { kLocal, kGlobal, kBufferMember, kBinding };
+enum class VariableKind : uint8_t { kLocal, kGlobal, kBufferMember, kBinding, kSplit };
 
 struct FunctionInfo;
+struct VariableInfo;
+
+// A global struct that holds resources, or a part of it. Each resource is a binding of its own; the
+// rest is memory of a constant buffer.
+struct SplitPart {
+  const Type* type = nullptr;
+  VariableInfo* variable = nullptr;   // a resource, or memory; null: parts
+  std::vector<SplitPart> parts = {};  // in the order of ir::Struct::fields, or of the elements
+};
 
 struct VariableInfo {
   VariableKind kind = VariableKind::kLocal;
@@ -47,6 +56,7 @@ struct VariableInfo {
   ir::Variable* variable = nullptr;    // a local one has it once something refers to it
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember
+  SplitPart split;                     // kSplit
   const ir::Expr* constant = nullptr;  // kLocal: a const scalar whose value is known
   // kGlobal: the initialiser is lowered at the first use.
   const VariableDecl* decl = nullptr;
@@ -180,6 +190,7 @@ enum class ValueKind : uint8_t {
   kBindings,  // array of resources, partly indexed: binding; offset is the flat index so far
   kHeap,      // ResourceDescriptorHeap, SamplerDescriptorHeap, or an element of one until its
               // type is known: offset is the index
+  kSplit,     // split, of which no part has been chosen yet
   kMips,      // texture.mips, texture.mips[level] (offset)
   kInitList,  // init_list, which takes the type of its target
 };
@@ -201,6 +212,8 @@ struct Value {
   std::vector<uint8_t> components;
   const Type* whole = nullptr;
   BindingInfo* binding = nullptr;
+  const SplitPart* split = nullptr;
+  const FieldInfo* bits = nullptr;  // a bit field of the place, which has the type of its unit
   bool is_sampler_heap = false;
   const InitListExpr* init_list = nullptr;
   // What the place held when it was evaluated, if a later argument may have changed it.

@@ -13,6 +13,8 @@ struct TypeCase {
   std::string text;
 };
 
+const std::string kHolder = "struct R { ByteAddressBuffer b; uint i; };\n";
+
 std::string enums(const std::string& body, const std::string& globals = {}) {
   return kernel("const uint z = results.Load(0);\n" + body,
                 "enum E { kA = 1, kB = 2 };\nenum F { kC = 4 };\n"
@@ -59,6 +61,36 @@ const std::vector<TypeCase>& type_cases() {
       {"SelectOfDifferentStructs", Id::kNoCommonType,
        kernel("P a = {1}; Q b = {2};\nP c = @select(true, a, b);",
               "struct P { int i; };\nstruct Q { int i; };")},
+      {"ResourceStructIndex", Id::kSplitIndex,
+       kernel("uint u = r[@results.Load(0)].b.Load(0);", kHolder + "R r[2];")},
+      {"ResourceStructRange", Id::kIndexRange,
+       kernel("uint u = r[@2].b.Load(0);", kHolder + "R r[2];")},
+      {"ResourceStructRegister", Id::kSplitRegister, kernel("", kHolder + "R r : register(@s0);")},
+      {"ResourceStructTwoRegisters", Id::kTwoRegisters,
+       kernel("", kHolder + "R r : register(t0) : register(@t1);")},
+      {"ResourceStructSize", Id::kSplitSize, kernel("", kHolder + "R @r[5000];")},
+      {"ResourceStructAssigned", Id::kConstPlace, kernel("r.i @= 1;", kHolder + "R r;")},
+      {"ResourceStructOverlap", Id::kOverlap,
+       kernel("uint u = r.b.Load(0) + c.Load(0);",
+              kHolder + "R r : register(t3);\nByteAddressBuffer @c : register(t3);")},
+      {"BitFieldTooWide", Id::kBitFieldWidth, kernel("", "struct S { uint b : @33; };")},
+      {"BitFieldOfNoBits", Id::kBitFieldWidth, kernel("", "struct S { uint b : @0; };")},
+      {"BitFieldNegative", Id::kBitFieldWidth, kernel("", "struct S { uint b : @-1; };")},
+      {"BitFieldOfFloat", Id::kBitFieldType, kernel("", "struct S { float @b : 3; };")},
+      {"BitFieldOfVector", Id::kBitFieldType, kernel("", "struct S { uint2 @b : 3; };")},
+      {"BitFieldOfStruct", Id::kBitFieldType,
+       kernel("", "struct P { int i; }; struct S { P @: 1; };")},
+      {"BitFieldWidthUnknown", Id::kNotConstant,
+       kernel("", "static int n;\nstruct S { uint b : (@n); };")},
+      {"BitFieldTwice", Id::kRedefinition, kernel("", "struct S { uint b : 3; uint @b : 4; };")},
+      {"BitFieldOut", Id::kBitFieldUse,
+       kernel("S s; f(s.@b);", "struct S { uint b : 3; };\nvoid f(out uint u) { u = 1; }")},
+      {"BitFieldAtomic", Id::kBitFieldUse,
+       kernel("InterlockedOr(s.@b, 1);", "struct S { uint b : 3; };\ngroupshared S s;")},
+      {"BitFieldSizeof", Id::kBitFieldUse,
+       kernel("S s; uint u = @sizeof(s.b);", "struct S { uint b : 3; };")},
+      {"BitFieldInitialisers", Id::kInitialiserCount,
+       kernel("S s = @{1, 2, 3};", "struct S { uint a : 3; uint : 4; uint b : 3; };")},
   };
   return all;
 }

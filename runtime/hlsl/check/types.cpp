@@ -69,6 +69,7 @@ uint64_t flat_component_count(const Type* type) {
       uint64_t count =
           type->structure->base ? flat_component_count(type->structure->base->type) : 0;
       for (const FieldInfo& field : type->structure->fields) {
+        if (field.is_padding()) continue;
         count = std::min(kMany, count + flat_component_count(field.type));
       }
       return count;

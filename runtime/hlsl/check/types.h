@@ -136,6 +136,13 @@ struct FieldInfo {
   const VariableDecl* decl = nullptr;
   uint32_t index = 0;  // in ir::Struct::fields
   PayloadAccessBits access;
+  // A bit field: the type of the field of the ir::Struct, which several may share, and the bits.
+  const Type* unit = nullptr;
+  uint8_t bit_offset = 0;
+  uint8_t bit_width = 0;
+
+  bool is_padding() const { return unit && name.empty(); }
+  bool begins_field() const { return bit_offset == 0; }
 };
 
 struct Scope;
@@ -149,6 +156,7 @@ struct StructInfo {
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;
   bool complete = false;
+  uint32_t open_bits = 0;          // how many are free in the last field, if it holds bit fields
   bool is_payload = false;         // its access qualifiers take effect
   std::string_view template_name;  // "Pair" for Pair<float>; empty if it is not an instance
 };

@@ -506,11 +506,12 @@ struct TemplateParameter {
   const Expr* default_value = nullptr;       // `int N = 3`.
 };
 
-// Globals, locals, struct fields and fields of buffer blocks.
+// Globals, locals, struct fields (bit fields included) and fields of buffer blocks.
 struct VariableDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kVariable;
   const TypeSyntax* type = nullptr;  // With the declarator's array bounds applied.
   Annotations annotations;
+  const Expr* bit_width = nullptr;  // `uint a : 4`; without a name it is padding.
   const Expr* initializer = nullptr;
 };
 

@@ -253,6 +253,10 @@ void Dumper::declaration(const Decl& decl) {
       type(*variable.type);
       put(" ", decl.name);
       annotations(variable.annotations);
+      if (variable.bit_width != nullptr) {
+        put(" : ");
+        expression(*variable.bit_width);
+      }
       if (variable.initializer != nullptr) {
         put(" = ");
         expression(*variable.initializer);

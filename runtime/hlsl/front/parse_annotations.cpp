@@ -42,7 +42,7 @@ void Parser::one_annotation(Annotations& result, std::vector<RegisterBinding>& r
   if (at(Kind::kRegister)) return register_binding(registers);
   if (at(Kind::kPackOffset)) return pack_offset(result);
   if (at(Kind::kIntLiteral)) {
-    fail_here(DiagnosticId::kNoBitFields, {});
+    fail_here(DiagnosticId::kBitFieldPlace, {});
     return;
   }
   const bool is_access = at_name() && (token().text == "read" || token().text == "write") &&

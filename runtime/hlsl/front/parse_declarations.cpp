@@ -157,6 +157,13 @@ void Parser::declarators(const Prefix& prefix, Modifiers modifiers, const TypeSy
 
 const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
                                      const TypeSyntax* type) {
+  if (prefix.context == Context::kMember && at(Kind::kColon)) {
+    VariableDecl* padding = make<VariableDecl>(here());
+    padding->modifiers = modifiers;
+    padding->type = type;
+    bit_field(*padding);
+    return padding;
+  }
   const Token* name = expect_name(context_text(prefix.context), NameKind::kAnyName);
   if (name == nullptr) return nullptr;
   VariableDecl* decl = make<VariableDecl>(name->location);
@@ -167,6 +174,13 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
   decl->type = array_bounds(type);
   if (at(Kind::kLess)) skip_effect_annotation();
   if (panic_) return decl;
+  // Behind the colon of a bit field stands a number or an expression in parentheses; a name is a
+  // semantic.
+  if (prefix.context == Context::kMember && at(Kind::kColon) && !can_be_name(peek(1).kind) &&
+      !is_keyword(peek(1).kind)) {
+    bit_field(*decl);
+    return decl;
+  }
   decl->annotations = annotations();
   if (panic_) return decl;
   if (at(Kind::kLess)) skip_effect_annotation();
@@ -177,6 +191,15 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
     decl->initializer = variable_initializer();
   }
   return decl;
+}
+
+void Parser::bit_field(VariableDecl& decl) {
+  advance();
+  decl.bit_width = conditional();
+  const bool is_plain =
+      (decl.modifiers & kModStatic) == 0 && decl.type->kind != TypeSyntaxKind::kArray;
+  if (panic_ || (is_plain && !at(Kind::kColon))) return;
+  fail(DiagnosticId::kBitFieldPlace, decl.bit_width->location, {});
 }
 
 const Expr* Parser::variable_initializer() {

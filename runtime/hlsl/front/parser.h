@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The recursive-descent parser; only parse() uses it. One class, split into one file per noun:
-// parse.cpp (tokens, errors, recovery), parse_names, parse_modifiers, parse_types, parse_expressions,
-// parse_primaries, parse_statements, parse_declarations, parse_functions, parse_structs,
-// parse_templates, parse_annotations, parse_attributes, parse_subobjects.
+// parse.cpp (tokens, errors, recovery), parse_names, parse_modifiers, parse_types,
+// parse_expressions, parse_primaries, parse_statements, parse_declarations, parse_functions,
+// parse_structs, parse_templates, parse_annotations, parse_attributes, parse_subobjects.
 //
 // Error recovery: the first error in a statement or declaration sets panic_. While it is set,
 // nothing more is reported and all loops end; the enclosing list of statements or declarations
@@ -269,6 +269,7 @@ class Parser {
   const VariableDecl* variable(const Prefix& prefix, Modifiers modifiers, const TypeSyntax* type);
   void skip_effect_annotation();
   const Expr* variable_initializer();
+  void bit_field(VariableDecl& decl);
   void namespace_declaration(DeclList& out);
   void using_declaration(const Prefix& prefix, DeclList& out);
   void typedef_declaration(const Prefix& prefix, DeclList& out);
