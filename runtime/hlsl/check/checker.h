@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The checker's inner state; check.h is what others include. It is one class, split into one file
-// per noun: scopes, resolve_types, declarations, structs, templates, bindings, entry_points,
-// subobjects, payloads, payload_uses, finish_module. The lowerer handles bodies and expressions
-// (lowerer.h).
+// per noun: scopes, resolve_types, declarations, structs, templates, specializations, bindings,
+// entry_points, subobjects, payloads, payload_uses, finish_module. The lowerer handles bodies and
+// expressions (lowerer.h).
 #pragma once
 
 #include <deque>
@@ -109,6 +109,22 @@ class Checker {
   FunctionInfo* same_signature(Symbol* symbol, const FunctionInfo& function);
   bool check_variable_type(const Type* type, SourceLocation location, std::string_view name);
   void declare_builtins();
+
+  // -- Specializations, and members outside of their structs (specializations.cpp)
+  void specialize_struct(const StructDecl* decl, Scope* scope);
+  void specialize_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
+  // The partial specialization that fits best, with its parameters' values; null: the primary.
+  const StructDecl* partial_for(StructTemplate* structure, const TemplateValues& values,
+                                SourceLocation location, TemplateValues& found);
+  bool match_partial(StructTemplate* structure, const StructDecl* partial,
+                     const TemplateValues& values, TemplateValues& found);
+  StructTemplate* outer_template(const QualifiedName& qualifier, Scope* scope);
+  void declare_outer(StructTemplate* structure, const OuterMember& member);
+  void apply_outer(StructInfo* info, const TemplateValues& values, const OuterMember& member);
+  void define_static(VariableInfo* variable, const VariableDecl* decl, Scope* scope);
+  void declare_outer_static(const VariableDecl* decl, Scope* scope);
+  FunctionInfo* same_parameters(Symbol* symbol, const FunctionInfo& function);
+  static void define(FunctionInfo* function, const FunctionDecl* decl, Scope* scope);
 
   // -- Templates (templates.cpp)
   StructTemplate* template_of(const Symbol* symbol, const NamePart& part);

@@ -176,6 +176,7 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
 }
 
 void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
+  if (decl->qualifier) return declare_outer_static(decl, scope);
   const Type* type = resolve_type(decl->type, scope);
   if (!check_variable_type(type, decl->location, decl->name)) {
     // A symbol of unknown type prevents follow-up errors where the name is used.
@@ -375,6 +376,14 @@ FunctionInfo* Checker::same_signature(Symbol* symbol, const FunctionInfo& functi
 
 void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner) {
   if (decl->qualifier) {
+    if (decl->is_template) {
+      if (StructTemplate* structure = outer_template(*decl->qualifier, scope)) {
+        const bool is_nested = !decl->outer_parameters.empty();
+        declare_outer(structure, {decl, nullptr,
+                                  is_nested ? decl->outer_parameters : decl->template_parameters});
+        return;
+      }
+    }
     Symbol* symbol = resolve_name(*decl->qualifier, scope, false);
     if (!symbol) return;
     Scope* inside = scope_of_part(decl->qualifier->last(), symbol, scope);
@@ -385,6 +394,7 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
     scope = inside;
     owner = inside->structure;
   }
+  if (decl->is_specialization) return specialize_function(decl, scope, owner);
   FunctionInfo* function = make_function(decl, scope, owner);
   if (owner && decl->qualifier) function->is_static = false;
   Symbol* symbol = find_local(scope, decl->name);
@@ -425,6 +435,9 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
     return;
   }
   if (decl->qualifier && owner) {
+    FunctionInfo* pattern =
+        symbol && function->is_template ? same_parameters(symbol, *function) : nullptr;
+    if (pattern && decl->body) return define(pattern, decl, scope);
     report(CheckId::kNoSuchMethod, decl->location, {owner->name, std::string(decl->name)});
     return;
   }

@@ -23,6 +23,7 @@ StructInfo* Checker::make_struct(const StructDecl* decl, Scope* parent, const st
 
 void Checker::declare_struct(const StructDecl* decl, Scope* scope) {
   Symbol* symbol = decl->name.empty() ? nullptr : find_local(scope, decl->name);
+  if (decl->is_specialization) return specialize_struct(decl, scope);
   if (decl->is_template) {
     if (symbol && symbol->kind == SymbolKind::kStructTemplate) {
       if (!decl->is_definition) return;

@@ -149,8 +149,17 @@ enum class SymbolKind : uint8_t {
   kConstant,  // enumerator, template value argument, built-in constant
 };
 
+// A function or static member that is defined outside of its struct template.
+struct OuterMember {
+  const FunctionDecl* function = nullptr;
+  const VariableDecl* variable = nullptr;
+  std::span<const TemplateParameter> parameters = {};  // the struct's, by the names used there
+};
+
 struct StructTemplate {
   const StructDecl* decl = nullptr;
+  std::vector<const StructDecl*> partials;  // partial specializations
+  std::vector<OuterMember> members;
   Scope* scope = nullptr;
   std::string name;
   std::unordered_map<std::string, StructInfo*> instances;

@@ -118,6 +118,8 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
   if (auto found = structure->instances.find(suffix); found != structure->instances.end()) {
     return found->second;
   }
+  TemplateValues own = values;
+  if (const StructDecl* partial = partial_for(structure, values, location, own)) decl = partial;
   if (!decl->is_definition) {
     report(CheckId::kIncomplete, location, {structure->name});
     return nullptr;
@@ -133,7 +135,7 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
     return nullptr;
   }
   ++template_depth_;
-  Scope* inner = template_scope(decl->template_parameters, values, structure->scope);
+  Scope* inner = template_scope(decl->template_parameters, own, structure->scope);
   StructInfo* info = make_struct(decl, inner, structure->name + suffix);
   info->template_name = decl->name;
   structure->instances[suffix] = info;
@@ -141,6 +143,9 @@ StructInfo* Checker::instantiate_struct(StructTemplate* structure, const NamePar
   const uint32_t visible = visible_;
   visible_ = ~0u;
   complete_struct(info);
+  if (decl == structure->decl) {
+    for (const OuterMember& member : structure->members) apply_outer(info, values, member);
+  }
   visible_ = visible;
   --template_depth_;
   return info;
@@ -262,6 +267,7 @@ FunctionInfo* Checker::instantiate_function(FunctionInfo* function,
       Scope* inner = template_scope(parameters, values, function->scope);
       slot = make_function(decl, inner, function->owner);
       slot->is_template = false;
+      slot->is_static = function->is_static;
       slot->qualified += suffix;
       slot->template_suffix = suffix;
       slot->template_values = values;

@@ -62,7 +62,7 @@ const std::vector<TypeCase>& type_cases() {
        kernel("P a = {1}; Q b = {2};\nP c = @select(true, a, b);",
               "struct P { int i; };\nstruct Q { int i; };")},
       {"ResourceStructIndex", Id::kSplitIndex,
-       kernel("uint u = r[@results.Load(0)].b.Load(0);", kHolder + "R r[2];")},
+       kernel("uint u = r[results.@Load(0)].b.Load(0);", kHolder + "R r[2];")},
       {"ResourceStructRange", Id::kIndexRange,
        kernel("uint u = r[@2].b.Load(0);", kHolder + "R r[2];")},
       {"ResourceStructRegister", Id::kSplitRegister, kernel("", kHolder + "R r : register(@s0);")},
@@ -91,6 +91,55 @@ const std::vector<TypeCase>& type_cases() {
        kernel("S s; uint u = @sizeof(s.b);", "struct S { uint b : 3; };")},
       {"BitFieldInitialisers", Id::kInitialiserCount,
        kernel("S s = @{1, 2, 3};", "struct S { uint a : 3; uint : 4; uint b : 3; };")},
+      {"SpecializesNoStruct", Id::kSpecializesNothing, kernel("", "template<> struct @S<int> {};")},
+      {"SpecializesPlainStruct", Id::kSpecializesNothing,
+       kernel("", "struct S { int i; };\ntemplate<> struct @S<int> {};")},
+      {"SpecializationOfOtherCount", Id::kTemplateArguments,
+       kernel("", "template<typename T> struct S {};\ntemplate<> struct @S<int, int> {};")},
+      {"SpecializedTwice", Id::kSpecializedLate,
+       kernel("",
+              "template<typename T> struct S {};\ntemplate<> struct S<int> { int i; };\n"
+              "template<> struct @S<int> { int j; };")},
+      {"SpecializedAfterUse", Id::kSpecializedLate,
+       kernel("",
+              "template<typename T> struct S {};\nstruct U { S<int> s; };\n"
+              "template<> struct @S<int> { int j; };")},
+      {"PartialsTie", Id::kAmbiguousPartial,
+       kernel("@S<int, int> s;",
+              "template<typename A, typename B> struct S {};\n"
+              "template<typename A> struct S<A, int> { int i; };\n"
+              "template<typename B> struct S<int, B> { int i; };")},
+      {"SpecializesNoFunction", Id::kSpecializesNothing,
+       kernel("", "template<> void @f<int>(int i) {}")},
+      {"SpecializesOtherParameters", Id::kSpecializesNothing,
+       kernel("", "template<typename T> void f(T t) {}\ntemplate<> void @f<int>(float i) {}")},
+      {"FunctionSpecializedTwice", Id::kSpecializedLate,
+       kernel("",
+              "template<typename T> void f(T t) {}\ntemplate<> void f<int>(int i) {}\n"
+              "template<> void @f<int>(int i) {}")},
+      {"NoSuchOuterMember", Id::kNoSuchMethod,
+       kernel("",
+              "template<typename T> struct S { T t; };\n"
+              "template<typename T> T S<T>::@get() { return t; }")},
+      {"OuterMemberOfOtherSignature", Id::kNoSuchMethod,
+       kernel("S<int> s = {1};",
+              "template<typename T> struct S { T t; T get(); };\n"
+              "template<typename T> T S<T>::@get(T more) { return t; }")},
+      {"OuterMemberTwice", Id::kFunctionRedefined,
+       kernel("S<int> s = {1};",
+              "template<typename T> struct S { T t; T get() { return t; } };\n"
+              "template<typename T> T S<T>::@get() { return t; }")},
+      {"OuterMemberOfOtherCount", Id::kTemplateArguments,
+       kernel("",
+              "template<typename T> struct S { T get(); };\n"
+              "template<typename T, typename U> T S<T>::@get() { return 0; }")},
+      {"NoSuchStatic", Id::kNoSuchStatic, kernel("", "struct S { int i; };\nint S::@count = 3;")},
+      {"StaticOfOtherType", Id::kRedefinition,
+       kernel("", "struct S { static int count; };\nfloat S::@count = 3;")},
+      {"StaticTwice", Id::kRedefinition,
+       kernel("", "struct S { static int count; };\nint S::count = 3;\nint S::@count = 3;")},
+      {"StaticWithoutValue", Id::kConstWithoutValue,
+       kernel("", "struct S { static const int @count; };")},
   };
   return all;
 }

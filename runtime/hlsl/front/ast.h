@@ -511,6 +511,10 @@ struct VariableDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kVariable;
   const TypeSyntax* type = nullptr;  // With the declarator's array bounds applied.
   Annotations annotations;
+  // `int S::count = 3;`: S. The parameters are those of `template<typename T> int S<T>::count =
+  // 3;`.
+  const QualifiedName* qualifier = nullptr;
+  std::span<const TemplateParameter> template_parameters = {};
   const Expr* bit_width = nullptr;  // `uint a : 4`; without a name it is padding.
   const Expr* initializer = nullptr;
 };
@@ -528,7 +532,11 @@ struct FunctionDecl : Decl {
   // named "operator+", "operator[]", "operator()".
   const QualifiedName* qualifier = nullptr;
   std::span<const TemplateParameter> template_parameters;
+  // The first of two lists: `template<typename T> template<typename U> U S<T>::f(U u)`.
+  std::span<const TemplateParameter> outer_parameters = {};
   bool is_template = false;
+  bool is_specialization = false;  // `template<> void f<int>(int i)`
+  std::span<const TemplateArgument> specialized = {};
   bool is_const_method = false;
   const TypeSyntax* return_type = nullptr;
   std::span<const ParameterDecl* const> parameters;
@@ -543,6 +551,9 @@ struct StructDecl : Decl {
   bool is_definition = false;  // False for a forward declaration.
   bool is_template = false;
   std::span<const TemplateParameter> template_parameters;
+  // `template<> struct S<int>`, and with parameters `template<typename T> struct S<T, 0>`.
+  bool is_specialization = false;
+  std::span<const TemplateArgument> specialized = {};
   std::span<const TypeSyntax* const> bases;
   // In source order: VariableDecl (fields; static members carry kModStatic), FunctionDecl,
   // StructDecl, EnumDecl, TypeAliasDecl.

@@ -132,7 +132,9 @@ void Parser::simple_declaration(Prefix& prefix, DeclList& out) {
     }
     return;
   }
-  if (prefix.is_template) {
+  const bool is_outer_member =
+      prefix.context == Context::kGlobal && starts_qualified_declarator(pos_);
+  if ((prefix.is_template || prefix.is_specialization) && !is_outer_member) {
     fail_here(DiagnosticId::kTemplateOfWhat, {describe(token())});
     return;
   }
@@ -164,6 +166,23 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
     bit_field(*padding);
     return padding;
   }
+  if (prefix.context == Context::kGlobal && starts_qualified_declarator(pos_)) {
+    const QualifiedName* qualifier = qualified_name(false);
+    if (panic_) return nullptr;
+    VariableDecl* member = make<VariableDecl>(qualifier->location);
+    QualifiedName* owner =
+        make<QualifiedName>(qualifier->parts[qualifier->parts.size() - 2].location);
+    owner->is_global = qualifier->is_global;
+    owner->parts = qualifier->parts.first(qualifier->parts.size() - 1);
+    member->name = qualifier->last().identifier;
+    member->modifiers = modifiers;
+    member->attributes = prefix.attributes;
+    member->qualifier = owner;
+    member->template_parameters = prefix.template_parameters;
+    member->type = array_bounds(type);
+    if (!panic_ && accept(Kind::kEqual)) member->initializer = variable_initializer();
+    return member;
+  }
   const Token* name = expect_name(context_text(prefix.context), NameKind::kAnyName);
   if (name == nullptr) return nullptr;
   VariableDecl* decl = make<VariableDecl>(name->location);
@@ -191,6 +210,18 @@ const VariableDecl* Parser::variable(const Prefix& prefix, Modifiers modifiers,
     decl->initializer = variable_initializer();
   }
   return decl;
+}
+
+bool Parser::starts_qualified_declarator(size_t index) {
+  if (token_at(index).is(Kind::kColonColon)) ++index;
+  if (!is_name(index)) return false;
+  size_t i = index + 1;
+  if (token_at(i).is(Kind::kLess)) {
+    const size_t end = behind_template_arguments(i);
+    if (end == i) return false;
+    i = end;
+  }
+  return token_at(i).is(Kind::kColonColon) && is_name(i + 1);
 }
 
 void Parser::bit_field(VariableDecl& decl) {

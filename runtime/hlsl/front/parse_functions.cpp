@@ -30,7 +30,9 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   decl->modifiers = modifiers;
   decl->attributes = prefix.attributes;
   decl->template_parameters = prefix.template_parameters;
+  decl->outer_parameters = prefix.outer_parameters;
   decl->is_template = prefix.is_template;
+  decl->is_specialization = prefix.is_specialization;
   decl->return_type = type;
   const Token* name_token = &token();
   ScopeId qualifier = kNoScope;
@@ -93,8 +95,9 @@ bool Parser::function_name(FunctionDecl& decl, ScopeId* qualifier_scope) {
     return !panic_;
   }
   decl.name = parts.back().identifier;
-  if (parts.back().has_template_arguments) {
-    fail(DiagnosticId::kNoSpecialization, parts.back().location, {});
+  decl.specialized = parts.back().template_arguments;
+  if (parts.back().has_template_arguments && !decl.is_specialization) {
+    fail(DiagnosticId::kSpecializationHeader, parts.back().location, {decl.name});
     return false;
   }
   if (parts.size() > 1) {

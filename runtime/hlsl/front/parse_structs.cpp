@@ -41,8 +41,18 @@ const StructDecl* Parser::struct_definition() {
     const bool is_forward =
         known.kind == ParsedKind::kType && known.scope < scope && !decl->is_template;
     if (is_forward && at(Kind::kSemicolon)) scope = known.scope;
-    scopes_.declare(outer, name->value, {ParsedKind::kType, scope});
-    type_names_.push_back(name->text);
+    const bool has_list = prefix != nullptr && (prefix->is_template || prefix->is_specialization);
+    decl->is_specialization = has_list && at(Kind::kLess);
+    if (decl->is_specialization) {
+      decl->specialized = template_arguments();
+      if (panic_) return nullptr;
+    } else if (prefix != nullptr && prefix->is_specialization) {
+      fail(DiagnosticId::kSpecializationArguments, name->location, {name->text});
+      return nullptr;
+    } else {
+      scopes_.declare(outer, name->value, {ParsedKind::kType, scope});
+      type_names_.push_back(name->text);
+    }
   }
   type_scope_ = scope;
   if (at(Kind::kSemicolon) && name != nullptr) return decl;

@@ -5,23 +5,18 @@
 namespace kaamos::hlsl {
 
 void Parser::template_declaration(Prefix& prefix, DeclList& out) {
-  const SourceLocation keyword = here();
   const size_t open = pos_ + 1;
   advance();
   if (!expect(Kind::kLess, "'<' after 'template'")) return;
-  DeclList dropped;
-  const bool is_specialization = at(Kind::kGreater);
+  prefix.is_specialization = at(Kind::kGreater);
   prefix.scope = scope_of(prefix);
   InScope inside(*this, scopes_.create(scopes_.current()));
   std::vector<TemplateParameter> found;
-  if (is_specialization) {
-    fail(DiagnosticId::kNoSpecialization, keyword, {});
-    return;
-  }
-  template_parameters(found);
+  if (!prefix.is_specialization) template_parameters(found);
   expect_template_end(open);
   if (panic_) return;
-  prefix.is_template = true;
+  prefix.is_template = !prefix.is_specialization;
+  prefix.outer_parameters = prefix.template_parameters;
   prefix.template_parameters = list(found);
   if (at_attribute()) {
     std::vector<Attribute> all(prefix.attributes.begin(), prefix.attributes.end());
@@ -32,8 +27,11 @@ void Parser::template_declaration(Prefix& prefix, DeclList& out) {
     case Kind::kUsing:
       if (peek(2).is(Kind::kEqual)) return using_declaration(prefix, out);
       break;
-    case Kind::kTypedef:
     case Kind::kTemplate:
+      // A second list belongs to a member of what the first one is for.
+      if (prefix.outer_parameters.empty()) return template_declaration(prefix, out);
+      break;
+    case Kind::kTypedef:
     case Kind::kNamespace:
     case Kind::kCbuffer:
     case Kind::kTbuffer:

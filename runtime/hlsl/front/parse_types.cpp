@@ -192,7 +192,14 @@ TypeSyntax* Parser::definition_type(DeclList* definitions) {
     i = end;
   }
   if (is_enum && (token_at(i).is(Kind::kClass) || token_at(i).is(Kind::kStruct))) ++i;
-  const Kind behind_name = token_at(is_name(i) ? i + 1 : i).kind;
+  size_t behind = is_name(i) ? i + 1 : i;
+  // `template<> struct S<int> {`
+  const bool may_specialize = struct_prefix_ != nullptr &&
+                              (struct_prefix_->is_template || struct_prefix_->is_specialization);
+  if (may_specialize && token_at(behind).is(Kind::kLess)) {
+    behind = behind_template_arguments(behind);
+  }
+  const Kind behind_name = token_at(behind).kind;
   const bool is_definition = behind_name == Kind::kLeftBrace || behind_name == Kind::kColon ||
                              behind_name == Kind::kSemicolon || !is_name(i);
   if (!is_definition) {

@@ -255,7 +255,9 @@ class Parser {
   struct Prefix {
     std::span<const Attribute> attributes;
     std::span<const TemplateParameter> template_parameters;
+    std::span<const TemplateParameter> outer_parameters = {};
     bool is_template = false;
+    bool is_specialization = false;  // after `template<>`
     // The scope to declare in; it differs from the current one inside a template's parameter scope.
     ScopeId scope = kNoScope;
     Context context = Context::kGlobal;
@@ -267,6 +269,8 @@ class Parser {
   void declarators(const Prefix& prefix, Modifiers modifiers, const TypeSyntax* type,
                    DeclList& out);
   const VariableDecl* variable(const Prefix& prefix, Modifiers modifiers, const TypeSyntax* type);
+  // `S::name` or `S<T>::name` where a declarator begins.
+  bool starts_qualified_declarator(size_t index);
   void skip_effect_annotation();
   const Expr* variable_initializer();
   void bit_field(VariableDecl& decl);
