@@ -216,7 +216,7 @@ const std::vector<Case>& cases() {
       {"SemanticType", Id::kSemanticType,
        "[shader(\"compute\")][numthreads(1, 1, 1)] void main(float3 @id : SV_GroupID) {}"},
       {"NoEntryPoint", Id::kNoEntryPoint, "void f() {}", target("cs_6_6")},
-      {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("ps_6_6")},
+      {"UnknownTarget", Id::kUnknownTarget, "void f() {}", target("gs_6_6")},
       {"TraceRayFromAnyHit", Id::kStage,
        kRayTypes + "[shader(\"anyhit\")] void H(inout Payload p, Attributes a) {\n"
                    "  RayDesc r = (RayDesc)0;\n  @TraceRay(scene, 0, 255, 0, 0, 0, r, p);\n}"},

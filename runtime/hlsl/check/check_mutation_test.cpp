@@ -83,6 +83,7 @@ TEST(CheckMutation, TestFilesMakeModulesByTheRules) {
     std::ifstream file(entry.path());
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     options.native_16bit = text.find("OPTIONS: -enable-16bit-types") != std::string::npos;
+    if (text.find("OPTIONS: -HV 2018") != std::string::npos) options.hlsl_version = 2018;
     DiskFileLoader loader;
     SourceManager sources(loader);
     DiagnosticEngine diagnostics;

@@ -74,6 +74,8 @@ class Checker {
   const Type* resolve_builtin(const NamePart& part, SourceLocation location, Scope* scope);
   const Type* resolve_ray_query(const NamePart& part, Scope* scope);
   const Type* resolve_resource(const ResourceTraits& traits, const NamePart& part, Scope* scope);
+  // The type of a variable; `auto` takes that of the initialiser.
+  const Type* resolve_variable_type(const VariableDecl* decl, Scope* scope);
   const Type* resolve_array(const TypeSyntax* syntax, Scope* scope);
   const Type* type_argument(const TemplateArgument& argument, Scope* scope);
   std::optional<int64_t> value_argument(const TemplateArgument& argument, Scope* scope,
@@ -101,6 +103,7 @@ class Checker {
   void declare_struct(const StructDecl* decl, Scope* scope);
   StructInfo* make_struct(const StructDecl* decl, Scope* parent, const std::string& name);
   void complete_struct(StructInfo* info);
+  void check_interfaces(StructInfo* info);
   void declare_member(StructInfo* info, const Decl* member);
   void declare_bit_field(StructInfo* info, const VariableDecl* decl, const Type* type);
   void declare_function(const FunctionDecl* decl, Scope* scope, StructInfo* owner);
@@ -173,6 +176,24 @@ class Checker {
   // -- Entry points, exports, subobjects
   void find_entry_points();
   void check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name);
+  // -- Vertex and pixel shaders (graphics_stages.cpp)
+  struct GraphicsEntry {
+    FunctionInfo* function;
+    uint32_t stage;
+    std::string name;
+  };
+  // An input or output of one.
+  struct GraphicsValue {
+    const Type* type;
+    const Semantic* semantic;
+    SourceLocation location;
+    std::string_view name;
+    bool is_output;
+  };
+  void check_graphics_entry(FunctionInfo* function, uint32_t stage, const std::string& name);
+  void check_graphics_value(const GraphicsValue& value, const GraphicsEntry& entry);
+  void check_graphics_uses();
+  void report_stage_use(const StageUse& use, uint32_t stage, const std::string& name);
   bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
@@ -240,6 +261,7 @@ class Checker {
 
   std::vector<FunctionInfo*> all_functions_;  // in declaration order, without templates
   std::vector<std::pair<FunctionInfo*, size_t>> entries_;
+  std::vector<GraphicsEntry> graphics_entries_;
   std::set<const ir::Struct*> collected_structs_;
   std::set<const ir::Expr*> collected_exprs_;
   // An entry point that is generated around a function of the source.

@@ -38,7 +38,8 @@ void Checker::declare_builtins() {
     symbol->type = flags;
     symbol->value = build_.uint32(kBuiltinConstants[i].value);
   }
-  for (const std::string_view name : {"RAY_FLAG", "CANDIDATE_TYPE", "COMMITTED_STATUS"}) {
+  for (const std::string_view name :
+       {"RAY_FLAG", "RAYQUERY_FLAG", "CANDIDATE_TYPE", "COMMITTED_STATUS"}) {
     add_symbol(global_, SymbolKind::kType, name, {})->type = flags;
   }
 }
@@ -168,6 +169,11 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
     report(CheckId::kRayQueryPlace, location, {to_string(element), "an element of an array"});
     return false;
   }
+  const StructDecl* decl = element->is_struct() ? element->structure->decl : nullptr;
+  if (decl && decl->is_interface) {
+    report(CheckId::kInterfaceObject, location, {to_string(element)});
+    return false;
+  }
   if (element->is_struct() && !element->structure->complete) {
     report(CheckId::kIncomplete, location, {to_string(element)});
     return false;
@@ -177,7 +183,7 @@ bool Checker::check_variable_type(const Type* type, SourceLocation location,
 
 void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
   if (decl->qualifier) return declare_outer_static(decl, scope);
-  const Type* type = resolve_type(decl->type, scope);
+  const Type* type = resolve_variable_type(decl, scope);
   if (!check_variable_type(type, decl->location, decl->name)) {
     // A symbol of unknown type prevents follow-up errors where the name is used.
     if (!find_local(scope, decl->name)) {
@@ -414,7 +420,21 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
       return;
     }
     if (before->definition && decl->body) {
-      report(CheckId::kFunctionRedefined, decl->location, {lower_.describe(*before)});
+      std::vector<std::pair<SourceLocation, std::string>> notes = {
+          {before->definition->location, "defined here"}};
+      for (size_t i = 0; i < decl->parameters.size(); ++i) {
+        const TypeSyntax* a = before->definition->parameters[i]->type;
+        const TypeSyntax* b = decl->parameters[i]->type;
+        const bool is_other_word =
+            a->kind == TypeSyntaxKind::kNumeric && b->kind == a->kind && a->scalar != b->scalar;
+        if (!is_other_word) continue;
+        notes.push_back({decl->parameters[i]->location,
+                         "half and the min types are 16-bit types with -enable-16bit-types, so "
+                         "both parameters are '" +
+                             to_string(function->parameters[i].type) + "'"});
+      }
+      report_with_notes(CheckId::kFunctionRedefined, decl->location, {lower_.describe(*before)},
+                        notes);
       return;
     }
     if (decl->body) {

@@ -29,9 +29,11 @@ constexpr StageWord kStageWords[] = {
     {"miss", ir::kStageMiss},
     {"callable", ir::kStageCallable},
     {"compute", ir::kStageCompute},
+    {"vertex", ir::kStageVertex},
+    {"pixel", ir::kStagePixel},
 };
-constexpr std::string_view kOtherStages[] = {"vertex", "pixel", "geometry",      "hull",
-                                             "domain", "mesh",  "amplification", "node"};
+constexpr std::string_view kOtherStages[] = {"geometry", "hull",          "domain",
+                                             "mesh",     "amplification", "node"};
 
 const Attribute* find_attribute(const FunctionInfo& function, std::string_view name) {
   for (const FunctionDecl* decl : {function.decl, function.definition}) {
@@ -100,7 +102,10 @@ void Checker::find_entry_points() {
       report(CheckId::kNoEntryPoint, {}, {options_.entry_point});
       return;
     }
-    check_entry_point(kernel, ir::kStageCompute, options_.entry_point);
+    const uint32_t stage = options_.target.starts_with("vs")   ? ir::kStageVertex
+                           : options_.target.starts_with("ps") ? ir::kStagePixel
+                                                               : ir::kStageCompute;
+    check_entry_point(kernel, stage, options_.entry_point);
     return;
   }
   // By index, because lowering a body may declare more methods (of local structs).
@@ -116,6 +121,10 @@ void Checker::find_entry_points() {
 }
 
 void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name) {
+  if (stage == ir::kStageVertex || stage == ir::kStagePixel) {
+    check_graphics_entry(function, stage, name);
+    return;
+  }
   const SourceLocation location = function->definition->location;
   for (const ir::EntryPoint& other : module_->entry_points) {
     if (other.name == name) {

@@ -20,11 +20,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
   entry.attribute_bytes = std::max(entry.attribute_bytes, function->reported_bytes);
   entry.attribute_type = joined_type(entry.attribute_type, function->reported_type);
   for (const StageUse& use : function->stage_uses) {
-    if (use.stages & entry.stage) continue;
-    if (!reported_uses_.insert({use.location.raw, entry.stage}).second) continue;
-    report(CheckId::kStage, use.location,
-           {std::string(use.name), stage_list(use.stages), std::string(stage_name(entry.stage)),
-            entry.name});
+    if ((use.stages & entry.stage) == 0) report_stage_use(use, entry.stage, entry.name);
   }
   for (BindingInfo* binding : function->bindings) {
     binding->reachable = true;
@@ -63,6 +59,7 @@ void Checker::finish(ir::Module& module) {
       node->has_barrier |= callee->ir->has_barrier;
     }
   }
+  check_graphics_uses();
   std::set<VariableInfo*> all_globals;
   std::vector<std::set<BindingInfo*>> bindings_of(module.entry_points.size());
   std::set<const ir::Function*> started;

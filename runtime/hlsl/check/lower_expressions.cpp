@@ -391,6 +391,27 @@ Value Lowerer::lower_construct(const Type* type, std::span<const Expr* const> ar
        same_type(values[0].type, type))) {
     return rvalue(convert(values[0], type, location, true), type);
   }
+  // Arrays and structs stand for their elements.
+  for (size_t i = 0; i < values.size();) {
+    const Type* from = values[i].type;
+    const bool is_aggregate = from && (from->is_array() || from->is_struct()) &&
+                              !contains_resource(from) && flat_component_count(from) <= 16;
+    if (!is_aggregate) {
+      ++i;
+      continue;
+    }
+    const ir::Expr* whole = load(values[i]);
+    if (!whole) return error_value();
+    std::vector<Piece> pieces;
+    split({whole, from}, pieces);
+    const SourceLocation place = values[i].location;
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(i));
+    for (const Piece& piece : pieces) {
+      Value element = rvalue(piece.expr, piece.type);
+      element.location = place;
+      values.insert(values.begin() + static_cast<std::ptrdiff_t>(i), element);
+    }
+  }
   std::vector<const ir::Expr*> parts;
   uint32_t count = 0;
   for (const Value& value : values) {

@@ -24,6 +24,10 @@ bool Lowerer::check_count(std::string_view name, size_t given, size_t lowest, si
   return false;
 }
 
+void Lowerer::use_implicit_level(std::string_view name, SourceLocation location) {
+  if (function_) function_->stage_uses.push_back({location, name, ir::kStagePixel, true});
+}
+
 void Lowerer::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
   if (!function_) return;
   const bool known = std::any_of(function_->stage_uses.begin(), function_->stage_uses.end(),
@@ -92,7 +96,7 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
   }
   if (is_pixel_function(name)) {
     if (!check_count(name, count, 1, 1, location)) return error_value();
-    use_in_stages(name, 0, location);
+    use_in_stages(name, ir::kStagePixel, location);
     if (name == "clip" || !is_number(arguments[0])) {
       return rvalue(build_.int32(0), types_.void_type());
     }

@@ -110,6 +110,18 @@ void Lowerer::lower_discarded(const Expr* expression) {
   result_unused_ = unused;
 }
 
+// Before HLSL 2021 the variables of a `for` belong to the scope around it.
+void Lowerer::lower_loop_head(const Stmt* init) {
+  if (!init) return;
+  lower_statement(init);
+  const auto* declared = as<DeclStmt>(init);
+  if (!declared) return;
+  for (const Decl* decl : declared->declarations) {
+    const Symbol* symbol = checker_.find_local(scope_, decl->name);
+    if (symbol && symbol->kind == SymbolKind::kVariable) symbol->variable->is_loop_variable = true;
+  }
+}
+
 void Lowerer::lower_statement(const Stmt* statement) {
   if (depth_ >= 400) {
     report(CheckId::kTooDeep, statement->location, {"400"});
@@ -144,6 +156,11 @@ void Lowerer::lower_statement(const Stmt* statement) {
       break;
     case StmtKind::kFor: {
       const auto* loop = static_cast<const ForStmt*>(statement);
+      if (checker_.options_.hlsl_version < 2021) {
+        lower_loop_head(loop->init);
+        lower_loop(loop->condition, loop->step, loop->body, false, *loop);
+        break;
+      }
       Scope* scope = scope_;
       ir::Block* outer = block_;
       ir::Stmt* node = build_.stmt(ir::StmtKind::kBlock);
@@ -187,7 +204,7 @@ void Lowerer::lower_statement(const Stmt* statement) {
       lower_return(static_cast<const ReturnStmt*>(statement));
       break;
     case StmtKind::kDiscard:
-      use_in_stages("discard", 0, statement->location);
+      use_in_stages("discard", ir::kStagePixel, statement->location);
       break;
   }
   --depth_;
@@ -212,16 +229,20 @@ void Lowerer::declare_variable(VariableInfo* info) {
 }
 
 void Lowerer::lower_local(const VariableDecl* decl) {
-  const Type* type = checker_.resolve_type(decl->type, scope_);
+  const Type* type = checker_.resolve_variable_type(decl, scope_);
   at(decl->location);
   VariableInfo* info = &checker_.variables_.emplace_back();
   info->name = decl->name;
   info->type = types_.error();
   info->is_const = checker_.is_const_type(decl->type);
   const bool valid = checker_.check_variable_type(type, decl->location, decl->name);
-  if (checker_.find_local(scope_, decl->name)) {
-    report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
-    return;
+  if (const Symbol* before = checker_.find_local(scope_, decl->name)) {
+    // [HLSL 2018: the variables of a loop belong to the scope around it]
+    const bool hides = before->kind == SymbolKind::kVariable && before->variable->is_loop_variable;
+    report(hides ? CheckId::kLoopVariableAgain : CheckId::kRedefinition, decl->location,
+           {std::string(decl->name)});
+    if (!hides) return;
+    scope_->symbols.erase(decl->name);
   }
   if (decl->modifiers & kModGroupshared) {
     report(CheckId::kLocalGroupshared, decl->location, {std::string(decl->name)});
@@ -267,6 +288,7 @@ void Lowerer::lower_local(const VariableDecl* decl) {
     lower(decl->initializer);
   } else if (valid && !decl->initializer && info->is_const) {
     report(CheckId::kConstWithoutValue, decl->location, {std::string(decl->name)});
+    if (!contains_resource(type)) value = build_.zero(type->ir);
   }
   if (!valid) return;
   at(decl->location);

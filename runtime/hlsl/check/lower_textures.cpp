@@ -128,7 +128,7 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   switch (rule.form) {
     case F::kSample:
     case F::kBias:
-      report(CheckId::kImplicitLevel, location, {std::string(rule.name)});
+      use_implicit_level(rule.name, location);
       zero_level();
       break;
     case F::kLevel:
@@ -142,7 +142,7 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
       }
       break;
     case F::kCompare:
-      report(CheckId::kImplicitLevel, location, {std::string(rule.name)});
+      use_implicit_level(rule.name, location);
       [[fallthrough]];
     case F::kCompareZero:
       kind = ir::SampleKind::kCompareLevel;

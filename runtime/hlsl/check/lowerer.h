@@ -180,6 +180,7 @@ class Lowerer {
                                         SourceLocation location, bool& copied);
   bool check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
                    SourceLocation location);
+  void use_implicit_level(std::string_view name, SourceLocation location);
   void use_in_stages(std::string_view name, uint32_t stages, SourceLocation location);
 
   // -- Resource methods (lower_resources.cpp, lower_textures.cpp)
@@ -201,6 +202,7 @@ class Lowerer {
 
   // -- Statements (lower_statements.cpp)
   void lower_statement(const Stmt* statement);
+  void lower_loop_head(const Stmt* init);
   void lower_block(std::span<const Stmt* const> statements);
   void lower_body(const Stmt* statement, ir::Block& target);
   void declare_variable(VariableInfo* info);

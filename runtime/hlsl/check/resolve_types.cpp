@@ -100,8 +100,27 @@ const Type* Checker::resolve_type(const TypeSyntax* syntax, Scope* scope) {
     }
     case TypeSyntaxKind::kArray:
       return resolve_array(syntax, scope);
+    case TypeSyntaxKind::kAuto:
+      report(CheckId::kAutoWithoutValue, syntax->location, {"what is declared"});
+      return types_.error();
   }
   return types_.error();
+}
+
+const Type* Checker::resolve_variable_type(const VariableDecl* decl, Scope* scope) {
+  if (decl->type->kind != TypeSyntaxKind::kAuto) return resolve_type(decl->type, scope);
+  Value value;
+  if (decl->initializer) {
+    ir::Block ignored;
+    Lowerer::BodyScope body(lower_, lower_.function_, &ignored, scope);
+    value = lower_.lower(decl->initializer);
+    if (value.failed()) return types_.error();
+  }
+  if (!value.type || value.type->is_void() || value.type->is_query()) {
+    report(CheckId::kAutoWithoutValue, decl->type->location, {std::string(decl->name)});
+    return types_.error();
+  }
+  return lower_.settled(value.type);
 }
 
 const Type* Checker::resolve_array(const TypeSyntax* syntax, Scope* scope) {
@@ -282,8 +301,9 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
 const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
   const auto arguments = part.template_arguments;
   const std::string name(part.identifier);
-  if (arguments.size() != 1) {
-    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+  if (arguments.empty() || arguments.size() > 2) {
+    report(CheckId::kTemplateCount, part.location,
+           {name, "1 or 2", std::to_string(arguments.size())});
     return types_.error();
   }
   const auto flags = value_argument(arguments[0], scope);
@@ -291,6 +311,20 @@ const Type* Checker::resolve_ray_query(const NamePart& part, Scope* scope) {
   if (*flags < 0 || *flags > kAllRayFlags) {
     report(CheckId::kRayQueryFlags, arguments[0].location, {std::to_string(*flags)});
     return types_.error();
+  }
+  // [DXR: RAYQUERY_FLAG]
+  if (arguments.size() == 2) {
+    const auto query_flags = value_argument(arguments[1], scope);
+    if (!query_flags) return types_.error();
+    if (*query_flags == 1) {
+      report(CheckId::kNeedsShaderModel, arguments[1].location,
+             {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", "6.9"});
+      return types_.error();
+    }
+    if (*query_flags != 0) {
+      report(CheckId::kRayQuerySecondFlags, arguments[1].location, {std::to_string(*query_flags)});
+      return types_.error();
+    }
   }
   return types_.ray_query(static_cast<uint32_t>(*flags));
 }

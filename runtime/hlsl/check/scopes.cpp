@@ -2,36 +2,16 @@
 #include <algorithm>
 
 #include "runtime/hlsl/check/checker.h"
+#include "runtime/hlsl/front/edit_distance.h"
 
 namespace kaamos::hlsl {
-namespace {
-
-// Number of letters to change, add or remove.
-size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t i = 0; i <= b.size(); ++i) row[i] = i;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-}  // namespace
-
 // What an unknown name was probably meant to be; empty if there is no guess.
 std::string Checker::similar_name(std::string_view text, Scope* scope, bool with_outer) {
   if (text.size() > 64) return {};
   size_t best = (text.size() <= 4 ? 1 : 2) + 1;
   std::string_view result;
   const auto offer = [&](std::string_view candidate) {
-    if (candidate.size() > text.size() + 2 || text.size() > candidate.size() + 2) return;
-    const size_t found = edit_distance(text, candidate);
+    const size_t found = edit_distance(text, candidate, best);
     // Ties go to the alphabetically first, so that the result does not depend on hash table order.
     const bool is_better = found < best || (found == best && candidate < result);
     if (!is_better) return;
@@ -161,7 +141,9 @@ Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quie
     symbol = in ? find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
                 : find(scope, part.identifier);
     if (!symbol) {
-      if (!quiet) {
+      if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
+        report(CheckId::kNeedsShaderModel, name.parts[0].location, {spell(name), "6.9"});
+      } else if (!quiet) {
         const std::string where = in && in != global_ ? " in '" + in->name + "'" : "";
         report_unknown(CheckId::kUndeclared, part.location, {std::string(part.identifier), where},
                        part.identifier, in ? in : scope, in == nullptr);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -85,6 +87,8 @@ void Checker::complete_struct(StructInfo* info) {
     if (base->is_error()) continue;
     if (!base->is_struct() || !base->structure->complete || base->structure == info) {
       report(CheckId::kBadBase, base_syntax->location, {to_string(base)});
+    } else if (base->structure->decl && base->structure->decl->is_interface) {
+      info->interfaces.push_back(base->structure);
     } else if (info->base) {
       report(CheckId::kUnsupported, base_syntax->location, {"more than one base struct"});
     } else {
@@ -95,6 +99,7 @@ void Checker::complete_struct(StructInfo* info) {
     }
   }
   for (const Decl* member : decl->members) declare_member(info, member);
+  check_interfaces(info);
   info->complete = true;
   check_payload_struct(info);
 }
@@ -147,6 +152,35 @@ void Checker::declare_bit_field(StructInfo* info, const VariableDecl* decl, cons
   if (decl->name.empty()) return;
   Symbol* symbol = add_symbol(info->scope, SymbolKind::kField, decl->name, {});
   symbol->field = static_cast<uint32_t>(info->fields.size() - 1);
+}
+
+void Checker::check_interfaces(StructInfo* info) {
+  for (StructInfo* interface : info->interfaces) {
+    for (const auto& [name, wanted] : interface->scope->symbols) {
+      if (wanted->kind != SymbolKind::kFunctions) continue;
+      for (const FunctionInfo* method : wanted->functions) {
+        const Symbol* own = find_member(info, name);
+        const auto implements = [&](const FunctionInfo* candidate) {
+          if (candidate->is_template) return true;
+          if (candidate->parameters.size() != method->parameters.size()) return false;
+          for (size_t i = 0; i < method->parameters.size(); ++i) {
+            const ParameterInfo& a = candidate->parameters[i];
+            const ParameterInfo& b = method->parameters[i];
+            if (!same_type(a.type, b.type) || a.is_out != b.is_out || a.is_in != b.is_in) {
+              return false;
+            }
+          }
+          return true;
+        };
+        if (own && own->kind == SymbolKind::kFunctions &&
+            std::any_of(own->functions.begin(), own->functions.end(), implements)) {
+          continue;
+        }
+        report(CheckId::kInterfaceMethod, info->decl->location,
+               {info->name, lower_.describe(*method), interface->name});
+      }
+    }
+  }
 }
 
 void Checker::declare_member(StructInfo* info, const Decl* member) {

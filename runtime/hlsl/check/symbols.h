@@ -53,6 +53,7 @@ struct VariableInfo {
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
+  bool is_loop_variable = false;  // of a `for` of HLSL 2018, which outlives the loop
   ir::Variable* variable = nullptr;    // a local one has it once something refers to it
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember
@@ -83,7 +84,8 @@ struct ParameterInfo {
 struct StageUse {
   SourceLocation location;
   std::string_view name;
-  uint32_t stages = 0;  // ir::StageBits
+  uint32_t stages = 0;             // ir::StageBits
+  bool is_implicit_level = false;  // a warning in other stages, which sample level 0
 };
 
 // An argument of a template: a type, or a value of a scalar type.

@@ -150,8 +150,9 @@ struct Scope;
 struct StructInfo {
   std::string name;  // qualified
   const StructDecl* decl = nullptr;
-  Scope* scope = nullptr;      // its members
-  StructInfo* base = nullptr;  // field 0 of the ir::Struct, if there is one
+  Scope* scope = nullptr;               // its members
+  StructInfo* base = nullptr;           // field 0 of the ir::Struct, if there is one
+  std::vector<StructInfo*> interfaces;  // that it implements; they have no place in memory
   std::vector<FieldInfo> fields;
   ir::Struct* ir = nullptr;
   const Type* type = nullptr;

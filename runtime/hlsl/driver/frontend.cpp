@@ -21,10 +21,13 @@ std::vector<std::string> split_at(const std::string& text, char separator) {
   return parts;
 }
 
-// For lib_6_3 or cs_6_6, the digit after "6_", where x counts as 8; -1 for any other profile.
+// For lib_6_3, cs_6_6, vs_6_0 or ps_6_0, the digit after "6_", where x counts as 8; -1 for any
+// other profile.
 int minor_version(const std::string& target) {
   const bool known = (target.starts_with("lib_6_") && target.size() == 7) ||
-                     (target.starts_with("cs_6_") && target.size() == 6);
+                     ((target.starts_with("cs_6_") || target.starts_with("vs_6_") ||
+                       target.starts_with("ps_6_")) &&
+                      target.size() == 6);
   if (!known) return -1;
   const char digit = target.back();
   const bool library = target.starts_with("lib");
@@ -72,14 +75,22 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   PreprocessOptions preprocess;
   preprocess.include_folders = options.include_folders;
   preprocess.defines = options.defines;
-  preprocess.stage =
-      options.target.starts_with("lib") ? ShaderStage::kLibrary : ShaderStage::kCompute;
+  preprocess.stage = options.target.starts_with("lib")  ? ShaderStage::kLibrary
+                     : options.target.starts_with("vs") ? ShaderStage::kVertex
+                     : options.target.starts_with("ps") ? ShaderStage::kPixel
+                                                        : ShaderStage::kCompute;
   preprocess.shader_model_minor = static_cast<uint32_t>(minor);
   preprocess.hlsl_version = options.hlsl_version;
   preprocess.enable_16bit_types = options.native_16bit;
   const TokenList tokens =
       options.text ? preprocess_text(options.path, *options.text, preprocess, sources, diagnostics)
                    : preprocess_file(options.path, preprocess, sources, diagnostics);
+  // What the missing file declares would only be reported as undeclared.
+  for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
+    const bool is_missing = diagnostic.id == DiagnosticId::kIncludeNotFound ||
+                            diagnostic.id == DiagnosticId::kIncludeUnreadable;
+    if (is_missing && diagnostic.severity == Severity::kError) return nullptr;
+  }
   AstArena arena;
   const TranslationUnit* unit = parse(tokens, arena, diagnostics);
 

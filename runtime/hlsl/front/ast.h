@@ -170,6 +170,7 @@ enum class TypeSyntaxKind : uint8_t {
   kNamed,    // name: user types, resources, `vector<T,N>`, `matrix`, `string`, template parameters.
   kDefinition,  // definition: `struct S { .. } s;`, `enum { A } e;`.
   kArray,       // element, array_size.
+  kAuto,        // `auto`: the initializer's type.
 };
 
 // A type as written. Spellings are normalised: `dword`, `unsigned int` and `uint32_t` are kUint;
@@ -548,6 +549,7 @@ struct FunctionDecl : Decl {
 struct StructDecl : Decl {
   static constexpr DeclKind kKind = DeclKind::kStruct;
   bool is_class = false;
+  bool is_interface = false;
   bool is_definition = false;  // False for a forward declaration.
   bool is_template = false;
   std::span<const TemplateParameter> template_parameters;

@@ -135,6 +135,9 @@ void Dumper::type(const TypeSyntax& type) {
       put(type.definition->kind == DeclKind::kEnum ? "enum" : "struct", "{", type.definition->name,
           "}");
       break;
+    case TypeSyntaxKind::kAuto:
+      put("auto");
+      break;
     case TypeSyntaxKind::kArray:
       break;
   }

@@ -231,7 +231,7 @@ void Dumper::function(const FunctionDecl& decl) {
 
 void Dumper::structure(const StructDecl& decl) {
   if (decl.is_template) template_head(decl.template_parameters);
-  put(decl.is_class ? "class " : "struct ", decl.name);
+  put(decl.is_interface ? "interface " : decl.is_class ? "class " : "struct ", decl.name);
   std::string_view separator = " : ";
   for (const TypeSyntax* base : decl.bases) {
     put(separator);

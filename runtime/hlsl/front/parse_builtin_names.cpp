@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/hlsl/front/edit_distance.h"
+
 namespace kaamos::hlsl {
 namespace {
 
@@ -92,6 +94,10 @@ constexpr std::string_view kTypes[] = {
     "texture3D",
     "textureCUBE",
     "RaytracingAccelerationStructure",
+    "RAY_FLAG",
+    "RAYQUERY_FLAG",
+    "CANDIDATE_TYPE",
+    "COMMITTED_STATUS",
     "RayDesc",
     "RayQuery",
     "BuiltInTriangleIntersectionAttributes",
@@ -159,22 +165,6 @@ BuiltinName shaped(std::string_view scalar, uint8_t rows, uint8_t columns) {
   return result;
 }
 
-// Number of letters to change, insert or remove to get from one to the other; more than `limit` if
-// the lengths already differ by more.
-size_t distance(std::string_view a, std::string_view b, size_t limit) {
-  if (a.size() > b.size() + limit || b.size() > a.size() + limit) return limit + 1;
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
-    }
-  }
-  return row[b.size()];
-}
-
 // vec3 becomes float3, mat4 float4x4, mat3x4 (3 columns) float4x3.
 std::string from_glsl(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kVectors[] = {
@@ -209,16 +199,11 @@ BuiltinName find_builtin_name(std::string_view text) {
 
 std::string similar_type_name(std::string_view text, std::span<const std::string_view> declared) {
   if (std::string glsl = from_glsl(text); !glsl.empty()) return glsl;
-  // `flaot3`: only scalars are in the table.
-  if (text.size() > 4 && dimension(text.back()) != 0) {
-    const std::string scalar = similar_type_name(text.substr(0, text.size() - 1), {});
-    if (find_builtin_name(scalar).kind == BuiltinName::kNumeric) return scalar + text.back();
-  }
   const size_t limit = text.size() <= 4 ? 1 : 2;
   size_t best = limit + 1;
   std::string result;
   const auto offer = [&](std::string_view candidate) {
-    const size_t found = distance(text, candidate, limit);
+    const size_t found = edit_distance(text, candidate, limit);
     // Ties go to the alphabetically first, so that the result does not depend on hash table order.
     const bool is_better = found < best || (found == best && candidate < result);
     if (found > limit || !is_better) return;
@@ -226,9 +211,14 @@ std::string similar_type_name(std::string_view text, std::span<const std::string
     result = candidate;
   };
   for (std::string_view candidate : declared) offer(candidate);
+  // `flaot3`: only scalars are in the table.
+  const bool has_dimension = text.size() > 4 && dimension(text.back()) != 0;
   for (const auto& [candidate, name] : names()) {
     const bool is_type = name.kind == BuiltinName::kType || name.kind == BuiltinName::kNumeric;
     if (is_type) offer(candidate);
+    if (!has_dimension || name.kind != BuiltinName::kNumeric) continue;
+    const std::string vector = std::string(candidate) + text.back();
+    offer(vector);
   }
   return result;
 }

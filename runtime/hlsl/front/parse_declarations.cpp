@@ -70,8 +70,6 @@ void Parser::declaration_with(Prefix& prefix, DeclList& out) {
       return using_declaration(prefix, out);
     case Kind::kTypedef:
       return typedef_declaration(prefix, out);
-    case Kind::kInterface:
-      return skip_interface();
     default:
       break;
   }

@@ -147,6 +147,7 @@ size_t Parser::behind_type(size_t index) {
     }
     case Kind::kStruct:
     case Kind::kClass:
+    case Kind::kInterface:
     case Kind::kEnum:
       return is_name(i + 1) ? look_up(i + 1).end : index;
     case Kind::kTypename:

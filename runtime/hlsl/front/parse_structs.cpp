@@ -18,6 +18,7 @@ const StructDecl* Parser::struct_definition() {
   const Prefix* prefix = std::exchange(struct_prefix_, nullptr);
   StructDecl* decl = make<StructDecl>(here());
   decl->is_class = at(Kind::kClass);
+  decl->is_interface = at(Kind::kInterface);
   advance();
   std::vector<Attribute> found;
   ScopeId outer = scopes_.current();
@@ -57,6 +58,9 @@ const StructDecl* Parser::struct_definition() {
   type_scope_ = scope;
   if (at(Kind::kSemicolon) && name != nullptr) return decl;
   decl->is_definition = true;
+  if (decl->is_interface && at(Kind::kColon)) {
+    report(DiagnosticId::kInterfaceBase, here(), {decl->name});
+  }
   if (accept(Kind::kColon)) bases(*decl, scope);
   const size_t open = pos_;
   if (panic_ || !expect(Kind::kLeftBrace, "'{' of the struct")) return nullptr;
@@ -99,6 +103,7 @@ void Parser::predeclare_members(ScopeId scope) {
         return;
       case Kind::kStruct:
       case Kind::kClass:
+      case Kind::kInterface:
       case Kind::kEnum: {
         size_t name = i + 1;
         if (tokens_[i].is(Kind::kEnum) && (token_at(name).is(Kind::kClass))) ++name;
@@ -137,6 +142,9 @@ void Parser::members(StructDecl& decl) {
       declaration(Context::kMember, found);
     }
     if (panic_) recover(begin);
+  }
+  if (decl.is_interface) {
+    std::erase_if(found, [&](const Decl* member) { return !is_interface_member(member); });
   }
   decl.members = list(found);
 }
@@ -195,16 +203,17 @@ void Parser::enumerators(EnumDecl& decl, ScopeId scope) {
   decl.enumerators = list(found);
 }
 
-void Parser::skip_interface() {
-  report(DiagnosticId::kNoInterface, here(), {});
-  advance();
-  // Its name is treated as a type from here on, so that its uses cause no further errors.
-  if (at_name()) scopes_.declare(scopes_.current(), token().value, {ParsedKind::kType, kNoScope});
-  while (!at(Kind::kLeftBrace) && !at(Kind::kSemicolon) && !at(Kind::kRightBrace) && !at_end()) {
-    advance();
-  }
-  if (at(Kind::kLeftBrace)) pos_ = behind_closing(pos_);
-  accept(Kind::kSemicolon);
+// Methods without a body. [DXC: CheckInterfaceMember]
+bool Parser::is_interface_member(const Decl* member) {
+  const auto* method = as<FunctionDecl>(member);
+  const std::string_view what = method == nullptr                       ? "a field or a type"
+                                : method->body != nullptr               ? "a method with a body"
+                                : (method->modifiers & kModStatic) != 0 ? "a static method"
+                                : method->name.starts_with("operator")  ? "an operator"
+                                                                        : "";
+  if (what.empty()) return true;
+  report(DiagnosticId::kInterfaceMember, member->location, {what});
+  return false;
 }
 
 }  // namespace kaamos::hlsl

@@ -518,5 +518,12 @@ TEST(ParseMacro, TokensOfMacrosParseLikeOthers) {
             "var StructuredBuffer<vector<float, =3>> a\n");
 }
 
+TEST(ParseStruct, InterfaceAndAuto) {
+  EXPECT_EQ(dump_unit("interface I { float f(int a); };\nclass C : I { float f(int a); };\n"
+                      "static const auto a = 1;"),
+            "interface I\n  function float f(int a)\nclass C : I\n  function float f(int a)\n"
+            "var static const auto a = 1\n");
+}
+
 }  // namespace
 }  // namespace kaamos::hlsl::test

@@ -80,6 +80,7 @@ TypeSyntax* Parser::bare_type(DeclList* definitions) {
       return unsigned_type();
     case Kind::kStruct:
     case Kind::kClass:
+    case Kind::kInterface:
     case Kind::kEnum:
       return definition_type(definitions);
     case Kind::kReservedWord:
@@ -134,6 +135,10 @@ TypeSyntax* Parser::unknown_type() {
   }
   const SourceLocation location = here();
   const std::string text = text_between(begin, end);
+  if (text == "HitObject") {
+    fail(DiagnosticId::kNeedsShaderModel, location, {text, "6.9"});
+    return error_type(location);
+  }
   const bool reads_on = is_name(end) || token_at(end).is(Kind::kOperator);
   auto message = reads_on ? report(DiagnosticId::kUnknownTypeName, location, {text})
                           : fail(DiagnosticId::kUnknownTypeName, location, {text});
@@ -162,9 +167,10 @@ TypeSyntax* Parser::reserved_type() {
   const SourceLocation location = here();
   const std::string_view text = token().text;
   if (text == "auto") {
-    report(DiagnosticId::kNoAuto, location, {});
+    TypeSyntax* type = make<TypeSyntax>(location);
+    type->kind = TypeSyntaxKind::kAuto;
     advance();
-    return error_type(location);
+    return type;
   }
   if (is_scalar_word(text)) {
     const std::string_view instead = text == "long"    ? "int64_t"

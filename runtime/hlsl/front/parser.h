@@ -303,7 +303,7 @@ class Parser {
   bool special_member(std::string_view struct_name);
   void predeclare_members(ScopeId scope);
   void enumerators(EnumDecl& decl, ScopeId scope);
-  void skip_interface();
+  bool is_interface_member(const Decl* member);
 
   // ---- parse_templates.cpp
   void template_declaration(Prefix& prefix, DeclList& out);

@@ -353,6 +353,8 @@ std::string_view stage_name(uint32_t stage) {
       return "callable";
     case ir::kStageCompute:
       return "compute";
+    case ir::kStageVertex:
+      return "vertex";
     default:
       return "pixel";
   }
@@ -360,10 +362,9 @@ std::string_view stage_name(uint32_t stage) {
 
 std::string stage_list(uint32_t stages) {
   std::vector<std::string_view> names;
-  for (uint32_t bit = 1; bit <= ir::kStageCompute; bit <<= 1) {
+  for (uint32_t bit = 1; bit <= ir::kStagePixel; bit <<= 1) {
     if (stages & bit) names.push_back(stage_name(bit));
   }
-  if (names.empty()) names.push_back("pixel");
   std::string text;
   for (size_t i = 0; i < names.size(); ++i) {
     if (i > 0) text += i + 1 == names.size() ? " and " : ", ";

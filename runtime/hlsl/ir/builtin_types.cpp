@@ -42,7 +42,6 @@ struct Unsupported {
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"HitObject", "shader execution reordering"},
     {"Texture2DMS", "multisampled textures"},
     {"Texture2DMSArray", "multisampled textures"},
     {"AppendStructuredBuffer", "append buffers"},
@@ -92,6 +91,8 @@ std::string_view unsupported_type(std::string_view name) {
 }
 
 const BuiltinConstant kBuiltinConstants[] = {
+    {"RAYQUERY_FLAG_NONE", 0},
+    {"RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS", 0x01},
     {"RAY_FLAG_NONE", 0},
     {"RAY_FLAG_FORCE_OPAQUE", 0x01},
     {"RAY_FLAG_FORCE_NON_OPAQUE", 0x02},

@@ -387,6 +387,8 @@ enum StageBits : uint32_t {
   kStageMiss = 16,
   kStageCallable = 32,
   kStageCompute = 64,
+  kStageVertex = 128,  // only checked: no entry point of a module has this stage or the next
+  kStagePixel = 256,
 };
 
 struct Function {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+// What the checker says about interfaces, auto, loop variables, vertex and pixel shaders: `@` marks
+// the place.
+#include "runtime/hlsl/check/marked_test_support.h"
+
+namespace kaamos::hlsl {
+namespace {
+
+using Id = DiagnosticId;
+
+struct LanguageCase {
+  const char* name;
+  Id id;
+  std::string text;
+  const char* target = "lib_6_6";
+  uint32_t version = 2021;
+  bool native = false;
+};
+
+std::string pixel(const std::string& body, const std::string& globals = {}) {
+  return globals + "\nfloat4 main(float4 p : SV_Position) : SV_Target {\n" + body +
+         "\nreturn p;\n}\n";
+}
+
+const std::vector<LanguageCase>& language_cases() {
+  static const std::vector<LanguageCase> all = {
+      {"InterfaceVariable", Id::kInterfaceObject, kernel("I @i;", "interface I { int f(); };")},
+      {"InterfaceParameter", Id::kInterfaceObject,
+       kernel("", "interface I { int f(); };\nvoid g(I @i) {}")},
+      {"InterfaceMethodMissing", Id::kInterfaceMethod,
+       kernel("", "interface I { int f(); };\nstruct @S : I { int g() { return 1; } };")},
+      {"InterfaceMethodOtherTypes", Id::kInterfaceMethod,
+       kernel("",
+              "interface I { int f(float a); };\n"
+              "struct @S : I { int f(int a) { return 1; } };")},
+      {"TwoBases", Id::kUnsupported,
+       kernel("", "struct A {};\nstruct B {};\nstruct C : A, @B {};")},
+      {"AutoWithoutValue", Id::kAutoWithoutValue, kernel("@auto x;")},
+      {"AutoOfList", Id::kAutoWithoutValue, kernel("@auto x = {1, 2};")},
+      {"AutoParameter", Id::kAutoWithoutValue, kernel("", "void f(@auto x) {}")},
+      {"ConstWithoutValue", Id::kConstWithoutValue, kernel("const float @x;")},
+      {"StaticConstWithoutValue", Id::kConstWithoutValue, kernel("", "static const float @x;")},
+      {"ConstructorOfLongArray", Id::kConstructorCount,
+       kernel("float a[3];\nfloat2 b = @float2(a);")},
+      {"ConstructorOfShortArray", Id::kConstructorCount,
+       kernel("float a[3];\nfloat4 b = @float4(a);")},
+      {"ConstructorOfHugeArray", Id::kConstructorArgument,
+       kernel("float a[32];\nfloat4 b = float4(@a);")},
+      {"LoopVariableOutside", Id::kUndeclared,
+       kernel("for (int i = 0; i < 3; ++i) {}\nint a = @i;")},
+      {"LoopVariableAgain", Id::kLoopVariableAgain,
+       kernel("for (int i = 0; i < 3; ++i) {}\nfor (uint @i = 0; i < 3; ++i) {}"), "lib_6_6", 2018},
+      {"LocalAgain", Id::kRedefinition, kernel("int i;\nfor (uint @i = 0; i < 3; ++i) {}"),
+       "lib_6_6", 2018},
+      {"RayQuerySecondFlags", Id::kRayQuerySecondFlags, kernel("RayQuery<0, @2> q;")},
+      {"RayQueryMicromaps", Id::kNeedsShaderModel,
+       kernel("RayQuery<0, @RAYQUERY_FLAG_ALLOW_OPACITY_MICROMAPS> q;")},
+      {"RayQueryThreeArguments", Id::kTemplateCount, kernel("@RayQuery<0, 0, 0> q;")},
+      {"RayQuerySecondNotConstant", Id::kNotConstant, kernel("uint n = 0;\nRayQuery<0, @n> q;")},
+      {"HitObject", Id::kNeedsShaderModel, kernel("@dx::HitObject h;")},
+      {"Reorder", Id::kNeedsShaderModel, kernel("@dx::MaybeReorderThread(1, 2);")},
+      // Vertex and pixel shaders
+      {"PixelNoSemantic", Id::kGraphicsSemantic, "float4 main(float2 @p) : SV_Target { return 1; }",
+       "ps_6_6"},
+      {"PixelResultNoSemantic", Id::kGraphicsSemantic, "float4 @main() { return 1; }", "ps_6_6"},
+      {"PixelOutput", Id::kPixelOutput, "float4 main() : @SV_Position { return 1; }", "ps_6_6"},
+      {"VertexFieldNoSemantic", Id::kGraphicsSemantic,
+       "struct V { float4 a : SV_Position; float2 @b; };\nV main() { return (V)0; }", "vs_6_0"},
+      {"PixelBody", Id::kUndeclared, pixel("float x = @missing;"), "ps_6_8"},
+      {"PixelConversion", Id::kConversion, pixel("float2 a = 0;\nfloat3 b = @a;"), "ps_6_6"},
+      {"PixelTraceRay", Id::kStage, pixel("uint3 i = @DispatchRaysIndex();"), "ps_6_6"},
+      {"PixelBarrier", Id::kStage, pixel("@GroupMemoryBarrierWithGroupSync();"), "ps_6_6"},
+      {"VertexDerivative", Id::kStage,
+       "float4 main(float2 a : A) : SV_Position { return @ddx(a.x); }", "vs_6_6"},
+      {"VertexDiscardInFunction", Id::kStage,
+       "void f() { @discard; }\nfloat4 main() : SV_Position { f(); return 1; }", "vs_6_6"},
+      {"VertexImplicitLevel", Id::kImplicitLevel,
+       "Texture2D t;\nSamplerState s;\n"
+       "float4 main() : SV_Position { return t.@Sample(s, 0); }",
+       "vs_6_6"},
+      {"VertexInLibrary", Id::kNoCodeForStage,
+       "[shader(\"vertex\")] float4 @main() : SV_Position { return 1; }"},
+      {"PixelInLibraryBody", Id::kUndeclared,
+       "[shader(\"pixel\")] float4 main() : SV_Target { return @missing; }"},
+      {"NoPixelEntry", Id::kNoEntryPoint, "void f() {}", "ps_6_6"},
+      {"HalfIsFloat16", Id::kFunctionRedefined,
+       kernel("", "int f(half3 a) { return 1; }\nint @f(float16_t3 a) { return 2; }"), "lib_6_6",
+       2021, true},
+  };
+  return all;
+}
+
+class LanguageErrors : public testing::TestWithParam<size_t> {};
+
+TEST_P(LanguageErrors, StandsAtTheMark) {
+  const LanguageCase& one = language_cases()[GetParam()];
+  FrontendOptions options;
+  options.target = one.target;
+  options.hlsl_version = one.version;
+  options.native_16bit = one.native;
+  expect_at_mark(one.id, one.text, options);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LanguageErrors, testing::Range<size_t>(0, language_cases().size()),
+                         [](const testing::TestParamInfo<size_t>& one) {
+                           return std::string(language_cases()[one.param].name);
+                         });
+
+std::string messages_of(const std::string& text, const char* target, bool native = false) {
+  FrontendOptions options;
+  options.target = target;
+  options.native_16bit = native;
+  return Compilation(text, options).messages();
+}
+
+TEST(GraphicsStages, WhatTheyMayUse) {
+  const std::string text = pixel(
+      "float4 c = t.Sample(s, p.xy) + ddx(p) + fwidth(p.x) + shade(p);\n"
+      "clip(c.x);\nif (c.y < 0) discard;\np = c + WaveActiveSum(c.x);",
+      "Texture2D t;\nSamplerState s;\nstruct V { float4 p : SV_Position; nointerpolation uint i : "
+      "I; "
+      "};\nfloat4 shade(float4 a) { return ddy_fine(a); }");
+  const std::string messages = messages_of(text, "ps_6_6");
+  EXPECT_EQ(messages.find("error"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("'main' is checked, but there is no code for it: pixel shaders"),
+            std::string::npos)
+      << messages;
+  EXPECT_EQ(messages.find("KA2512"), std::string::npos) << messages;
+}
+
+TEST(GraphicsStages, AreNotInTheModule) {
+  const Compilation compilation(
+      "struct V { float4 position : SV_Position; float2 uv : TEXCOORD0; };\n"
+      "static float shared_value = 2;\nRWByteAddressBuffer r : register(u0);\n"
+      "float twice(float a) { return a * shared_value; }\n"
+      "[shader(\"vertex\")] V Vertex(uint id : SV_VertexID) {\n"
+      "  V v; v.position = twice(id); v.uv = 0; return v; }\n"
+      "[shader(\"pixel\")] float4 Pixel(V v) : SV_Target1 { return ddx(v.uv.x); }\n"
+      "[shader(\"raygeneration\")] void Rays() { r.Store(0, twice(2)); }");
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  ASSERT_EQ(compilation.module->entry_points.size(), 1u);
+  EXPECT_EQ(compilation.module->entry_points[0].name, "Rays");
+  EXPECT_EQ(compilation.module->functions.size(), 2u);
+}
+
+TEST(LanguageMessages, AMissingIncludeIsTheOnlyError) {
+  const std::string messages =
+      messages_of("#include \"nowhere.hlsli\"\n" + kernel("Thing t = Make(3);"), "lib_6_6");
+  EXPECT_NE(messages.find("KA2002"), std::string::npos) << messages;
+  EXPECT_NE(messages.find("1 error\n"), std::string::npos) << messages;
+}
+
+TEST(LanguageMessages, HalfSaysThatItIsAnotherType) {
+  const std::string messages =
+      messages_of(kernel("", "int f(half3 a) { return 1; }\nint f(min16float3 a) { return 2; }"),
+                  "lib_6_6", true);
+  EXPECT_NE(messages.find("both parameters are 'float16_t3'"), std::string::npos) << messages;
+}
+
+TEST(LanguageMessages, TheNearestNameIsSuggested) {
+  const std::pair<std::string, const char*> cases[] = {
+      {kernel("uint x = countr;", "static uint counter;\nstatic uint counts;"), "'counter'"},
+      {kernel("uint x = lenght;", "static uint lengths;\nstatic uint length_;"), "'length'"},
+      {kernel("uint x = widht;", "static uint width;\nstatic uint wide;"), "'width'"},
+      {kernel("uint x = aTob;", "static uint aToc;\nstatic uint aTobe;\nstatic uint atob;"),
+       "'aTobe'"},
+      {kernel("flaot3 x;"), "'float3'"},
+      {kernel("Ligth2 x;", "struct Light2 { int a; };"), "'Light2'"},
+      {kernel("Flot3 x;", "struct Float3 { int a; };"), "'Float3'"},
+      {kernel("uin x;"), "'uint'"}};
+  for (const auto& [text, name] : cases) {
+    const std::string messages = messages_of(text, "lib_6_6");
+    EXPECT_NE(messages.find("did you mean " + std::string(name) + "?"), std::string::npos)
+        << text << messages;
+  }
+}
+
+}  // namespace
+}  // namespace kaamos::hlsl
