@@ -96,8 +96,7 @@ rtapi::Result<VkShaderModule> StageList::module(const runtime::LinkedShader& sha
         runtime::Id::kNoSpirv,
         "shader \"" + shader.name + "\" of " + shader.library->name +
             " has no code for Vulkan, because its library was compiled without SPIR-V; compile it "
-            "again "
-            "with kaamos-hlsl of a build that has glslang, and without -no-spirv.");
+            "again with kaamos-hlsl -spirv.");
   }
   if ((shader.code->flags & shader::kExportUsesRayQuery) != 0 && !gpu_.features().ray_query) {
     return runtime::make_error(

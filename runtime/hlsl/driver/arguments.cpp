@@ -22,6 +22,7 @@ bool parse_number(const std::string& text, uint32_t& out) {
 bool parse_emit(Arguments& a, const std::string& value) {
   if (value == "cpp") {
     a.emit = Emit::kCpp;
+    a.spirv = false;  // it takes many times longer than the C++
   } else if (value == "ir") {
     a.emit = Emit::kIr;
   } else if (value == "reflection") {
@@ -113,7 +114,10 @@ const std::vector<Option>& options() {
       {"-WX", false, flag(&Arguments::warnings_as_errors), ""},
       {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
       {"-Zi", false, flag(&Arguments::debug), ""},
-      {"-no-spirv", false, flag(&Arguments::no_spirv), ""},
+      {"-spirv", false,
+       [](Arguments& a, const std::string&) { return a.spirv_wanted.emplace(true); }, ""},
+      {"-no-spirv", false,
+       [](Arguments& a, const std::string&) { return !a.spirv_wanted.emplace(false); }, ""},
       {"-no-source", false, flag(&Arguments::no_source), ""},
       {"-no-wide", false, flag(&Arguments::no_wide), ""},
       {"-check-access", false, flag(&Arguments::check_access), ""},
@@ -184,6 +188,7 @@ std::optional<Arguments> parse_arguments(const std::vector<std::string>& words,
       return std::nullopt;
     }
   }
+  out.spirv = out.spirv_wanted.value_or(out.spirv);
   if (out.help || out.version) return out;
   if (out.source.empty()) {
     error = "no source file given; -help lists the options";
@@ -223,10 +228,12 @@ As in DXC:
 Of its own:
   -check                    only checks the source, writes nothing
   -emit cpp|ir|reflection|object|glsl|spirv
-                            what to write: C++ (default), the typed intermediate form, the exports
+                            what to write: the C++ alone, the typed intermediate form, the exports
                             and bindings as JSON, a shared object for LoadShaderLibraryFromFile,
-                            the GLSL of every export, or the SPIR-V of the only one
-  -no-spirv                 C++ and objects without SPIR-V: they only run on the CPU
+                            the GLSL of every export, or the SPIR-V of the only one; without
+                            -emit: C++ that holds the SPIR-V too
+  -spirv, -no-spirv         C++ and objects with SPIR-V (default, except with -emit cpp), or
+                            without: they only run on the CPU
   -check-access             code that checks for what DXR leaves undefined and reports it to the
                             device: accesses outside root descriptors, wrong descriptors, NaN rays;
                             slower

@@ -30,7 +30,8 @@ struct Arguments {
   bool no_warnings = false;
   bool debug = false;
   bool check_only = false;
-  bool no_spirv = false;
+  bool spirv = true;                 // in C++ and objects
+  std::optional<bool> spirv_wanted;  // by -spirv or -no-spirv
   bool check_access = false;
   bool no_source = false;
   bool no_wide = false;

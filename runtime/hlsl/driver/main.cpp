@@ -92,7 +92,7 @@ int write_object(const Arguments& arguments, const ir::Module& module) {
   const SharedObject object =
       build_library(*compiler, module,
                     {.optimisation = arguments.debug ? Optimisation::kDebug : Optimisation::kFull,
-                     .spirv = !arguments.no_spirv,
+                     .spirv = arguments.spirv,
                      .wide = !arguments.no_wide});
   if (object.error) return fail(object.error.message());
   std::error_code failed;
@@ -111,7 +111,7 @@ int write_output(const Arguments& arguments, const std::string& text) {
 
 int write_cpp(const Arguments& arguments, const ir::Module& module) {
   SpirvLibrary library;
-  if (!arguments.no_spirv) library = compile_spirv(module);
+  if (arguments.spirv) library = compile_spirv(module);
   if (library.error) return fail(library.error.message());
   return write_output(arguments,
                       emit_cpp(module, {.entry_point = arguments.entry_function,
