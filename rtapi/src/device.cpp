@@ -140,6 +140,11 @@ Status CheckDesc(const DeviceDesc& desc) {
     return detail::MakeError(Id::kDeviceDesc, "Threads is ", desc.Threads,
                              "; it must be 0 (all threads of the machine) to 4096");
   }
+  const uint32_t lanes = desc.WaveLanes;
+  if (lanes != 0 && lanes != 4 && lanes != 8 && lanes != 16 && lanes != 32) {
+    return detail::MakeError(Id::kDeviceDesc, "WaveLanes is ", lanes,
+                             "; it must be 4, 8, 16, 32, or 0 (8 lanes)");
+  }
   return {};
 }
 

@@ -49,6 +49,13 @@ TEST(DeviceTest, DescriptionIsChecked) {
                "KA0914");
   EXPECT_ERROR(CreateDevice({.Backend = "null", .Tier = static_cast<RaytracingTier>(12)}),
                "KA0914");
+  for (const uint32_t lanes : {1u, 2u, 3u, 5u, 64u}) {
+    EXPECT_ERROR(CreateDevice({.Backend = "null", .WaveLanes = lanes}), "KA0914",
+                 "WaveLanes is " + std::to_string(lanes));
+  }
+  for (const uint32_t lanes : {0u, 4u, 8u, 16u, 32u}) {
+    EXPECT_TRUE(CreateDevice({.Backend = "null", .WaveLanes = lanes}).ok());
+  }
 }
 
 TEST(DeviceTest, EmptyHandlesNeverCrash) {

@@ -48,7 +48,7 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
         e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute;
     if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
     if (e.stage == shader::Stage::kCompute &&
-        (!e.compute || (!e.compute->group && !e.compute->thread))) {
+        (!e.compute || (!e.compute->group && !e.compute->thread && !e.compute->lanes))) {
       return broken("compute export ", Quoted(e.name), " has no code");
     }
     if (e.binding_count && !e.bindings) {

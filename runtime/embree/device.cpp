@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/backend/errors.h"
+#include "runtime/backend/wave_size.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/shader/texture/format_codec.h"
 
@@ -78,6 +79,7 @@ Device::Device(const rtapi::DeviceDesc& desc, const runtime::Context& context)
       context_(context),
       robust_(desc.Precision != rtapi::TraversalPrecision::kFast),
       exact_(exact_of(desc.Precision)),
+      wave_lanes_(desc.WaveLanes == 0 ? shader::kDefaultWaveLanes : desc.WaveLanes),
       arena_(arena_threads(desc.Threads)) {
   if (desc.Threads > hardware_threads()) {
     parallelism_.emplace(tbb::global_control::max_allowed_parallelism, arena_threads(desc.Threads));
@@ -182,6 +184,11 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_raytraci
 
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_pipeline(
     std::shared_ptr<const runtime::LinkedCompute> pipeline) {
+  const std::string waves = "those of this device have " + std::to_string(wave_lanes_) +
+                            ", which DeviceDesc::WaveLanes sets to 4, 8, 16 or 32.";
+  if (auto s = runtime::check_wave_size(*pipeline, wave_lanes_, wave_lanes_, waves); !s) {
+    return s.error();
+  }
   return std::shared_ptr<runtime::BackendPipeline>(
       std::make_shared<ComputePipeline>(std::move(pipeline)));
 }

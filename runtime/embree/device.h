@@ -59,7 +59,9 @@ class Device final : public runtime::BackendDevice {
   // Bytes that Embree currently holds for this device.
   int64_t embree_bytes() const { return embree_bytes_.load(); }
   runtime::StructureEnvironment structure_environment() { return {context_, *memory_, "Embree"}; }
-  DispatchEnvironment dispatch_environment() { return {&arena_, memory_.get(), &context_}; }
+  DispatchEnvironment dispatch_environment() {
+    return {&arena_, memory_.get(), &context_, wave_lanes_};
+  }
   tbb::task_arena& arena() { return arena_; }
   void add_counters(const Counters& counters);
 
@@ -74,6 +76,7 @@ class Device final : public runtime::BackendDevice {
   bool robust_ = true;
   PackFilter pack_filter_ = filter_pack_sse2;
   BuildContext::Exact exact_ = BuildContext::Exact::kNone;
+  uint32_t wave_lanes_ = shader::kDefaultWaveLanes;
   std::optional<tbb::global_control> parallelism_;  // allows more threads than the machine has
   tbb::task_arena arena_;
   RTCDevice embree_ = nullptr;

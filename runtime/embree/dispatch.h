@@ -11,6 +11,7 @@
 
 #include <rtapi/result.h>
 
+#include "kaamos/shader/wave_op.h"
 #include "runtime/backend/executor.h"
 #include "runtime/embree/state_object.h"
 #include "runtime/embree/worker.h"
@@ -22,6 +23,7 @@ struct DispatchEnvironment {
   tbb::task_arena* arena = nullptr;
   const Memory* memory = nullptr;
   const runtime::Context* context = nullptr;
+  uint32_t wave_lanes = shader::kDefaultWaveLanes;
 };
 
 // The outcome. An error removes the device: KA0890 to KA0893, KA0897.

@@ -66,6 +66,7 @@ shader::Services make_services() {
   table.begin_query = begin_query;
   table.proceed = proceed;
   table.group_barrier = group_barrier;
+  table.wave = wave_operation;
   table.remove_device = remove;
   table.report = report;
   table.reached = reached;

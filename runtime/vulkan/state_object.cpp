@@ -207,16 +207,55 @@ RaytracingPipeline::~RaytracingPipeline() {
   layout_->gpu().vk().vkDestroyPipeline(layout_->gpu().device(), handle_, nullptr);
 }
 
+namespace {
+
+// What the GLSL of waves uses. [runtime/hlsl/glsl/waves.cpp]
+constexpr VkSubgroupFeatureFlags kWaveOperations =
+    VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
+    VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
+    VK_SUBGROUP_FEATURE_SHUFFLE_BIT;
+
+rtapi::Status check_waves(const Gpu& gpu, const runtime::LinkedCompute& linked) {
+  const VkPhysicalDeviceVulkan11Properties& core = gpu.properties().vulkan11;
+  const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
+  const bool works = (core.subgroupSupportedOperations & kWaveOperations) == kWaveOperations &&
+                     (core.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  if (linked.shader.code->compute->has_waves && !works) {
+    return runtime::make_error(runtime::Id::kNoSubgroups,
+                               "compute shader \"" + linked.shader.name +
+                                   "\" has wave intrinsics, which need vote, arithmetic, ballot "
+                                   "and shuffle operations of subgroups in compute shaders.");
+  }
+  const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  const uint32_t least = chooses ? sizes.minSubgroupSize : core.subgroupSize;
+  const uint32_t most = chooses ? sizes.maxSubgroupSize : core.subgroupSize;
+  return runtime::check_wave_size(
+      linked, least, most,
+      "those of this device have " + std::to_string(least) + " to " + std::to_string(most) + ".");
+}
+
+}  // namespace
+
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> ComputePipeline::create(
     std::shared_ptr<PipelineLayout> layout, std::shared_ptr<const runtime::LinkedCompute> linked) {
   std::shared_ptr<ComputePipeline> pipeline(
       new ComputePipeline(std::move(layout), std::move(linked)));
   Gpu& gpu = pipeline->layout_->gpu();
   const runtime::LinkedShader& shader = pipeline->linked_->shader;
+  if (auto s = check_waves(gpu, *pipeline->linked_); !s) return s.error();
   StageList stages(gpu, {});
   if (auto added = stages.add(shader); !added) return added.error();
   VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = stages.stages()[0];
+  VkPipelineShaderStageRequiredSubgroupSizeCreateInfo size = {
+      VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+  const VkPhysicalDeviceVulkan13Properties& sizes = gpu.properties().vulkan13;
+  const bool chooses = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+  if (const uint32_t least = shader.code->compute->least_wave_lanes; least != 0 && chooses) {
+    size.requiredSubgroupSize = std::max(least, sizes.minSubgroupSize);
+    size.pNext = const_cast<void*>(info.stage.pNext);
+    info.stage.pNext = &size;
+  }
   info.layout = pipeline->layout_->handle();
   const VkResult r = gpu.vk().vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info,
                                                        nullptr, &pipeline->handle_);

@@ -36,10 +36,12 @@ struct Fixture {
   DescriptorHeap sampler_heap;
 };
 
-Device single_threaded_device(const std::string& backend, std::vector<std::string>* told) {
+Device single_threaded_device(const std::string& backend, std::vector<std::string>* told,
+                              uint32_t wave_lanes) {
   DeviceDesc desc;
   desc.Backend = backend;
   desc.Threads = 1;
+  desc.WaveLanes = wave_lanes;
   if (told != nullptr) {
     desc.Checked = true;
     desc.OnMessage = [told](const Message& message) {
@@ -193,9 +195,9 @@ std::vector<std::byte> run(const Device& device, const shader::LibraryDesc& libr
 
 std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
                                      const uint32_t (&size)[3], std::string& error,
-                                     std::vector<std::string>* told) {
+                                     std::vector<std::string>* told, uint32_t wave_lanes) {
   try {
-    return run(single_threaded_device(backend, told), library, size);
+    return run(single_threaded_device(backend, told, wave_lanes), library, size);
   } catch (const ResultError& failure) {
     error = failure.what();
     return {};

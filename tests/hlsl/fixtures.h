@@ -29,9 +29,10 @@ namespace kaamos::test {
 // Runs the compute export with `size` groups, or the ray generation export with `size` threads, and
 // returns the contents of `results`. With `told`, uses a checked device and returns its errors and
 // warnings there, except that the library was not compiled for the device (it may be checked
-// already).
+// already). `wave_lanes` is DeviceDesc::WaveLanes.
 std::vector<std::byte> run_on_device(const std::string& backend, const shader::LibraryDesc& library,
                                      const uint32_t (&size)[3], std::string& error,
-                                     std::vector<std::string>* told = nullptr);
+                                     std::vector<std::string>* told = nullptr,
+                                     uint32_t wave_lanes = 0);
 
 }  // namespace kaamos::test

@@ -64,6 +64,10 @@ struct DeviceDesc {
   uint32_t Threads = 0;
   TraversalPrecision Precision = TraversalPrecision::kRobust;  ///< of rays against triangles
   RaytracingTier Tier = RaytracingTier::kTier1_1;              ///< 1.0 refuses what 1.1 brought
+  /// Lanes of a wave in compute shaders on the CPU: 4, 8, 16 or 32 (KA0914); 0: 8. Vulkan ignores
+  /// it: there the driver decides. In ray shaders each thread is a wave of its own.
+  /// [HLSL: WaveGetLaneCount]
+  uint32_t WaveLanes = 0;
   bool CollectStatistics = false;  ///< counts rays; costs some speed on Vulkan
   /// Checked mode: says through OnMessage (ids KA0400-0499, rtapi/ERRORS.md) what plain DXR leaves
   /// undefined: records outside a table or of another state object, missing barriers, structures
@@ -98,9 +102,9 @@ class Device;
 /// Makes a device. Several may live at once; their objects do not mix (KA0903).
 /// [D3D12: D3D12CreateDevice]
 /// @errors KA0900 the build has no backend; KA0901 unknown backend, and the message lists the known
-/// ones; KA0914 Precision, Tier or Threads out of range. Embree: KA0992 it cannot be started.
-/// Vulkan: KA0950 no device with ray tracing pipelines, KA0951 validation layers absent, KA0952 a
-/// call failed, KA0953 no device of that name, KA0991 precision kExact.
+/// ones; KA0914 Precision, Tier, Threads or WaveLanes out of range. Embree: KA0992 it cannot be
+/// started. Vulkan: KA0950 no device with ray tracing pipelines, KA0951 validation layers absent,
+/// KA0952 a call failed, KA0953 no device of that name, KA0991 precision kExact.
 Result<Device> CreateDevice(const DeviceDesc& desc = {});
 
 /// The factory of everything else. A copyable handle, thread-safe; whatever it made keeps it alive.
@@ -254,8 +258,9 @@ class Device {
   /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0528, KA0529 the
   /// root signature does not feed a resource; KA0536 a local root signature; KA0537 no such shader,
   /// several where EntryPoint is empty, or its thread group (up to 1024 x 1024 x 64, 1024 in all);
-  /// KA0542 RayQuery on a device of tier 1.0; on Vulkan KA0952, KA0954, KA0956, KA0963; the reason
-  /// if the device is removed.
+  /// KA0542 RayQuery on a device of tier 1.0; KA0550 [WaveSize] that the device's waves do not
+  /// have; on Vulkan KA0551 no subgroup operations, KA0952, KA0954, KA0956, KA0963; the reason if
+  /// the device is removed.
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
   /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
   /// if an argument sets a root argument, and ignored otherwise.

@@ -160,6 +160,11 @@ class Analysis {
       case StmtKind::kTraceRay:
         write(stmt.place->variable, true, region);
         return kNone;
+      case StmtKind::kWave: {
+        const bool differs = stmt.wave != shader::WaveOp::kLaneCount;
+        facts.blends = write(stmt.result, differs, region);
+        return kNone;
+      }
       case StmtKind::kBarrier:
         refuse("it has a barrier");
         return kNone;
@@ -313,6 +318,10 @@ const WideFunction* WidePlan::add(const Function& function,
 }
 
 const WideFunction* WidePlan::add(const EntryPoint& entry, std::string& reason) {
+  if (entry.stage != kStageCompute && entry.function->has_waves) {
+    reason = "it shares wave operations with compute shaders";
+    return nullptr;
+  }
   std::vector<bool> varying;
   for (const EntryParameter parameter : entry.parameters) {
     varying.push_back(parameter != EntryParameter::kGroupId);

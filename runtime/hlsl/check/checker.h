@@ -30,6 +30,8 @@
 namespace kaamos::hlsl {
 
 // Finds the attribute with that name, ignoring case; null if there is none.
+// The minor version of a target such as lib_6_3; lib_6_x has everything.
+uint32_t shader_model_minor(const std::string& target);
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
 
 class Checker {
@@ -197,6 +199,7 @@ class Checker {
   bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
+  bool read_wave_size(FunctionInfo* function, ir::EntryPoint& entry);
   uint32_t stage_attribute(FunctionInfo* function);
   std::vector<std::string> export_names(const FunctionInfo* function);
   void add_library_functions();
@@ -212,6 +215,7 @@ class Checker {
 
   // -- The module (finish_module.cpp)
   void finish(ir::Module& module);
+  void finish_waves(const std::vector<std::pair<FunctionInfo*, FunctionInfo*>>& initialisers);
   void mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint32_t mark,
                       std::set<uint32_t>& globals);
   void collect_structs();

@@ -243,7 +243,43 @@ bool Checker::read_thread_group(FunctionInfo* function, ir::EntryPoint& entry) {
     report(CheckId::kThreadGroup, attribute->location, {"X*Y*Z", std::to_string(product), "1024"});
     return false;
   }
-  return true;
+  return read_wave_size(function, entry);
+}
+
+// [WaveSize(lanes)] or [WaveSize(least, most, preferred)].
+bool Checker::read_wave_size(FunctionInfo* function, ir::EntryPoint& entry) {
+  const Attribute* attribute = find_attribute(*function, "WaveSize");
+  if (!attribute) return true;
+  const size_t count = attribute->arguments.size();
+  const uint32_t needs = count == 1 ? 6 : 8;
+  if (count < 1 || count > 3) {
+    report(CheckId::kWaveSizeRange, attribute->location, {std::to_string(count) + " values"});
+    return false;
+  }
+  if (shader_model_minor(options_.target) < needs) {
+    report(CheckId::kWaveShaderModel, attribute->location,
+           {count == 1 ? "[WaveSize]" : "[WaveSize] with a range", "6." + std::to_string(needs),
+            options_.target});
+    return false;
+  }
+  uint32_t lanes[3] = {};
+  for (size_t i = 0; i < count; ++i) {
+    const auto size = constant_integer(attribute->arguments[i], function->scope, "a wave's size");
+    if (!size) return false;
+    if (*size < 4 || *size > 128 || (*size & (*size - 1)) != 0) {
+      report(CheckId::kWaveSize, attribute->arguments[i]->location, {std::to_string(*size)});
+      return false;
+    }
+    lanes[i] = static_cast<uint32_t>(*size);
+  }
+  entry.least_wave_lanes = lanes[0];
+  entry.most_wave_lanes = count == 1 ? lanes[0] : lanes[1];
+  const bool ascend = lanes[0] <= entry.most_wave_lanes;
+  const bool prefers = count < 3 || (lanes[0] <= lanes[2] && lanes[2] <= lanes[1]);
+  if (ascend && prefers) return true;
+  report(CheckId::kWaveSizeRange, attribute->location,
+         {ascend ? "a preferred size out of its range" : "more lanes at least than at most"});
+  return false;
 }
 
 // System values may be of any integer type, split into parts, or fields of a struct: a wrapper

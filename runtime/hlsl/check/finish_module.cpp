@@ -16,6 +16,7 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
                              std::set<uint32_t>& globals) {
   if (function->visit_mark == mark) return;
   function->visit_mark = mark;
+  function->stages |= entry.stage;
   if (function->ir) function->ir->stages |= entry.stage;
   entry.attribute_bytes = std::max(entry.attribute_bytes, function->reported_bytes);
   entry.attribute_type = joined_type(entry.attribute_type, function->reported_type);
@@ -63,6 +64,7 @@ void Checker::finish(ir::Module& module) {
   std::set<VariableInfo*> all_globals;
   std::vector<std::set<BindingInfo*>> bindings_of(module.entry_points.size());
   std::set<const ir::Function*> started;
+  std::vector<std::pair<FunctionInfo*, FunctionInfo*>> initialisers;  // entry point, what it runs
   uint32_t mark = 0;
   for (const auto& [function, index] : entries_) {
     ir::EntryPoint& entry = module.entry_points[index];
@@ -83,6 +85,8 @@ void Checker::finish(ir::Module& module) {
     ir::Block start;
     for (VariableInfo* global : entry_globals_) {
       all_globals.insert(global);
+      if (global->initialiser_facts)
+        initialisers.push_back({function, global->initialiser_facts.get()});
       start.insert(start.end(), global->start_up.begin(), global->start_up.end());
     }
     if (!start.empty() && started.insert(function->ir).second) {
@@ -90,6 +94,7 @@ void Checker::finish(ir::Module& module) {
       body.insert(body.begin(), start.begin(), start.end());
     }
   }
+  finish_waves(initialisers);
   for (const auto& [wrapper, function, stage] : wrappers_) {
     wrapper->stages = stage;
     wrapper->may_trace = function->ir->may_trace;
@@ -97,6 +102,7 @@ void Checker::finish(ir::Module& module) {
     wrapper->may_call = function->ir->may_call;
     wrapper->may_end_shader = function->ir->may_end_shader;
     wrapper->has_barrier = function->ir->has_barrier;
+    wrapper->has_waves = function->ir->has_waves;
   }
   for (FunctionInfo* function : lower_.lowered_functions_) {
     if (function->ir->stages != 0) module.functions.push_back(function->ir);
@@ -116,6 +122,32 @@ void Checker::finish(ir::Module& module) {
   }
   check_overlaps();
   collect_structs();
+}
+
+// Where only ray shaders come, a wave is one lane; everywhere else its statements stay.
+void Checker::finish_waves(
+    const std::vector<std::pair<FunctionInfo*, FunctionInfo*>>& initialisers) {
+  const auto keep = [this](FunctionInfo& function) {
+    const bool stays = (function.stages & ir::kStageCompute) != 0;
+    if (!stays) {
+      for (ir::Stmt* wave : function.waves) lower_.make_wave_lone(*wave);
+      function.waves.clear();
+    }
+    return !function.waves.empty();
+  };
+  for (FunctionInfo* function : lower_.lowered_functions_) {
+    function->ir->has_waves = keep(*function);
+    for (const FunctionInfo* callee : function->callees) {
+      if (callee->ir) function->ir->has_waves |= callee->ir->has_waves;
+    }
+  }
+  for (const auto& [entry, initialiser] : initialisers) {
+    bool waits = keep(*initialiser);
+    for (const FunctionInfo* callee : initialiser->callees) {
+      waits = waits || (callee->ir && callee->ir->has_waves);
+    }
+    entry->ir->has_waves = entry->ir->has_waves || waits;
+  }
 }
 
 void Checker::collect_struct(const ir::Type* type) {

@@ -1,63 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Wave intrinsics in ray tracing shaders. Each thread is a wave of its own, which DXR allows: waves
-// may be re-formed at every trace and call. [DXR: Wave intrinsics] [HLSL: Shader Model 6.0]
+// Wave and quad intrinsics. In compute shaders each becomes a statement; in ray tracing shaders
+// each thread is a wave of its own, which DXR allows, since waves may be re-formed at every trace
+// and call, and the statement becomes an assignment. [DXR: Wave intrinsics]
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
 namespace {
 
-enum class WaveResult : uint8_t {
-  kOne,        // uint 1
-  kZero,       // uint 0
-  kTrue,       // bool
-  kCondition,  // the argument as bool
-  kCount,      // the argument as bool, then as uint
-  kBallot,     // the same in the first of four components
-  kMatch,      // uint4 with this lane's bit
-  kAllEqual,   // bool with the argument's shape
-  kArgument,   // the argument
-  kInteger,    // the argument, which is an integer
-  kNothing,    // zero, of the argument's type
-  kNeutral,    // one, of the argument's type
-};
-
-struct WaveRule {
-  std::string_view name;
-  uint8_t arguments;
-  WaveResult result;
-};
-
-using R = WaveResult;
-constexpr WaveRule kWaveRules[] = {
-    {"WaveGetLaneCount", 0, R::kOne},
-    {"WaveGetLaneIndex", 0, R::kZero},
-    {"WaveIsFirstLane", 0, R::kTrue},
-    {"WaveActiveAnyTrue", 1, R::kCondition},
-    {"WaveActiveAllTrue", 1, R::kCondition},
-    {"WaveActiveCountBits", 1, R::kCount},
-    {"WavePrefixCountBits", 1, R::kZero},
-    {"WaveActiveBallot", 1, R::kBallot},
-    {"WaveMatch", 1, R::kMatch},
-    {"WaveActiveAllEqual", 1, R::kAllEqual},
-    {"WaveReadLaneFirst", 1, R::kArgument},
-    {"WaveReadLaneAt", 2, R::kArgument},
-    {"WaveActiveSum", 1, R::kArgument},
-    {"WaveActiveProduct", 1, R::kArgument},
-    {"WaveActiveMin", 1, R::kArgument},
-    {"WaveActiveMax", 1, R::kArgument},
-    {"WaveActiveBitAnd", 1, R::kInteger},
-    {"WaveActiveBitOr", 1, R::kInteger},
-    {"WaveActiveBitXor", 1, R::kInteger},
-    {"WavePrefixSum", 1, R::kNothing},
-    {"WavePrefixProduct", 1, R::kNeutral},
-};
-
-const WaveRule* find_wave(std::string_view name) {
-  for (const WaveRule& rule : kWaveRules) {
-    if (rule.name == name) return &rule;
-  }
-  return nullptr;
-}
+using shader::WaveOp;
 
 constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection |
                                 ir::kStageAnyHit | ir::kStageClosestHit | ir::kStageMiss |
@@ -65,74 +15,173 @@ constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection
 
 }  // namespace
 
+uint32_t shader_model_minor(const std::string& target) {
+  const char digit = target.empty() ? 'x' : target.back();
+  return digit >= '0' && digit <= '9' ? static_cast<uint32_t>(digit - '0') : 9;
+}
+
+// The type that the first operand is converted to; null after an error.
+const Type* Lowerer::wave_operand_type(const WaveRule& rule, const Value& argument) {
+  const Type* type = argument.type;
+  const auto refuse = [&](std::string_view wanted) {
+    report(
+        CheckId::kIntrinsicArgument, argument.location,
+        {"1", std::string(rule.name), std::string(wanted), type ? to_string(type) : "a resource"});
+    return nullptr;
+  };
+  if (!type || !type->is_numeric() || (rule.op == WaveOp::kMatch && type->is_matrix())) {
+    return refuse("a number or a vector");
+  }
+  if (rule.operand == WaveOperand::kBool) return types_.boolean();
+  if (is_literal(type->scalar)) type = settled(type);
+  if (rule.operand != WaveOperand::kAny && type->scalar == Scalar::kBool) {
+    type = types_.with_scalar(type, Scalar::kInt32);
+  }
+  const bool bits = rule.operand == WaveOperand::kInteger || rule.operand == WaveOperand::kUnsigned;
+  if (bits && is_floating(type->scalar)) return refuse("an integer");
+  if (rule.operand != WaveOperand::kUnsigned) return type;
+  switch (type->scalar) {
+    case Scalar::kInt16:
+      return types_.with_scalar(type, Scalar::kUint16);
+    case Scalar::kInt32:
+      return types_.with_scalar(type, Scalar::kUint32);
+    case Scalar::kInt64:
+      return types_.with_scalar(type, Scalar::kUint64);
+    default:
+      return type;
+  }
+}
+
+// Emits the operation on a scalar or a vector.
+const ir::Expr* Lowerer::emit_wave(WaveOp op, std::vector<const ir::Expr*> operands,
+                                   const Type* type) {
+  const ir::Variable* result = empty_temporary(type->ir);
+  ir::Stmt* statement = build_.stmt(ir::StmtKind::kWave);
+  statement->wave = op;
+  statement->operands = std::move(operands);
+  statement->result = result;
+  emit(statement);
+  if (function_) function_->waves.push_back(statement);
+  return build_.read(result);
+}
+
+// A matrix goes row by row.
+const ir::Expr* Lowerer::emit_wave_of_rows(WaveOp op, const std::vector<const ir::Expr*>& operands,
+                                           const Type* from, const Type* type) {
+  const ir::Expr* matrix = build_.read(temporary(operands[0]));
+  std::vector<const ir::Expr*> rows;
+  for (uint32_t row = 0; row < from->rows; ++row) {
+    std::vector<uint8_t> components;
+    for (uint32_t column = 0; column < from->columns; ++column) {
+      components.push_back(static_cast<uint8_t>(row * 4 + column));
+    }
+    std::vector<const ir::Expr*> parts = operands;
+    parts[0] = build_.matrix_swizzle(matrix, components);
+    const Type* part = from->columns == 1 ? types_.scalar(type->scalar)
+                                          : types_.vector(type->scalar, from->columns);
+    rows.push_back(emit_wave(op, parts, part));
+  }
+  return build_.construct(type->ir, rows);
+}
+
 std::optional<Value> Lowerer::call_wave(std::string_view name, std::vector<Value>& arguments,
                                         SourceLocation location) {
   const WaveRule* rule = find_wave(name);
   if (!rule) return std::nullopt;
-  if (!check_count(name, arguments.size(), rule->arguments, rule->arguments, location)) {
+  const bool has_lane = shader::has_lane_operand(rule->op);
+  const bool has_mask = shader::has_mask_operand(rule->op);
+  const size_t count = rule->operand == WaveOperand::kNone ? 0
+                       : has_lane || has_mask              ? size_t{2}
+                                                           : size_t{1};
+  if (!check_count(name, arguments.size(), count, count, location)) return error_value();
+  if (rule->minor > shader_model_minor(checker_.options_.target)) {
+    report(CheckId::kWaveShaderModel, location,
+           {std::string(name), "6." + std::to_string(rule->minor), checker_.options_.target});
     return error_value();
   }
-  use_in_stages(name, kRayStages, location);
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    const Type* type = arguments[i].type;
-    if (type && type->is_numeric() && !type->is_matrix()) continue;
-    report(CheckId::kIntrinsicArgument, arguments[i].location,
-           {std::to_string(i + 1), std::string(name), "a number or a vector",
-            type ? to_string(type) : "a resource"});
-    return error_value();
+  const bool quad = shader::is_quad_operation(rule->op);
+  use_in_stages(rule->name, ir::kStageCompute | (quad ? 0 : kRayStages), location);
+  const Type* number = types_.scalar(Scalar::kUint32);
+  const Type* four = types_.vector(Scalar::kUint32, 4);
+  std::vector<const ir::Expr*> operands;
+  const Type* type = nullptr;
+  if (count > 0) {
+    type = wave_operand_type(*rule, arguments[0]);
+    if (!type) return error_value();
+    operands.push_back(convert(arguments[0], type, arguments[0].location));
   }
-  const Type* unsigned_type = types_.scalar(Scalar::kUint32);
-  const Type* type = unsigned_type;
-  if (!arguments.empty()) {
-    type = is_literal(arguments[0].type->scalar) ? settled(arguments[0].type) : arguments[0].type;
+  if (count > 1) {
+    operands.push_back(convert(arguments[1], has_mask ? four : number, arguments[1].location));
   }
-  const auto condition = [&] { return convert(arguments[0], types_.boolean(), location); };
+  for (const ir::Expr* operand : operands) {
+    if (!operand) return error_value();
+  }
+  at(location);
+  const Type* result = type;
+  if (rule->op == WaveOp::kAllEqual) {
+    result = types_.with_scalar(type, Scalar::kBool);
+  } else if (shader::gives_bool(rule->op)) {
+    result = types_.boolean();
+  } else if (shader::gives_number(rule->op)) {
+    result = number;
+  } else if (shader::gives_mask(rule->op)) {
+    result = four;
+  }
+  if (type && type->is_matrix()) {
+    return rvalue(emit_wave_of_rows(rule->op, operands, type, result), result);
+  }
+  return rvalue(emit_wave(rule->op, std::move(operands), result), result);
+}
+
+// What the operation gives in a wave of one lane.
+const ir::Expr* Lowerer::value_in_lone_lane(const ir::Stmt& wave) {
+  const ir::Type* type = wave.result->type;
+  const ir::Expr* value = wave.operands.empty() ? nullptr : wave.operands[0];
   const auto first_of_four = [&](const ir::Expr* first) {
-    const Type* four = types_.vector(Scalar::kUint32, 4);
     const ir::Expr* zero = build_.uint32(0);
-    return rvalue(first ? build_.construct(four->ir, {first, zero, zero, zero}) : nullptr, four);
+    return build_.construct(type, {first, zero, zero, zero});
   };
-  const auto count = [&]() -> const ir::Expr* {
-    const ir::Expr* value = condition();
-    return value ? build_.convert(value, ir::Scalar::kUint32) : nullptr;
+  const auto filled = [&](const ir::Expr* one) {
+    return type->kind == ir::TypeKind::kScalar ? one : build_.splat(one, type);
   };
-  switch (rule->result) {
-    case R::kOne:
-      return rvalue(build_.uint32(1), unsigned_type);
-    case R::kZero:
-      return rvalue(build_.uint32(0), unsigned_type);
-    case R::kTrue:
-      return rvalue(build_.boolean(true), types_.boolean());
-    case R::kCondition:
-      return rvalue(condition(), types_.boolean());
-    case R::kCount:
-      return rvalue(count(), unsigned_type);
-    case R::kBallot:
-      return first_of_four(count());
-    case R::kMatch:
+  switch (wave.wave) {
+    case WaveOp::kLaneCount:
+      return build_.uint32(1);
+    case WaveOp::kIsFirstLane:
+      return build_.boolean(true);
+    case WaveOp::kAllEqual:
+      return filled(build_.boolean(true));
+    case WaveOp::kCountBits:
+      return build_.convert(value, ir::Scalar::kUint32);
+    case WaveOp::kBallot:
+      return first_of_four(build_.convert(value, ir::Scalar::kUint32));
+    case WaveOp::kMatch:
       return first_of_four(build_.uint32(1));
-    case R::kAllEqual: {
-      const Type* result = types_.with_scalar(type, Scalar::kBool);
-      const ir::Expr* yes = build_.boolean(true);
-      return rvalue(result->is_scalar() ? yes : build_.splat(yes, result->ir), result);
-    }
-    case R::kInteger:
-      if (is_floating(type->scalar)) {
-        report(CheckId::kIntrinsicArgument, arguments[0].location,
-               {"1", std::string(name), "an integer", to_string(type)});
-        return error_value();
-      }
-      break;
-    case R::kNothing:
-      return rvalue(build_.zero(type->ir), type);
-    case R::kNeutral: {
-      const ir::Expr* one = build_.convert(build_.uint32(1), ir_scalar(type->scalar));
-      return rvalue(type->is_scalar() ? one : build_.splat(one, type->ir), type);
-    }
-    case R::kArgument:
-      break;
+    case WaveOp::kPrefixProduct:
+    case WaveOp::kMultiPrefixProduct:
+      return filled(build_.convert(build_.uint32(1), type->scalar));
+    case WaveOp::kMultiPrefixBitAnd:
+      return build_.unary(ir::UnaryOp::kBitNot, build_.zero(type));
+    case WaveOp::kLaneIndex:
+    case WaveOp::kPrefixCountBits:
+    case WaveOp::kPrefixSum:
+    case WaveOp::kMultiPrefixSum:
+    case WaveOp::kMultiPrefixCountBits:
+    case WaveOp::kMultiPrefixBitOr:
+    case WaveOp::kMultiPrefixBitXor:
+      return build_.zero(type);
+    default:
+      return value;
   }
-  return rvalue(convert(arguments[0], type, location), type);
+}
+
+void Lowerer::make_wave_lone(ir::Stmt& wave) {
+  build_.location = wave.location;
+  wave.value = value_in_lone_lane(wave);
+  wave.place = build_.read(wave.result);
+  wave.kind = ir::StmtKind::kAssign;
+  wave.result = nullptr;
+  wave.operands.clear();
 }
 
 }  // namespace kaamos::hlsl

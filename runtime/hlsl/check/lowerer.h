@@ -159,6 +159,13 @@ class Lowerer {
   Value call_and_or(bool is_and, std::vector<Value>& arguments, SourceLocation location);
   std::optional<Value> call_wave(std::string_view name, std::vector<Value>& arguments,
                                  SourceLocation location);
+  const Type* wave_operand_type(const WaveRule& rule, const Value& argument);
+  const ir::Expr* emit_wave(shader::WaveOp op, std::vector<const ir::Expr*> operands,
+                            const Type* type);
+  const ir::Expr* emit_wave_of_rows(shader::WaveOp op, const std::vector<const ir::Expr*>& operands,
+                                    const Type* from, const Type* type);
+  const ir::Expr* value_in_lone_lane(const ir::Stmt& wave);
+  void make_wave_lone(ir::Stmt& wave);
   Value call_with_outputs(std::string_view name, std::vector<Value>& arguments,
                           SourceLocation location);
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,

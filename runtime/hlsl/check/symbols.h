@@ -135,9 +135,11 @@ struct FunctionInfo {
   uint32_t reported_bytes = 0;  // size of the largest attributes that it passes to ReportHit
   uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
   bool has_barrier = false;
+  std::vector<ir::Stmt*> waves;  // kWave
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;
   uint32_t visit_mark = 0;
+  uint32_t stages = 0;  // of the entry points that reach it
 };
 
 enum class SymbolKind : uint8_t {

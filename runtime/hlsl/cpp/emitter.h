@@ -2,8 +2,8 @@
 //
 // The C++ emitter's state, shared by its files: types.cpp (types, literals, memory access of
 // structs), expressions.cpp, statements.cpp, emit_cpp.cpp (functions, entry points, tables),
-// groups.cpp (compute shaders with barriers). WideEmitter emits those that run several threads at
-// once.
+// groups.cpp (compute shaders with barriers), waves.cpp. WideEmitter emits those that run several
+// threads at once.
 //
 // The emitted unit has the prelude as namespace `ks` and everything that belongs to the library in
 // namespace `u`: structs, constants, `u::Context` (one per shader invocation, with the ABI's
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "runtime/hlsl/analysis/split_groups.h"
+#include "runtime/hlsl/analysis/wave_paths.h"
 #include "runtime/hlsl/cpp/emit_cpp.h"
 #include "runtime/hlsl/ir/emitted_names.h"
 #include "runtime/hlsl/ir/ir.h"
@@ -121,6 +122,20 @@ class CppEmitter {
   void payload_check(const ir::EntryPoint& entry);
   void end_shader();  // returns from the function with any value
 
+  // waves.cpp
+  // How many words of the path, counted from its start, come before the statement's, and `more`.
+  std::string wave_depth(const ir::Stmt& stmt, uint32_t more) const;
+  void enter_wave_path(const ir::Stmt& stmt);
+  // Nothing for calls and loops that reach no wave operation.
+  void enter_wave_call(const ir::Stmt& stmt);
+  void leave_wave_call(const ir::Stmt& stmt);
+  void enter_wave_loop(const ir::Stmt& stmt);
+  void begin_wave_iteration(const ir::Stmt& stmt);
+  std::string wave_operation(const ir::Stmt& stmt) const;
+  void wave(const ir::Stmt& stmt);
+  // What follows `thread` in a ComputeDesc.
+  static std::string wave_facts(const ir::EntryPoint& entry, const std::string& lanes = "nullptr");
+
   // emit_cpp.cpp
   void emit_constants();
   void emit_context();
@@ -172,6 +187,8 @@ class CppEmitter {
 
   const ir::Module& module_;
   const EmitCppOptions& options_;
+  WavePaths wave_paths_;
+  uint32_t wave_words_ = 0;       // of the longest path
   bool binds_per_group_ = false;  // compute shaders only: bound.h
   bool reads_bound_ = false;      // Invocation::bound
   std::vector<bool> has_row_;     // by entry point: ExportDesc::row

@@ -36,7 +36,7 @@ uint64_t CppEmitter::kept_bytes(const EntryPoint& entry, const GroupPlan& plan) 
 
 bool CppEmitter::emit_split_group(size_t index) {
   const EntryPoint& entry = module_.entry_points[index];
-  if (!options_.split_groups) return false;
+  if (!options_.split_groups || entry.function->has_waves) return false;
   std::string reason;
   const std::optional<GroupPlan> plan = plan_group(entry, reason);
   if (!plan || kept_bytes(entry, *plan) > kMostKeptBytes) return false;

@@ -181,6 +181,7 @@ std::string CppEmitter::atomic_text(const Stmt& stmt, const TextOf& text) {
 }
 
 void CppEmitter::call_function(const Stmt& stmt, bool declares_result) {
+  enter_wave_call(stmt);
   std::string text = "u::" + function_names_[stmt.function] + "(ctx";
   for (size_t i = 0; i < stmt.arguments.size(); ++i) {
     const Variable* parameter = stmt.function->parameters[i];
@@ -194,6 +195,7 @@ void CppEmitter::call_function(const Stmt& stmt, bool declares_result) {
     text = variable(stmt.result) + " = " + text;
   }
   line(text + ");");
+  leave_wave_call(stmt);
   if (stmt.function->may_end_shader && !stmt.outlives_end) {
     open("if (ctx.ended) {");
     end_shader();
@@ -247,9 +249,11 @@ void CppEmitter::report_hit(const Stmt& stmt) {
 void CppEmitter::loop(const Stmt& stmt) {
   const int label = next_label_++;
   const bool unrolls = is_unrolled(stmt);
+  enter_wave_loop(stmt);
   if (unrolls) line("KAAMOS_UNROLL(" + std::to_string(stmt.unroll) + ")");
   open(unrolls ? "for (; " + value(stmt.value) + ";) {" : "for (;;) {");
   local_names_.push();
+  begin_wave_iteration(stmt);
   const auto condition = [&] {
     for (const Stmt* s : stmt.prelude) {
       statement(*s);
@@ -336,6 +340,9 @@ void CppEmitter::statement(const Stmt& stmt) {
       break;
     case StmtKind::kQuery:
       query(stmt);
+      break;
+    case StmtKind::kWave:
+      wave(stmt);
       break;
     case StmtKind::kReportHit:
       report_hit(stmt);

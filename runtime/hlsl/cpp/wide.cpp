@@ -116,6 +116,12 @@ void WideEmitter::emit_context() {
     line("invocation.index[0] = first_x + static_cast<uint32_t>(lane_number);");
     close("}");
   }
+  if (out_.wave_words_ != 0) {
+    line("ks::ComputeGroup* group = nullptr;");
+    line("uint32_t first = 0;");
+    line("uint32_t wave_path[" + std::to_string(out_.wave_words_) + "];");
+    line("uint32_t wave_depth = 0;");
+  }
   line("explicit WideContext(ks::Invocation& i) : invocation(i) {}");
   close("};");
 }
@@ -250,15 +256,26 @@ bool WideEmitter::emit_group(size_t index) {
   const uint64_t threads =
       uint64_t{entry.thread_group[0]} * entry.thread_group[1] * entry.thread_group[2];
   const std::string count = std::to_string(threads) + "u";
+  const bool waves = entry.function->has_waves;
+  const std::string name = (waves ? "lanes_" : "group_") + number;
   current_ = function;
-  open("static void group_" + number +
-       "(ks::Invocation& invocation, [[maybe_unused]] ks::ComputeGroup& group) {");
+  open("static void " + name +
+       "(ks::Invocation& invocation, [[maybe_unused]] ks::ComputeGroup& group" +
+       (waves ? ", uint32_t first) {" : ") {"));
   line("[[maybe_unused]] constexpr uint32_t size[3] = {" + size + "};");
   out_.emit_bound(entry);
-  open("for (uint32_t first = 0; first < " + count + "; first += ks::kLanes) {");
+  if (waves) {
+    open("{");
+  } else {
+    open("for (uint32_t first = 0; first < " + count + "; first += ks::kLanes) {");
+  }
   line("[[maybe_unused]] const ks::WideThread thread = ks::wide_thread(size, first);");
   line("u::WideContext ctx(invocation);");
   if (out_.binds_per_group_) line("ctx.bound = bound;");
+  if (waves) {
+    line("ctx.group = &group;");
+    line("ctx.first = first;");
+  }
   mask_ = "active";
   line("const ks::lanes active = ks::first_lanes(" + count + " - first);");
   emit_static_initialisers(*entry.function);
@@ -270,7 +287,8 @@ bool WideEmitter::emit_group(size_t index) {
   close("}");
   close("}");
   line("static const ks::ComputeDesc compute_" + number + " = {{" + size +
-       "}, sizeof(u::Shared), group_" + number + ", nullptr};");
+       "}, sizeof(u::Shared), " + (waves ? "nullptr" : name) + ", nullptr" +
+       out_.wave_facts(entry, waves ? name : "nullptr") + "};");
   current_ = nullptr;
   return true;
 }

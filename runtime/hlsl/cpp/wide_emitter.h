@@ -31,7 +31,8 @@ class WideEmitter {
   bool any() const;
   // Emits, in namespace u, the functions of the entry points and what they depend on.
   void emit_declarations();
-  // Emits the group function of a compute shader that runs wide; returns false if it does not.
+  // Emits the group function of a compute shader that runs wide, or with wave operations its lanes
+  // function; returns false if it does not.
   bool emit_group(size_t index);
   // The same for the row function of a ray generation shader.
   bool emit_row(size_t index);
@@ -68,6 +69,7 @@ class WideEmitter {
   void switch_(const ir::Stmt& stmt);
   void masked_switch(const ir::Stmt& stmt);
   void masked_jump(const ir::Stmt& stmt);
+  void wave(const ir::Stmt& stmt);
   void return_(const ir::Stmt& stmt);
   std::string declare_mask(const std::string& value);
   void declare_texel_row(const ir::Variable* variable, const ir::Expr* value);

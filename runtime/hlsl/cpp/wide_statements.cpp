@@ -226,6 +226,7 @@ void WideEmitter::trace_ray(const Stmt& stmt) {
 
 void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
   const WideFunction* callee = current_->callees.at(&stmt);
+  out_.enter_wave_call(stmt);
   std::string text = "u::" + names_[callee] + "(ctx, " + mask_;
   for (size_t i = 0; i < stmt.arguments.size(); ++i) {
     const Variable* parameter = stmt.function->parameters[i];
@@ -240,7 +241,10 @@ void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
     }
   }
   text += ")";
-  if (stmt.result == nullptr) return line(text + ";");
+  if (stmt.result == nullptr) {
+    line(text + ";");
+    return out_.leave_wave_call(stmt);
+  }
   const bool varying = current_->is_varying(stmt.result);
   if (varying && !callee->varying_result) {
     text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
@@ -254,6 +258,7 @@ void WideEmitter::call_function(const Stmt& stmt, bool declares_result) {
   } else {
     line(out_.variable(stmt.result) + " = " + text + ";");
   }
+  out_.leave_wave_call(stmt);
 }
 
 // Emits `if (condition) continue;` without a branch.
@@ -341,9 +346,11 @@ void WideEmitter::loop(const Stmt& stmt) {
   if (f.masked) mask_ = declare_mask(outer);
   const std::string mask = mask_;
   const bool unrolls = is_unrolled(stmt) && !is_varying(stmt.value);
+  out_.enter_wave_loop(stmt);
   if (unrolls) line("KAAMOS_UNROLL(" + std::to_string(stmt.unroll) + ")");
   open(unrolls ? "for (; " + out_.value(stmt.value) + ";) {" : "for (;;) {");
   out_.local_names_.push();
+  out_.begin_wave_iteration(stmt);
   const auto condition = [&] {
     for (const Stmt* s : stmt.prelude) statement(*s);
     if (stmt.value == nullptr) return;
@@ -446,6 +453,31 @@ void WideEmitter::return_(const Stmt& stmt) {
   line("return " + (current_->varying_result ? value(stmt.value) : out_.value(stmt.value)) + ";");
 }
 
+void WideEmitter::wave(const Stmt& stmt) {
+  const std::string result = out_.variable(stmt.result);
+  const bool varying = current_->is_varying(stmt.result);
+  std::string text;
+  if (stmt.wave == shader::WaveOp::kLaneCount) {
+    text = "ctx.group->wave_lanes";
+    if (varying) text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
+  } else if (stmt.wave == shader::WaveOp::kLaneIndex) {
+    text = "ks::wide_lane_index<" + type(stmt.result->type) + ">(*ctx.group, ctx.first)";
+  } else {
+    out_.enter_wave_path(stmt);
+    text = "ks::wide_wave_operation<" + out_.wave_operation(stmt) + ", " + type(stmt.result->type);
+    for (const Expr* operand : stmt.operands) text += ", " + type(operand->type);
+    text +=
+        ">(ctx.invocation, *ctx.group, " + mask_ + ", ctx.wave_path, " + out_.wave_depth(stmt, 1);
+    for (const Expr* operand : stmt.operands) text += ", " + value(operand);
+    text += ")";
+  }
+  if (varying && facts(stmt).blends) {
+    line("ks::blend(" + result + ", " + text + ", " + mask_ + ");");
+  } else {
+    line(result + " = " + text + ";");
+  }
+}
+
 void WideEmitter::statement(const Stmt& stmt) {
   if (stmt.kind != StmtKind::kBlock) out_.begin_statement(stmt);
   switch (stmt.kind) {
@@ -466,6 +498,8 @@ void WideEmitter::statement(const Stmt& stmt) {
       return call_function(stmt, false);
     case StmtKind::kTraceRay:
       return trace_ray(stmt);
+    case StmtKind::kWave:
+      return wave(stmt);
     case StmtKind::kIf:
       return if_(stmt);
     case StmtKind::kLoop:

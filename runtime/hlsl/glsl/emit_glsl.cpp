@@ -277,6 +277,7 @@ GlslShader GlslEmitter::run() {
   if (uses_queries()) {
     head += "#extension GL_EXT_ray_query : require\n";
   }
+  head += wave_extensions();
   const std::string body =
       layout + constants_ + matrices_ + structs_ + declarations_ + helpers_ + out_;
   shader_.text = head + glsl_prelude(body).text + body;

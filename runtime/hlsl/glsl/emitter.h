@@ -2,7 +2,7 @@
 //
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
-// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, system_values.cpp,
+// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp, system_values.cpp,
 // emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
@@ -161,6 +161,15 @@ class GlslEmitter {
   std::string report_function(const ir::Type* attributes);
   std::string reported_t();
   void report_hit(const ir::Stmt& stmt);
+
+  // waves.cpp
+  std::string multi_prefix_function(shader::WaveOp op, const ir::Type* type);
+  std::string match_function(const ir::Type* type);
+  std::string all_equal(const ir::Expr* operand);
+  std::string lone_wave(const ir::Stmt& stmt);
+  std::string wave_text(const ir::Stmt& stmt);
+  void wave(const ir::Stmt& stmt);
+  std::string wave_extensions() const;
 
   // queries.cpp
   void declare_query();

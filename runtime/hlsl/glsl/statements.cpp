@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Statements: everything that has an effect.
+#include <algorithm>
+
+#include "runtime/hlsl/analysis/wave_paths.h"
 #include "runtime/hlsl/glsl/emitter.h"
 
 namespace kaamos::hlsl {
@@ -113,9 +116,11 @@ void GlslEmitter::loop_condition(const Stmt& stmt) {
 
 // GLSL has no goto. If a `continue` has to get to a condition at the loop's end, the step and
 // condition are placed at the start of the next iteration; otherwise the step is repeated before
-// each `continue`.
+// each `continue`. Lanes must come to a wave operation in the step together, so it is not repeated.
 void GlslEmitter::loop(const Stmt& stmt) {
-  const bool flagged = stmt.test_at_end && has_continue(stmt.body);
+  const bool together = std::any_of(stmt.step.begin(), stmt.step.end(),
+                                    [](const Stmt* step) { return reaches_wave(*step); });
+  const bool flagged = (stmt.test_at_end || together) && has_continue(stmt.body);
   std::string again;
   if (flagged) {
     again = hoist("bool", "false");
@@ -124,9 +129,10 @@ void GlslEmitter::loop(const Stmt& stmt) {
   if (flagged) {
     open("if (" + again + ") {");
     block(stmt.step);
-    loop_condition(stmt);
+    if (stmt.test_at_end) loop_condition(stmt);
     close("}");
     line(again + " = true;");
+    if (!stmt.test_at_end) loop_condition(stmt);
   } else if (!stmt.test_at_end) {
     loop_condition(stmt);
   }
@@ -227,6 +233,9 @@ void GlslEmitter::statement(const Stmt& stmt) {
       break;
     case StmtKind::kQuery:
       query(stmt);
+      break;
+    case StmtKind::kWave:
+      wave(stmt);
       break;
     case StmtKind::kReportHit:
       report_hit(stmt);

@@ -71,7 +71,8 @@ Signature signature_of(const ir::EntryPoint& entry) {
     case ir::kStageAnyHit:
       return {3, run_ray<3>};
     case ir::kStageCompute:
-      return entry.function->has_barrier ? Signature{3, run_thread} : Signature{2, run_group};
+      return entry.function->has_barrier || entry.function->has_waves ? Signature{3, run_thread}
+                                                                      : Signature{2, run_group};
     default:
       return {1, run_ray<1>};
   }

@@ -49,6 +49,7 @@ uint32_t Compiler::declare(const Variable* variable, bool reference) {
 const Action* Compiler::action(const Stmt& stmt) {
   Action& out = program_.actions.emplace_back();
   out.stmt = &stmt;
+  out.place_in_wave = program_.wave_paths->find(stmt);
   out.prelude = block(stmt.prelude);  // declares what the loop's condition reads
   temporary_bytes_ = 0;
   out.place = node(stmt.place);
@@ -122,6 +123,7 @@ EntryCode Compiler::entry(const EntryPoint& entry) {
   EntryCode out;
   out.entry = &entry;
   out.code = codes_[entry.function];
+  out.path_words = program_.wave_paths->length(*entry.function);
   out.payload_bytes = entry.payload != nullptr ? bytes_of(entry.payload) : 0;
   most_temporary_bytes_ = 0;
   statics_.clear();
@@ -184,6 +186,7 @@ std::unique_ptr<Program> make_program(std::shared_ptr<const Module> module,
   program->module = std::move(module);
   program->options = options;
   program->checked = program->module->check_access;
+  program->wave_paths = std::make_unique<WavePaths>(*program->module);
   Compiler(*program).run();
   return program;
 }

@@ -102,7 +102,10 @@ shader::ComputeDesc describe_compute(const EntryCode& code, uint32_t shared_byte
                              shared_bytes,
                              nullptr,
                              nullptr};
-  if (entry.function->has_barrier) {
+  out.has_waves = entry.function->has_waves;
+  out.least_wave_lanes = entry.least_wave_lanes;
+  out.most_wave_lanes = entry.most_wave_lanes;
+  if (entry.function->has_barrier || entry.function->has_waves) {
     out.thread = reinterpret_cast<shader::ComputeThreadFn>(function);
   } else {
     out.group = reinterpret_cast<shader::ComputeGroupFn>(function);

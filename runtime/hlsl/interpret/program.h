@@ -15,6 +15,7 @@
 
 #include <kaamos/shader/abi.h>
 #include "runtime/hlsl/analysis/checked_access.h"
+#include "runtime/hlsl/analysis/wave_paths.h"
 #include "runtime/hlsl/interpret/interpret.h"
 #include "runtime/hlsl/ir/host_layout.h"
 #include "runtime/hlsl/ir/ir.h"
@@ -32,6 +33,8 @@ struct Context {
   std::byte* shared = nullptr;
   std::byte* statics = nullptr;
   uint64_t steps_left = 0;
+  uint32_t* path = nullptr;  // for wave operations
+  uint32_t path_depth = 0;   // where the running function's part of it begins
   bool ended = false;
   shader::AnyHitResult any_hit = shader::AnyHitResult::kAccept;
 };
@@ -107,6 +110,7 @@ struct Action {
   std::vector<Move> moves;  // stores
   Access access;            // stores and atomics, in checked libraries
   Atomic atomic = nullptr;
+  const WavePlace* place_in_wave = nullptr;  // null: not in the path of any wave operation
 };
 
 struct Code {
@@ -136,10 +140,12 @@ struct EntryCode {
   std::vector<StaticInitialiser> statics;
   uint32_t temporary_bytes = 0;  // of the initialisers
   uint32_t static_bytes = 0;
+  uint32_t path_words = 0;
 };
 
 struct Program {
   std::shared_ptr<const ir::Module> module;
+  std::unique_ptr<WavePaths> wave_paths;
   InterpretOptions options;
   std::deque<Node> nodes;
   std::deque<Action> actions;
@@ -169,6 +175,12 @@ void run_compute_thread(const Program& program, const EntryCode& entry,
 
 // Calls the hook, if there is one.
 void report(Context& context, InterpretFinding finding, const ir::Location& location);
+
+// waves.cpp: the word of a call, the counter of a loop's iterations (null if no wave operation is
+// in it), the operation.
+void enter_path(const Action& action, Context& context);
+uint32_t* iteration_in_path(const Action& loop, Context& context);
+void run_wave(const Action& action, Frame& frame);
 
 // statements.cpp: runs a function whose parameters are already in place.
 void run_body(const Code& code, Frame& frame);

@@ -98,6 +98,7 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
   context.entry = entry.entry;
   context.steps_left = program.options.step_limit;
   context.statics = static_cast<std::byte*>(alloca(entry.static_bytes + 16));
+  context.path = static_cast<uint32_t*>(alloca((entry.path_words + 1) * sizeof(uint32_t)));
   if (!entry.statics.empty()) initialise_statics(entry, context);
   Frame frame;
   frame.context = &context;

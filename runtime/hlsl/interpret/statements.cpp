@@ -81,7 +81,11 @@ void assign(const Node& place, const Node& value_node, Frame& frame) {
       std::memset(reference, 0, argument.bytes);
     }
   }
+  const WavePlace* const place = action.place_in_wave;
+  enter_path(action, *frame.context);
+  if (place != nullptr) frame.context->path_depth += place->depth + 1;
   run_body(callee, inner);
+  if (place != nullptr) frame.context->path_depth -= place->depth + 1;
 }
 
 // Passes a payload or callable data with the header that the receiving shader reads, and with room
@@ -224,7 +228,9 @@ Flow test(const Action& loop, Frame& frame) {
 
 Flow run_loop(const Action& loop, Frame& frame) {
   const bool test_at_end = loop.stmt->test_at_end;
+  uint32_t* const iteration = iteration_in_path(loop, *frame.context);
   for (;;) {
+    if (iteration != nullptr) ++*iteration;
     if (out_of_steps(*frame.context, loop.stmt->location)) return Flow::kReturn;
     Flow flow = test_at_end ? Flow::kNext : test(loop, frame);
     if (flow == Flow::kNext) flow = run(loop.body, frame);
@@ -333,6 +339,9 @@ Flow run(const Action& action, Frame& frame) {
       return Flow::kNext;
     case StmtKind::kQuery:
       run_query(action, frame);
+      return Flow::kNext;
+    case StmtKind::kWave:
+      run_wave(action, frame);
       return Flow::kNext;
     case StmtKind::kReportHit:
       report_hit(action, frame);

@@ -195,6 +195,44 @@ constexpr BarrierRule kBarriers[] = {
     {"AllMemoryBarrierWithGroupSync", ir::kGroupMemory | ir::kDeviceMemory | ir::kGroupSync},
 };
 
+using W = shader::WaveOp;
+using O = WaveOperand;
+constexpr WaveRule kWaves[] = {
+    {"WaveGetLaneCount", W::kLaneCount, O::kNone, 0},
+    {"WaveGetLaneIndex", W::kLaneIndex, O::kNone, 0},
+    {"WaveIsFirstLane", W::kIsFirstLane, O::kNone, 0},
+    {"WaveActiveAnyTrue", W::kAnyTrue, O::kBool, 0},
+    {"WaveActiveAllTrue", W::kAllTrue, O::kBool, 0},
+    {"WaveActiveBallot", W::kBallot, O::kBool, 0},
+    {"WaveActiveCountBits", W::kCountBits, O::kBool, 0},
+    {"WavePrefixCountBits", W::kPrefixCountBits, O::kBool, 0},
+    {"WaveActiveAllEqual", W::kAllEqual, O::kAny, 0},
+    {"WaveMatch", W::kMatch, O::kNumber, 5},
+    {"WaveReadLaneAt", W::kReadLaneAt, O::kAny, 0},
+    {"WaveReadLaneFirst", W::kReadLaneFirst, O::kAny, 0},
+    {"WaveActiveSum", W::kSum, O::kNumber, 0},
+    {"WaveActiveProduct", W::kProduct, O::kNumber, 0},
+    {"WaveActiveMin", W::kMin, O::kNumber, 0},
+    {"WaveActiveMax", W::kMax, O::kNumber, 0},
+    {"WaveActiveBitAnd", W::kBitAnd, O::kUnsigned, 0},
+    {"WaveActiveBitOr", W::kBitOr, O::kUnsigned, 0},
+    {"WaveActiveBitXor", W::kBitXor, O::kUnsigned, 0},
+    {"WavePrefixSum", W::kPrefixSum, O::kNumber, 0},
+    {"WavePrefixProduct", W::kPrefixProduct, O::kNumber, 0},
+    {"WaveMultiPrefixSum", W::kMultiPrefixSum, O::kNumber, 5},
+    {"WaveMultiPrefixProduct", W::kMultiPrefixProduct, O::kNumber, 5},
+    {"WaveMultiPrefixCountBits", W::kMultiPrefixCountBits, O::kBool, 5},
+    {"WaveMultiPrefixBitAnd", W::kMultiPrefixBitAnd, O::kInteger, 5},
+    {"WaveMultiPrefixBitOr", W::kMultiPrefixBitOr, O::kInteger, 5},
+    {"WaveMultiPrefixBitXor", W::kMultiPrefixBitXor, O::kInteger, 5},
+    {"QuadReadLaneAt", W::kQuadReadLaneAt, O::kNumber, 0},
+    {"QuadReadAcrossX", W::kQuadReadAcrossX, O::kNumber, 0},
+    {"QuadReadAcrossY", W::kQuadReadAcrossY, O::kNumber, 0},
+    {"QuadReadAcrossDiagonal", W::kQuadReadAcrossDiagonal, O::kNumber, 0},
+    {"QuadAny", W::kQuadAny, O::kBool, 7},
+    {"QuadAll", W::kQuadAll, O::kBool, 7},
+};
+
 using F = SampleForm;
 constexpr SampleRule kSamples[] = {
     {"Sample", F::kSample, 0},
@@ -220,8 +258,6 @@ struct Family {
 };
 
 constexpr Family kUnsupported[] = {
-    {"Wave", "wave intrinsics", false},
-    {"Quad", "quad intrinsics", false},
     {"GetAttributeAtVertex", "barycentric attributes", true},
     {"MaybeReorderThread", "shader execution reordering", true},
     {"ReorderThread", "shader execution reordering", true},
@@ -299,6 +335,15 @@ const AtomicRule* find_atomic(std::string_view name) {
   if (name.ends_with("64")) name.remove_suffix(2);
   return find_rule(kAtomics, name);
 }
+const WaveRule* find_wave(std::string_view name) {
+  return find_rule(kWaves, name);
+}
+std::string_view wave_function_name(shader::WaveOp op) {
+  for (const WaveRule& rule : kWaves) {
+    if (rule.op == op) return rule.name;
+  }
+  return {};
+}
 const BarrierRule* find_barrier(std::string_view name) {
   return find_rule(kBarriers, name);
 }
@@ -320,7 +365,7 @@ bool is_pixel_function(std::string_view name) {
 
 bool is_builtin_function(std::string_view name) {
   return find_intrinsic(name) || find_system_value(name) || find_atomic(name) ||
-         find_barrier(name) || is_pixel_function(name) ||
+         find_barrier(name) || find_wave(name) || is_pixel_function(name) ||
          std::find(std::begin(kByName), std::end(kByName), name) != std::end(kByName) ||
          !unsupported_function(name).empty();
 }
@@ -332,6 +377,7 @@ const std::vector<std::string_view>& builtin_function_names() {
     for (const auto& rule : kSystemValues) result.push_back(rule.name);
     for (const auto& rule : kAtomics) result.push_back(rule.name);
     for (const auto& rule : kBarriers) result.push_back(rule.name);
+    for (const auto& rule : kWaves) result.push_back(rule.name);
     return result;
   }();
   return names;

@@ -87,6 +87,25 @@ struct BarrierRule {
   std::string_view name;
   uint32_t flags;  // ir::BarrierFlags
 };
+// What the first operand of a wave operation is converted to.
+enum class WaveOperand : uint8_t {
+  kNone,
+  kBool,
+  kAny,       // a scalar, vector or matrix as it is
+  kNumber,    // the same, but bool becomes int
+  kInteger,   // of integers
+  kUnsigned,  // of unsigned integers
+};
+
+struct WaveRule {
+  std::string_view name;
+  shader::WaveOp op;
+  WaveOperand operand;
+  uint8_t minor;  // of the shader model that brought it
+};
+
+const WaveRule* find_wave(std::string_view name);
+std::string_view wave_function_name(shader::WaveOp op);
 const BarrierRule* find_barrier(std::string_view name);
 
 enum class SampleForm : uint8_t {

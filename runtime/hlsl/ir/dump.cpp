@@ -259,6 +259,12 @@ class Dumper {
         list(of.operands);
         text += ")";
         break;
+      case ir::StmtKind::kWave:
+        result_prefix(of);
+        text += std::string(wave_function_name(of.wave)) + "(";
+        list(of.operands);
+        text += ")";
+        break;
       case ir::StmtKind::kIgnoreHit:
         line("ignore_hit");
         break;
@@ -376,6 +382,7 @@ std::string dump(const ir::Function& function) {
   if (function.may_call) dumper.text += " may_call";
   if (function.may_end_shader) dumper.text += " may_end_shader";
   if (function.has_barrier) dumper.text += " has_barrier";
+  if (function.has_waves) dumper.text += " has_waves";
   dumper.text += " ";
   dumper.block(function.body);
   return dumper.text + "\n";

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "kaamos/shader/wave_op.h"
 #include "runtime/hlsl/ir/intrinsics.h"
 
 namespace kaamos::hlsl::ir {
@@ -315,6 +316,8 @@ enum class StmtKind : uint8_t {
   kQuery,  // place: the kVariable of a RayQuery, query: what it does. operands: kTrace:
            // acceleration structure, flags (with the type's), mask (uint32), RayDesc;
            // kCommitProcedural: t; result of kProceed (bool) or null
+  kWave,   // wave: what the active lanes of a wave do together. operands: those of
+           // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
@@ -370,6 +373,7 @@ struct Stmt {
   AtomicOp atomic = AtomicOp::kAdd;
   AtomicTarget target = AtomicTarget::kPlace;
   QueryOp query = {};
+  shader::WaveOp wave = {};
   bool outlives_end = false;  // kCall: what follows runs even if the callee ended the shader
   Layout layout = Layout::kStructured;
   bool row_major = false;
@@ -406,6 +410,7 @@ struct Function {
   bool may_end_shader = false;  // can reach IgnoreHit, AcceptHitAndEndSearch or ReportHit: after a
                                 // call, the caller must return at once if the shader has ended
   bool has_barrier = false;     // can reach a group barrier
+  bool has_waves = false;       // can reach kWave
 };
 
 // Where an entry point's parameter gets its value.
@@ -433,6 +438,9 @@ struct EntryPoint {
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
   uint32_t attribute_type = 0;   // shader::ExportDesc::attribute_type
   uint32_t thread_group[3] = {1, 1, 1};
+  // [WaveSize]: lanes that a wave must have, and may have; 0: any
+  uint32_t least_wave_lanes = 0;
+  uint32_t most_wave_lanes = 0;
   std::vector<uint32_t> bindings;  // indices into Module::bindings that it can reach
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;

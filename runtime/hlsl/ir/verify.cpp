@@ -334,7 +334,8 @@ class Verifier {
     require((!of.function->may_trace || function_->may_trace) &&
                 (!of.function->may_call || function_->may_call) &&
                 (!of.function->may_end_shader || function_->may_end_shader) &&
-                (!of.function->has_barrier || function_->has_barrier),
+                (!of.function->has_barrier || function_->has_barrier) &&
+                (!of.function->has_waves || function_->has_waves),
             "caller lacks a fact of its callee", nullptr);
   }
 
@@ -406,6 +407,9 @@ class Verifier {
         require(!of.result || of.query == ir::QueryOp::kProceed, "result of a query", nullptr);
         break;
       }
+      case StmtKind::kWave:
+        wave(of);
+        break;
       case StmtKind::kIf:
         expr(of.value);
         require(is_scalar(of.value->type, ir::Scalar::kBool), "condition is not a bool", of.value);
@@ -435,6 +439,28 @@ class Verifier {
         break;
       default:
         break;
+    }
+  }
+
+  void wave(const Stmt& of) {
+    using shader::WaveOp;
+    require(function_->has_waves && of.result && declared_.count(of.result) != 0, "wave operation",
+            nullptr);
+    const size_t operands = shader::has_lane_operand(of.wave) || shader::has_mask_operand(of.wave)
+                                ? 2
+                            : of.wave <= WaveOp::kIsFirstLane ? 0
+                                                              : 1;
+    require(of.operands.size() == operands, "operands of a wave operation", nullptr);
+    if (!of.result || of.operands.size() != operands) return;
+    const Type* result = of.result->type;
+    if (of.wave == WaveOp::kAllEqual) {
+      require(same_shape(result, of.operands[0]->type), "result of a wave operation", nullptr);
+    } else if (shader::gives_bool(of.wave)) {
+      require(is_scalar(result, ir::Scalar::kBool), "result of a wave operation", nullptr);
+    } else if (shader::gives_number(of.wave)) {
+      require(is_scalar(result, ir::Scalar::kUint32), "result of a wave operation", nullptr);
+    } else if (!shader::gives_mask(of.wave)) {
+      require(result == of.operands[0]->type, "result of a wave operation", nullptr);
     }
   }
 

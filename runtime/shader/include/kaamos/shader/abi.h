@@ -166,9 +166,12 @@ struct Invocation {
   const BoundResource* bound = nullptr;
 };
 
+struct WaveCall;  // wave_op.h
+
 // One thread group of a compute dispatch.
 struct ComputeGroup {
   uint32_t group_id[3] = {0, 0, 0};
+  uint32_t wave_lanes = 8;
   void* shared = nullptr;  // groupshared memory, ComputeDesc::shared_bytes, zeroed by the backend
   void* backend = nullptr;
 };
@@ -188,6 +191,9 @@ using CallableFn = void (*)(Invocation&, void* data);
 using ComputeGroupFn = void (*)(Invocation&, ComputeGroup&);
 // Runs one thread of a group on its own fiber; barriers go through Services::group_barrier.
 using ComputeThreadFn = void (*)(Invocation&, ComputeGroup&, const uint32_t thread_id[3]);
+// Runs threads [first, first + kLanes) of a group at once, for kernels with wave operations; if a
+// wave has more lanes, on their own fiber.
+using ComputeLanesFn = void (*)(Invocation&, ComputeGroup&, uint32_t first);
 using AnyFn = void (*)();
 
 // ---------------------------------------------------------------------------------------------
@@ -414,6 +420,9 @@ struct Services {
   TextureDimensions (*texture_dimensions)(const Descriptor& texture, uint32_t mip);
 
   void (*group_barrier)(ComputeGroup&);  // only used with fibers
+  // Returns once the lanes that take part have come to the operation. Only used with fibers, or if
+  // the operation waits for no other thread.
+  void (*wave)(ComputeGroup&, const WaveCall&);
   void (*remove_device)(Invocation&, RemovalReason);
   void (*report)(Invocation&, const CheckReport&);   // null: nobody listens
   void (*reached)(Invocation&, const ReachedCall&);  // null: nobody listens
@@ -480,7 +489,12 @@ struct ComputeDesc {
   uint32_t thread_group[3];
   uint32_t shared_bytes;
   ComputeGroupFn group;    // null if barriers could not be split; then thread is run on fibers
-  ComputeThreadFn thread;  // null if group is set
+  ComputeThreadFn thread;  // null if group or lanes is set
+  ComputeLanesFn lanes = nullptr;
+  bool has_waves = false;  // then group is null
+  // Lanes that a wave must have, and may have; 0: any.
+  uint32_t least_wave_lanes = 0;
+  uint32_t most_wave_lanes = 0;
 };
 
 inline constexpr uint32_t kUnknownIndex = 0xFFFFFFFFu;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "runtime/backend/linked_pipeline.h"
+
+namespace kaamos::runtime {
+
+// Whether the waves of a device, which have from `least` to `most` lanes, can be as the shader's
+// [WaveSize] asks; `device` says how they are, for the error KA0550.
+rtapi::Status check_wave_size(const LinkedCompute& pipeline, uint32_t least, uint32_t most,
+                              const std::string& device);
+
+}  // namespace kaamos::runtime
