@@ -225,7 +225,8 @@ int watch(FrameRenderer& renderer, const Options& options) {
     say_error("--watch needs the effects' shader files: name their folder in $KAAMOS_EFFECTS");
     return 1;
   }
-  ShaderWatcher watcher(folder, kaamos::effects::frame_libraries(renderer.settings()));
+  ShaderWatcher watcher(folder, kaamos::effects::frame_libraries(renderer.settings()),
+                        options.backend == "vulkan");
   std::printf("watching %s; Ctrl-C ends\n", folder.c_str());
   do {
     auto libraries = watcher.compile();

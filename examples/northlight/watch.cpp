@@ -24,12 +24,15 @@ fs::file_time_type time_of(const std::string& path) {
 
 rtapi::Result<ShaderLibraries> ShaderWatcher::compile() {
   ShaderLibraries out;
+  const bool again = !files_.empty();
   files_.clear();
   rtapi::Status status;
   for (const EffectLibrary& library : libraries_) {
     rtapi::ShaderCompileOptions options;
     options.File = (folder_ / (library.file + ".hlsl")).string();
     options.IncludeDirectories = {(folder_ / "shaders").string()};
+    options.Spirv = spirv_;
+    options.Quick = again;
     const auto compiled = rtapi::CompileShaderLibrary(options);
     for (const std::string& file : compiled.Dependencies) {
       files_[file] = time_of(file);

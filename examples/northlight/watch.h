@@ -14,11 +14,14 @@ namespace northlight {
 
 class ShaderWatcher {
  public:
-  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/; `libraries` are compiled.
-  ShaderWatcher(std::filesystem::path folder, std::vector<kaamos::effects::EffectLibrary> libraries)
-      : folder_(std::move(folder)), libraries_(std::move(libraries)) {}
+  // `folder` holds gbuffer/, ambient_occlusion/, ... and shaders/; `libraries` are compiled, with
+  // what Vulkan needs if `spirv` is true.
+  ShaderWatcher(std::filesystem::path folder, std::vector<kaamos::effects::EffectLibrary> libraries,
+                bool spirv)
+      : folder_(std::move(folder)), libraries_(std::move(libraries)), spirv_(spirv) {}
 
-  // Compiles all shaders; an error's message is the compiler's.
+  // Compiles all shaders, those that have changed since the first call in a hurry; an error's
+  // message is the compiler's.
   rtapi::Result<kaamos::effects::ShaderLibraries> compile();
   // Returns true when a file that the last compile() read has changed, false when `stop` is set.
   bool wait(const std::atomic<bool>& stop) const;
@@ -26,6 +29,7 @@ class ShaderWatcher {
  private:
   std::filesystem::path folder_;
   std::vector<kaamos::effects::EffectLibrary> libraries_;
+  bool spirv_ = true;
   std::map<std::string, std::filesystem::file_time_type> files_;
 };
 

@@ -80,6 +80,7 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   if (options.Debug) settings.optimisation = hlsl::Optimisation::kDebug;
   if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
   settings.spirv = options.Spirv;
+  settings.quick = options.Quick && !options.Debug;
   const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
   if (object.error) {
     out.Status = failed(options, object.error);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/backend/wave_size.h"
 #include "runtime/vulkan/callable_frame.h"
 #include "runtime/vulkan/pipeline_stack.h"
 #include "runtime/vulkan/shader_stage.h"

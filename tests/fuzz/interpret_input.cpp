@@ -54,6 +54,7 @@ Services make_services() {
     return TextureDimensions{8, 8, 1, 2};
   };
   out.group_barrier = [](ComputeGroup&) {};
+  out.wave = [](ComputeGroup&, const WaveCall&) {};
   out.remove_device = [](Invocation&, RemovalReason) {};
   return out;
 }

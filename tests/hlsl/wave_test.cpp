@@ -472,7 +472,7 @@ TEST_P(Waves, GiveWhatTheModelGivesOnVulkan) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Waves, testing::Range<size_t>(0, std::size(kCases)),
-                         [](const auto& info) { return std::string(kCases[info.param].name); });
+                         [](const auto& given) { return std::string(kCases[given.param].name); });
 
 }  // namespace
 }  // namespace kaamos::test

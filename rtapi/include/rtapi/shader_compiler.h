@@ -42,6 +42,10 @@ struct ShaderCompileOptions {
   std::string CacheDirectory = {};  ///< empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     ///< empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++
   bool Spirv = true;                ///< false: without what Vulkan devices need (KA0954)
+  /// While a shader is being edited: half the C++ compiler's time, for code that runs one thread
+  /// after another with fewer optimisations and gives the same results. If the cache has the
+  /// library without this option, that is loaded.
+  bool Quick = false;
   /// Needs no C++ compiler; on the CPU shaders run about a hundred times slower. No cache.
   bool Interpret = false;
   /// Statements that one shader invocation may run when interpreted, before the device is removed

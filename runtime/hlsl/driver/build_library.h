@@ -16,6 +16,9 @@ struct BuildOptions {
   bool spirv = true;  // false: the library runs on the CPU only
   // Compute and ray generation shaders run several threads at once, except in a debug build.
   bool wide = true;
+  // While a shader is being edited: built in half the time, one thread after another and with fewer
+  // optimisations, unless the cache has the full build.
+  bool quick = false;
   std::filesystem::path cache = cache_folder();
 };
 

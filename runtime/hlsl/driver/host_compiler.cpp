@@ -101,13 +101,18 @@ const std::vector<std::string>& flags_of(Optimisation optimisation) {
       with({"-Og", "-g", "-fno-inline-functions-called-once", "-fno-inline-small-functions",
             "-fno-optimize-sibling-calls", "-fno-omit-frame-pointer"});
   // Uses this machine's registers, as libraries that are compiled along with a program do.
-  static const std::vector<std::string> full =
-      shader::cpu_level() == shader::CpuLevel::kAvx2 ? with({"-O2", "-mavx2"}) : with({"-O2"});
+  const auto for_this_machine = [&](const char* level) {
+    return shader::cpu_level() == shader::CpuLevel::kAvx2 ? with({level, "-mavx2"}) : with({level});
+  };
+  static const std::vector<std::string> quick = for_this_machine("-O1");
+  static const std::vector<std::string> full = for_this_machine("-O2");
   switch (optimisation) {
     case Optimisation::kNone:
       return none;
     case Optimisation::kDebug:
       return debug;
+    case Optimisation::kQuick:
+      return quick;
     case Optimisation::kFull:
       return full;
   }
@@ -234,6 +239,13 @@ fs::path cache_folder() {
     return fs::path(home) / ".cache" / "kaamos";
   }
   return fs::path("/tmp") / ("kaamos-cache-" + std::to_string(getuid()));
+}
+
+fs::path find_shared_object(const HostCompiler& compiler, const std::string& content,
+                            Optimisation optimisation, const fs::path& cache) {
+  std::error_code failed;
+  const fs::path object = cache / (cache_key(compiler, content, optimisation) + ".so");
+  return fs::exists(object, failed) ? object : fs::path();
 }
 
 SharedObject build_shared_object(const HostCompiler& compiler, const std::string& source,

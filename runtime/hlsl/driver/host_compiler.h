@@ -18,7 +18,7 @@ struct HostCompiler {
   std::filesystem::path include_folder;  // holds kaamos/shader/prelude.h
 };
 
-enum class Optimisation { kNone, kDebug, kFull };  // -O0, -Og -g, -O2
+enum class Optimisation { kNone, kDebug, kQuick, kFull };  // -O0, -Og -g, -O1, -O2
 
 struct SharedObject {
   std::filesystem::path path;  // empty: error says why
@@ -34,6 +34,11 @@ std::optional<HostCompiler> find_host_compiler(std::string& error, const std::st
 // $KAAMOS_CACHE_DIR, else $XDG_CACHE_HOME/kaamos, else ~/.cache/kaamos, else a per-user folder in
 // /tmp.
 std::filesystem::path cache_folder();
+
+// The object that build_shared_object() would find in the cache; empty if it would build.
+std::filesystem::path find_shared_object(const HostCompiler& compiler, const std::string& content,
+                                         Optimisation optimisation,
+                                         const std::filesystem::path& cache);
 
 // Builds `source` unless it is in the cache. Many processes and threads may call it at once: the
 // object appears under its name only when it is complete.

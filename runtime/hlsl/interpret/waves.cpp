@@ -48,7 +48,6 @@ void run_wave(const Action& action, Frame& frame) {
   enter_path(action, context);
   shader::WaveCall call;
   call.op = action.stmt->wave;
-  call.components = 1;
   if (!action.operands.empty()) {
     const ir::Type* type = action.operands[0]->expr->type;
     call.scalar = static_cast<shader::WaveScalar>(type->scalar);
