@@ -39,7 +39,7 @@ const char* AccessText(const Descriptor& descriptor) {
     case DescriptorKind::kSampler:
       return "sampler";
     default:
-      return descriptor.access == DescriptorAccess::kUnorderedAccess ? "UAV" : "SRV";
+      return view_access(descriptor) == DescriptorAccess::kUnorderedAccess ? "UAV" : "SRV";
   }
 }
 

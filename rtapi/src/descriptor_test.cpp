@@ -53,6 +53,37 @@ TEST_F(DescriptorTest, HeapDescriptions) {
                "KA0621");
 }
 
+TEST_F(DescriptorTest, CountersOfStructuredBuffers) {
+  const auto flags = ResourceFlags::kAllowUnorderedAccess;
+  const Buffer counters =
+      device_.CreateBuffer({.SizeInBytes = 8196, .Flags = flags, .Name = "counters"}).value();
+  const auto uav = [&](const Buffer& counter, uint64_t offset, uint32_t stride = 16,
+                       Format format = Format::kUnknown) {
+    UnorderedAccessViewDesc desc{.Format = format, .ViewDimension = UavDimension::kBuffer};
+    desc.Buffer.StructureByteStride = stride;
+    desc.Buffer.CounterOffsetInBytes = offset;
+    return device_.CreateUnorderedAccessView(buffer_, counter, desc, slot_);
+  };
+  ASSERT_EQ(testing::MessageOf(uav(counters, 8192)), "ok");
+  EXPECT_EQ(shader::counter_address(At(0)), counters.GetGPUVirtualAddress() + 8192);
+  EXPECT_EQ(shader::view_access(At(0)), shader::DescriptorAccess::kUnorderedAccess);
+  EXPECT_EQ(At(0).stride_bytes, 16u);
+  ASSERT_EQ(testing::MessageOf(uav(Buffer(), 0)), "ok");
+  EXPECT_EQ(shader::counter_address(At(0)), 0u);
+  EXPECT_ERROR(uav(counters, 4), "KA0634", "multiple of 4096", "\"counters\"", "8196");
+  EXPECT_ERROR(uav(counters, 12288), "KA0634", "8196 bytes");
+  EXPECT_ERROR(uav(counters, UINT64_MAX - 4095), "KA0634");
+  EXPECT_ERROR(uav(Buffer(), 4096), "KA0634", "must be 0");
+  EXPECT_ERROR(uav(counters, 0, 0, Format::kR32Float), "KA0634", "not structured");
+  const Buffer plain = device_.CreateBuffer({.SizeInBytes = 64, .Name = "plain"}).value();
+  EXPECT_ERROR(uav(plain, 0), "KA0634", "\"plain\"", "kAllowUnorderedAccess");
+  const Buffer tiny = device_.CreateBuffer({.SizeInBytes = 3, .Flags = flags}).value();
+  EXPECT_ERROR(uav(tiny, 0), "KA0634");
+  const Buffer foreign =
+      testing::CreateNullDevice().CreateBuffer({.SizeInBytes = 64, .Flags = flags}).value();
+  EXPECT_ERROR(uav(foreign, 0), "KA0903");
+}
+
 TEST_F(DescriptorTest, ROOT_17_HandlesOutsideLiveHeapsAreErrors) {
   const ShaderResourceViewDesc desc = {.ViewDimension = SrvDimension::kBuffer,
                                        .Buffer = {.StructureByteStride = 16}};
@@ -113,7 +144,10 @@ TEST_F(DescriptorTest, BufferViewErrors) {
   EXPECT_ERROR(srv(Format::kR32Float, {.StructureByteStride = 4}), "KA0626");
   EXPECT_ERROR(srv(Format::kR32Float, {.Flags = raw}), "KA0626", "kR32Typeless");
   EXPECT_ERROR(srv(Format::kBC1Unorm, {}), "KA0626");
-  EXPECT_ERROR(srv(Format::kUnknown, {.StructureByteStride = 6}), "KA0625", "6 bytes");
+  EXPECT_ERROR(srv(Format::kUnknown, {.StructureByteStride = 7}), "KA0625", "7 bytes");
+  for (const uint32_t stride : {2u, 6u, 10u, 26u}) {
+    EXPECT_OK(srv(Format::kUnknown, {.StructureByteStride = stride}));
+  }
   EXPECT_ERROR(srv(Format::kUnknown, {.StructureByteStride = 2052}), "KA0625");
   EXPECT_ERROR(srv(Format::kR32Typeless, {.FirstElement = 1, .Flags = raw}), "KA0625", "16");
   EXPECT_ERROR(srv(Format::kUnknown, {.NumElements = 65, .StructureByteStride = 16}), "KA0624",
@@ -126,7 +160,7 @@ TEST_F(DescriptorTest, BufferViewErrors) {
                    {.ViewDimension = UavDimension::kBuffer,
                     .Buffer = {.StructureByteStride = 4, .CounterOffsetInBytes = 4096}},
                    slot_),
-               "KA0625", "counter");
+               "KA0634", "4096");
   auto plain = device_.CreateBuffer({.SizeInBytes = 64, .Name = "plain"}).value();
   EXPECT_ERROR(
       device_.CreateUnorderedAccessView(

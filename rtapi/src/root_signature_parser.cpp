@@ -238,24 +238,50 @@ class Parser {
     return ParseUint(out);
   }
 
-  // Reads ", name = value" until ')'. The handler parses the value, and returns false if it does
-  // not know the name.
+  // A number of an option, which may have a sign: space = +1.
+  bool ParseNumber(uint32_t& out) {
+    if (take('+') && pos_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[pos_]))) {
+      return fail("expected a digit after '+'");
+    }
+    return ParseUint(out);
+  }
+
+  static bool IsRegister(std::string_view word) {
+    constexpr std::string_view kLetters = "bBtTuUsS";
+    return word.size() > 1 && kLetters.find(word[0]) != std::string_view::npos &&
+           std::isdigit(static_cast<unsigned char>(word[1]));
+  }
+
+  // Reads "(", a register and "name = value" in any order, and ")". The handler parses the value of
+  // an option and returns its number, or -1 if it does not know the name.
   template <class Handler>
-  bool ParseOptions(Handler&& handler) {
+  bool ParseArguments(char letter, uint32_t& out, Handler&& handler) {
     uint32_t seen = 0;
-    while (take(',')) {
+    bool has_register = false;
+    if (!expect('(')) return false;
+    do {
       skip_space();
       const size_t at = pos_;
       const std::string_view name = peek_word();
+      if (IsRegister(name)) {
+        if (has_register) return fail("the register is given twice");
+        if (!ParseRegister(letter, out)) return false;
+        has_register = true;
+        continue;
+      }
       pos_ += name.size();
-      if (!expect('=')) return false;
+      if (name.empty() || !take('=')) {
+        return fail_at(at,
+                       std::string("expected a register ") + letter + "N or an option with '='");
+      }
       const int index = handler(name);
       if (index < 0) {
         return error_ ? false : fail_at(at, "unknown option");
       }
       if (seen & (1u << index)) return fail_at(at, "the option is given twice");
       seen |= 1u << index;
-    }
+    } while (take(','));
+    if (!has_register) return fail(std::string("expected a register ") + letter + "N");
     return expect(')');
   }
 
@@ -285,37 +311,31 @@ class Parser {
     RootParameter p;
     p.ParameterType = RootParameterType::k32BitConstants;
     uint32_t visibility = 0;
-    bool has_count = false, has_register = false;
-    if (!expect('(')) return false;
-    do {
-      if (take_word("num32BitConstants")) {
-        if (!expect('=') || !ParseUint(p.Constants.Num32BitValues)) return false;
+    bool has_count = false;
+    const bool ok = ParseArguments('b', p.Constants.ShaderRegister, [&](std::string_view name) {
+      if (SameWord(name, "num32BitConstants")) {
         has_count = true;
-      } else if (take_word("space")) {
-        if (!expect('=') || !ParseUint(p.Constants.RegisterSpace)) return false;
-      } else if (take_word("visibility")) {
-        if (!expect('=') || !ParseKeyword(kVisibilities, "visibility", visibility)) return false;
-      } else {
-        if (has_register) return fail("expected num32BitConstants, space or visibility");
-        if (!ParseRegister('b', p.Constants.ShaderRegister)) return false;
-        has_register = true;
+        return ParseNumber(p.Constants.Num32BitValues) ? 0 : -1;
       }
-    } while (take(','));
-    if (!has_count || !has_register) {
-      return fail("RootConstants needs num32BitConstants = N and a register bN");
-    }
+      if (SameWord(name, "space")) return ParseNumber(p.Constants.RegisterSpace) ? 1 : -1;
+      if (SameWord(name, "visibility")) {
+        return ParseKeyword(kVisibilities, "visibility", visibility) ? 2 : -1;
+      }
+      return -1;
+    });
+    if (!ok) return false;
+    if (!has_count) return fail_at(pos_ - 1, "RootConstants needs num32BitConstants = N");
     p.ShaderVisibility = static_cast<ShaderVisibility>(visibility);
     desc_.Parameters.push_back(std::move(p));
-    return expect(')');
+    return true;
   }
 
   bool ParseRootDescriptor(RootParameterType type, char letter) {
     RootParameter p;
     p.ParameterType = type;
     uint32_t visibility = 0, flags = 0;
-    if (!expect('(') || !ParseRegister(letter, p.Descriptor.ShaderRegister)) return false;
-    const bool ok = ParseOptions([&](std::string_view name) {
-      if (SameWord(name, "space")) return ParseUint(p.Descriptor.RegisterSpace) ? 0 : -1;
+    const bool ok = ParseArguments(letter, p.Descriptor.ShaderRegister, [&](std::string_view name) {
+      if (SameWord(name, "space")) return ParseNumber(p.Descriptor.RegisterSpace) ? 0 : -1;
       if (SameWord(name, "visibility")) {
         return ParseKeyword(kVisibilities, "visibility", visibility) ? 1 : -1;
       }
@@ -361,22 +381,21 @@ class Parser {
       return fail("expected CBV, SRV, UAV, Sampler or visibility");
     }
     uint32_t flags = 0;
-    if (!expect('(') || !ParseRegister(letter, range.BaseShaderRegister)) return false;
-    const bool ok = ParseOptions([&](std::string_view name) {
+    const bool ok = ParseArguments(letter, range.BaseShaderRegister, [&](std::string_view name) {
       if (SameWord(name, "numDescriptors")) {
         if (take_word("unbounded")) {
           range.NumDescriptors = kUnboundedDescriptors;
           return 0;
         }
-        return ParseUint(range.NumDescriptors) ? 0 : -1;
+        return ParseNumber(range.NumDescriptors) ? 0 : -1;
       }
-      if (SameWord(name, "space")) return ParseUint(range.RegisterSpace) ? 1 : -1;
+      if (SameWord(name, "space")) return ParseNumber(range.RegisterSpace) ? 1 : -1;
       if (SameWord(name, "offset")) {
         if (take_word("DESCRIPTOR_RANGE_OFFSET_APPEND")) {
           range.OffsetInDescriptorsFromTableStart = kDescriptorRangeOffsetAppend;
           return 2;
         }
-        return ParseUint(range.OffsetInDescriptorsFromTableStart) ? 2 : -1;
+        return ParseNumber(range.OffsetInDescriptorsFromTableStart) ? 2 : -1;
       }
       if (SameWord(name, "flags")) return ParseFlags(kRangeFlags, "range flag", flags) ? 3 : -1;
       return -1;
@@ -388,20 +407,19 @@ class Parser {
 
   bool ParseStaticSampler() {
     StaticSamplerDesc s;
-    if (!expect('(') || !ParseRegister('s', s.ShaderRegister)) return false;
     auto keyword = [&](std::span<const Keyword> words, const char* kind, auto& out, int index) {
       uint32_t value = 0;
       if (!ParseKeyword(words, kind, value)) return -1;
       out = static_cast<std::remove_reference_t<decltype(out)>>(value);
       return index;
     };
-    const bool ok = ParseOptions([&](std::string_view name) {
+    const bool ok = ParseArguments('s', s.ShaderRegister, [&](std::string_view name) {
       if (SameWord(name, "filter")) return keyword(kFilters, "filter", s.Filter, 0);
       if (SameWord(name, "addressU")) return keyword(kAddressModes, "mode", s.AddressU, 1);
       if (SameWord(name, "addressV")) return keyword(kAddressModes, "mode", s.AddressV, 2);
       if (SameWord(name, "addressW")) return keyword(kAddressModes, "mode", s.AddressW, 3);
       if (SameWord(name, "mipLODBias")) return ParseFloat(s.MipLODBias) ? 4 : -1;
-      if (SameWord(name, "maxAnisotropy")) return ParseUint(s.MaxAnisotropy) ? 5 : -1;
+      if (SameWord(name, "maxAnisotropy")) return ParseNumber(s.MaxAnisotropy) ? 5 : -1;
       if (SameWord(name, "comparisonFunc")) {
         return keyword(kComparisons, "comparison", s.ComparisonFunc, 6);
       }
@@ -410,7 +428,7 @@ class Parser {
       }
       if (SameWord(name, "minLOD")) return ParseFloat(s.MinLOD) ? 8 : -1;
       if (SameWord(name, "maxLOD")) return ParseFloat(s.MaxLOD) ? 9 : -1;
-      if (SameWord(name, "space")) return ParseUint(s.RegisterSpace) ? 10 : -1;
+      if (SameWord(name, "space")) return ParseNumber(s.RegisterSpace) ? 10 : -1;
       if (SameWord(name, "visibility")) {
         return keyword(kVisibilities, "visibility", s.ShaderVisibility, 11);
       }

@@ -173,6 +173,30 @@ TEST(RootSignatureText, EmptyAndZeroFlags) {
   EXPECT_OK(ParseRootSignature("RootFlags(0)"));
 }
 
+TEST(RootSignatureText, ArgumentsInAnyOrderAndSigns) {
+  const auto d = ParseRootSignature(
+      "RootConstants(space=+2, visibility=SHADER_VISIBILITY_ALL, num32BitConstants=+61, b3),"
+      "SRV(flags=DATA_VOLATILE, space=1, t4), DescriptorTable(visibility=SHADER_VISIBILITY_ALL,"
+      "UAV(numDescriptors=+5, offset=+7, u6)),"
+      "StaticSampler(filter=FILTER_ANISOTROPIC, maxAnisotropy=+4, mipLODBias=+1.5, s8, minLOD=-1)");
+  ASSERT_EQ(testing::MessageOf(d), "ok");
+  ASSERT_EQ(d->Parameters.size(), 3u);
+  EXPECT_EQ(d->Parameters[0].Constants.Num32BitValues, 61u);
+  EXPECT_EQ(d->Parameters[0].Constants.ShaderRegister, 3u);
+  EXPECT_EQ(d->Parameters[0].Constants.RegisterSpace, 2u);
+  EXPECT_EQ(d->Parameters[1].Descriptor.ShaderRegister, 4u);
+  EXPECT_EQ(d->Parameters[1].Descriptor.RegisterSpace, 1u);
+  const DescriptorRange& range = d->Parameters[2].DescriptorTable.Ranges.at(0);
+  EXPECT_EQ(range.BaseShaderRegister, 6u);
+  EXPECT_EQ(range.NumDescriptors, 5u);
+  EXPECT_EQ(range.OffsetInDescriptorsFromTableStart, 7u);
+  ASSERT_EQ(d->StaticSamplers.size(), 1u);
+  EXPECT_EQ(d->StaticSamplers[0].ShaderRegister, 8u);
+  EXPECT_EQ(d->StaticSamplers[0].MaxAnisotropy, 4u);
+  EXPECT_EQ(d->StaticSamplers[0].MipLODBias, 1.5f);
+  EXPECT_EQ(d->StaticSamplers[0].MinLOD, -1.0f);
+}
+
 struct BadText {
   const char* text;
   const char* column;
@@ -190,7 +214,11 @@ INSTANTIATE_TEST_SUITE_P(
                       BadText{"CBV(b0, space=x)", "15"}, BadText{"CBV(b0, space=1, space=2)", "18"},
                       BadText{"CBV(b99999999999)", "6"}, BadText{"RootFlags(NOT_A_FLAG)", "11"},
                       BadText{"RootFlags(0), RootFlags(0)", "24"},
-                      BadText{"RootConstants(b0)", "17"},
+                      BadText{"RootConstants(b0)", "17"}, BadText{"CBV(space=1)", "12"},
+                      BadText{"CBV(b0, b1)", "9"}, BadText{"CBV(b0, space=+)", "16"},
+                      BadText{"CBV(b0, space=+ 1)", "16"}, BadText{"CBV(b0, space=-1)", "15"},
+                      BadText{"RootConstants(b0, num32BitConstants=1, num32BitConstants=2)", "40"},
+                      BadText{"SRV(u0)", "5"}, BadText{"StaticSampler(filter)", "15"},
                       BadText{"RootConstants(num32BitConstants=1)", "34"},
                       BadText{"DescriptorTable(Foo(b0))", "17"}, BadText{"DescriptorTable()", "17"},
                       BadText{"StaticSampler(s0, filter=LINEAR)", "26"},

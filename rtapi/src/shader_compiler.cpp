@@ -33,6 +33,10 @@ hlsl::FrontendOptions frontend_options(const ShaderCompileOptions& options) {
   out.hlsl_version = options.HlslVersion == "2018" ? 2018 : 2021;
   out.row_major = options.RowMajorMatrices;
   out.payload_qualifiers = options.PayloadQualifiers;
+  out.native_16bit = options.Native16BitTypes;
+  out.external_linkage = options.ExternalLinkage;
+  out.check_access = options.CheckAccess;
+  out.embed_source = options.EmbedSource;
   out.strict = options.Strict;
   return out;
 }
@@ -49,9 +53,10 @@ ShaderDiagnosticSeverity severity_of(hlsl::Severity severity) {
 }
 
 std::vector<ShaderDiagnostic> convert(const hlsl::DiagnosticEngine& engine,
-                                      const hlsl::SourceManager& sources) {
+                                      const hlsl::SourceManager& sources, bool only_errors) {
   std::vector<ShaderDiagnostic> out;
   for (const hlsl::Diagnostic& diagnostic : engine.diagnostics()) {
+    if (only_errors && diagnostic.severity != hlsl::Severity::kError) continue;
     const hlsl::ResolvedLocation place = sources.resolve(diagnostic.location);
     out.push_back({severity_of(diagnostic.severity), ErrorId{static_cast<uint16_t>(diagnostic.id)},
                    std::string(place.path), place.line, place.column, diagnostic.message,
@@ -81,6 +86,7 @@ void build(const ShaderCompileOptions& options, const hlsl::ir::Module& module,
   if (!options.CacheDirectory.empty()) settings.cache = options.CacheDirectory;
   settings.spirv = options.Spirv;
   settings.quick = options.Quick && !options.Debug;
+  settings.wide = options.WideThreads;
   const hlsl::SharedObject object = hlsl::build_library(*compiler, module, settings);
   if (object.error) {
     out.Status = failed(options, object.error);
@@ -130,13 +136,14 @@ ShaderCompilation CompileShaderLibrary(const ShaderCompileOptions& options) {
   auto module = hlsl::compile_to_ir(frontend_options(options), sources, diagnostics);
 
   ShaderCompilation out;
-  out.Diagnostics = convert(diagnostics, sources);
+  out.Diagnostics = convert(diagnostics, sources, options.NoWarnings);
   out.Dependencies = sources.loaded_paths();
   if (!module || (options.WarningsAsErrors && diagnostics.warning_count() > 0)) {
     out.Status = detail::MakeError(detail::Id::kShaderErrors, options.File, ":\n",
                                    hlsl::render_all(diagnostics, sources));
     return out;
   }
+  if (options.CheckOnly) return out;
   if (options.Interpret) {
     interpret(options, std::move(module), out);
   } else {

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 
 #include "rtapi/src/error_table.h"
+#include "rtapi/src/file_kind.h"
 #include "rtapi/src/shader_library_impl.h"
 
 namespace rtapi {
@@ -137,15 +138,15 @@ Result<ShaderLibrary> LoadShaderLibraryFromFile(const std::string& path) {
   void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!handle) {
     const char* reason = dlerror();
-    return MakeError(Id::kShaderLibrary, Quoted(path),
-                     " cannot be loaded: ", reason ? reason : "unknown reason");
+    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::DescribeFile(file),
+                     " and cannot be loaded: ", reason ? reason : "unknown reason");
   }
   std::shared_ptr<void> owner(handle, [](void* h) { dlclose(h); });
   auto entry =
       reinterpret_cast<shader::LibraryEntryPointFn>(dlsym(handle, shader::kLibraryEntryPoint));
   if (!entry) {
-    return MakeError(Id::kShaderLibrary, Quoted(path), " has no symbol ",
-                     shader::kLibraryEntryPoint,
+    return MakeError(Id::kShaderLibrary, Quoted(path), " is ", detail::DescribeFile(file),
+                     " without the symbol ", shader::kLibraryEntryPoint,
                      ", so it is not a shader library made by kaamos-hlsl");
   }
   return Load(entry(), std::move(owner), path);

@@ -24,6 +24,8 @@ struct BufferView {
   uint32_t stride;
   bool raw;
   DescriptorAccess access;
+  const Buffer* counter = nullptr;
+  uint64_t counter_offset = 0;
 };
 
 Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descriptor& value) {
@@ -58,9 +60,10 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
       return MakeError(Id::kViewFormat, "structured view of ", name, " has format ",
                        static_cast<uint32_t>(view.format), "; it must be kUnknown");
     }
-    if (view.stride % 4 != 0 || view.stride > 2048) {
+    // Elements of 16-bit types have strides such as 2, 6 and 10.
+    if (view.stride % 2 != 0 || view.stride > 2048) {
       return MakeError(Id::kViewStride, "structured view of ", name, " has a stride of ",
-                       view.stride, " bytes; it must be a multiple of 4, at most 2048");
+                       view.stride, " bytes; it must be a multiple of 2, at most 2048");
     }
     out.kind = DescriptorKind::kStructuredBuffer;
     out.stride_bytes = view.stride;
@@ -79,6 +82,36 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
   out.format = static_cast<uint32_t>(view.format);
   out.stride_bytes = info.bytes;
   return uint32_t{info.bytes};
+}
+
+constexpr uint64_t kCounterAlignment = 4096;  // D3D12_UAV_COUNTER_PLACEMENT_ALIGNMENT
+
+Status WriteCounter(const std::shared_ptr<DeviceImpl>& device, const BufferView& view,
+                    Descriptor& descriptor) {
+  const uint64_t offset = view.counter_offset;
+  if (view.counter == nullptr) {
+    if (offset == 0) return {};
+    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                     ", but no buffer for a counter is given; it must be 0 then");
+  }
+  const Buffer& counter = *view.counter;
+  if (Status s = CheckHandle(device, counter, "the counter's buffer"); !s.ok()) return s;
+  const std::string name = Named("buffer", counter.name());
+  if (descriptor.kind != DescriptorKind::kStructuredBuffer) {
+    return MakeError(Id::kViewCounter, "a counter in ", name,
+                     " is given for a view that is not structured");
+  }
+  if (!HasAny(counter.GetDesc().Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kViewCounter, name,
+                     ", which holds the counter, was created without kAllowUnorderedAccess");
+  }
+  if (offset % kCounterAlignment != 0 || counter.size() < 4 || offset > counter.size() - 4) {
+    return MakeError(Id::kViewCounter, "CounterOffsetInBytes is ", offset,
+                     "; it must be a multiple of 4096, with 4 bytes from there on in ", name,
+                     ", which has ", counter.size(), " bytes");
+  }
+  set_counter(descriptor, counter.GetGPUVirtualAddress() + offset);
+  return {};
 }
 
 Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& buffer,
@@ -104,6 +137,7 @@ Status WriteBufferView(const std::shared_ptr<DeviceImpl>& device, const Buffer& 
   descriptor.access = view.access;
   descriptor.address = buffer.GetGPUVirtualAddress() + view.first * *element;
   descriptor.size_bytes = count * *element;
+  if (Status s = WriteCounter(device, view, descriptor); !s.ok()) return s;
   return WriteSlot(*device, dest, descriptor);
 }
 
@@ -416,6 +450,12 @@ Status Device::CreateShaderResourceView(const Texture& texture, CpuDescriptorHan
 Status Device::CreateUnorderedAccessView(const Resource& resource,
                                          const UnorderedAccessViewDesc& desc,
                                          CpuDescriptorHandle dest) const {
+  return CreateUnorderedAccessView(resource, Buffer(), desc, dest);
+}
+
+Status Device::CreateUnorderedAccessView(const Resource& resource, const Buffer& counter,
+                                         const UnorderedAccessViewDesc& desc,
+                                         CpuDescriptorHandle dest) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateUnorderedAccessView on an empty device");
   if (std::holds_alternative<std::monostate>(resource)) return WriteSlot(*impl_, dest, {});
   const bool wants_buffer = desc.ViewDimension == UavDimension::kBuffer;
@@ -426,15 +466,16 @@ Status Device::CreateUnorderedAccessView(const Resource& resource,
   }
   if (wants_buffer) {
     const BufferUav& b = desc.Buffer;
-    if (b.CounterOffsetInBytes != 0) {
-      return MakeError(Id::kViewStride, "CounterOffsetInBytes is ", b.CounterOffsetInBytes,
-                       "; it must be 0, because append and counter buffers are not supported");
-    }
     return WriteBufferView(
         impl_, std::get<Buffer>(resource),
         {desc.Format, b.FirstElement, b.NumElements, b.StructureByteStride,
-         HasAny(b.Flags, BufferUavFlags::kRaw), DescriptorAccess::kUnorderedAccess},
+         HasAny(b.Flags, BufferUavFlags::kRaw), DescriptorAccess::kUnorderedAccess,
+         counter ? &counter : nullptr, b.CounterOffsetInBytes},
         dest);
+  }
+  if (counter) {
+    return MakeError(Id::kViewCounter, "a counter in ", Named("buffer", counter.name()),
+                     " is given for a view of a texture");
   }
   return WriteTextureView(impl_, std::get<Texture>(resource), FromUav(desc),
                           kDefaultShader4ComponentMapping, dest);

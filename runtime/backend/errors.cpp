@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdio>
 #include <iterator>
 
 namespace kaamos::runtime {
@@ -53,10 +54,18 @@ Id removal_id(shader::RemovalReason reason) {
       return Id::kShaderFault;
     case shader::RemovalReason::kStepLimit:
       return Id::kStepLimit;
+    case shader::RemovalReason::kMultisampled:
+      return Id::kMultisampled;
     case shader::RemovalReason::kOther:
       break;
   }
   return Id::kShaderRemoval;
+}
+
+std::string hexadecimal(uint64_t address) {
+  char text[2 + 16 + 1];
+  std::snprintf(text, sizeof(text), "0x%llx", static_cast<unsigned long long>(address));
+  return text;
 }
 
 rtapi::Message make_message(Id id, const std::string& detail) {

@@ -37,6 +37,10 @@ std::span<const MessageEntry> message_table();
 
 // "KA0790 title: detail". `detail` says what, where, the actual and the allowed value, what to do.
 rtapi::Error make_error(Id id, const std::string& detail);
+// "0x1000": how messages write an address.
+std::string hexadecimal(uint64_t address);
+
+inline constexpr char kMultisampledUse[] = "it used a Texture2DMS or RWTexture2DMS";
 // What ended a dispatch.
 Id removal_id(shader::RemovalReason reason);
 // With a code that the row cannot know.

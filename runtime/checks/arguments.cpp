@@ -201,7 +201,7 @@ class ArgumentCheck {
     const bool writable = binding.register_class == RegisterClass::kUnorderedAccess;
     const bool view =
         wanted != DescriptorKind::kSampler && wanted != DescriptorKind::kConstantBuffer;
-    if (view && writable != (descriptor.access == DescriptorAccess::kUnorderedAccess)) {
+    if (view && writable != (view_access(descriptor) == DescriptorAccess::kUnorderedAccess)) {
       report(Id::kRecordArgumentKind,
              place + (writable ? "a shader resource view, but the shader declares an unordered "
                                  "access view."

@@ -231,10 +231,10 @@ CountedOutcome end_dispatch(RunningDispatch& dispatch) {
   result.counters = dispatch.counters;
   result.reached = std::move(dispatch.reached);
   if (const uint64_t address = dispatch.unknown_structure; address != 0) {
-    result.warnings.push_back(
-        {runtime::Id::kNoTopLevel, "there is no top level at address " + std::to_string(address) +
-                                       "; the rays missed (" + dispatch.label +
-                                       "). Was one built, and not overwritten or freed?"});
+    result.warnings.push_back({runtime::Id::kNoTopLevel,
+                               "there is no top level at address " + runtime::hexadecimal(address) +
+                                   "; the rays missed (" + dispatch.label +
+                                   "). Was one built, and not overwritten or freed?"});
   }
   const RecordTable one_record;
   const auto warn = [&](const char* name, runtime::RecordKind kind, const RecordTable& table,

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 
+#include "runtime/backend/errors.h"
 #include "runtime/backend/fault_signals.h"
 
 namespace kaamos::embree {
@@ -124,12 +125,6 @@ const char* name_of(int signal_number) {
   }
 }
 
-std::string hexadecimal(uintptr_t value) {
-  char text[2 + 2 * sizeof(value) + 1];
-  std::snprintf(text, sizeof(text), "0x%llx", static_cast<unsigned long long>(value));
-  return text;
-}
-
 std::string detail_of(const Worker& worker) {
   switch (worker.fault_reason) {
     case shader::RemovalReason::kRecursionDepth:
@@ -140,12 +135,14 @@ std::string detail_of(const Worker& worker) {
       return "calls are nested too deep";
     case shader::RemovalReason::kFault:
       return std::string(name_of(worker.fault_signal)) + " at address " +
-             hexadecimal(worker.fault_address) +
+             runtime::hexadecimal(worker.fault_address) +
              ". A root descriptor, a table handle or a record argument may name memory that is "
              "not "
              "there";
     case shader::RemovalReason::kStepLimit:
       return "it may loop for ever. Otherwise raise ShaderCompileOptions::InterpretStepLimit";
+    case shader::RemovalReason::kMultisampled:
+      return runtime::kMultisampledUse;
     default:
       return "it called for it";
   }

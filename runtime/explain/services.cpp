@@ -140,8 +140,8 @@ shader::Services make_services() {
                          const shader::Texel& value) {
     texture_services().store_texel(host_copy(d), at, value);
   };
-  table.texel_address = [](const shader::Descriptor& d, const int32_t at[4]) {
-    return texture_services().texel_address(host_copy(d), at);
+  table.texel_address = [](const shader::Descriptor& d, const int32_t at[4], uint32_t bytes) {
+    return texture_services().texel_address(host_copy(d), at, bytes);
   };
   table.texture_dimensions = [](const shader::Descriptor& d, uint32_t mip) {
     return texture_services().texture_dimensions(host_copy(d), mip);

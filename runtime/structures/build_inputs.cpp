@@ -114,9 +114,9 @@ rtapi::Status outside(uint32_t geometry, const char* what, uint64_t address, uin
                       uint64_t available) {
   return make_error(
       Id::kInputOutOfBounds,
-      "geometry " + std::to_string(geometry) + ", " + what + " at address " +
-          std::to_string(address) + " needs " + std::to_string(bytes) +
-          " bytes, but its buffer has " + std::to_string(available) +
+      "geometry " + std::to_string(geometry) + ", " + what + " at address " + hexadecimal(address) +
+          " needs " + std::to_string(bytes) + " bytes, but its buffer has " +
+          std::to_string(available) +
           " from there on. Check address, count and stride, and that the buffer is alive.");
 }
 

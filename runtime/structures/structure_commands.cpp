@@ -107,7 +107,7 @@ rtapi::Status guarded(const BuildLevel& build_level, const AccelerationStructure
   } catch (const std::bad_alloc&) {
     return make_error(Id::kOutOfMemory,
                       "copies of the inputs of the acceleration structure at address " +
-                          std::to_string(structure.address) + " could not be allocated.");
+                          hexadecimal(structure.address) + " could not be allocated.");
   }
 }
 

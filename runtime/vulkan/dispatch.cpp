@@ -93,7 +93,7 @@ rtapi::Status RaysDispatch::find_table(TableIndex index, const char* name, runti
   if (table.source.host != nullptr) return {};
   return runtime::make_error(runtime::Id::kShaderFault,
                              "the " + std::string(name) + " table at address " +
-                                 std::to_string(address) + ", " + std::to_string(size_bytes) +
+                                 runtime::hexadecimal(address) + ", " + std::to_string(size_bytes) +
                                  " bytes, is not inside a live buffer (" + label_ + ").");
 }
 
@@ -181,10 +181,10 @@ void RaysDispatch::warn_of_structure() {
   DispatchFeedback status;
   std::memcpy(&status, buffer_->host(), sizeof(status));
   if (status.unknown_structure == 0) return;
-  result_.warnings.push_back({runtime::Id::kNoTopLevel,
-                              "there is no top level at address " +
-                                  std::to_string(status.unknown_structure) + "; the rays missed (" +
-                                  label_ + "). Was one built, and not overwritten or freed?"});
+  result_.warnings.push_back(
+      {runtime::Id::kNoTopLevel,
+       "there is no top level at address " + runtime::hexadecimal(status.unknown_structure) +
+           "; the rays missed (" + label_ + "). Was one built, and not overwritten or freed?"});
 }
 
 GridLimits RaysDispatch::limits() const {
@@ -271,11 +271,9 @@ constexpr char kWhoseAddress[] =
     ", where there is no memory. Check root descriptors, table handles and record arguments";
 
 rtapi::Error fault_at(uint64_t address, const std::string& label) {
-  char number[2 + 16 + 1];
-  std::snprintf(number, sizeof(number), "0x%llx", static_cast<unsigned long long>(address));
   return runtime::make_error(
       runtime::Id::kShaderFault,
-      std::string("it accessed address ") + number + kWhoseAddress + " (" + label + ").");
+      "it accessed address " + runtime::hexadecimal(address) + kWhoseAddress + " (" + label + ").");
 }
 
 // Whether a shader removed the device, and why.
@@ -303,6 +301,9 @@ rtapi::Status status_of(const GpuBuffer& buffer, uint32_t declared_depth, uint32
       break;
     case shader::RemovalReason::kFault:
       text = std::string("it accessed an address") + kWhoseAddress;
+      break;
+    case shader::RemovalReason::kMultisampled:
+      text = runtime::kMultisampledUse;
       break;
     case shader::RemovalReason::kOther:
     case shader::RemovalReason::kStepLimit:

@@ -96,6 +96,11 @@ void add_table(Fixture& f, const shader::BindingDesc& b) {
   f.buffers.emplace_back();
 }
 
+// Root descriptors have no counters.
+bool has_counter(const shader::BindingDesc& binding) {
+  return std::string_view(binding.name).find("counted") != std::string_view::npos;
+}
+
 void add_binding(Fixture& f, const shader::BindingDesc& b) {
   const bool writable = b.register_class == shader::RegisterClass::kUnorderedAccess;
   if (b.register_class == shader::RegisterClass::kSampler) {
@@ -109,7 +114,7 @@ void add_binding(Fixture& f, const shader::BindingDesc& b) {
     f.buffers.push_back(f.scene.top_level);
   } else if ((b.type == shader::BindingType::kRawBuffer ||
               b.type == shader::BindingType::kStructuredBuffer) &&
-             b.count == 1) {
+             b.count == 1 && !has_counter(b)) {
     f.desc.Parameters.push_back(writable ? RootParameter::Uav(b.register_index, b.space)
                                          : RootParameter::Srv(b.register_index, b.space));
     f.buffers.push_back(is_results(b) ? f.results : f.resources.buffer(writable));

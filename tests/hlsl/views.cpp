@@ -39,6 +39,7 @@ TextureKind kind_of(const std::string& name) {
     kind.uav = UavDimension::kTexture2DArray;
   }
   if (says("_uint")) kind.format = Format::kR32Uint;
+  if (says("_pairs")) kind.format = says("_signed") ? Format::kR32G32Sint : Format::kR32G32Uint;
   return kind;
 }
 
@@ -97,6 +98,10 @@ Texture CountingResources::texture(const std::string& name, bool writable) {
       put([mip](uint32_t x, uint32_t y, uint32_t z) {
         return std::array<uint32_t, 1>{x + 10 * y + 100 * mip + 1000 * z};
       });
+    } else if (kind.format != Format::kR32G32B32A32Float) {
+      put([mip](uint32_t x, uint32_t y, uint32_t z) {
+        return std::array<uint32_t, 2>{x + 10 * y + 100 * mip + 1000 * z, 1};
+      });
     } else {
       put([mip](uint32_t x, uint32_t y, uint32_t z) {
         return std::array<float, 4>{float(x), float(y), float(mip), float(z)};
@@ -126,9 +131,12 @@ void CountingResources::texture_view(const std::string& name, bool writable,
 void CountingResources::buffer_view(const shader::BindingDesc& b, const Buffer& buffer,
                                     CpuDescriptorHandle handle) {
   const bool raw = b.type == shader::BindingType::kRawBuffer;
-  const Format format = b.type == shader::BindingType::kTypedBuffer ? Format::kR32Uint
-                        : raw                                       ? Format::kR32Typeless
-                                                                    : Format::kUnknown;
+  const Format typed = kind_of(b.name != nullptr ? b.name : "").format;
+  const bool pairs = typed == Format::kR32G32Uint || typed == Format::kR32G32Sint;
+  const Format format = b.type == shader::BindingType::kTypedBuffer
+                            ? (pairs ? typed : Format::kR32Uint)
+                        : raw ? Format::kR32Typeless
+                              : Format::kUnknown;
   const uint32_t stride = b.type == shader::BindingType::kStructuredBuffer ? b.size_bytes : 0;
   if (b.register_class == shader::RegisterClass::kConstantBuffer) {
     device_.CreateConstantBufferView({buffer.GetGPUVirtualAddress(), 1024}, handle).value();
@@ -138,7 +146,16 @@ void CountingResources::buffer_view(const shader::BindingDesc& b, const Buffer& 
     view.Format = format;
     view.Buffer.Flags = raw ? BufferUavFlags::kRaw : BufferUavFlags::kNone;
     view.Buffer.StructureByteStride = stride;
-    device_.CreateUnorderedAccessView(buffer, view, handle).value();
+    const std::string name = b.name != nullptr ? b.name : "";
+    Buffer counter;
+    if (name.find("counted") != std::string::npos) {
+      const uint32_t start = name.find("_from_8") != std::string::npos ? 8 : 0;
+      counter = CreateDefaultBuffer(device_, queue_, std::as_bytes(std::span(&start, 1)),
+                                    ResourceFlags::kAllowUnorderedAccess)
+                    .value();
+      buffers_.push_back(counter);
+    }
+    device_.CreateUnorderedAccessView(buffer, counter, view, handle).value();
   } else {
     ShaderResourceViewDesc view;
     view.ViewDimension = SrvDimension::kBuffer;

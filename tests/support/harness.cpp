@@ -15,7 +15,8 @@ namespace {
 constexpr char kRootSignature[] =
     "UAV(u0), RootConstants(b0, num32BitConstants = 2), SRV(t0), SRV(t1),"
     "DescriptorTable(SRV(t0, space = 1, numDescriptors = 5),"
-    "UAV(u0, space = 1, numDescriptors = 2), CBV(b0, space = 1)),"
+    "UAV(u0, space = 1, numDescriptors = 2), CBV(b0, space = 1),"
+    "UAV(u2, space = 1, numDescriptors = 3)),"
     "DescriptorTable(Sampler(s0, space = 1)),"
     "StaticSampler(s1, space = 1, filter = FILTER_MIN_MAG_MIP_POINT)";
 constexpr char kLocalSignature[] =

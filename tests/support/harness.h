@@ -56,6 +56,9 @@ class Call : public testing::TestWithParam<std::string> {
     kTypedOut,
     kTextureOut,
     kConstants,
+    kAppended,
+    kConsumed,
+    kCounted,
     kSlots
   };
   rtapi::CpuDescriptorHandle slot(Slot slot) { return views_.GetCPUDescriptorHandle(slot); }

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <span>
+#include <utility>
+
 #include "tests/support/harness.h"
 
 namespace {
@@ -122,6 +126,63 @@ TEST_P(Descriptors, TypedUav) {
   KAAMOS_SUPPORTED(device_.CreateUnorderedAccessView(words, view, slot(kTypedOut)));
   compute("ToTypedView");
   EXPECT_EQ(read(words), numbers(5));
+}
+
+TEST_P(Descriptors, CounterUav) {
+  constexpr uint64_t kCounterAt = 4096;
+  // The appended buffer's counter is behind its elements, that of the consumed one on its own.
+  const Buffer appended = buffer(kCounterAt + 4);
+  const Buffer counters = buffer(2 * kCounterAt + 4);
+  const Buffer counted = buffer(32);
+  std::vector<uint32_t> pairs(2 * kCount);
+  for (uint32_t i = 0; i < pairs.size(); ++i) pairs[i] = i;
+  const Buffer consumed = CreateDefaultBuffer(device_, queue_, std::as_bytes(std::span(pairs)),
+                                              ResourceFlags::kAllowUnorderedAccess)
+                              .value();
+  const auto view = [](uint32_t stride, uint32_t count, uint64_t counter) {
+    UnorderedAccessViewDesc desc;
+    desc.ViewDimension = UavDimension::kBuffer;
+    desc.Buffer.StructureByteStride = stride;
+    desc.Buffer.NumElements = count;
+    desc.Buffer.CounterOffsetInBytes = counter;
+    return desc;
+  };
+  KAAMOS_SUPPORTED(device_.CreateUnorderedAccessView(appended, appended, view(8, 10, kCounterAt),
+                                                     slot(kAppended)));
+  device_.CreateUnorderedAccessView(consumed, counters, view(8, 0, 0), slot(kConsumed)).value();
+  device_.CreateUnorderedAccessView(counted, counters, view(4, 0, 2 * kCounterAt), slot(kCounted))
+      .value();
+  // Where the counters start.
+  CommandList list = device_.CreateCommandList().value();
+  const Buffer first = upload({kCount, 2, 0});
+  list.CopyBufferRegion(counters, 0, first, 0, 4);
+  list.CopyBufferRegion(appended, kCounterAt, first, 4, 4);
+  list.CopyBufferRegion(counters, 2 * kCounterAt, first, 8, 4);
+  queue_.ExecuteAndWait(list).value();
+  EXPECT_EQ(compute("ThroughCounters"), std::vector<uint32_t>(kCount, 10 * 1000 + 8));
+
+  const auto out = read(appended);
+  EXPECT_EQ(out[kCounterAt / 4], 2 + kCount);
+  std::vector<std::pair<uint32_t, uint32_t>> moved, wanted;
+  for (uint32_t i = 0; i < kCount; ++i) {
+    moved.emplace_back(out[2 * (2 + i)], out[2 * (2 + i) + 1]);
+    wanted.emplace_back(2 * i + 100, 2 * i + 1);
+  }
+  std::sort(moved.begin(), moved.end());
+  EXPECT_EQ(moved, wanted);
+  EXPECT_EQ(out[0], 0u);
+  EXPECT_EQ(out[2 * (2 + kCount)], 0u);
+  EXPECT_EQ(read(counters)[0], 0u);
+  EXPECT_EQ(read(counters)[2 * kCounterAt / 4], kCount);
+  auto numbered = read(counted);
+  std::sort(numbered.begin(), numbered.end());
+  EXPECT_EQ(numbered, numbers(50));
+
+  device_.CreateUnorderedAccessView(counted, view(4, 0, 0), slot(kCounted)).value();
+  const auto without = compute("WithoutCounter");
+  EXPECT_EQ(without[0], 0u);
+  EXPECT_EQ(without[1], 0u);
+  EXPECT_EQ(without[2], 7u);
 }
 
 TEST_P(Descriptors, TextureUav) {

@@ -18,6 +18,9 @@ Texture2D<float4> g_texture : register(t3, space1);
 RaytracingAccelerationStructure g_scene_view : register(t4, space1);
 RWBuffer<uint> g_typed_out : register(u0, space1);
 RWTexture2D<float4> g_texture_out : register(u1, space1);
+AppendStructuredBuffer<uint2> g_appended : register(u2, space1);
+ConsumeStructuredBuffer<uint2> g_consumed : register(u3, space1);
+RWStructuredBuffer<uint> g_counted : register(u4, space1);
 ConstantBuffer<Constants> g_constants_view : register(b0, space1);
 SamplerState g_sampler : register(s0, space1);
 SamplerState g_static_sampler : register(s1, space1);
@@ -63,6 +66,26 @@ void FromConstantView(uint3 id : SV_DispatchThreadID) {
 
 [shader("compute")] [numthreads(8, 1, 1)]
 void ToTypedView(uint3 id : SV_DispatchThreadID) { g_typed_out[id.x] = id.x + 5; }
+
+// Each thread moves a pair from one buffer to the other, and takes a number.
+[shader("compute")] [numthreads(8, 1, 1)]
+void ThroughCounters(uint3 id : SV_DispatchThreadID) {
+  const uint2 pair = g_consumed.Consume();
+  g_appended.Append(pair + uint2(100, 0));
+  g_counted[id.x] = 50 + g_counted.IncrementCounter();
+  uint count, stride;
+  g_appended.GetDimensions(count, stride);
+  g_out[id.x] = count * 1000 + stride;
+}
+
+// What lacks a counter has one that is always 0.
+[shader("compute")] [numthreads(1, 1, 1)]
+void WithoutCounter() {
+  g_counted[0] = 7;
+  g_out[0] = g_counted.IncrementCounter();
+  g_out[1] = g_counted.IncrementCounter();
+  g_out[2] = g_counted[0];
+}
 
 [shader("compute")] [numthreads(8, 1, 1)]
 void ToTexture(uint3 id : SV_DispatchThreadID) {

@@ -210,8 +210,8 @@ inline constexpr bool kIsFlags<BufferUavFlags> = true;
 struct BufferUav {
   uint64_t FirstElement = 0;          ///< in elements, not bytes
   uint32_t NumElements = 0;           ///< 0: to the end of the buffer
-  uint32_t StructureByteStride = 0;   ///< bytes: a multiple of 4 up to 2048; 0: not structured
-  uint64_t CounterOffsetInBytes = 0;  ///< must be 0: append counters are not supported (KA0625)
+  uint32_t StructureByteStride = 0;   ///< bytes: a multiple of 2 up to 2048; 0: not structured
+  uint64_t CounterOffsetInBytes = 0;  ///< of the counter in its buffer: a multiple of 4096
   BufferUavFlags Flags = BufferUavFlags::kNone;  ///< kRaw or none
 };
 /// One mip level of a 1-D texture. [D3D12: D3D12_TEX1D_UAV]

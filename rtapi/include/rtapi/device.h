@@ -201,6 +201,13 @@ class Device {
   /// slices; on Vulkan KA0956 too many views, KA0961 no such view.
   Status CreateUnorderedAccessView(const Resource& resource, const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
+  /// The same of a structured buffer with a counter, for HLSL's IncrementCounter, Append and
+  /// Consume: 4 bytes at desc.Buffer.CounterOffsetInBytes of `counter`, which must live and may be
+  /// the viewed buffer itself. Shaders and copies may write it. [D3D12: CreateUnorderedAccessView]
+  /// @errors as of the overload without one; KA0634 the counter.
+  Status CreateUnorderedAccessView(const Resource& resource, const Buffer& counter,
+                                   const UnorderedAccessViewDesc& desc,
+                                   CpuDescriptorHandle dest) const;
   /// A view of mip 0 of the whole texture, with its own format and dimension.
   /// @errors as of the overload with a desc: KA0622, KA0626, KA0627, KA0903, KA0904.
   Status CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const;
@@ -232,6 +239,13 @@ class Device {
   /// The same of HLSL's root signature language, see ParseRootSignature.
   /// @errors KA0608 the text; else as of the overload with a desc: KA0600-0610, KA0904.
   Result<RootSignature> CreateRootSignature(std::string_view hlsl_text) const;
+  /// The same of a root signature in a compiled library: the GlobalRootSignature or
+  /// LocalRootSignature subobject of that name, or the [RootSignature] of the entry point of that
+  /// name. Without a name, the library's only global one.
+  /// [D3D12: CreateRootSignature, CreateRootSignatureFromSubobjectInLibrary]
+  /// @errors KA0633 there is none, there are several, or its text cannot be used; KA0904.
+  Result<RootSignature> CreateRootSignature(const ShaderLibrary& library,
+                                            std::string_view name = {}) const;
   /// Makes a collection or a ray tracing pipeline. All rules that the description alone can break
   /// are checked here: exports, hit groups, associations, configs, and that root signatures feed
   /// every resource of every shader. What the description holds is copied; the result keeps its

@@ -33,11 +33,18 @@ struct ShaderCompileOptions {
   std::optional<uint32_t> AutoBindingSpace = {};     ///< -auto-binding-space
   std::string HlslVersion = "2021";                  ///< -HV: "2018", or else 2021
   bool RowMajorMatrices = false;                     ///< -Zpr
+  bool Native16BitTypes = false;                     ///< -enable-16bit-types
+  bool ExternalLinkage = false;                      ///< -default-linkage external
   /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};
   bool Strict = false;              ///< --strict: refuse what DXC refuses
   bool WarningsAsErrors = false;    ///< -WX
+  bool NoWarnings = false;          ///< -no-warnings: Diagnostics holds errors only
+  bool CheckAccess = false;         ///< -check-access: for devices with DeviceDesc::Checked
+  bool EmbedSource = true;          ///< false is -no-source: checked devices cannot compile it anew
+  bool WideThreads = true;          ///< false is -no-wide: never eight threads at once
+  bool CheckOnly = false;           ///< -check: nothing is made; Library stays empty
   bool Debug = false;               ///< -Od -Zi: for gdb
   std::string CacheDirectory = {};  ///< empty: $KAAMOS_CACHE_DIR, else the user's cache directory
   std::string CxxCompiler = {};     ///< empty: $KAAMOS_CXX, $CXX, else c++, g++, clang++

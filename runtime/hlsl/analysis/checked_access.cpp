@@ -70,6 +70,8 @@ ResourceClass class_of(ResourceKind kind) {
       return {DescriptorKind::kTypedBuffer, DescriptorAccess::kShaderResource};
     case ResourceKind::kRWBuffer:
       return {DescriptorKind::kTypedBuffer, DescriptorAccess::kUnorderedAccess};
+    case ResourceKind::kRWTexture2DMS:
+    case ResourceKind::kRWTexture2DMSArray:
     case ResourceKind::kRWTexture1D:
     case ResourceKind::kRWTexture1DArray:
     case ResourceKind::kRWTexture2D:

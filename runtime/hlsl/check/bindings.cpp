@@ -62,7 +62,7 @@ VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
   binding->register_class = traits_of(element->resource).register_class;
   if (element->resource == ir::ResourceKind::kConstantBuffer) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kConstantBuffer).size;
-  } else if (is_structured(element->resource)) {
+  } else if (has_elements(element->resource)) {
     binding->size_bytes = layout_of(element->element, ir::Layout::kStructured).size;
   }
   VariableInfo* info = &variables_.emplace_back();

@@ -89,7 +89,6 @@ const std::vector<Case>& cases() {
       {"TextureOfStruct", Id::kElementType, kernel("", "struct S { int a; };\nTexture2D<@S> t;")},
       {"ConstantBufferOfFloat", Id::kElementType, kernel("", "ConstantBuffer<@float> c;")},
       {"MissingElement", Id::kMissingElement, kernel("", "@RWTexture2D t;")},
-      {"MultisampledTexture", Id::kUnsupported, kernel("", "@Texture2DMS<float4> t;")},
       {"RayQueryWithoutFlags", Id::kTemplateCount, kernel("@RayQuery q;")},
       {"RayQueryFlags", Id::kRayQueryFlags, kernel("RayQuery<@0x400> q;")},
       {"RayQueryAssigned", Id::kRayQueryCopy, kernel("RayQuery<0> a;\nRayQuery<0> b;\na = @b;")},

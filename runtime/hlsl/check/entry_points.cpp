@@ -149,6 +149,17 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
   lower_.lower_function(function, location);
   const bool parameters = stage == ir::kStageCompute ? check_compute_parameters(function, entry)
                                                      : check_ray_parameters(function, entry);
+  if (const Attribute* attribute = find_attribute(*function, "rootsignature")) {
+    const auto* text =
+        attribute->arguments.size() == 1 ? as<StringLiteralExpr>(attribute->arguments[0]) : nullptr;
+    if (text) entry.root_signature = std::string(text->value);
+    if (!text) {
+      report(CheckId::kRootSignatureAttribute, attribute->location,
+             {attribute->arguments.size() == 1
+                  ? "another expression"
+                  : std::to_string(attribute->arguments.size()) + " arguments"});
+    }
+  }
   if (!valid || !parameters || !function->ir) return;
   if (!entry.function) entry.function = function->ir;
   if (stage != ir::kStageCompute && stage != ir::kStageCallable)

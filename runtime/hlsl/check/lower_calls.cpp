@@ -86,6 +86,7 @@ Value Lowerer::lower_call(const CallExpr* expr) {
   if (name.parts.size() == 1) {
     if (auto result = call_builtin(name.last(), arguments, expr->location)) return *result;
   }
+  if (auto result = call_vk(name, arguments, expr->location)) return *result;
   checker_.resolve_name(name, scope_, false);
   return error_value();
 }

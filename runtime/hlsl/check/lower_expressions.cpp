@@ -247,6 +247,7 @@ Value Lowerer::lower_name(const NameExpr* expr) {
       report(CheckId::kFunctionValue, expr->location, {std::string(name.last().identifier)});
       return error_value();
     }
+    if (auto constant = vk_constant(name)) return *constant;
     checker_.resolve_name(name, scope_, false);
     return error_value();
   }
@@ -281,7 +282,10 @@ Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
                               ir::Layout::kConstantBuffer, true),
                        name);
     }
-    if (member == "mips" && is_sampled_texture(type->resource)) {
+    const bool slices = is_multisampled(type->resource)
+                            ? member == "sample"
+                            : member == "mips" && is_sampled_texture(type->resource);
+    if (slices) {
       Value value = base;
       value.kind = ValueKind::kMips;
       value.expr = load(base);

@@ -41,6 +41,7 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
   const size_t count = arguments.size();
   at(location);
   if (name == "mul") return call_mul(arguments, location);
+  if (is_packed_intrinsic(name)) return call_packed(name, arguments, location);
   if (name == "select") return call_select(arguments, location);
   if (name == "and" || name == "or") return call_and_or(name == "and", arguments, location);
   if (name == "sincos" || name == "modf" || name == "frexp" || (name == "asuint" && count == 3)) {
@@ -176,11 +177,7 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
       if (is_floating(type->scalar)) return refuse(0, "an integer");
       if (type->scalar == Scalar::kBool) type = types_.with_scalar(type, Scalar::kUint32);
       result = types_.with_scalar(type, Scalar::kUint32);
-      if (rule.intrinsic == Intrinsic::reversebits) {
-        type = types_.with_scalar(
-            type, scalar_bytes(type->scalar) == 8 ? Scalar::kUint64 : Scalar::kUint32);
-        result = type;
-      }
+      if (rule.intrinsic == Intrinsic::reversebits) result = type;
       if (rule.intrinsic == Intrinsic::countbits && scalar_bytes(type->scalar) == 4) {
         type = result;
       }
@@ -247,7 +244,7 @@ Value Lowerer::call_maths(const IntrinsicRule& rule, std::vector<Value>& argumen
       break;
     case S::kAsDouble:
       type = types_.with_scalar(type, Scalar::kUint32);
-      if (type->is_matrix() || type->columns > 2) return refuse(0, "at most 2 components");
+      if (type->is_matrix()) return refuse(0, "a scalar or a vector");
       result = types_.with_scalar(type, Scalar::kFloat64);
       break;
     case S::kDst:

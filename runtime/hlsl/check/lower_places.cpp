@@ -191,10 +191,11 @@ const ir::Expr* Lowerer::load(const Value& value) {
       return value.expr;
     case ValueKind::kTyped: {
       const Type* type = value.whole ? value.whole : value.type;
-      ir::Expr* node =
-          build_.expr(ir::ExprKind::kTypedLoad, type->ir, {value.expr, value.coordinates});
+      ir::Expr* node = build_.expr(ir::ExprKind::kTypedLoad, types_.texel_of(type)->ir,
+                                   {value.expr, value.coordinates});
       if (value.mip) node->operands.push_back(value.mip);
-      return value.whole ? build_.swizzle(node, value.components) : node;
+      const ir::Expr* texel_value = from_texel(node, type);
+      return value.whole ? build_.swizzle(texel_value, value.components) : texel_value;
     }
     case ValueKind::kMemory: {
       const Type* type = value.whole ? value.whole : value.type;
@@ -260,7 +261,11 @@ const ir::Expr* Lowerer::load(const Value& value) {
       report(CheckId::kHeapUntyped, value.location);
       return nullptr;
     case ValueKind::kMips:
-      report(CheckId::kMipsUse, value.location);
+      if (is_multisampled(value.type->resource)) {
+        report(CheckId::kMipsUse, value.location, {"sample", "sample"});
+      } else {
+        report(CheckId::kMipsUse, value.location, {"mips", "level"});
+      }
       return nullptr;
     case ValueKind::kInitList:
       report(CheckId::kInitListUse, value.location);
@@ -340,7 +345,7 @@ void Lowerer::store(const Value& target, const ir::Expr* value) {
     }
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kTypedStore);
     statement->operands = {target.expr, target.coordinates};
-    statement->value = stored;
+    statement->value = to_texel(stored, target.whole ? target.whole : target.type);
     emit(statement);
   } else if (target.kind == ValueKind::kExpr) {
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);

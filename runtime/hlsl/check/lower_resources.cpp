@@ -28,6 +28,7 @@ Value Lowerer::index_resource(const Value& base, const Value& index, SourceLocat
   const bool is_mips = base.kind == ValueKind::kMips;
   const Type* type = base.type;
   const ResourceTraits& traits = traits_of(type->resource);
+  if (is_multisampled(type->resource)) return index_multisampled(base, index, location);
   if (is_mips && !base.offset) {
     const ir::Expr* level = index_value(index, location);
     if (!level) return error_value();
@@ -69,8 +70,10 @@ Value Lowerer::call_resource_method(const Value& object, const NamePart& part,
   const Type* type = object.type;
   const std::string_view name = part.identifier;
   const ResourceTraits& traits = traits_of(type->resource);
-  if (name == "GetDimensions" && !is_sampler(type->resource) &&
-      type->resource != ir::ResourceKind::kAccelerationStructure) {
+  if (is_multisampled(type->resource)) {
+    if (auto result = call_multisampled_method(object, part, arguments, location)) return *result;
+  } else if (name == "GetDimensions" && !is_sampler(type->resource) &&
+             type->resource != ir::ResourceKind::kAccelerationStructure) {
     return call_dimensions(object, arguments, location);
   }
   if (is_raw(type->resource)) {
@@ -82,10 +85,9 @@ Value Lowerer::call_resource_method(const Value& object, const NamePart& part,
       value.is_place = false;
       return value;
     }
-    if (name == "IncrementCounter" || name == "DecrementCounter") {
-      report(CheckId::kUnsupported, location, {"'" + std::string(name) + "' (buffer counters)"});
-      return error_value();
-    }
+    if (auto result = call_counter_method(object, name, arguments, location)) return *result;
+  } else if (has_elements(type->resource)) {
+    if (auto result = call_counter_method(object, name, arguments, location)) return *result;
   } else if (is_typed(type->resource)) {
     if (auto result = call_texture_method(object, part, arguments, location)) return *result;
   }

@@ -68,9 +68,9 @@ Value Lowerer::call_load(const Value& object, std::vector<Value>& arguments,
     const ir::Expr* offset = to_vector(arguments[1], Scalar::kInt32, size, arguments[1].location);
     if (!offset) return error_value();
     at(location);
-    return rvalue(build_.expr(ir::ExprKind::kTypedLoad, type->element->ir,
-                              {resource, coordinates, mip, offset}),
-                  type->element);
+    const ir::Expr* raw = build_.expr(ir::ExprKind::kTypedLoad, types_.texel_of(type->element)->ir,
+                                      {resource, coordinates, mip, offset});
+    return rvalue(from_texel(raw, type->element), type->element);
   }
   Value value = texel(resource, type, coordinates, mip, true);
   value.is_place = false;
@@ -88,6 +88,10 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   const bool gathers = rule.form == F::kGather || rule.form == F::kGatherCompare;
   const bool is_cube = type->resource == ir::ResourceKind::kTextureCube ||
                        type->resource == ir::ResourceKind::kTextureCubeArray;
+  if (has_paired_texel(type->element)) {
+    report(CheckId::kSampledPairs, location, {to_string(type), std::string(rule.name)});
+    return error_value();
+  }
   if (gathers && !is_cube && dimensions != 2) {
     report(CheckId::kNoSuchMethod, location, {std::string(traits.name), std::string(rule.name)});
     return error_value();
@@ -188,7 +192,7 @@ Value Lowerer::call_dimensions(const Value& object, std::vector<Value>& argument
   // Which component of ir::ExprKind::kDimensions goes to each output.
   std::vector<uint8_t> outputs;
   bool has_mips = is_sampled_texture(type->resource);
-  if (is_structured(type->resource)) {
+  if (has_elements(type->resource)) {
     outputs = {0, 1};
   } else if (!is_texture(type->resource)) {
     outputs = {0};

@@ -206,6 +206,34 @@ class Lowerer {
               const ir::Expr* mip, bool is_const);
   const ir::Expr* to_vector(const Value& value, Scalar scalar, uint32_t size,
                             SourceLocation location);
+  // -- Texels with components of 64 bits (lower_texels.cpp)
+  const ir::Expr* from_texel(const ir::Expr* raw, const Type* type);
+  const ir::Expr* to_texel(const ir::Expr* value, const Type* type);
+
+  // -- Packed numbers (lower_packed.cpp)
+  static bool is_packed_intrinsic(std::string_view name);
+  Value call_packed(std::string_view name, std::vector<Value>& arguments, SourceLocation location);
+  Value add_uint64(std::vector<Value>& arguments, SourceLocation location);
+  Value dot_of_halves(std::vector<Value>& arguments, SourceLocation location);
+  Value dot_of_bytes(std::string_view name, std::vector<Value>& arguments, SourceLocation location);
+
+  // -- The namespace vk (lower_vk.cpp)
+  static bool is_vk_name(const QualifiedName& name);
+  std::optional<Value> vk_constant(const QualifiedName& name);
+  std::optional<Value> call_vk(const QualifiedName& name, std::vector<Value>& arguments,
+                               SourceLocation location);
+
+  // -- Counters of structured buffers (lower_counters.cpp)
+  const ir::Expr* change_counter(const ir::Expr* resource, bool up, SourceLocation location);
+  std::optional<Value> call_counter_method(const Value& object, std::string_view name,
+                                           std::vector<Value>& arguments, SourceLocation location);
+
+  // -- Multisampled textures (lower_multisampled.cpp)
+  Value multisampled_use(const Type* type, SourceLocation location);
+  Value index_multisampled(const Value& base, const Value& index, SourceLocation location);
+  std::optional<Value> call_multisampled_method(const Value& object, const NamePart& part,
+                                                std::vector<Value>& arguments,
+                                                SourceLocation location);
 
   // -- Statements (lower_statements.cpp)
   void lower_statement(const Stmt* statement);
@@ -270,6 +298,7 @@ class Lowerer {
   std::unordered_map<const ir::Expr*, SourceLocation> payload_accesses_;
   std::unordered_map<const ir::Stmt*, TracePayload> trace_payloads_;
   std::set<std::string> mangled_names_;
+  std::unordered_map<const BindingInfo*, uint8_t> counter_uses_;  // up, down
   ir::Block no_block_;  // takes what is lowered outside any body
 
   Checker& checker_;

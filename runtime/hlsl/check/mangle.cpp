@@ -91,7 +91,9 @@ class Mangler {
         const std::string name(resource_name(of->resource));
         if (of->element) {
           text += 'V';
-          source_name("?$" + name + "@" + mangle_type(of->element) + "@");
+          const bool has_samples = is_multisampled(of->resource);
+          source_name("?$" + name + "@" + mangle_type(of->element) + (has_samples ? "$0A@" : "") +
+                      "@");
         } else {
           text += 'U';
           source_name(name);

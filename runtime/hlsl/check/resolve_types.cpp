@@ -275,10 +275,14 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
   }
   const Type* element = type_argument(arguments[0], scope);
   if (element->is_error()) return element;
-  if (arguments.size() > 1) {
-    report(CheckId::kTemplateCount, part.location, {name, "1", std::to_string(arguments.size())});
+  const size_t most = is_multisampled(traits.kind) ? 2 : 1;
+  if (arguments.size() > most) {
+    report(CheckId::kTemplateCount, part.location,
+           {name, std::to_string(most), std::to_string(arguments.size())});
     return types_.error();
   }
+  // The number of samples, which nothing depends on.
+  if (arguments.size() == 2 && !value_argument(arguments[1], scope)) return types_.error();
   const bool texel = traits.element != ElementRule::kStruct;
   const bool fits = texel ? (element->is_scalar() || element->is_vector())
                     : traits.kind == ir::ResourceKind::kConstantBuffer
@@ -290,9 +294,9 @@ const Type* Checker::resolve_resource(const ResourceTraits& traits, const NamePa
            {name, texel ? "a scalar or vector" : "a struct or a numeric type", to_string(element)});
     return types_.error();
   }
-  if (texel && element->scalar == Scalar::kFloat64) {
+  if (texel && has_paired_texel(element) && element->components() > 2) {
     report(CheckId::kElementType, arguments[0].location,
-           {name, "components of at most 32 bits", to_string(element)});
+           {name, "at most 128 bits", to_string(element)});
     return types_.error();
   }
   return types_.resource(traits.kind, element);

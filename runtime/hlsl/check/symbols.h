@@ -204,7 +204,7 @@ enum class ValueKind : uint8_t {
   kHeap,      // ResourceDescriptorHeap, SamplerDescriptorHeap, or an element of one until its
               // type is known: offset is the index
   kSplit,     // split, of which no part has been chosen yet
-  kMips,      // texture.mips, texture.mips[level] (offset)
+  kMips,      // texture.mips, texture.mips[level] (offset); .sample of a multisampled texture
   kInitList,  // init_list, which takes the type of its target
 };
 

@@ -198,16 +198,26 @@ const Type* TypeTable::resource(ir::ResourceKind kind, const Type* element, bool
     type->canonical = canonical;
     type->ir = canonical->ir;
   } else {
-    const ir::Type*& ir_slot = ir_resources_[{kind, element ? element->ir : nullptr}];
+    const ir::Type* ir_element = element ? element->ir : nullptr;
+    if (is_typed(kind)) ir_element = texel_of(element)->ir;
+    const ir::ResourceKind ir_kind =
+        has_elements(kind) && !is_structured(kind) ? ir::ResourceKind::kRWStructuredBuffer : kind;
+    const ir::Type*& ir_slot = ir_resources_[{ir_kind, ir_element}];
     if (!ir_slot) {
       ir::Type* ir_type = make_ir(ir::TypeKind::kResource);
-      ir_type->resource = kind;
-      ir_type->element = element ? element->ir : nullptr;
+      ir_type->resource = ir_kind;
+      ir_type->element = ir_element;
       ir_slot = ir_type;
     }
     type->ir = ir_slot;
   }
   return resources_[{kind, element, written}] = type;
+}
+
+const Type* TypeTable::texel_of(const Type* element) {
+  if (!has_paired_texel(element)) return element;
+  const Scalar half = element->scalar == Scalar::kInt64 ? Scalar::kInt32 : Scalar::kUint32;
+  return vector(half, 2 * element->components());
 }
 
 const Type* TypeTable::ray_query(uint32_t flags) {

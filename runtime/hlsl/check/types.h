@@ -115,6 +115,13 @@ struct Type {
   }
 };
 
+// Texels have no components of 64 bits: each is kept as its low and its high half.
+inline bool has_paired_texel(const Type* element) {
+  return element->is_numeric() &&
+         (element->scalar == Scalar::kInt64 || element->scalar == Scalar::kUint64 ||
+          element->scalar == Scalar::kFloat64);
+}
+
 inline bool same_type(const Type* a, const Type* b) {
   return a->canonical == b->canonical;
 }
@@ -188,6 +195,8 @@ class TypeTable {
   const Type* with_scalar(const Type* shape, Scalar scalar);
   const Type* array(const Type* element, uint32_t count);
   const Type* resource(ir::ResourceKind kind, const Type* element, bool written = true);
+  // What a texel of that type holds: two 32-bit components for each of 64 bits.
+  const Type* texel_of(const Type* element);
   const Type* ray_query(uint32_t flags);
   const Type* structure(StructInfo* info);
   const Type* enumeration(EnumInfo* info);

@@ -164,6 +164,9 @@ std::string CppEmitter::atomic_text(const Stmt& stmt, const TextOf& text) {
       address = "ks::element_address<" + t + ">(" + memory(stmt.operands[1], stmt.operands[2]) +
                 ", " + text(stmt.operands[1]) + ", " + text(stmt.operands[2]) + ")";
       break;
+    case AtomicTarget::kCounter:
+      address = "ks::counter(" + text(stmt.operands[0]) + ")";
+      break;
     case AtomicTarget::kTyped: {
       const Type* resource = stmt.operands[0]->type;
       const bool buffer = resource->resource == ResourceKind::kRWBuffer;
@@ -361,6 +364,10 @@ void CppEmitter::statement(const Stmt& stmt) {
            (stmt.kind == StmtKind::kIgnoreHit ? "kIgnore;" : "kAcceptAndEndSearch;"));
       line("ctx.ended = true;");
       end_shader();
+      break;
+    case StmtKind::kRemoveDevice:
+      line("ctx.invocation.dispatch->services->remove_device(ctx.invocation, ks::RemovalReason(" +
+           std::to_string(static_cast<int>(stmt.removal)) + "));");
       break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");

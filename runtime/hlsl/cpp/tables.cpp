@@ -144,7 +144,8 @@ void CppEmitter::emit_tables() {
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
          quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) +
-         (has_row_[i] ? ", row_" + n : "") + "},");
+         (has_row_[i] ? ", row_" + n : ", nullptr") +
+         (e.root_signature ? ", " + quote(*e.root_signature) : "") + "},");
   }
   for (size_t i = 0; i < module_.library_functions.size(); ++i) {
     const LibraryFunction& f = module_.library_functions[i];

@@ -152,12 +152,13 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
   return write_output(arguments, text);
 }
 
-// DXC has no warning about unreached bodies, so what passes with its -WX must pass here too.
+// DXC has no warning about unreached bodies and vk attributes, so what passes with its -WX must pass
+// here too.
 bool has_warning_for_wx(const DiagnosticEngine& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
-    if (diagnostic.severity == Severity::kWarning && diagnostic.id != DiagnosticId::kSkipped) {
-      return true;
-    }
+    const bool is_own = diagnostic.id == DiagnosticId::kSkipped ||
+                        diagnostic.id == DiagnosticId::kVkAttributeIgnored;
+    if (diagnostic.severity == Severity::kWarning && !is_own) return true;
   }
   return false;
 }

@@ -78,6 +78,18 @@ const char* resource_name(ResourceKind kind) {
       return "RaytracingAccelerationStructure";
     case ResourceKind::kRayQuery:
       return "RayQuery";
+    case ResourceKind::kAppendStructuredBuffer:
+      return "AppendStructuredBuffer";
+    case ResourceKind::kConsumeStructuredBuffer:
+      return "ConsumeStructuredBuffer";
+    case ResourceKind::kTexture2DMS:
+      return "Texture2DMS";
+    case ResourceKind::kTexture2DMSArray:
+      return "Texture2DMSArray";
+    case ResourceKind::kRWTexture2DMS:
+      return "RWTexture2DMS";
+    case ResourceKind::kRWTexture2DMSArray:
+      return "RWTexture2DMSArray";
   }
   return "";
 }

@@ -38,8 +38,61 @@ constexpr std::string_view kKnown[] = {
     "wavesize",
 };
 
+// DXC's attributes for SPIR-V, and what their absence means.
+struct VkAttribute {
+  std::string_view name;
+  std::string_view instead;
+};
+constexpr std::string_view kRegister = "the register decides where it is bound";
+constexpr std::string_view kInstruction = "SPIR-V instructions cannot be written by hand";
+constexpr std::string_view kPixel = "it is for pixel shaders";
+constexpr VkAttribute kVkAttributes[] = {
+    {"aliased_pointer", "there are no pointers"},
+    {"binding", kRegister},
+    {"builtin", "semantics decide what a variable holds"},
+    {"combinedImageSampler", "texture and sampler have registers of their own"},
+    {"constant_id", "the initialiser is the value"},
+    {"counter_binding", "a counter belongs to the view of its buffer"},
+    {"depth_unchanged", kPixel},
+    {"early_and_late_tests", kPixel},
+    {"ext_builtin_input", kInstruction},
+    {"ext_builtin_output", kInstruction},
+    {"ext_capability", kInstruction},
+    {"ext_decorate", kInstruction},
+    {"ext_decorate_id", kInstruction},
+    {"ext_decorate_string", kInstruction},
+    {"ext_extension", kInstruction},
+    {"ext_instruction", kInstruction},
+    {"ext_literal", kInstruction},
+    {"ext_reference", kInstruction},
+    {"ext_storage_class", kInstruction},
+    {"ext_type_def", kInstruction},
+    {"image_format", "the view decides the format"},
+    {"index", kPixel},
+    {"input_attachment_index", kPixel},
+    {"location", "semantics connect the stages"},
+    {"offset", "HLSL's packing rules and packoffset decide the layout"},
+    {"post_depth_coverage", kPixel},
+    {"push_constant", kRegister},
+    {"shader_record_ext", "the local root signature decides what is in the shader record"},
+    {"shader_record_nv", "the local root signature decides what is in the shader record"},
+    {"spvexecutionmode", kInstruction},
+    {"stencil_ref_greater_equal_back", kPixel},
+    {"stencil_ref_greater_equal_front", kPixel},
+    {"stencil_ref_less_equal_back", kPixel},
+    {"stencil_ref_less_equal_front", kPixel},
+    {"stencil_ref_unchanged_back", kPixel},
+    {"stencil_ref_unchanged_front", kPixel},
+};
+
+const VkAttribute* find_vk(const Attribute& attribute) {
+  if (attribute.scope != "vk") return nullptr;
+  const auto* found = std::find_if(std::begin(kVkAttributes), std::end(kVkAttributes),
+                                   [&](const VkAttribute& a) { return a.name == attribute.name; });
+  return found == std::end(kVkAttributes) ? nullptr : found;
+}
+
 bool is_known(const Attribute& attribute) {
-  if (attribute.scope == "vk") return true;
   if (!attribute.scope.empty()) return false;
   std::string lower(attribute.name);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -62,8 +115,14 @@ void Parser::attributes(std::vector<Attribute>& out) {
     do {
       const Attribute found = attribute(is_double);
       if (panic_) return;
-      if (!is_known(found)) {
-        report(DiagnosticId::kUnknownAttribute, found.location, {found.name});
+      if (const VkAttribute* vk = find_vk(found)) {
+        // A library may have hundreds, all for the same reason.
+        if (vk_attributes_.insert(vk->name).second) {
+          report(DiagnosticId::kVkAttributeIgnored, found.location, {vk->name, vk->instead});
+        }
+      } else if (!is_known(found)) {
+        const std::string scope(found.scope.empty() ? "" : std::string(found.scope) + "::");
+        report(DiagnosticId::kUnknownAttribute, found.location, {scope + std::string(found.name)});
       }
       out.push_back(found);
     } while (accept(Kind::kComma));

@@ -402,8 +402,10 @@ TEST(ParseDeclaration, EntryPointsAndAttributes) {
                 "SV_DispatchThreadID) {}"),
       "[Shader \"miss\"] [NumThreads 8 8 1] function void m(uint3 i : SV_DispatchThreadID#0)\n"
       "  block\n");
-  EXPECT_EQ(dump_unit("[[vk::binding(0, 1)]] Texture2D t; [[vk::push_constant]] float c;"),
+  const Parsed vk("[[vk::binding(0, 1)]] Texture2D t; [[vk::push_constant]] float c;");
+  EXPECT_EQ(dump(*vk.unit),
             "[[vk::binding 0 1]] var Texture2D t\n[[vk::push_constant]] var float c\n");
+  EXPECT_EQ(positions(vk), "KA2340 1:7\nKA2340 1:42");
   EXPECT_EQ(dump_unit("[WaveSize(32)] [noinline] void f();"),
             "[WaveSize 32] [noinline] function void f()\n");
 }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -347,6 +348,7 @@ class Parser {
   int look_ahead_depth_ = 0;
   const Token* modifier_words_[kModifierCount] = {};  // Where each was written last.
   std::vector<uint32_t> refused_names_;  // Keywords that were declared as names (Token::value).
+  std::set<std::string_view> vk_attributes_;  // those that are already reported
   std::vector<std::string_view> type_names_;  // All types declared so far, for suggestions.
 };
 

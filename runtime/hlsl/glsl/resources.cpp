@@ -351,6 +351,17 @@ void GlslEmitter::atomic(const Stmt& stmt) {
     return;
   }
   const Type* resource = stmt.operands[0]->type;
+  const bool is_wide = glsl::memory_bytes(scalar) == 8;
+  if (stmt.target == AtomicTarget::kTyped && !is_typed_buffer(resource) && is_wide) {
+    const std::string t = type(stmt.value->type);
+    const std::string compare =
+        stmt.compare != nullptr ? "uint64_t(" + value(stmt.compare) + ")" : "0UL";
+    line(result + t + "(" + texture_function("image_atomic_64", resource, scalar) + "(" +
+         value(stmt.operands[0]) + ", " + texel_at(stmt.operands[1]) + ", " +
+         glsl::number(static_cast<uint32_t>(stmt.atomic)) + ", " + compare + ", uint64_t(" +
+         value(stmt.value) + ")));");
+    return;
+  }
   if (stmt.target == AtomicTarget::kTyped && !is_typed_buffer(resource)) {
     line(result +
          texture_function((std::string("image_atomic_") + atomic_name(stmt.atomic)).c_str(),
@@ -359,10 +370,12 @@ void GlslEmitter::atomic(const Stmt& stmt) {
     return;
   }
   std::string address;
-  const char* bits = glsl::memory_bytes(scalar) == 8 ? "64" : "32";
-  if (stmt.target == AtomicTarget::kTyped) {
-    address =
-        "k_typed_address(" + value(stmt.operands[0]) + ", uint(" + value(stmt.operands[1]) + "))";
+  const char* bits = is_wide ? "64" : "32";
+  if (stmt.target == AtomicTarget::kCounter) {
+    address = "k_counter_address(" + value(stmt.operands[0]) + ")";
+  } else if (stmt.target == AtomicTarget::kTyped) {
+    address = std::string(is_wide ? "k_typed_address_64(" : "k_typed_address(") +
+              value(stmt.operands[0]) + ", uint(" + value(stmt.operands[1]) + "))";
   } else {
     const bool element = stmt.target == AtomicTarget::kElement;
     std::string window = element ? "k_element_window" : "k_window";

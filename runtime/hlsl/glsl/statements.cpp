@@ -248,6 +248,10 @@ void GlslEmitter::statement(const Stmt& stmt) {
       line(stmt.kind == StmtKind::kIgnoreHit ? "g_ended = 1u;" : "g_ended = 2u;");
       end_shader();
       break;
+    case StmtKind::kRemoveDevice:
+      declare_remove_device();
+      line("g_remove_device(" + glsl::number(static_cast<uint32_t>(stmt.removal)) + ");");
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

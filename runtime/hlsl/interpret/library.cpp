@@ -136,6 +136,7 @@ shader::ExportDesc describe(const EntryCode& code) {
       (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u) |
       (entry.attributes != nullptr && !reads_attributes(entry) ? shader::kExportIgnoresAttributes
                                                                : 0u);
+  if (entry.root_signature) out.root_signature = entry.root_signature->c_str();
   out.bindings = entry.bindings.data();
   out.binding_count = static_cast<uint32_t>(entry.bindings.size());
   return out;

@@ -134,6 +134,8 @@ void* atomic_place(const Action& action, Frame& frame) {
       return action.place->locate(*action.place, frame);
     case ir::AtomicTarget::kTyped:
       return typed_place(action, frame);
+    case ir::AtomicTarget::kCounter:
+      return shader::counter(evaluate_as<Descriptor>(*action.operands[0], frame));
     default:
       return action.value->bytes == 8 ? memory_place<uint64_t>(action, frame)
                                       : memory_place<uint32_t>(action, frame);

@@ -353,6 +353,10 @@ Flow run(const Action& action, Frame& frame) {
       return end_shader(context, shader::AnyHitResult::kIgnore);
     case StmtKind::kAcceptHitAndEndSearch:
       return end_shader(context, shader::AnyHitResult::kAcceptAndEndSearch);
+    case StmtKind::kRemoveDevice:
+      context.invocation->dispatch->services->remove_device(
+          *context.invocation, static_cast<shader::RemovalReason>(stmt.removal));
+      return Flow::kNext;
     case StmtKind::kIf:
       return run(evaluate_as<bool>(*action.value, frame) ? action.body : action.orelse, frame);
     case StmtKind::kLoop:

@@ -175,12 +175,14 @@ void* typed_place(const Action& action, Frame& frame) {
   const Node& resource = *action.operands[0];
   const shader::Invocation& invocation = *frame.context->invocation;
   const auto descriptor = evaluate_as<Descriptor>(resource, frame);
+  const auto* services = invocation.dispatch->services;
+  const uint32_t bytes = action.value->bytes;
   if (is_buffer(resource)) {
-    return shader::typed_address<uint32_t>(invocation, descriptor,
-                                           widen<uint32_t>(*action.operands[1], frame).e[0]);
+    const uint32_t element = widen<uint32_t>(*action.operands[1], frame).e[0];
+    return services->typed_address(descriptor, element, bytes);
   }
-  return shader::texel_address<uint32_t>(invocation, descriptor,
-                                         coordinates(resource, *action.operands[1], 0, {}, frame));
+  const auto at = coordinates(resource, *action.operands[1], 0, {}, frame);
+  return services->texel_address(descriptor, at.e, bytes);
 }
 
 }  // namespace kaamos::hlsl::interpret

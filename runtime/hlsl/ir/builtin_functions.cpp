@@ -270,9 +270,6 @@ constexpr Family kUnsupported[] = {
     {"errorf", "errorf", true},
     {"abort", "abort", true},
     {"Process2DQuadTessFactors", "tessellation", false},
-    {"dot2add", "packed dot products", true},
-    {"dot4add_u8packed", "packed dot products", true},
-    {"dot4add_i8packed", "packed dot products", true},
     {"pack_u8", "packed 8-bit intrinsics", true},
     {"pack_s8", "packed 8-bit intrinsics", true},
     {"pack_clamp_u8", "packed 8-bit intrinsics", true},
@@ -307,6 +304,10 @@ constexpr std::string_view kByName[] = {"mul",
                                         "ReportHit",
                                         "CallShader",
                                         "IgnoreHit",
+                                        "AddUint64",
+                                        "dot2add",
+                                        "dot4add_u8packed",
+                                        "dot4add_i8packed",
                                         "AcceptHitAndEndSearch"};
 
 template <class Rule, size_t N>

@@ -34,6 +34,12 @@ constexpr ResourceTraits kTraits[] = {
     {"SamplerComparisonState", K::kSamplerComparison, E::kNone, 3, 0, false, false},
     {"RaytracingAccelerationStructure", K::kAccelerationStructure, E::kNone, 0, 0, false, false},
     {"RayQuery", K::kRayQuery, E::kNone, 0, 0, false, false},
+    {"Texture2DMS", K::kTexture2DMS, E::kRequiredTexel, 0, 2, false, false},
+    {"Texture2DMSArray", K::kTexture2DMSArray, E::kRequiredTexel, 0, 3, true, false},
+    {"RWTexture2DMS", K::kRWTexture2DMS, E::kRequiredTexel, 1, 2, false, true},
+    {"RWTexture2DMSArray", K::kRWTexture2DMSArray, E::kRequiredTexel, 1, 3, true, true},
+    {"AppendStructuredBuffer", K::kAppendStructuredBuffer, E::kStruct, 1, 0, false, true},
+    {"ConsumeStructuredBuffer", K::kConsumeStructuredBuffer, E::kStruct, 1, 0, false, true},
 };
 
 struct Unsupported {
@@ -42,10 +48,6 @@ struct Unsupported {
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"Texture2DMS", "multisampled textures"},
-    {"Texture2DMSArray", "multisampled textures"},
-    {"AppendStructuredBuffer", "append buffers"},
-    {"ConsumeStructuredBuffer", "consume buffers"},
     {"FeedbackTexture2D", "sampler feedback"},
     {"FeedbackTexture2DArray", "sampler feedback"},
     {"TextureBuffer", "texture buffers"},

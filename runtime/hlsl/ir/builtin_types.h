@@ -41,6 +41,9 @@ inline bool is_texture(ir::ResourceKind kind) {
 inline bool is_sampled_texture(ir::ResourceKind kind) {
   return kind >= ir::ResourceKind::kTexture1D && kind <= ir::ResourceKind::kTextureCubeArray;
 }
+inline bool is_multisampled(ir::ResourceKind kind) {
+  return kind >= ir::ResourceKind::kTexture2DMS && kind <= ir::ResourceKind::kRWTexture2DMSArray;
+}
 inline bool is_typed(ir::ResourceKind kind) {
   return is_texture(kind) || kind == ir::ResourceKind::kBuffer ||
          kind == ir::ResourceKind::kRWBuffer;
@@ -48,6 +51,10 @@ inline bool is_typed(ir::ResourceKind kind) {
 inline bool is_structured(ir::ResourceKind kind) {
   return kind == ir::ResourceKind::kStructuredBuffer ||
          kind == ir::ResourceKind::kRWStructuredBuffer;
+}
+inline bool has_elements(ir::ResourceKind kind) {
+  return is_structured(kind) || kind == ir::ResourceKind::kAppendStructuredBuffer ||
+         kind == ir::ResourceKind::kConsumeStructuredBuffer;
 }
 inline bool is_raw(ir::ResourceKind kind) {
   return kind == ir::ResourceKind::kByteAddressBuffer ||

@@ -271,6 +271,9 @@ class Dumper {
       case ir::StmtKind::kAcceptHitAndEndSearch:
         line("accept_hit_and_end_search");
         break;
+      case ir::StmtKind::kRemoveDevice:
+        line("remove_device " + std::to_string(static_cast<int>(of.removal)));
+        break;
       case ir::StmtKind::kIf:
         line("if ");
         expr(of.value);

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,6 +76,12 @@ enum class ResourceKind : uint8_t {
   kSamplerComparison,
   kAccelerationStructure,
   kRayQuery,
+  kTexture2DMS,  // nothing reads these: a use is a kRemoveDevice
+  kTexture2DMSArray,
+  kRWTexture2DMS,
+  kRWTexture2DMSArray,
+  kAppendStructuredBuffer,  // only before the IR, where both are kRWStructuredBuffer
+  kConsumeStructuredBuffer,
 };
 
 struct Struct;
@@ -313,11 +320,12 @@ enum class StmtKind : uint8_t {
   kContinue,
   kReturn,  // value or null
   kBarrier,
-  kQuery,  // place: the kVariable of a RayQuery, query: what it does. operands: kTrace:
-           // acceleration structure, flags (with the type's), mask (uint32), RayDesc;
-           // kCommitProcedural: t; result of kProceed (bool) or null
-  kWave,   // wave: what the active lanes of a wave do together. operands: those of
-           // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
+  kQuery,         // place: the kVariable of a RayQuery, query: what it does. operands: kTrace:
+                  // acceleration structure, flags (with the type's), mask (uint32), RayDesc;
+                  // kCommitProcedural: t; result of kProceed (bool) or null
+  kWave,          // wave: what the active lanes of a wave do together. operands: those of
+                  // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
+  kRemoveDevice,  // removal: why. What follows may or may not run
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
@@ -334,6 +342,9 @@ enum class AtomicOp : uint8_t {
   kCompareStore,  // no result
 };
 
+// Values of shader::RemovalReason.
+enum class Removal : uint8_t { kMultisampled = 5 };
+
 enum BarrierFlags : uint32_t { kGroupMemory = 1, kDeviceMemory = 2, kGroupSync = 4 };
 
 struct Stmt;
@@ -346,7 +357,8 @@ struct SwitchCase {
 };
 
 // What kAtomic acts on if it is not a groupshared place.
-enum class AtomicTarget : uint8_t { kPlace, kMemory, kElement, kTyped };
+// kCounter: that of the structured buffer operands[0].
+enum class AtomicTarget : uint8_t { kPlace, kMemory, kElement, kTyped, kCounter };
 
 struct Stmt {
   StmtKind kind = StmtKind::kBlock;
@@ -374,6 +386,7 @@ struct Stmt {
   AtomicTarget target = AtomicTarget::kPlace;
   QueryOp query = {};
   shader::WaveOp wave = {};
+  Removal removal = Removal::kMultisampled;
   bool outlives_end = false;  // kCall: what follows runs even if the callee ended the shader
   Layout layout = Layout::kStructured;
   bool row_major = false;
@@ -434,7 +447,8 @@ struct EntryPoint {
   // Whether it has access qualifiers, in shader model 6.7 or higher, where MaxPayloadSizeInBytes is
   // not a limit.
   bool unbounded_payload = false;
-  uint32_t payload_bytes = 0;    // each scalar counted as 4 bytes (8 for 64-bit ones)
+  std::optional<std::string> root_signature;  // [RootSignature("...")]
+  uint32_t payload_bytes = 0;                 // each scalar counted as 4 bytes (8 for 64-bit ones)
   uint32_t attribute_bytes = 0;  // of an intersection shader: the largest that it reports
   uint32_t attribute_type = 0;   // shader::ExportDesc::attribute_type
   uint32_t thread_group[3] = {1, 1, 1};

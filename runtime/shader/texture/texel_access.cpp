@@ -19,6 +19,20 @@ bool is_r32(const FormatCodec& codec) {
   return codec.bytes == 4 && codec.channels == 1;
 }
 
+// What atomics work on: 4 bytes of R32, 8 bytes of R32G32 in integers; 0 otherwise.
+uint32_t atomic_bytes(uint32_t format) {
+  constexpr uint32_t kR32G32Uint = 17, kR32G32Sint = 18;
+  if (format == kR32G32Uint || format == kR32G32Sint) return 8;
+  return is_r32(format_codec(format)) ? 4 : 0;
+}
+
+// Null unless the atomic takes as many bytes as a texel has.
+void* atomic_place(uint8_t* texel, uint32_t format, uint32_t bytes) {
+  const bool fits =
+      atomic_bytes(format) == bytes && reinterpret_cast<uintptr_t>(texel) % bytes == 0;
+  return fits ? texel : nullptr;
+}
+
 uint8_t* element_pointer(const Descriptor& buffer, const FormatCodec& codec, uint32_t element) {
   const uint64_t at = static_cast<uint64_t>(element) * codec.bytes;
   if (buffer.kind != DescriptorKind::kTypedBuffer || codec.bytes == 0 ||
@@ -48,13 +62,11 @@ void store_texel(const Descriptor& texture, const int32_t coordinates[4], const 
   if (texel != nullptr) codec.encode(texel, value);
 }
 
-void* texel_address(const Descriptor& texture, const int32_t coordinates[4]) {
+void* texel_address(const Descriptor& texture, const int32_t coordinates[4], uint32_t bytes) {
   const TextureView* view = texture_view(texture);
   if (view == nullptr || !view->unordered_access) return nullptr;
-  const FormatCodec& codec = format_codec(view->format);
-  if (!is_r32(codec)) return nullptr;
-  uint8_t* texel = addressed(*view, codec.bytes, coordinates);
-  return reinterpret_cast<uintptr_t>(texel) % 4 == 0 ? texel : nullptr;
+  uint8_t* texel = addressed(*view, format_codec(view->format).bytes, coordinates);
+  return atomic_place(texel, view->format, bytes);
 }
 
 Texel load_typed(const Descriptor& buffer, uint32_t element) {
@@ -70,11 +82,10 @@ void store_typed(const Descriptor& buffer, uint32_t element, const Texel& value)
   if (at != nullptr) codec.encode(at, value);
 }
 
-void* typed_address(const Descriptor& buffer, uint32_t element) {
-  const FormatCodec& codec = format_codec(buffer.format);
-  if (buffer.access != DescriptorAccess::kUnorderedAccess || !is_r32(codec)) return nullptr;
-  uint8_t* at = element_pointer(buffer, codec, element);
-  return reinterpret_cast<uintptr_t>(at) % 4 == 0 ? at : nullptr;
+void* typed_address(const Descriptor& buffer, uint32_t element, uint32_t bytes) {
+  if (buffer.access != DescriptorAccess::kUnorderedAccess) return nullptr;
+  uint8_t* at = element_pointer(buffer, format_codec(buffer.format), element);
+  return atomic_place(at, buffer.format, bytes);
 }
 
 TextureDimensions texture_dimensions(const Descriptor& descriptor, uint32_t mip) {

@@ -17,11 +17,11 @@ namespace kaamos::shader {
 Texel load_texel(const Descriptor& texture, const int32_t coordinates[4]);
 void store_texel(const Descriptor& texture, const int32_t coordinates[4], const Texel& value);
 // Only unordered access views of R32 formats have addresses; others give null.
-void* texel_address(const Descriptor& texture, const int32_t coordinates[4]);
+void* texel_address(const Descriptor& texture, const int32_t coordinates[4], uint32_t bytes);
 
 Texel load_typed(const Descriptor& buffer, uint32_t element);
 void store_typed(const Descriptor& buffer, uint32_t element, const Texel& value);
-void* typed_address(const Descriptor& buffer, uint32_t element);
+void* typed_address(const Descriptor& buffer, uint32_t element, uint32_t bytes);
 
 // Textures: the size of that mip, zero past the last one; array elements count whole cubes. Typed
 // buffers: width is the number of elements.

@@ -104,13 +104,13 @@ TEST(TexelAccess, AddressesOfR32Only) {
                   return Texel{{x + y * 10, 0, 0, 0}};
                 });
   const int32_t at[4] = {3, 2, 0, 0}, outside[4] = {4, 0, 0, 0};
-  ASSERT_NE(texel_address(u.descriptor, at), nullptr);
-  EXPECT_EQ(*static_cast<uint32_t*>(texel_address(u.descriptor, at)), 23u);
-  EXPECT_EQ(texel_address(u.descriptor, outside), nullptr);
+  ASSERT_NE(texel_address(u.descriptor, at, 4), nullptr);
+  EXPECT_EQ(*static_cast<uint32_t*>(texel_address(u.descriptor, at, 4)), 23u);
+  EXPECT_EQ(texel_address(u.descriptor, outside, 4), nullptr);
   u.view.unordered_access = false;
-  EXPECT_EQ(texel_address(u.descriptor, at), nullptr);
+  EXPECT_EQ(texel_address(u.descriptor, at, 4), nullptr);
   TestTexture c(TextureDimension::k2D, kFormatRgba8Unorm, 4, 4, 1, 1, place_texel);
-  EXPECT_EQ(texel_address(c.descriptor, at), nullptr);
+  EXPECT_EQ(texel_address(c.descriptor, at, 4), nullptr);
 }
 
 TEST(TexelAccess, TypedBuffers) {
@@ -128,13 +128,13 @@ TEST(TexelAccess, TypedBuffers) {
   EXPECT_EQ(data[1], 0xFF030201u);
   store_typed(buffer, 2, {{1, 2, 3, 4}});
   EXPECT_EQ(data[2], 99u);
-  EXPECT_EQ(typed_address(buffer, 0), nullptr);
+  EXPECT_EQ(typed_address(buffer, 0, 4), nullptr);
   buffer.format = kFormatR32Uint;
-  EXPECT_EQ(typed_address(buffer, 1), data + 1);
-  EXPECT_EQ(typed_address(buffer, 2), nullptr);
+  EXPECT_EQ(typed_address(buffer, 1, 4), data + 1);
+  EXPECT_EQ(typed_address(buffer, 2, 4), nullptr);
   EXPECT_EQ(texture_dimensions(buffer, 0).width, 2u);
   buffer.access = DescriptorAccess::kShaderResource;
-  EXPECT_EQ(typed_address(buffer, 1), nullptr);
+  EXPECT_EQ(typed_address(buffer, 1, 4), nullptr);
   store_typed(buffer, 0, {{5, 0, 0, 0}});
   EXPECT_EQ(data[0], 0x04030201u);
   buffer.format = 0;

@@ -51,7 +51,8 @@ bool k_matches(k_Descriptor d, uint kind, uint access) {
   if (kind == 0u) return true;  // the slot does not specify
   if ((d.kind_access & 0xFFFFu) != kind) return false;
   // The access of constant buffers, samplers and acceleration structures is not compared.
-  return kind == 1u || kind == 6u || kind == 7u || access == 2u || d.kind_access >> 16 == access;
+  return kind == 1u || kind == 6u || kind == 7u || access == 2u ||
+         (d.kind_access >> 16 & 3u) == access;
 }
 // The address if it is the start of a slot in [begin, end), else 0: a handle can hold any value.
 //@ k_heap_slot

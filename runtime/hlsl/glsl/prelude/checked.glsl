@@ -168,7 +168,7 @@ void k_explain_missing(uint site, uint binding, uint source, uint offset, uint i
   }
   uint has = k_DescriptorSlot(found).d.kind_access;
   if ((has & 0xFFFFu) == 0u) return;
-  k_tell(6u, site, binding, 0u, uint64_t(has & 0xFFFFu), uint64_t(has >> 16), uint64_t(kind),
+  k_tell(6u, site, binding, 0u, uint64_t(has & 0xFFFFu), uint64_t(has >> 16 & 3u), uint64_t(kind),
          uint64_t(source >> 24));
 }
 
@@ -236,7 +236,7 @@ k_Descriptor k_heap_resource_checked(uint index, uint kind, uint access, uint si
   if (uint64_t(index) >= count) {
     k_tell(5u, site, 0u, 0u, uint64_t(index), count, 0UL, 0UL);
   } else if ((d.kind_access & 0xFFFFu) != 0u && !k_matches(d, kind, access)) {
-    k_tell(6u, site, 0u, 0u, uint64_t(d.kind_access & 0xFFFFu), uint64_t(d.kind_access >> 16),
+    k_tell(6u, site, 0u, 0u, uint64_t(d.kind_access & 0xFFFFu), uint64_t(d.kind_access >> 16 & 3u),
            uint64_t(kind), uint64_t(access));
   } else {
     d = k_usable(d, 0u, index, site);

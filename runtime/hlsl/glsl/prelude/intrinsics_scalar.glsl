@@ -3,8 +3,10 @@
 // computed in float. `precise` keeps the compiler from rearranging sums whose rounding errors are
 // intended.
 
-//@ k_ceil,k_floor,k_sqrt floats any
+//@ k_ceil,k_floor,k_sqrt f16 f64 any
 $T $NAME($T x) { return $BASE(x); }
+//@ k_ceil,k_floor,k_sqrt f32 each
+float $NAME(float x) { return $BASE(k_flushed(x)); }
 //@ k_trunc f16 f32 any
 $T k_trunc($T x) { return trunc(x); }
 // Ties round to even.
@@ -44,7 +46,7 @@ $T k_saturate($T x) { return x > $0 ? (x < $1 ? x : $1) : $0; }
 // Stays in [0, 1): x - floor(x) of a small negative x would round to 1. Infinities give NaN.
 //@ k_frac f32 each
 float k_frac(float x) {
-  float f = x - floor(x);
+  float f = k_flushed(x) - floor(k_flushed(x));
   return f == 1.0 ? uintBitsToFloat(0x3F7FFFFFu) : f;
 }
 //@ k_frac f16 any
@@ -103,12 +105,12 @@ $T k_smoothstep($T low, $T high, $T x) { return $T(k_smoothstep($F(low), $F(high
 float k_fmod(float x, float y) {
   uint a = floatBitsToUint(x) & 0x7FFFFFFFu;
   uint b = floatBitsToUint(y) & 0x7FFFFFFFu;
-  if (a >= 0x7F800000u || b > 0x7F800000u || b == 0u) return uintBitsToFloat(0x7FC00000u);
-  if (a < b) return x;
-  uint exponent = max(b >> 23, 1u);
-  uint shift = max(a >> 23, 1u) - exponent;
-  uint divisor = (b & 0x7FFFFFu) | (b > 0x7FFFFFu ? 0x800000u : 0u);
-  uint rest = ((a & 0x7FFFFFu) | (a > 0x7FFFFFu ? 0x800000u : 0u)) % divisor;
+  if (a >= 0x7F800000u || b > 0x7F800000u || b < 0x800000u) return uintBitsToFloat(0x7FC00000u);
+  if (a < b) return k_flushed(x);
+  uint exponent = b >> 23;
+  uint shift = (a >> 23) - exponent;
+  uint divisor = (b & 0x7FFFFFu) | 0x800000u;
+  uint rest = ((a & 0x7FFFFFu) | 0x800000u) % divisor;
   while (shift > 0u) {
     uint step = min(shift, 8u);
     rest = (rest << step) % divisor;
@@ -117,8 +119,7 @@ float k_fmod(float x, float y) {
   uint bits = 0u;
   if (rest != 0u) {
     uint up = 23u - uint(findMSB(rest));
-    bits = up < exponent ? ((rest << up) & 0x7FFFFFu) | (exponent - up) << 23
-                         : rest << (exponent - 1u);
+    if (up < exponent) bits = ((rest << up) & 0x7FFFFFu) | (exponent - up) << 23;
   }
   return uintBitsToFloat(bits | (floatBitsToUint(x) & 0x80000000u));
 }
@@ -156,15 +157,13 @@ double k_fmod(double x, double y) {
 float k_frexp_mantissa(float x) {
   uint bits = floatBitsToUint(x);
   uint magnitude = bits & 0x7FFFFFFFu;
-  if (magnitude == 0u || magnitude >= 0x7F800000u) return x;
-  if (magnitude < 0x800000u) magnitude <<= 23u - uint(findMSB(magnitude));
+  if (magnitude < 0x800000u || magnitude >= 0x7F800000u) return k_flushed(x);
   return uintBitsToFloat((bits & 0x80000000u) | 0x3F000000u | (magnitude & 0x7FFFFFu));
 }
 //@ k_frexp_exponent f32 each
 float k_frexp_exponent(float x) {
   uint magnitude = floatBitsToUint(x) & 0x7FFFFFFFu;
-  if (magnitude == 0u || magnitude >= 0x7F800000u) return 0.0;
-  if (magnitude < 0x800000u) return float(findMSB(magnitude) - 148);
+  if (magnitude < 0x800000u || magnitude >= 0x7F800000u) return 0.0;
   return float(int(magnitude >> 23) - 126);
 }
 //@ k_frexp_mantissa f64 each

@@ -14,8 +14,8 @@ float k_scaled(float x, int n) {
 // HLSL's exponent is a float and may have a fraction.
 //@ k_ldexp f32 each
 float k_ldexp(float x, float e) {
-  if (trunc(e) == e && abs(e) < 1000.0) return k_scaled(x, int(e));
-  return x * k_exp2(e);
+  if (trunc(e) == e && abs(e) < 1000.0) return k_flushed(k_scaled(k_flushed(x), int(e)));
+  return k_flushed(x * k_exp2(e));
 }
 //@ k_ldexp f64 each
 double k_ldexp(double x, double e) {
@@ -32,7 +32,7 @@ float k_exp2(float x) {
   precise float f = x - n;
   precise float p = 1.0 + f * (0.693147208 + f * (0.240226513 + f * (0.0555032426 +
                     f * (0.00961800344 + f * (0.0013401654 + f * 0.000154765609)))));
-  return k_scaled(p, int(n));
+  return k_flushed(k_scaled(p, int(n)));
 }
 //@ k_exp f32 each
 float k_exp(float x) {
@@ -43,22 +43,16 @@ float k_exp(float x) {
   precise float f = (x - n * 0.693359375) + n * 2.12194440e-4;
   precise float p = 1.0 + (f + f * f * (0.50000001 + f * (0.166665129 + f * (0.0416661873 +
                     f * (0.00836959877 + f * 0.00139517135)))));
-  return k_scaled(p, int(n));
+  return k_flushed(k_scaled(p, int(n)));
 }
 
-// x = 2^exponent * (1 + f), 1 + f in [sqrt(1/2), sqrt(2)]; x is positive and finite.
+// x = 2^exponent * (1 + f), 1 + f in [sqrt(1/2), sqrt(2)]; x is a positive normal number.
 //@ k_log_parts f32
 float k_log_parts(float x, out float exponent) {
   uint bits = floatBitsToUint(x);
-  int offset = 0;
-  if (bits < 0x800000u) {
-    uint up = 23u - uint(findMSB(bits));
-    bits <<= up;  // the leading bit acts as exponent field 1
-    offset = -int(up);
-  }
   // 0x3F3504F3 is sqrt(1/2).
   int e = (int(bits) - 0x3F3504F3) >> 23;
-  exponent = float(e + offset);
+  exponent = float(e);
   return uintBitsToFloat(uint(int(bits) - (e << 23))) - 1.0;
 }
 // log(1 + f) = f + rest, where rest is small compared with f.
@@ -74,8 +68,8 @@ float k_log_rest(float f) {
 //@ k_log_edge f32
 float k_log_edge(float x) {
   uint bits = floatBitsToUint(x);
-  if (bits > 0u && bits < 0x7F800000u) return 0.0;
-  if ((bits & 0x7FFFFFFFu) == 0u) return uintBitsToFloat(0xFF800000u);
+  if (bits > 0x7FFFFFu && bits < 0x7F800000u) return 0.0;
+  if ((bits & 0x7F800000u) == 0u) return uintBitsToFloat(0xFF800000u);
   return bits == 0x7F800000u ? x : uintBitsToFloat(0x7FC00000u);
 }
 //@ k_log f32 each
@@ -176,7 +170,7 @@ float k_cos_near(float r) {
 // an early return costs more than it saves.
 //@ k_periodic_edge
 float k_periodic_edge(float x, float result, float at_zero) {
-  result = x == 0.0 ? at_zero : result;
+  result = (floatBitsToUint(x) & 0x7F800000u) == 0u ? k_flushed(at_zero) : result;
   return (floatBitsToUint(x) & 0x7FFFFFFFu) >= 0x7F800000u ? uintBitsToFloat(0x7FC00000u) : result;
 }
 //@ k_sin f32 each
@@ -215,7 +209,7 @@ float k_asin_near(float x) {
 float k_asin(float x) {
   float a = abs(x);
   if (!(a <= 1.0)) return uintBitsToFloat(0x7FC00000u);
-  if (a <= 0.5) return x == 0.0 ? x : k_asin_near(x);
+  if (a <= 0.5) return k_flushed(x) == 0.0 ? k_flushed(x) : k_asin_near(x);
   precise float r = 1.57079633 - (2.0 * k_asin_near(sqrt(0.5 * (1.0 - a))) + 4.37113883e-8);
   return x < 0.0 ? -r : r;
 }
@@ -232,7 +226,7 @@ float k_acos(float x) {
 }
 //@ k_atan f32 each
 float k_atan(float x) {
-  if (isnan(x) || x == 0.0) return x;
+  if (isnan(x) || k_flushed(x) == 0.0) return k_flushed(x);
   float a = abs(x);
   precise float base = 0.0, low = 0.0, y = a;
   if (a > 2.41421366) {
@@ -248,7 +242,7 @@ float k_atan(float x) {
 //@ k_atan2 f32 each
 float k_atan2(float y, float x) {
   if (isnan(x) || isnan(y)) return uintBitsToFloat(0x7FC00000u);
-  float ax = abs(x), ay = abs(y);
+  float ax = abs(k_flushed(x)), ay = abs(k_flushed(y));
   bool left = floatBitsToUint(x) > 0x7FFFFFFFu;
   precise float r;
   if (ay == 0.0) {
@@ -278,7 +272,7 @@ float k_half_exp(float a) {
 }
 //@ k_sinh f32 each
 float k_sinh(float x) {
-  if (isnan(x) || x == 0.0) return x;
+  if (isnan(x) || k_flushed(x) == 0.0) return k_flushed(x);
   float a = abs(x);
   if (a <= 1.0) {
     precise float z = x * x;
@@ -299,7 +293,7 @@ float k_cosh(float x) {
 }
 //@ k_tanh f32 each
 float k_tanh(float x) {
-  if (isnan(x) || x == 0.0) return x;
+  if (isnan(x) || k_flushed(x) == 0.0) return k_flushed(x);
   float a = abs(x);
   if (a < 0.625) {
     precise float z = x * x;
@@ -350,7 +344,7 @@ float k_pow(float x, float y) {
   g -= more;
   precise float p = 1.0 + g * (0.693147208 + g * (0.240226513 + g * (0.0555032426 +
                     g * (0.00961800344 + g * (0.0013401654 + g * 0.000154765609)))));
-  return k_scaled(p, int(n + more));
+  return k_flushed(k_scaled(p, int(n + more)));
 }
 
 // The other types are computed in float.

@@ -65,6 +65,12 @@ uint64_t k_atomic_address_32(k_Window w) {
 uint64_t k_atomic_address_64(k_Window w) {
   return w.bytes >= 8UL && (w.base & 7UL) == 0UL ? w.base : 0UL;
 }
+// The counter of a structured buffer; 0 if it has none.
+//@ k_counter_address
+uint64_t k_counter_address(k_Descriptor d) {
+  if ((d.kind_access & 0xFFFFu) != 3u) return 0UL;
+  return (uint64_t(d.kind_access >> 18) << 32 | uint64_t(d.format)) << 2;
+}
 
 //@ k_Words1
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer k_Words1 { uint v; };

@@ -99,3 +99,11 @@ bool k_not($T a) { return a == $0; }
 $T k_select(bool condition, $T a, $T b) { return condition ? a : b; }
 //@ k_select b ints floats vector
 $T k_select(bool condition, $T a, $T b) { return condition ? a : b; }
+
+// Denormal floats count as zero of the same sign, as arguments and as results [D3D11.3: fp32]. The
+// driver may do that in arithmetic; this is for functions that work on bits.
+//@ k_flushed
+float k_flushed(float x) {
+  uint bits = floatBitsToUint(x);
+  return (bits & 0x7F800000u) != 0u ? x : uintBitsToFloat(bits & 0x80000000u);
+}

@@ -222,3 +222,10 @@ uint64_t k_typed_address(k_Descriptor d, uint element) {
   uint64_t at = k_typed_element(d, element, fits ? 4u : 0u);
   return (at & 3UL) == 0UL ? at : 0UL;
 }
+// The same for 64 bits: R32G32_UINT and R32G32_SINT.
+//@ k_typed_address_64
+uint64_t k_typed_address_64(k_Descriptor d, uint element) {
+  bool fits = (d.format == 17u || d.format == 18u) && d.kind_access >> 16 == 1u;
+  uint64_t at = k_typed_element(d, element, fits ? 8u : 0u);
+  return (at & 7UL) == 0UL ? at : 0UL;
+}

@@ -42,7 +42,7 @@ struct alignas(8) Descriptor {
   uint32_t stride_bytes = 0;  // structured buffers; for textures: texture_shape() of the view
   uint64_t address = 0;       // GPU virtual address, or the backend's object
   uint64_t size_bytes = 0;    // buffers: reads and writes at or past it are out of bounds
-  uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures
+  uint32_t format = 0;        // DXGI_FORMAT of typed buffers and textures; or counter_address()
   // 0 in a heap. In a shader of a checked library: 1 + the library's binding that it came from,
   // plus kFromRoot for a root descriptor, whose size_bytes extends to the end of its allocation.
   uint32_t origin = 0;
@@ -63,6 +63,22 @@ constexpr bool fits_shape(uint32_t view, uint32_t declared) {
   const uint32_t single = low & 0xFF;
   return view + declared == 2 * low + 1 && (single == 2 || single == 4 || single == 9);
 }
+// The unordered access view of a structured buffer may have a counter of 4 bytes. `format` has bits
+// 2 to 33 of its address, and `access` the others above its own two bits; 0: there is none.
+constexpr DescriptorAccess view_access(const Descriptor& descriptor) {
+  return static_cast<DescriptorAccess>(static_cast<uint16_t>(descriptor.access) & 3u);
+}
+constexpr uint64_t counter_address(const Descriptor& descriptor) {
+  if (descriptor.kind != DescriptorKind::kStructuredBuffer) return 0;
+  const uint64_t upper = static_cast<uint16_t>(descriptor.access) >> 2;
+  return (upper << 32 | descriptor.format) << 2;
+}
+constexpr void set_counter(Descriptor& descriptor, uint64_t address) {
+  descriptor.format = static_cast<uint32_t>(address >> 2);
+  descriptor.access = static_cast<DescriptorAccess>(static_cast<uint16_t>(view_access(descriptor)) |
+                                                    static_cast<uint16_t>(address >> 34 << 2));
+}
+
 inline constexpr uint32_t kFromRoot = 0x80000000u;
 
 // ---------------------------------------------------------------------------------------------
@@ -269,6 +285,7 @@ enum class RemovalReason : uint32_t {
   kFault,
   kOther,
   kStepLimit,  // interpreted shaders only
+  kMultisampled,
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -414,9 +431,10 @@ struct Services {
   void (*store_texel)(const Descriptor& texture, const int32_t coordinates[4], const Texel& value);
   Texel (*load_typed)(const Descriptor& buffer, uint32_t element);
   void (*store_typed)(const Descriptor& buffer, uint32_t element, const Texel& value);
-  // For atomics on R32 formats; null if out of bounds.
-  void* (*texel_address)(const Descriptor& texture, const int32_t coordinates[4]);
-  void* (*typed_address)(const Descriptor& buffer, uint32_t element);
+  // For atomics on `bytes`: 4 in R32 formats, 8 in R32G32_UINT and R32G32_SINT. Null in another
+  // format, and out of bounds.
+  void* (*texel_address)(const Descriptor& texture, const int32_t coordinates[4], uint32_t bytes);
+  void* (*typed_address)(const Descriptor& buffer, uint32_t element, uint32_t bytes);
   TextureDimensions (*texture_dimensions)(const Descriptor& texture, uint32_t mip);
 
   void (*group_barrier)(ComputeGroup&);  // only used with fibers
@@ -551,7 +569,8 @@ struct ExportDesc {
   // Hash of the attributes' scalars in order: those that ReportHit passes or that the parameter
   // has. 0: none, or unknown; 1: several types are reported.
   uint32_t attribute_type = 0;
-  RayGenerationRowFn row = nullptr;  // ray generation; null: only `entry` runs it
+  RayGenerationRowFn row = nullptr;      // ray generation; null: only `entry` runs it
+  const char* root_signature = nullptr;  // text of [RootSignature]; null: the export has none
 };
 
 // Subobjects defined in HLSL. Which members are used depends on type (values of

@@ -27,7 +27,7 @@ constexpr bool matches(const Descriptor& descriptor, DescriptorKind kind, Descri
   const bool has_access = kind != DescriptorKind::kConstantBuffer &&
                           kind != DescriptorKind::kSampler &&
                           kind != DescriptorKind::kAccelerationStructure;
-  return !has_access || access == DescriptorAccess::kOther || descriptor.access == access;
+  return !has_access || access == DescriptorAccess::kOther || view_access(descriptor) == access;
 }
 
 // Whether it is what the declaration says in every respect, as most are. The access is always exact

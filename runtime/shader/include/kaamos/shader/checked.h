@@ -141,7 +141,7 @@ constexpr uint64_t with_shape(DescriptorAccess access, DescriptorKind kind, uint
     report(invocation, Finding::kOutsideHeap, site, 0, 0, index, count);
   } else if (held.kind != DescriptorKind::kNull && !bindings::matches(held, kind, access, shape)) {
     report(invocation, Finding::kWrongDescriptor, site, 0, 0, static_cast<uint64_t>(held.kind),
-           with_shape(held.access, held.kind, held.stride_bytes), static_cast<uint64_t>(kind),
+           with_shape(view_access(held), held.kind, held.stride_bytes), static_cast<uint64_t>(kind),
            with_shape(access, kind, shape));
   } else {
     return usable(invocation, site, 0, found, index);

@@ -12,6 +12,17 @@ namespace kaamos::shader {
 // ---------------------------------------------------------------------------------------------
 // Functions of one floating-point argument: f32 and f64 are expressions in x.
 
+namespace op {
+// Only instructions flush it; the C library's floor and ceil work on bits.
+KAAMOS_INLINE float rounded_operand(float x) {
+#if defined(__SSE4_1__) || defined(__aarch64__)
+  return x;
+#else
+  return flushed(x);
+#endif
+}
+}  // namespace op
+
 #define KAAMOS_FLOAT_FUNCTION(name, f32, f64)                                       \
   namespace op {                                                                    \
   struct name##_function {                                                          \
@@ -26,18 +37,18 @@ namespace kaamos::shader {
   }
 
 KAAMOS_FLOAT_FUNCTION(acos, __builtin_acosf(x), __builtin_acos(x))
-KAAMOS_FLOAT_FUNCTION(asin, __builtin_asinf(x), __builtin_asin(x))
-KAAMOS_FLOAT_FUNCTION(atan, __builtin_atanf(x), __builtin_atan(x))
-KAAMOS_FLOAT_FUNCTION(ceil, __builtin_ceilf(x), __builtin_ceil(x))
+KAAMOS_FLOAT_FUNCTION(asin, __builtin_asinf(flushed(x)), __builtin_asin(x))
+KAAMOS_FLOAT_FUNCTION(atan, __builtin_atanf(flushed(x)), __builtin_atan(x))
+KAAMOS_FLOAT_FUNCTION(ceil, __builtin_ceilf(rounded_operand(x)), __builtin_ceil(x))
 KAAMOS_FLOAT_FUNCTION(cos, cosine(x), __builtin_cos(x))
 KAAMOS_FLOAT_FUNCTION(cosh, __builtin_coshf(x), __builtin_cosh(x))
 KAAMOS_FLOAT_FUNCTION(degrees, x * 57.2957795130823209f, x * 57.2957795130823209)
 KAAMOS_FLOAT_FUNCTION(exp, exponential(x), __builtin_exp(x))
 KAAMOS_FLOAT_FUNCTION(exp2, __builtin_exp2f(x), __builtin_exp2(x))
-KAAMOS_FLOAT_FUNCTION(floor, __builtin_floorf(x), __builtin_floor(x))
-KAAMOS_FLOAT_FUNCTION(log, __builtin_logf(x), __builtin_log(x))
-KAAMOS_FLOAT_FUNCTION(log10, __builtin_log10f(x), __builtin_log10(x))
-KAAMOS_FLOAT_FUNCTION(log2, __builtin_log2f(x), __builtin_log2(x))
+KAAMOS_FLOAT_FUNCTION(floor, __builtin_floorf(rounded_operand(x)), __builtin_floor(x))
+KAAMOS_FLOAT_FUNCTION(log, __builtin_logf(flushed(x)), __builtin_log(x))
+KAAMOS_FLOAT_FUNCTION(log10, __builtin_log10f(flushed(x)), __builtin_log10(x))
+KAAMOS_FLOAT_FUNCTION(log2, __builtin_log2f(flushed(x)), __builtin_log2(x))
 KAAMOS_FLOAT_FUNCTION(radians, x * 0.0174532925199432958f, x * 0.0174532925199432958)
 KAAMOS_FLOAT_FUNCTION(rcp, 1.0f / x, 1.0 / x)
 // Rounds halves to even: round(0.5) is 0, round(1.5) is 2.
@@ -47,10 +58,10 @@ KAAMOS_FLOAT_FUNCTION(rsqrt, 1.0f / __builtin_sqrtf(x), 1.0 / __builtin_sqrt(x))
 KAAMOS_FLOAT_FUNCTION(saturate, x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f,
                       x > 0.0 ? (x < 1.0 ? x : 1.0) : 0.0)
 KAAMOS_FLOAT_FUNCTION(sin, sine(x), __builtin_sin(x))
-KAAMOS_FLOAT_FUNCTION(sinh, __builtin_sinhf(x), __builtin_sinh(x))
+KAAMOS_FLOAT_FUNCTION(sinh, __builtin_sinhf(flushed(x)), __builtin_sinh(x))
 KAAMOS_FLOAT_FUNCTION(sqrt, __builtin_sqrtf(x), __builtin_sqrt(x))
-KAAMOS_FLOAT_FUNCTION(tan, __builtin_tanf(x), __builtin_tan(x))
-KAAMOS_FLOAT_FUNCTION(tanh, __builtin_tanhf(x), __builtin_tanh(x))
+KAAMOS_FLOAT_FUNCTION(tan, __builtin_tanf(flushed(x)), __builtin_tan(x))
+KAAMOS_FLOAT_FUNCTION(tanh, __builtin_tanhf(flushed(x)), __builtin_tanh(x))
 KAAMOS_FLOAT_FUNCTION(trunc, __builtin_truncf(x), __builtin_trunc(x))
 #undef KAAMOS_FLOAT_FUNCTION
 
@@ -70,7 +81,7 @@ namespace op {
 struct Frac {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
-    const float f = x - __builtin_floorf(x);
+    const float f = x - __builtin_floorf(rounded_operand(x));
     return f == 1.0f ? 0x1.fffffep-1f : f;
   }
   KAAMOS_INLINE static double apply(double x) {
@@ -137,7 +148,9 @@ struct Clamp {
 
 struct Atan2 {
   KAAMOS_HALF_THROUGH_FLOAT_2
-  KAAMOS_INLINE static float apply(float y, float x) { return __builtin_atan2f(y, x); }
+  KAAMOS_INLINE static float apply(float y, float x) {
+    return __builtin_atan2f(flushed(y), flushed(x));
+  }
   KAAMOS_INLINE static double apply(double y, double x) { return __builtin_atan2(y, x); }
 };
 
@@ -145,7 +158,8 @@ struct Atan2 {
 struct Pow {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float x, float y) {
-    return x >= 0 && y == y ? __builtin_powf(__builtin_fabsf(x), y) : __builtin_nanf("");
+    const float base = __builtin_fabsf(flushed(x));
+    return x >= 0 && y == y ? __builtin_powf(base, y) : __builtin_nanf("");
   }
   KAAMOS_INLINE static double apply(double x, double y) {
     return x >= 0 && y == y ? __builtin_pow(__builtin_fabs(x), y) : __builtin_nan("");
@@ -157,7 +171,7 @@ struct Ldexp {
   KAAMOS_HALF_THROUGH_FLOAT_2
   KAAMOS_INLINE static float apply(float x, float e) {
     if (__builtin_truncf(e) == e && __builtin_fabsf(e) < 1000) {
-      return __builtin_ldexpf(x, static_cast<int>(e));
+      return flushed(__builtin_ldexpf(flushed(x), static_cast<int>(e)));
     }
     return x * __builtin_exp2f(e);
   }
@@ -174,7 +188,7 @@ struct FrexpMantissa {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
     int exponent;
-    return __builtin_frexpf(x, &exponent);
+    return __builtin_frexpf(flushed(x), &exponent);
   }
   KAAMOS_INLINE static double apply(double x) {
     int exponent;
@@ -185,7 +199,7 @@ struct FrexpExponent {
   KAAMOS_HALF_THROUGH_FLOAT_1
   KAAMOS_INLINE static float apply(float x) {
     int exponent = 0;
-    __builtin_frexpf(x, &exponent);
+    __builtin_frexpf(flushed(x), &exponent);
     return x - x == 0.0f ? static_cast<float>(exponent) : 0.0f;
   }
   KAAMOS_INLINE static double apply(double x) {

@@ -228,6 +228,11 @@ template <class T>
 KAAMOS_INLINE T* memory_address(const Descriptor& buffer, uint32_t offset) {
   return memory::atomic_pointer<T>(memory::window(buffer, offset));
 }
+// The counter of a structured buffer; null if it has none.
+KAAMOS_INLINE uint32_t* counter(const Descriptor& buffer) {
+  return reinterpret_cast<uint32_t*>(static_cast<uintptr_t>(counter_address(buffer)));
+}
+
 template <class T>
 KAAMOS_INLINE T* element_address(const Descriptor& buffer, uint32_t index, uint32_t offset) {
   return memory::atomic_pointer<T>(memory::element_window(buffer, index, offset));

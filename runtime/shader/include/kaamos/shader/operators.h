@@ -67,6 +67,13 @@ struct Divide {
   }
 };
 // Has the sign of the dividend. Integers: x % 0 has all bits set.
+// Denormal floats count as zero of the same sign, as arguments and as results [D3D11.3: fp32].
+// Arithmetic does so in hardware; this is for functions that work on bits.
+KAAMOS_INLINE float flushed(float x) {
+  const uint32_t bits = __builtin_bit_cast(uint32_t, x);
+  return (bits & 0x7F800000u) != 0 ? x : __builtin_bit_cast(float, bits & 0x80000000u);
+}
+
 struct Modulo {
   template <class T>
   KAAMOS_INLINE static T apply(T a, T b) {
@@ -79,7 +86,7 @@ struct Modulo {
       }
       return static_cast<T>(a % b);
     } else if constexpr (sizeof(T) == 4) {
-      return __builtin_fmodf(a, b);
+      return flushed(__builtin_fmodf(flushed(a), flushed(b)));
     } else {
       return __builtin_fmod(a, b);
     }

@@ -298,7 +298,8 @@ KAAMOS_INLINE void store_texel(const Invocation& invocation, const Descriptor& t
 template <class T>
 KAAMOS_INLINE T* texel_address(const Invocation& invocation, const Descriptor& texture,
                                const int4& coordinates) {
-  return static_cast<T*>(invocation.dispatch->services->texel_address(texture, coordinates.e));
+  return static_cast<T*>(
+      invocation.dispatch->services->texel_address(texture, coordinates.e, sizeof(T)));
 }
 
 template <class V>
@@ -314,7 +315,7 @@ KAAMOS_INLINE void store_typed(const Invocation& invocation, const Descriptor& b
 template <class T>
 KAAMOS_INLINE T* typed_address(const Invocation& invocation, const Descriptor& buffer,
                                uint32_t element) {
-  return static_cast<T*>(invocation.dispatch->services->typed_address(buffer, element));
+  return static_cast<T*>(invocation.dispatch->services->typed_address(buffer, element, sizeof(T)));
 }
 
 namespace texture_access {

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+//
+// What a file is, for messages about files of the wrong kind.
+#pragma once
+
+#include <string>
+
+namespace rtapi::detail {
+
+// "a DXIL container, which dxc makes for Direct3D drivers", "HLSL or other text", .. by the first
+// bytes of the file.
+std::string DescribeFile(const std::string& path);
+
+}  // namespace rtapi::detail
