@@ -48,8 +48,10 @@ Services make_services() {
   out.store_texel = [](const Descriptor&, const int32_t[4], const Texel&) {};
   out.load_typed = [](const Descriptor&, uint32_t element) { return Texel{{element, 1, 2, 3}}; };
   out.store_typed = [](const Descriptor&, uint32_t, const Texel&) {};
-  out.texel_address = [](const Descriptor&, const int32_t[4]) -> void* { return nullptr; };
-  out.typed_address = [](const Descriptor&, uint32_t) -> void* { return nullptr; };
+  out.texel_address = [](const Descriptor&, const int32_t[4], uint32_t) -> void* {
+    return nullptr;
+  };
+  out.typed_address = [](const Descriptor&, uint32_t, uint32_t) -> void* { return nullptr; };
   out.texture_dimensions = [](const Descriptor&, uint32_t) {
     return TextureDimensions{8, 8, 1, 2};
   };

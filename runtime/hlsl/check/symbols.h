@@ -53,7 +53,7 @@ struct VariableInfo {
   std::string_view name;
   const Type* type = nullptr;
   bool is_const = false;
-  bool is_loop_variable = false;  // of a `for` of HLSL 2018, which outlives the loop
+  bool is_loop_variable = false;       // of a `for` of HLSL 2018, which outlives the loop
   ir::Variable* variable = nullptr;    // a local one has it once something refers to it
   BindingInfo* binding = nullptr;      // kBufferMember, kBinding
   uint32_t offset = 0;                 // kBufferMember

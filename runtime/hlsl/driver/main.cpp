@@ -152,8 +152,8 @@ int write_text(const Arguments& arguments, const ir::Module& module) {
   return write_output(arguments, text);
 }
 
-// DXC has no warning about unreached bodies and vk attributes, so what passes with its -WX must pass
-// here too.
+// DXC has no warning about unreached bodies and vk attributes, so what passes with its -WX must
+// pass here too.
 bool has_warning_for_wx(const DiagnosticEngine& diagnostics) {
   for (const Diagnostic& diagnostic : diagnostics.diagnostics()) {
     const bool is_own = diagnostic.id == DiagnosticId::kSkipped ||

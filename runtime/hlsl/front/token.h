@@ -52,8 +52,8 @@ std::string describe(const Token& token);
 // A keyword, a reserved word, or kIdentifier.
 TokenKind keyword_kind(std::string_view text);
 bool is_keyword(TokenKind kind);
-// sample, payload, ...: keywords that DXC also accepts as the names of variables, fields, parameters
-// and functions.
+// sample, payload, ...: keywords that DXC also accepts as the names of variables, fields,
+// parameters and functions.
 bool is_contextual_keyword(TokenKind kind);
 inline bool can_be_name(TokenKind kind) {
   return kind == TokenKind::kIdentifier || is_contextual_keyword(kind);

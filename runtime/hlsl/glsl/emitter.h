@@ -2,8 +2,8 @@
 //
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
-// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp, system_values.cpp,
-// emit_glsl.cpp (functions, main).
+// atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp,
+// system_values.cpp, emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
 // a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
