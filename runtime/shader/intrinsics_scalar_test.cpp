@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "kaamos/shader/intrinsics_scalar.h"
 
+#include <xmmintrin.h>
+
 #include "runtime/shader/test_values.h"
 
 namespace kaamos::shader {
@@ -43,10 +45,40 @@ const UnaryCase kUnary[] = {
      [](long double x) { return x * 57.2957795130823208768L; }, 1},
 };
 
+// Intrinsics take denormals for zero of the same sign.
+float flushed(float x) {
+  const auto bits = std::bit_cast<uint32_t>(x);
+  return (bits & 0x7F800000u) == 0 ? std::bit_cast<float>(bits & 0x80000000u) : x;
+}
+
+// How shaders run: denormals are zero for the processor too.
+class FloatMode {
+ public:
+  FloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(0x1F80 | 0x8000 | 0x0040); }
+  ~FloatMode() { _mm_setcsr(saved_); }
+  FloatMode(const FloatMode&) = delete;
+  FloatMode& operator=(const FloatMode&) = delete;
+
+ private:
+  uint32_t saved_;
+};
+
+template <class Function>
+float in_shader(Function function) {
+  const FloatMode mode;
+  return function();
+}
+
+// A result that is a denormal is zero as well.
+long double flushed(long double x) {
+  return std::abs(x) < 0x1p-126L ? std::copysign(0.0L, x) : x;
+}
+
 TEST(ShaderScalarIntrinsics, AgreeWithLongDouble) {
   for (const UnaryCase& c : kUnary) {
     for (const float x : kFloats) {
-      expect_near_ulps(c.function(x), c.reference(static_cast<long double>(x)), c.ulps, c.name,
+      expect_near_ulps(in_shader([&] { return c.function(x); }),
+                       flushed(c.reference(static_cast<long double>(flushed(x)))), c.ulps, c.name,
                        static_cast<double>(x));
     }
     for (int i = -400; i <= 400; ++i) {
@@ -176,11 +208,13 @@ TEST(ShaderScalarIntrinsics, PowIsExp2OfLog2) {
 TEST(ShaderScalarIntrinsics, TwoArgumentsAgreeWithLongDouble) {
   for (const float a : kFloats) {
     for (const float b : kFloats) {
-      const long double x = static_cast<long double>(a), y = static_cast<long double>(b);
-      expect_near_ulps(atan2(a, b), std::atan2(x, y), 2, "atan2", static_cast<double>(a),
-                       static_cast<double>(b));
-      expect_near_ulps(fmod(a, b), std::fmod(x, y), 0, "fmod", static_cast<double>(a),
-                       static_cast<double>(b));
+      const long double x = static_cast<long double>(flushed(a));
+      const long double y = static_cast<long double>(flushed(b));
+      expect_near_ulps(in_shader([&] { return atan2(a, b); }), flushed(std::atan2(x, y)), 2,
+                       "atan2", static_cast<double>(a), static_cast<double>(b));
+      expect_near_ulps(in_shader([&] { return fmod(a, b); }), flushed(std::fmod(x, y)), 0, "fmod",
+                       static_cast<double>(a), static_cast<double>(b));
+      if (a != flushed(a) || b != flushed(b)) continue;
       expect_same(step(a, b), b >= a ? 1.0f : 0.0f, "step");
     }
   }
@@ -189,18 +223,20 @@ TEST(ShaderScalarIntrinsics, TwoArgumentsAgreeWithLongDouble) {
 TEST(ShaderScalarIntrinsics, LdexpFrexpModf) {
   expect_same(ldexp(0.5f, 128.0f), 0x1p127f, "ldexp");
   expect_same(ldexp(3.0f, -1.0f), 1.5f, "ldexp");
-  expect_same(ldexp(1.0f, -149.0f), 0x1p-149f, "ldexp");
+  expect_same(ldexp(1.0f, -126.0f), 0x1p-126f, "ldexp");
+  expect_same(ldexp(1.0f, -149.0f), 0.0f, "ldexp");
   expect_same(ldexp(1.0f, 500.0f), kInf, "ldexp");
   expect_near_ulps(ldexp(3.0f, 0.5f), 3 * std::sqrt(2.0L), 2, "ldexp");
   expect_same(ldexp(1.0f, kNan), kNan, "ldexp");
-  for (const float x : kFloats) {
-    const float m = frexp_mantissa(x), e = frexp_exponent(x);
+  for (const float given : kFloats) {
+    const float x = flushed(given);
+    const float m = frexp_mantissa(given), e = frexp_exponent(given);
     if (std::isfinite(x) && x != 0.0f) {
       EXPECT_GE(std::abs(m), 0.5f);
       EXPECT_LT(std::abs(m), 1.0f);
       expect_same(ldexp(m, e), x, "frexp", static_cast<double>(x));
-      expect_same(modf_integer(x), std::trunc(x), "modf");
-      expect_same(modf_fraction(x), x - std::trunc(x), "modf");
+      expect_same(modf_integer(given), std::trunc(x), "modf");
+      expect_same(modf_fraction(given), x - std::trunc(x), "modf");
     } else {
       expect_same(m, x, "frexp", static_cast<double>(x));
       expect_same(e, 0.0f, "frexp", static_cast<double>(x));

@@ -132,7 +132,7 @@ const std::vector<Layer>& all_layers() {
        "`kDeviceRemoved`, or any error of a command, removes the device "
        "(`Device::GetDeviceRemovedReason`); warnings arrive through `DeviceDesc::OnMessage`, and "
        "execution goes on. Table: `runtime/backend/errors.inc`.",
-       {{700, 999}},
+       {{550, 551}, {700, 999}},
        backends()},
       {"HLSL compiler",
        "Diagnostics of `kaamos-hlsl` and `CompileShaderLibrary`, each with file, line and column. "

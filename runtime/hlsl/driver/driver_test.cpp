@@ -262,9 +262,9 @@ TEST_F(Driver, ComputeTargets) {
   EXPECT_THAT(kernel.out, HasSubstr("\"name\": \"kernel\""));
   EXPECT_EQ(run("-T cs_6_0 -E nobody kernel.hlsl").error,
             "error: entry point 'nobody' not found [KA2562]\n1 error\n");
-  const Outcome pixel = run("-T ps_6_0 kernel.hlsl");
+  const Outcome pixel = run("-T hs_6_0 kernel.hlsl");
   EXPECT_EQ(pixel.status, 1);
-  EXPECT_THAT(pixel.error, HasSubstr("unknown target 'ps_6_0'"));
+  EXPECT_THAT(pixel.error, HasSubstr("unknown target 'hs_6_0'"));
 }
 
 TEST_F(Driver, WarningsAsErrors) {

@@ -8,9 +8,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer k_Lock {
   uint removal_reason;
   uint held;
 };
-//@ k_pair_images_$D_$C 1d 1d_array 2d 2d_array 3d
+//@ k_pair_images_$D_$C 1d 1d_array 2d 2d_array 3d i u
 layout(set = 0, binding = 1) coherent uniform $Pimage$DIM k_pair_images_$D_$C[];
-//@ k_pair_image_$D_$C 1d 1d_array 2d 2d_array 3d
+//@ k_pair_image_$D_$C 1d 1d_array 2d 2d_array 3d i u
 #define k_pair_image_$D_$C(t) k_pair_images_$D_$C[nonuniformEXT(uint(t.address))]
 //@ k_pair_format_i
 const uint k_pair_format_i = 18u;
@@ -38,7 +38,7 @@ uint64_t k_pair_result_i(uint operation, uint64_t old, uint64_t compare, uint64_
     default: return k_pair_result_u(operation, old, compare, value);
   }
 }
-//@ k_image_atomic_64_$D_$C 1d 1d_array 2d 2d_array 3d
+//@ k_image_atomic_64_$D_$C 1d 1d_array 2d 2d_array 3d i u
 uint64_t k_image_atomic_64_$D_$C(k_Descriptor t, $X at, uint operation, uint64_t compare,
                                  uint64_t value) {
   if (!k_can_write(t, $Ru, k_class_$C) || t.format != k_pair_format_$C ||
