@@ -115,7 +115,8 @@ struct StateObjectImpl {
   // used.
   std::vector<ExplicitAssociation> outward_associations;
   std::shared_ptr<const runtime::LinkedPipeline> linked;  // in collections, what is resolved
-  // Of the state objects that additions have extended to this one: identifiers point into them.
+  // The links of the parents that AddToStateObject extended to this state object: the identifiers
+  // that they gave out point into them.
   std::vector<std::shared_ptr<const runtime::LinkedPipeline>> ancestors;
   std::shared_ptr<runtime::BackendPipeline> pipeline;  // pipelines only
   std::vector<RootSignature> global_root_signatures;   // of ray generation shaders

@@ -20,6 +20,7 @@
 #include "runtime/embree/fault.h"
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/waves.h"
+#include "runtime/shader/float_mode.h"
 
 namespace kaamos::embree {
 namespace {
@@ -188,7 +189,7 @@ struct ComputeJob {
 };
 
 void run_groups(const ComputeJob& job, uint64_t begin, uint64_t end) {
-  const FloatMode float_mode;
+  const shader::FloatMode float_mode;
   const shader::ComputeDesc& compute = job.pipeline->compute();
   // 16 extra bytes, so that a kernel without groupshared memory still gets a pointer.
   const size_t shared_words = compute.shared_bytes / 16 + 1;

@@ -11,6 +11,7 @@
 #include "runtime/embree/parallel.h"
 #include "runtime/embree/ray_state.h"
 #include "runtime/embree/services.h"
+#include "runtime/shader/float_mode.h"
 #include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
@@ -94,7 +95,7 @@ void run_tile(void* argument) {
 
 void run_tiles(RunningDispatch& dispatch, const Grid& grid, const ShaderRecord& record,
                uint64_t begin, uint64_t end) {
-  const FloatMode float_mode;
+  const shader::FloatMode float_mode;
   Worker worker;
   begin_worker(dispatch, worker);
   for (uint64_t i = begin; i < end && !dispatch.removed.load(std::memory_order_relaxed); ++i) {
@@ -189,17 +190,6 @@ struct RecordRead {
 };
 
 }  // namespace
-
-FloatMode::FloatMode() : saved_(_mm_getcsr()) {
-  constexpr uint32_t kFlushToZero = 0x8000;
-  constexpr uint32_t kDenormalsAreZero = 0x0040;
-  constexpr uint32_t kAllMasked = 0x1F80;
-  _mm_setcsr(kAllMasked | kFlushToZero | kDenormalsAreZero);
-}
-
-FloatMode::~FloatMode() {
-  _mm_setcsr(saved_);
-}
 
 void begin_dispatch(const DispatchEnvironment& environment, const runtime::RootBindings& state,
                     RunningDispatch& dispatch) {

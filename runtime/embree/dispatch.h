@@ -48,17 +48,4 @@ CountedOutcome end_dispatch(RunningDispatch& dispatch);
 void begin_worker(RunningDispatch& dispatch, Worker& worker);
 void end_worker(Worker& worker);
 
-// Flushes denormals to zero for this thread until the end of the scope: for shaders because of
-// D3D's fp32 rules, and for Embree because denormals would slow it down.
-class FloatMode {
- public:
-  FloatMode();
-  ~FloatMode();
-  FloatMode(const FloatMode&) = delete;
-  FloatMode& operator=(const FloatMode&) = delete;
-
- private:
-  uint32_t saved_;
-};
-
 }  // namespace kaamos::embree

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/explain/replay.h"
 
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cstring>
 
 #include "runtime/explain/guard.h"
 #include "runtime/explain/replay_state.h"
 #include "runtime/explain/values.h"
+#include "runtime/shader/float_mode.h"
 
 namespace kaamos::explain {
 namespace {
@@ -35,18 +34,6 @@ const char* table_name(RecordKind kind) {
   }
   return "hit group";
 }
-
-// Shaders flush denormals to zero, by D3D's fp32 rules.
-class FloatMode {
- public:
-  FloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(0x1F80 | 0x8000 | 0x0040); }
-  ~FloatMode() { _mm_setcsr(saved_); }
-  FloatMode(const FloatMode&) = delete;
-  FloatMode& operator=(const FloatMode&) = delete;
-
- private:
-  uint32_t saved_;
-};
 
 void set_range(const std::shared_ptr<runtime::BackendBuffer>& heap,
                const shader::Descriptor*& begin, const shader::Descriptor*& end) {
@@ -96,7 +83,7 @@ rtapi::PixelStatistics Replay::run(const uint32_t index[3], uint32_t max_candida
     out->Index[i] = index[i];
     out->Dimensions[i] = dispatch_.dimensions[i];
   }
-  const FloatMode float_mode;
+  const shader::FloatMode float_mode;
   set_environment(&environment_);
   const std::string removal =
       run_guarded([](void* self) { static_cast<Replay*>(self)->run_ray_generation(); }, this);

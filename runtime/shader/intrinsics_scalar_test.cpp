@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kaamos/shader/intrinsics_scalar.h"
 
-#include <xmmintrin.h>
-
+#include "runtime/shader/float_mode.h"
 #include "runtime/shader/test_values.h"
 
 namespace kaamos::shader {
@@ -50,18 +49,6 @@ float flushed(float x) {
   const auto bits = std::bit_cast<uint32_t>(x);
   return (bits & 0x7F800000u) == 0 ? std::bit_cast<float>(bits & 0x80000000u) : x;
 }
-
-// How shaders run: denormals are zero for the processor too.
-class FloatMode {
- public:
-  FloatMode() : saved_(_mm_getcsr()) { _mm_setcsr(0x1F80 | 0x8000 | 0x0040); }
-  ~FloatMode() { _mm_setcsr(saved_); }
-  FloatMode(const FloatMode&) = delete;
-  FloatMode& operator=(const FloatMode&) = delete;
-
- private:
-  uint32_t saved_;
-};
 
 template <class Function>
 float in_shader(Function function) {

@@ -82,8 +82,7 @@ struct BufferDesc {
 ///
 /// What keeps a buffer alive, and what does not:
 /// - A call that takes the handle (copies, barriers, ExecuteIndirect, clears) keeps it until the
-/// list
-///   is reset and its work is done.
+///   list is reset and its work is done.
 /// - A call that takes an address keeps nothing: shader tables, root views, inputs and results of
 ///   builds. Executing a list after such a buffer was freed is an error that names the table,
 ///   parameter or input and the buffer (KA0856), in every mode and on every backend, even if

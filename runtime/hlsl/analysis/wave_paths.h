@@ -46,9 +46,9 @@ class WavePaths {
 
   std::unordered_map<const ir::Stmt*, WavePlace> places_;
   std::unordered_map<const ir::Function*, uint32_t> lengths_;
-  // Of the function that is being walked.
-  uint32_t next_ = 0;
-  uint32_t length_ = 0;
+  // The constructor walks one function after another.
+  uint32_t next_ = 0;    // number of the function's next place
+  uint32_t length_ = 0;  // of its longest path so far
 };
 
 // Whether the statement or anything in it can reach a wave operation.

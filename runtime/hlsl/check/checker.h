@@ -29,9 +29,11 @@
 
 namespace kaamos::hlsl {
 
-// Finds the attribute with that name, ignoring case; null if there is none.
 // The minor version of a target such as lib_6_3; lib_6_x has everything.
 uint32_t shader_model_minor(const std::string& target);
+// Whether the types and directions agree. The parameters of templates are not resolved and agree.
+bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
+// Finds the attribute with that name, ignoring case; null if there is none.
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
 
 class Checker {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Globals, namespaces, aliases, functions.
+#include <algorithm>
+
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -363,19 +365,18 @@ void Checker::resolve_signature(FunctionInfo* function) {
   }
 }
 
+bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other) {
+  return std::equal(one.parameters.begin(), one.parameters.end(), other.parameters.begin(),
+                    other.parameters.end(), [](const ParameterInfo& a, const ParameterInfo& b) {
+                      return same_type(a.type, b.type) && a.is_out == b.is_out &&
+                             a.is_in == b.is_in;
+                    });
+}
+
 FunctionInfo* Checker::same_signature(Symbol* symbol, const FunctionInfo& function) {
   for (FunctionInfo* other : symbol->functions) {
-    if (other->is_template || other->parameters.size() != function.parameters.size() ||
-        other->scope != function.scope) {
-      continue;
-    }
-    bool same = true;
-    for (size_t i = 0; i < function.parameters.size() && same; ++i) {
-      const ParameterInfo& a = other->parameters[i];
-      const ParameterInfo& b = function.parameters[i];
-      same = same_type(a.type, b.type) && a.is_out == b.is_out && a.is_in == b.is_in;
-    }
-    if (same) return other;
+    if (other->is_template || other->scope != function.scope) continue;
+    if (have_same_parameters(*other, function)) return other;
   }
   return nullptr;
 }

@@ -99,16 +99,10 @@ FunctionInfo* Checker::same_parameters(Symbol* symbol, const FunctionInfo& funct
         other->is_const_method != function.is_const_method) {
       continue;
     }
-    bool same = true;
-    if (function.is_template) {
-      same = other->decl->template_parameters.size() == function.decl->template_parameters.size();
+    if (other->decl->template_parameters.size() == function.decl->template_parameters.size() &&
+        have_same_parameters(*other, function)) {
+      return other;
     }
-    for (size_t i = 0; i < function.parameters.size() && same; ++i) {
-      const ParameterInfo& a = other->parameters[i];
-      const ParameterInfo& b = function.parameters[i];
-      same = same_type(a.type, b.type) && a.is_out == b.is_out && a.is_in == b.is_in;
-    }
-    if (same) return other;
   }
   return nullptr;
 }

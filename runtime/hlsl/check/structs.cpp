@@ -161,16 +161,7 @@ void Checker::check_interfaces(StructInfo* info) {
       for (const FunctionInfo* method : wanted->functions) {
         const Symbol* own = find_member(info, name);
         const auto implements = [&](const FunctionInfo* candidate) {
-          if (candidate->is_template) return true;
-          if (candidate->parameters.size() != method->parameters.size()) return false;
-          for (size_t i = 0; i < method->parameters.size(); ++i) {
-            const ParameterInfo& a = candidate->parameters[i];
-            const ParameterInfo& b = method->parameters[i];
-            if (!same_type(a.type, b.type) || a.is_out != b.is_out || a.is_in != b.is_in) {
-              return false;
-            }
-          }
-          return true;
+          return candidate->is_template || have_same_parameters(*candidate, *method);
         };
         if (own && own->kind == SymbolKind::kFunctions &&
             std::any_of(own->functions.begin(), own->functions.end(), implements)) {

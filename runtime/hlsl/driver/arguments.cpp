@@ -115,9 +115,17 @@ const std::vector<Option>& options() {
       {"-no-warnings", false, flag(&Arguments::no_warnings), ""},
       {"-Zi", false, flag(&Arguments::debug), ""},
       {"-spirv", false,
-       [](Arguments& a, const std::string&) { return a.spirv_wanted.emplace(true); }, ""},
+       [](Arguments& a, const std::string&) {
+         a.spirv_wanted = true;
+         return true;
+       },
+       ""},
       {"-no-spirv", false,
-       [](Arguments& a, const std::string&) { return !a.spirv_wanted.emplace(false); }, ""},
+       [](Arguments& a, const std::string&) {
+         a.spirv_wanted = false;
+         return true;
+       },
+       ""},
       {"-no-source", false, flag(&Arguments::no_source), ""},
       {"-no-wide", false, flag(&Arguments::no_wide), ""},
       {"-check-access", false, flag(&Arguments::check_access), ""},

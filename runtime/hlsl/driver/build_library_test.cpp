@@ -77,9 +77,8 @@ double seconds_of(int who) {
   return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-// Of the 2 s from an edit to the next picture, a quiet machine takes 0.02 s for HLSL to C++ and 1.6
-// s for the C++ compiler; the picture itself takes 0.1 s at 320 x 180. Processor time, since other
-// processes share the machine.
+// From an edit to the next picture, nearly all of the time is the C++ compiler's; HLSL to C++ takes
+// about 0.02 s. The test counts processor time, since other processes share the machine.
 TEST_F(QuickBuild, HasReflectionsInTwoSeconds) {
   FrontendOptions options;
   options.path = KAAMOS_SOURCE_DIR "/effects/reflections/reflections.hlsl";

@@ -80,7 +80,7 @@ constexpr uint64_t with_shape(DescriptorAccess access, DescriptorKind kind, uint
   if (found->kind == DescriptorKind::kNull) return;  // a null descriptor: legal
   report(invocation, Finding::kWrongDescriptor, site, slot + 1, 0,
          static_cast<uint64_t>(found->kind),
-         with_shape(found->access, found->kind, found->stride_bytes),
+         with_shape(view_access(*found), found->kind, found->stride_bytes),
          static_cast<uint64_t>(binding.kind),
          with_shape(binding.access, binding.kind, binding.stride_bytes));
 }
