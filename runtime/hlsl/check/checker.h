@@ -31,7 +31,7 @@ namespace kaamos::hlsl {
 
 // The minor version of a target such as lib_6_3; lib_6_x has everything.
 uint32_t shader_model_minor(const std::string& target);
-// Whether the types and directions agree. The parameters of templates are not resolved and agree.
+// Whether the types and directions agree.
 bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
 // Finds the attribute with that name, ignoring case; null if there is none.
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);

@@ -99,10 +99,12 @@ FunctionInfo* Checker::same_parameters(Symbol* symbol, const FunctionInfo& funct
         other->is_const_method != function.is_const_method) {
       continue;
     }
-    if (other->decl->template_parameters.size() == function.decl->template_parameters.size() &&
-        have_same_parameters(*other, function)) {
-      return other;
+    if (function.is_template &&
+        other->decl->template_parameters.size() != function.decl->template_parameters.size()) {
+      continue;
     }
+    // Without resolved parameters their number, which agrees, has to do.
+    if (function.parameters.empty() || have_same_parameters(*other, function)) return other;
   }
   return nullptr;
 }
