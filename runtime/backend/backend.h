@@ -29,6 +29,7 @@ class Reporter;  // runtime/checks/report.h
 namespace kaamos::runtime {
 
 struct AccelerationStructure;
+struct LinkedGraphics;  // linked_graphics.h
 
 // Linear memory, zero at first; freed with the object.
 class BackendBuffer {
@@ -48,7 +49,7 @@ class BackendTexture {
   virtual ~BackendTexture() = default;
 };
 
-// A ray tracing or compute pipeline, as the backend has prepared it.
+// A ray tracing, compute or graphics pipeline, as the backend has prepared it.
 class BackendPipeline {
  public:
   virtual ~BackendPipeline() = default;
@@ -91,12 +92,17 @@ class BackendDevice {
   virtual rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) = 0;
   // Whether typed buffers, textures and their views can have this format.
   virtual bool supports_format(rtapi::Format format, bool unordered_access) const = 0;
+  // Whether draws can write to textures in this format, as colours or as depth, and whether they
+  // can blend there.
+  virtual bool supports_target(rtapi::Format format, bool blended) const = 0;
 
   // Pipelines
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const LinkedPipeline> pipeline) = 0;
   virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_compute_pipeline(
       std::shared_ptr<const LinkedCompute> pipeline) = 0;
+  virtual rtapi::Result<std::shared_ptr<BackendPipeline>> create_graphics_pipeline(
+      std::shared_ptr<const LinkedGraphics> pipeline) = 0;
 
   // Acceleration structures. `geometries` is empty for a top level, `instance_count` is 0 for a
   // bottom level. GPU memory is not read. Sizes are multiples of 256 and grow with every count.

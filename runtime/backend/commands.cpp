@@ -21,6 +21,12 @@ struct NameOf {
   const char* operator()(const CopyTextureCommand&) const { return "CopyTextureRegion"; }
   const char* operator()(const ClearUavCommand&) const { return "ClearUnorderedAccessView"; }
   const char* operator()(const BarrierCommand&) const { return "ResourceBarrier"; }
+  const char* operator()(const DrawCommand& draw) const {
+    return draw.indexed ? "DrawIndexedInstanced" : "DrawInstanced";
+  }
+  const char* operator()(const ClearTargetCommand& clear) const {
+    return clear.depth_stencil ? "ClearDepthStencilView" : "ClearRenderTargetView";
+  }
   const char* operator()(const EventCommand& event) const {
     return event.begin ? "BeginEvent" : "EndEvent";
   }

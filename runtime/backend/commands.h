@@ -17,6 +17,10 @@
 #include <rtapi/resource.h>
 #include <rtapi/root_signature.h>
 
+#include "runtime/backend/draw_commands.h"
+#include "runtime/backend/draw_commands.h"
+#include "runtime/backend/root_bindings.h"
+
 namespace kaamos::runtime {
 
 class BackendBuffer;
@@ -24,24 +28,6 @@ class BackendTexture;
 class BackendPipeline;
 struct LinkedPipeline;
 struct LinkedCompute;
-
-// 64 DWORDs of arguments take at most 64 * 8 bytes here, because tables are 8-byte handles. Always
-// full size, with zeros where nothing was set, so that a shader with a different root signature
-// reads no wild memory.
-inline constexpr uint32_t kRootArgumentBytes = 512;
-struct alignas(16) RootArguments {
-  std::array<uint8_t, kRootArgumentBytes> bytes = {};
-};
-
-// What DispatchRays and Dispatch share. Dispatches share a snapshot if nothing was set between
-// them.
-struct RootBindings {
-  std::shared_ptr<const RootArguments> root_arguments;  // never null
-  // The heaps set on the list; [begin, end) of shader::DispatchConstants. Null: none set.
-  std::shared_ptr<BackendBuffer> view_heap;
-  std::shared_ptr<BackendBuffer> sampler_heap;
-  rtapi::RootSignature root_signature;  // the one that was set; may be empty
-};
 
 struct DispatchRaysCommand {
   std::shared_ptr<BackendPipeline> pipeline;
@@ -176,7 +162,8 @@ struct EventCommand {
 using Command =
     std::variant<DispatchRaysCommand, DispatchCommand, ExecuteIndirectCommand, BuildCommand,
                  EmitPostbuildInfoCommand, CopyAccelerationStructureCommand, CopyBufferCommand,
-                 CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand>;
+                 CopyTextureCommand, ClearUavCommand, BarrierCommand, EventCommand, DrawCommand,
+                 ClearTargetCommand>;
 
 // What the application called, for messages: "DispatchRays".
 const char* command_name(const Command& command);

@@ -40,6 +40,12 @@ class Executor {
     return target_.copy_texture(command);
   }
   rtapi::Status operator()(const ClearUavCommand& command) { return target_.clear(command); }
+  rtapi::Status operator()(const DrawCommand& command) {
+    return target_.draw(command, label(command_name(*running_)));
+  }
+  rtapi::Status operator()(const ClearTargetCommand& command) {
+    return target_.clear_target(command);
+  }
   rtapi::Status operator()(const BarrierCommand&) {
     target_.barrier();
     return {};

@@ -38,6 +38,8 @@ class CommandTarget {
   virtual DispatchOutcome dispatch_rays(const DispatchRaysCommand& command,
                                         const std::string& label) = 0;
   virtual DispatchOutcome dispatch(const DispatchCommand& command, const std::string& label) = 0;
+  virtual rtapi::Status draw(const DrawCommand& command, const std::string& label) = 0;
+  virtual rtapi::Status clear_target(const ClearTargetCommand& command) = 0;
   virtual rtapi::Status build(const BuildCommand& command) = 0;
   virtual rtapi::Status emit_postbuild_info(const EmitPostbuildInfoCommand& command) = 0;
   virtual rtapi::Status copy_structure(const CopyAccelerationStructureCommand& command) = 0;

@@ -11,10 +11,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kaamos/shader/graphics.h"
+
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 12;
+inline constexpr uint32_t kAbiVersion = 13;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -237,6 +239,7 @@ inline RayLanes direction_t_max(const RayDesc& ray) {
 
 // Invocations of a row that run at once [wide.h]: lane i is i further along x than lane 0.
 inline constexpr int kLanes = 8;
+static_assert(kLanes == kGraphicsLanes);
 
 // Their rays, side by side.
 struct LaneRays {
@@ -451,6 +454,8 @@ struct Services {
 
 // The values of D3D12_SHADER_VERSION_TYPE.
 enum class Stage : uint32_t {
+  kPixel = 0,
+  kVertex = 1,
   kCompute = 5,
   kLibrary = 6,  // an exported function that is not an entry point
   kRayGeneration = 7,
@@ -569,8 +574,9 @@ struct ExportDesc {
   // Hash of the attributes' scalars in order: those that ReportHit passes or that the parameter
   // has. 0: none, or unknown; 1: several types are reported.
   uint32_t attribute_type = 0;
-  RayGenerationRowFn row = nullptr;      // ray generation; null: only `entry` runs it
-  const char* root_signature = nullptr;  // text of [RootSignature]; null: the export has none
+  RayGenerationRowFn row = nullptr;        // ray generation; null: only `entry` runs it
+  const char* root_signature = nullptr;    // text of [RootSignature]; null: the export has none
+  const GraphicsDesc* graphics = nullptr;  // null unless kVertex or kPixel
 };
 
 // Subobjects defined in HLSL. Which members are used depends on type (values of

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// A graphics pipeline as linking leaves it: which element of a vertex buffer feeds which input,
+// which output of the vertex shader which input of the pixel shader. Immutable.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <kaamos/shader/graphics.h>
+#include <rtapi/graphics_pipeline.h>
+
+#include "runtime/backend/linked_pipeline.h"
+
+namespace kaamos::runtime {
+
+inline constexpr uint32_t kNoColumn = 0xFFFFFFFFu;
+
+// An input of the vertex shader that a vertex buffer feeds.
+struct LinkedElement {
+  uint32_t slot = 0;
+  uint32_t offset_bytes = 0;  // from the start of a vertex
+  rtapi::Format format = rtapi::Format::kUnknown;
+  bool per_instance = false;
+  uint32_t step_rate = 0;     // per instance; 0: all use the first element
+  uint32_t first_column = 0;  // of the vertex shader's inputs
+  uint8_t components = 0;
+};
+
+// Columns of the pixel shader that columns of the vertex shader feed.
+struct LinkedVarying {
+  uint32_t vertex_column = 0;  // of the vertex shader's outputs
+  uint32_t pixel_column = 0;   // of the pixel shader's inputs
+  uint8_t components = 0;
+  shader::Interpolation interpolation = shader::Interpolation::kLinear;
+};
+
+// First columns of what the pipeline itself reads or writes; kNoColumn: the shader does not have
+// it.
+struct VertexSystemColumns {
+  uint32_t vertex_id = kNoColumn;             // in
+  uint32_t instance_id = kNoColumn;           // in
+  uint32_t position = kNoColumn;              // out
+  uint32_t target_array_index = kNoColumn;    // out
+  uint32_t viewport_array_index = kNoColumn;  // out
+  std::vector<uint32_t> clip_distances;       // out: a column each
+  std::vector<uint32_t> cull_distances;       // out: a column each
+};
+struct PixelSystemColumns {
+  uint32_t position = kNoColumn;       // in, 4 columns, by the components below
+  uint32_t primitive_id = kNoColumn;   // in
+  uint32_t is_front_face = kNoColumn;  // in
+  uint32_t barycentrics = kNoColumn;   // in, 3 columns or fewer
+  bool barycentrics_no_perspective = false;
+  uint8_t position_components = 0;
+  uint8_t barycentric_components = 0;
+  uint32_t depth = kNoColumn;  // out
+  struct Target {
+    uint32_t first_column = kNoColumn;
+    uint8_t components = 0;
+  };
+  Target targets[rtapi::kSimultaneousRenderTargetCount];  // out
+};
+
+struct LinkedGraphics {
+  std::string name;
+  LinkedShader vertex;
+  LinkedShader pixel;  // code is null: none
+  VertexSystemColumns vertex_columns;
+  PixelSystemColumns pixel_columns;
+  std::vector<LinkedElement> elements;
+  std::vector<LinkedVarying> varyings;
+  // Fixed state, checked. One blend desc for each target, whatever IndependentBlendEnable was.
+  rtapi::RenderTargetBlendDesc blend[rtapi::kSimultaneousRenderTargetCount];
+  rtapi::RasterizerDesc rasterizer;
+  rtapi::DepthStencilDesc depth_stencil;
+  uint32_t sample_mask = 0xFFFFFFFFu;
+  rtapi::IndexBufferStripCutValue strip_cut = rtapi::IndexBufferStripCutValue::kDisabled;
+  rtapi::Format target_formats[rtapi::kSimultaneousRenderTargetCount] = {};
+  uint32_t target_count = 0;
+  rtapi::Format depth_format = rtapi::Format::kUnknown;
+
+  bool has_pixel() const { return pixel.code != nullptr; }
+  const shader::GraphicsDesc& vertex_desc() const { return *vertex.code->graphics; }
+  const shader::GraphicsDesc& pixel_desc() const { return *pixel.code->graphics; }
+};
+
+}  // namespace kaamos::runtime

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Root arguments and heaps as a dispatch or draw finds them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include <rtapi/root_signature.h>
+
+namespace kaamos::runtime {
+
+class BackendBuffer;
+
+// 64 DWORDs of arguments take at most 64 * 8 bytes here, because tables are 8-byte handles. Always
+// full size, with zeros where nothing was set, so that a shader with a different root signature
+// reads no wild memory.
+inline constexpr uint32_t kRootArgumentBytes = 512;
+struct alignas(16) RootArguments {
+  std::array<uint8_t, kRootArgumentBytes> bytes = {};
+};
+
+// What DispatchRays, Dispatch and draws share. They share a snapshot if nothing was set between
+// them.
+struct RootBindings {
+  std::shared_ptr<const RootArguments> root_arguments;  // never null
+  // The heaps set on the list; [begin, end) of shader::DispatchConstants. Null: none set.
+  std::shared_ptr<BackendBuffer> view_heap;
+  std::shared_ptr<BackendBuffer> sampler_heap;
+  rtapi::RootSignature root_signature;  // the one that was set; may be empty
+};
+
+}  // namespace kaamos::runtime

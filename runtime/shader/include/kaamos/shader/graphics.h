@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// Vertex and pixel shaders: what goes into them and comes out, and how they are called.
+//
+// Every input and output is a column: one 32-bit scalar of kLanes vertices or pixels side by side.
+// System values are columns like others. A pixel shader runs two quads of 2 x 2 pixels at a time:
+// lanes 0 to 3 are one, (0, 0), (1, 0), (0, 1), (1, 1), lanes 4 to 7 the other.
+#pragma once
+
+#include <cstdint>
+
+namespace kaamos::shader {
+
+struct Invocation;
+struct ComputeGroup;
+
+inline constexpr int kGraphicsLanes = 8;  // kLanes of abi.h
+using Column = uint32_t[kGraphicsLanes];
+
+// Semantics that mean something to the pipeline.
+enum class SystemValue : uint8_t {
+  kNone,
+  kPosition,                // clip space out of a vertex shader, pixels into a pixel shader
+  kVertexId,                // vertex shader in
+  kInstanceId,              // vertex shader in
+  kPrimitiveId,             // pixel shader in
+  kIsFrontFace,             // pixel shader in: 0 or 1
+  kBarycentrics,            // pixel shader in
+  kClipDistance,            // vertex shader out, pixel shader in
+  kCullDistance,            // vertex shader out
+  kRenderTargetArrayIndex,  // vertex shader out, pixel shader in
+  kViewportArrayIndex,      // vertex shader out, pixel shader in
+  kTarget,                  // pixel shader out; semantic_index is the slot
+  kDepth,                   // pixel shader out
+};
+
+enum class ColumnType : uint8_t { kFloat, kInt, kUint };
+
+// How a pixel shader's input comes from the three vertices. `centroid` and `sample` are linear, as
+// targets have one sample.
+enum class Interpolation : uint8_t {
+  kLinear,           // perspective correct
+  kNoPerspective,    // linear on the screen
+  kNoInterpolation,  // the bits of the leading vertex
+};
+
+// A scalar or vector that passes into or out of a shader: a row of a matrix and an element of an
+// array are one each, with numbers that go up.
+struct SignatureElement {
+  const char* semantic;     // as written, without the number
+  uint32_t semantic_index;  // the number
+  SystemValue system_value;
+  ColumnType type;
+  Interpolation interpolation;  // inputs of pixel shaders
+  uint8_t components;           // 1 to 4: columns first_column, first_column + 1, ...
+  uint32_t first_column;
+  const char* file;  // where it is declared, for messages
+  uint32_t line;
+};
+
+// Vertices. Lanes that are not active have undefined inputs, and their outputs are not read.
+struct VertexLanes {
+  const Column* inputs = nullptr;
+  Column* outputs = nullptr;
+  uint32_t active = 0;  // a bit for each lane
+};
+
+// Pixels. Whole quads run: lanes that are in `active` but not in `live` are helpers, which write
+// nothing but what derivatives read of them.
+struct PixelLanes {
+  const Column* inputs = nullptr;
+  Column* outputs = nullptr;
+  uint32_t active = 0;
+  uint32_t live = 0;  // in: covered pixels; out: those of them that were not discarded
+};
+
+using VertexFn = void (*)(Invocation&, const VertexLanes&);
+using PixelFn = void (*)(Invocation&, PixelLanes&);
+// Runs one lane of a quad on its own fiber: derivatives go through Services::wave, whose wave is
+// the quad. Clears the lane's bit of `live` if it discards.
+using PixelThreadFn = void (*)(Invocation&, PixelLanes&, ComputeGroup&, uint32_t lane);
+
+enum GraphicsFlags : uint32_t {
+  kGraphicsDiscards = 1,           // can reach discard or clip
+  kGraphicsWritesMemory = 2,       // can reach a store or an atomic of an unordered access view
+  kGraphicsEarlyDepthStencil = 4,  // [earlydepthstencil]
+  kGraphicsReadsQuad = 8,          // can reach a derivative or another operation of a quad
+  kGraphicsOrdersPixels = 16,      // has a RasterizerOrdered view
+};
+
+struct GraphicsDesc {
+  const SignatureElement* inputs;
+  uint32_t input_count;
+  uint32_t input_columns;
+  const SignatureElement* outputs;
+  uint32_t output_count;
+  uint32_t output_columns;
+  uint32_t flags;              // GraphicsFlags
+  VertexFn vertex;             // vertex shaders
+  PixelFn pixel;               // pixel shaders; null if they run on fibers
+  PixelThreadFn pixel_thread;  // null if `pixel` is not
+};
+
+}  // namespace kaamos::shader
