@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+//
+// Which pixels of a tile a triangle covers, block by block of 4 x 2 pixels, in 32-bit integers: an
+// edge that crosses the tile has values that fit, and one that does not needs no test.
+#pragma once
+
+#include "runtime/raster/edges.h"
+#include "runtime/raster/lanes.h"
+#include "runtime/raster/triangle_setup.h"
+
+namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
+
+// Pixels of a block in the order of pixel shaders.
+inline constexpr int32_t kBlockX[8] = {0, 1, 0, 1, 2, 3, 2, 3};
+inline constexpr int32_t kBlockY[8] = {0, 0, 1, 1, 0, 0, 1, 1};
+
+class Coverage {
+ public:
+  // The triangle in the tile whose first pixel is (x, y); only pixels of `rect` count. False if it
+  // covers nothing there.
+  KAAMOS_INLINE bool begin(const Triangle& triangle, const PixelRect& rect, int32_t x, int32_t y) {
+    const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
+    const PixelRect box = box_of(triangle, cut(rect, tile));
+    if (box.empty()) return false;
+    first_block_x_ = (box.left - x) >> 2;
+    last_block_x_ = (box.right - 1 - x) >> 2;
+    first_block_y_ = (box.top - y) >> 1;
+    last_block_y_ = (box.bottom - 1 - y) >> 1;
+    // Blocks may hold pixels beyond `rect`, and beyond the box, which edges see to.
+    rect_ = {rect.left - x, rect.top - y, rect.right - x, rect.bottom - y};
+    masked_ = rect_.left > first_block_x_ * 4 || rect_.right < last_block_x_ * 4 + 4 ||
+              rect_.top > first_block_y_ * 2 || rect_.bottom < last_block_y_ * 2 + 2;
+    for (int i = 0; i < 3; ++i) {
+      const Edge edge = edge_of(triangle, i);
+      const int64_t corner = edge.at(x, y);
+      if (corner + edge.most(kTileSize) < 0) return false;
+      const bool inside = corner + edge.least(kTileSize) >= 0;
+      a_[i] = inside ? 0 : edge.a;
+      b_[i] = inside ? 0 : edge.b;
+      e_[i] = inside ? 0 : static_cast<int32_t>(corner);
+    }
+    return true;
+  }
+
+  // Calls sink(block x, block y, covered) for blocks that may have covered pixels, top to bottom.
+  template <class Sink>
+  KAAMOS_INLINE void each_block(const Sink& sink) const {
+    Ints8 in_block[3];
+    for (int i = 0; i < 3; ++i) {
+      in_block[i] = splat(a_[i]) * load<int32_t>(kBlockX) + splat(b_[i]) * load<int32_t>(kBlockY);
+    }
+    // A cell is 2 x 4 blocks: 8 x 8 pixels.
+    const bool large = last_block_x_ - first_block_x_ >= 4 || last_block_y_ - first_block_y_ >= 8;
+    if (!large) {
+      rows(first_block_x_, last_block_x_, first_block_y_, last_block_y_, in_block, sink);
+      return;
+    }
+    for (int32_t cell_y = first_block_y_ & ~3; cell_y <= last_block_y_; cell_y += 4) {
+      for (int32_t cell_x = first_block_x_ & ~1; cell_x <= last_block_x_; cell_x += 2) {
+        bool outside = false;
+        for (int i = 0; i < 3; ++i) {
+          const int32_t corner = e_[i] + a_[i] * cell_x * 4 + b_[i] * cell_y * 2;
+          const int32_t most = ((a_[i] > 0 ? a_[i] : 0) + (b_[i] > 0 ? b_[i] : 0)) * 7;
+          outside |= corner + most < 0;
+        }
+        if (outside) continue;
+        rows(cell_x > first_block_x_ ? cell_x : first_block_x_,
+             cell_x + 1 < last_block_x_ ? cell_x + 1 : last_block_x_,
+             cell_y > first_block_y_ ? cell_y : first_block_y_,
+             cell_y + 3 < last_block_y_ ? cell_y + 3 : last_block_y_, in_block, sink);
+      }
+    }
+  }
+
+ private:
+  KAAMOS_INLINE static PixelRect cut(const PixelRect& a, const PixelRect& b) {
+    return {a.left > b.left ? a.left : b.left, a.top > b.top ? a.top : b.top,
+            a.right < b.right ? a.right : b.right, a.bottom < b.bottom ? a.bottom : b.bottom};
+  }
+
+  template <class Sink>
+  KAAMOS_INLINE void rows(int32_t left, int32_t right, int32_t top, int32_t bottom,
+                          const Ints8 in_block[3], const Sink& sink) const {
+    for (int32_t y = top; y <= bottom; ++y) {
+      int32_t e[3];
+      for (int i = 0; i < 3; ++i) e[i] = e_[i] + a_[i] * left * 4 + b_[i] * y * 2;
+      for (int32_t x = left; x <= right; ++x) {
+        const Ints8 signs =
+            (splat(e[0]) + in_block[0]) | (splat(e[1]) + in_block[1]) | (splat(e[2]) + in_block[2]);
+        for (int i = 0; i < 3; ++i) e[i] += a_[i] * 4;
+        lanes covered = not_negative(signs);
+        if (masked_) covered = covered & lanes_of(rect_bits(x, y));
+        if (shader::any_lane(covered)) sink(x, y, covered);
+      }
+    }
+  }
+
+  // The block's pixels that are in the rectangle.
+  uint32_t rect_bits(int32_t block_x, int32_t block_y) const {
+    constexpr uint32_t kColumns[4] = {0x05, 0x0A, 0x50, 0xA0};
+    constexpr uint32_t kRows[2] = {0x33, 0xCC};
+    uint32_t columns = 0;
+    uint32_t rows = 0;
+    for (int32_t i = 0; i < 4; ++i) {
+      const int32_t x = block_x * 4 + i;
+      if (x >= rect_.left && x < rect_.right) columns |= kColumns[i];
+    }
+    for (int32_t i = 0; i < 2; ++i) {
+      const int32_t y = block_y * 2 + i;
+      if (y >= rect_.top && y < rect_.bottom) rows |= kRows[i];
+    }
+    return columns & rows;
+  }
+
+  int32_t a_[3], b_[3], e_[3];
+  int32_t first_block_x_, last_block_x_, first_block_y_, last_block_y_;
+  PixelRect rect_;  // in the tile
+  bool masked_;
+};
+
+}  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// What a pass of draws works on: the textures that it writes and the bytes that it reads.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "runtime/backend/draw_commands.h"
+#include "runtime/backend/linked_graphics.h"
+
+namespace kaamos::raster {
+
+// One mip level of a target's view.
+struct Surface {
+  uint8_t* texels = nullptr;  // texel (0, 0) of the view's first slice; null: no target
+  uint64_t row_pitch = 0;     // bytes
+  uint64_t slice_pitch = 0;   // bytes
+  uint32_t width = 0;
+  uint32_t height = 0;
+  uint32_t slices = 1;
+  rtapi::Format format = rtapi::Format::kUnknown;  // of the view
+  bool read_only = false;                          // depth: tested but never written
+};
+
+struct Targets {
+  std::array<Surface, rtapi::kSimultaneousRenderTargetCount> color;
+  Surface depth;
+};
+
+// `linked`, `state` and all bytes outlive the pass.
+struct Draw {
+  const runtime::LinkedGraphics* linked = nullptr;
+  const runtime::DrawState* state = nullptr;
+  bool indexed = false;
+  rtapi::DrawIndexedArguments arguments;  // as in runtime::DrawCommand
+  // What the views of `state` stand for; without data: nothing is bound. Strides and the format of
+  // indices are those of the views.
+  std::array<std::span<const uint8_t>, rtapi::kIAVertexInputResourceSlotCount> vertex_buffers;
+  std::span<const uint8_t> indices;
+};
+
+}  // namespace kaamos::raster

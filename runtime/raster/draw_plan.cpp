@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/raster/draw_plan.h"
+
+namespace kaamos::raster {
+namespace {
+
+using runtime::kNoColumn;
+using shader::Interpolation;
+
+void plan_rows(const runtime::LinkedGraphics& linked, DrawPlan& plan) {
+  const auto add = [&](Interpolation interpolation, std::vector<RowAttribute>& to) {
+    for (const runtime::LinkedVarying& varying : linked.varyings) {
+      if (varying.interpolation != interpolation) continue;
+      for (uint32_t c = 0; c < varying.components; ++c) {
+        to.push_back({varying.pixel_column + c, static_cast<uint32_t>(plan.row_columns.size())});
+        plan.row_columns.push_back(varying.vertex_column + c);
+      }
+    }
+  };
+  add(Interpolation::kLinear, plan.linear);
+  add(Interpolation::kNoPerspective, plan.screen_linear);
+  add(Interpolation::kNoInterpolation, plan.flat);
+}
+
+void plan_depth(const runtime::LinkedGraphics& linked, const Surface& surface, DrawPlan& plan) {
+  const rtapi::DepthStencilDesc& desc = linked.depth_stencil;
+  if (surface.texels == nullptr || !desc.DepthEnable) return;
+  plan.depth = depth_kind(surface.format);
+  if (plan.depth == DepthKind::kNone) return;
+  plan.depth_func = static_cast<uint32_t>(desc.DepthFunc) - 1;
+  const bool writes = desc.DepthWriteMask == rtapi::DepthWriteMask::kAll && !surface.read_only;
+  const uint32_t flags = plan.has_pixel ? linked.pixel_desc().flags : 0;
+  const bool forced = (flags & shader::kGraphicsEarlyDepthStencil) != 0;
+  const bool has_depth = plan.has_pixel && linked.pixel_columns.depth != kNoColumn;
+  const bool stores =
+      (flags & (shader::kGraphicsWritesMemory | shader::kGraphicsOrdersPixels)) != 0;
+  if (!forced && (stores || has_depth)) {
+    plan.late_test = true;
+    plan.late_write = writes;
+  } else {
+    plan.early_test = true;
+    plan.early_write = writes && (forced || !plan.discards);
+    plan.late_write = writes && !plan.early_write;
+  }
+  plan.reads_depth_output = has_depth && !forced;
+}
+
+void plan_targets(const runtime::LinkedGraphics& linked, const Targets& targets, DrawPlan& plan) {
+  for (uint32_t i = 0; i < rtapi::kSimultaneousRenderTargetCount; ++i) {
+    const Surface& surface = targets.color[i];
+    const auto& columns = linked.pixel_columns.targets[i];
+    if (surface.texels == nullptr || columns.first_column == kNoColumn) continue;
+    PlannedTarget target;
+    target.codec = &target_codec(surface.format);
+    if (target.codec->bytes == 0) continue;
+    target.surface = &surface;
+    target.first_column = columns.first_column;
+    target.components = columns.components;
+    target.blend = linked.blend[i];
+    const auto write_mask = static_cast<uint32_t>(target.blend.RenderTargetWriteMask);
+    bool writes = false;
+    for (uint32_t w = 0; w < target.codec->words; ++w) {
+      uint32_t all = 0;
+      for (uint32_t c = 0; c < 4; ++c) {
+        all |= target.codec->component[c][w];
+        if ((write_mask >> c & 1) != 0) target.mask[w] |= target.codec->component[c][w];
+      }
+      writes = writes || target.mask[w] != 0;
+      target.whole_texels = target.whole_texels && target.mask[w] == all;
+    }
+    if (!writes) continue;
+    target.blends = target.blend.BlendEnable && !target.codec->integer;
+    plan.targets.push_back(target);
+  }
+}
+
+}  // namespace
+
+DepthKind depth_kind(rtapi::Format format) {
+  switch (format) {
+    case rtapi::Format::kD32Float:
+    case rtapi::Format::kD32FloatS8X24Uint:
+      return DepthKind::kFloat32;
+    case rtapi::Format::kD16Unorm:
+      return DepthKind::kUnorm16;
+    case rtapi::Format::kD24UnormS8Uint:
+      return DepthKind::kUnorm24;
+    default:
+      return DepthKind::kNone;
+  }
+}
+
+DrawPlan plan_draw(const Draw& draw, const Targets& targets, uint32_t width, uint32_t height,
+                   uint32_t slices) {
+  const runtime::LinkedGraphics& linked = *draw.linked;
+  DrawPlan plan;
+  plan.linked = &linked;
+  plan.state = draw.state;
+  plan.has_pixel = linked.has_pixel();
+  const shader::GraphicsDesc& vertex = linked.vertex_desc();
+  plan.vertex_inputs = vertex.input_columns;
+  plan.vertex_outputs = vertex.output_columns;
+  plan.depth_clip = linked.rasterizer.DepthClipEnable;
+  plan.clip_count = static_cast<uint32_t>(linked.vertex_columns.clip_distances.size());
+  plan.cull_count = static_cast<uint32_t>(linked.vertex_columns.cull_distances.size());
+  plan.picks_viewport = linked.vertex_columns.viewport_array_index != kNoColumn;
+  plan.picks_slice = linked.vertex_columns.target_array_index != kNoColumn && slices > 1;
+  plan.slices = slices;
+  bool any_viewport = false;
+  for (uint32_t i = 0; i < plan.viewports.size(); ++i) {
+    plan.viewports[i] = viewport_state(*draw.state, i, width, height);
+    any_viewport = any_viewport || !plan.viewports[i].rect.empty();
+    if (!plan.picks_viewport) break;
+  }
+
+  const rtapi::RasterizerDesc& raster = linked.rasterizer;
+  plan.cull_front = raster.CullMode == rtapi::CullMode::kFront;
+  plan.cull_back = raster.CullMode == rtapi::CullMode::kBack;
+  plan.front_is_clockwise = !raster.FrontCounterClockwise;
+  plan.biased = raster.DepthBias != 0 || raster.SlopeScaledDepthBias != 0;
+  plan.depth_bias = static_cast<float>(raster.DepthBias);
+  plan.bias_clamp = raster.DepthBiasClamp;
+  plan.slope_bias = raster.SlopeScaledDepthBias;
+  const DepthKind bound =
+      targets.depth.texels != nullptr ? depth_kind(targets.depth.format) : DepthKind::kNone;
+  if (bound != DepthKind::kNone) plan.bias_kind = bound;
+
+  if (plan.has_pixel) {
+    const shader::GraphicsDesc& pixel = linked.pixel_desc();
+    plan.pixel_inputs = pixel.input_columns;
+    plan.pixel_outputs = pixel.output_columns;
+    plan.discards = (pixel.flags & shader::kGraphicsDiscards) != 0;
+    plan_rows(linked, plan);
+    plan_targets(linked, targets, plan);
+    const runtime::PixelSystemColumns& columns = linked.pixel_columns;
+    const bool barycentrics = columns.barycentrics != kNoColumn;
+    const bool position = columns.position != kNoColumn;
+    plan.needs_screen =
+        !plan.screen_linear.empty() || (barycentrics && columns.barycentrics_no_perspective);
+    plan.needs_perspective = !plan.linear.empty() ||
+                             (barycentrics && !columns.barycentrics_no_perspective) ||
+                             (position && columns.position_components > 3);
+    plan.needs_z = position && columns.position_components > 2;
+  }
+  // A pixel shader of which nothing can be seen.
+  if (plan.has_pixel && plan.targets.empty() && linked.pixel_columns.depth == kNoColumn &&
+      linked.pixel_desc().flags == 0) {
+    plan.has_pixel = false;
+    plan.needs_z = false;
+  }
+  plan_depth(linked, targets.depth, plan);
+  plan.needs_z = plan.needs_z || plan.late_test || plan.late_write;
+  for (int i = 0; i < 4; ++i) plan.blend_factor[i] = draw.state->blend_factor[i];
+  plan.draws_nothing = !any_viewport || (linked.sample_mask & 1) == 0 ||
+                       (!plan.has_pixel && plan.depth == DepthKind::kNone);
+  return plan;
+}
+
+}  // namespace kaamos::raster

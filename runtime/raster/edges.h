@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// The three edges of a triangle as integers by pixel. E(x, y) = a x + b y + c is exact in
+// subpixels; at centres of pixels it changes in multiples of 256, so E >> 8, rounded down, steps by
+// a and b from pixel to pixel and has the sign of E. Edges that are not top or left have 1 taken
+// off, and then a centre is covered where all three are 0 or more. [D3D11.3: 3.4.2.1]
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/raster/triangle.h"
+#include "runtime/raster/viewport.h"
+
+namespace kaamos::raster {
+
+inline constexpr int32_t kTileSize = 64;
+
+struct Edge {
+  int32_t a;
+  int32_t b;
+  int64_t c;  // at pixel (0, 0)
+
+  int64_t at(int32_t x, int32_t y) const {
+    return static_cast<int64_t>(a) * x + static_cast<int64_t>(b) * y + c;
+  }
+  // The most that is added to a pixel's value within `size` pixels to the right and below.
+  int64_t most(int32_t size) const {
+    return static_cast<int64_t>((a > 0 ? a : 0) + (b > 0 ? b : 0)) * (size - 1);
+  }
+  int64_t least(int32_t size) const {
+    return static_cast<int64_t>((a < 0 ? a : 0) + (b < 0 ? b : 0)) * (size - 1);
+  }
+};
+
+// From vertex i to the next one.
+inline Edge edge_of(const Triangle& t, int i) {
+  const int j = i == 2 ? 0 : i + 1;
+  Edge edge;
+  edge.a = t.y[i] - t.y[j];
+  edge.b = t.x[j] - t.x[i];
+  const bool top_left = edge.a > 0 || (edge.a == 0 && edge.b > 0);
+  const int64_t c =
+      -(static_cast<int64_t>(edge.a) * t.x[i] + static_cast<int64_t>(edge.b) * t.y[i]);
+  edge.c = (c + static_cast<int64_t>(kPixelCenter) * (edge.a + edge.b) - (top_left ? 0 : 1)) >>
+           kSubpixelBits;
+  return edge;
+}
+
+}  // namespace kaamos::raster

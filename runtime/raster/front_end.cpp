@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/raster/front_end.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "runtime/raster/clip.h"
+#include "runtime/raster/triangle_setup.h"
+
+namespace kaamos::raster {
+namespace {
+
+constexpr uint32_t kNoVertex = 0xFFFFFFFFu;
+
+ScreenVertex project(const ClipVertex& v, const ViewportState& viewport) {
+  const auto wide = [](float value) { return static_cast<double>(value); };
+  const double x = v.x / v.w * wide(viewport.scale_x) + wide(viewport.offset_x);
+  const double y = v.y / v.w * wide(viewport.scale_y) + wide(viewport.offset_y);
+  const double z = v.z / v.w * wide(viewport.scale_z) + wide(viewport.offset_z);
+  constexpr double kLargest = 0x1.fffffep127;
+  return {snap(x), snap(y), static_cast<float>(std::clamp(z, -kLargest, kLargest)),
+          static_cast<float>(1 / v.w)};
+}
+
+}  // namespace
+
+void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan& plan,
+                   const TileGrid& grid, ShaderThread& thread, Batch& batch) {
+  range_ = &range;
+  draw_ = &draw;
+  plan_ = &plan;
+  batch_ = &batch;
+  batch.clear();
+  batch.draw = range.draw;
+  collect_vertices();
+  shade_vertices(thread);
+  bins_.begin(grid);
+  add_triangles();
+  bins_.finish(batch);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Which vertices there are.
+
+void FrontEnd::collect_vertices() {
+  const uint32_t corners = range_->strip ? range_->count + 2 : range_->count * 3;
+  uint32_t* corner = corners_.resize(corners);
+  if (!draw_->indexed) {
+    uint32_t* ids = ids_.resize(corners);
+    for (uint32_t i = 0; i < corners; ++i) {
+      corner[i] = i;
+      ids[i] = static_cast<uint32_t>(range_->first + i);
+    }
+    return;
+  }
+  const Indices indices(*draw_);
+  uint32_t lowest = 0xFFFFFFFFu;
+  uint32_t highest = 0;
+  for (uint32_t i = 0; i < corners; ++i) {
+    corner[i] = indices.at(range_->first + i);
+    lowest = std::min(lowest, corner[i]);
+    highest = std::max(highest, corner[i]);
+  }
+  ids_.clear();
+  if (highest - lowest < 4 * corners + 1024) {
+    collect_by_range(lowest, highest - lowest + 1);
+  } else {
+    collect_by_hash();
+  }
+}
+
+void FrontEnd::collect_by_range(uint32_t lowest, uint32_t size) {
+  uint32_t* table = table_.resize(size);
+  std::fill(table, table + size, kNoVertex);
+  for (uint32_t& corner : corners_) {
+    uint32_t& vertex = table[corner - lowest];
+    if (vertex == kNoVertex) {
+      vertex = static_cast<uint32_t>(ids_.size());
+      ids_.push_back(corner);
+    }
+    corner = vertex;
+  }
+}
+
+// Open addressing: slots hold numbers of vertices.
+void FrontEnd::collect_by_hash() {
+  const uint32_t size = std::bit_ceil(static_cast<uint32_t>(corners_.size()) * 2);
+  uint32_t* table = table_.resize(size);
+  std::fill(table, table + size, kNoVertex);
+  for (uint32_t& corner : corners_) {
+    uint32_t slot = (corner * 0x9E3779B1u) >> 7 & (size - 1);
+    while (table[slot] != kNoVertex && ids_[table[slot]] != corner) slot = (slot + 1) & (size - 1);
+    if (table[slot] == kNoVertex) {
+      table[slot] = static_cast<uint32_t>(ids_.size());
+      ids_.push_back(corner);
+    }
+    corner = table[slot];
+  }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Vertices
+
+void FrontEnd::shade_vertices(ShaderThread& thread) {
+  const auto count = static_cast<uint32_t>(ids_.size());
+  const uint32_t groups = (count + kGroup - 1) / kGroup;
+  fetch_.bind(*draw_);
+  clip_.resize(groups);
+  screen_.resize(groups);
+  distances_.resize(size_t{groups} * kGroup * plan_->clip_count);
+  if (plan_->picks_viewport) viewports_.resize(groups * kGroup);
+  if (plan_->picks_slice) slices_.resize(groups * kGroup);
+  batch_->rows.resize(size_t{count} * plan_->row_columns.size());
+  columns_.resize((plan_->vertex_inputs + plan_->vertex_outputs) * kGroup);
+  auto* inputs = reinterpret_cast<shader::Column*>(columns_.data());
+  shader::Column* outputs = inputs + plan_->vertex_inputs;
+  for (uint32_t first = 0; first < count; first += kGroup) {
+    const uint32_t active = std::min(kGroup, count - first);
+    fetch_.read(range_->instance, ids_.data() + first, active, inputs);
+    thread.vertices(range_->draw, {inputs, outputs, (1u << active) - 1});
+    take_outputs(first, active, outputs);
+  }
+}
+
+void FrontEnd::take_outputs(uint32_t first, uint32_t count, const shader::Column* outputs) {
+  const runtime::VertexSystemColumns& columns = plan_->linked->vertex_columns;
+  Vertices& clip = clip_[first / kGroup];
+  Screen& screen = screen_[first / kGroup];
+  std::memcpy(&clip, outputs[columns.position], sizeof(clip));
+  clip_outcodes(clip, plan_->depth_clip, screen.outcode);
+  for (uint32_t c = 0; c < plan_->clip_count; ++c) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const auto distance = std::bit_cast<float>(outputs[columns.clip_distances[c]][i]);
+      distances_[(first + i) * plan_->clip_count + c] = distance;
+      if (!std::isfinite(distance)) screen.outcode[i] |= kNotFinite;
+      if (distance < 0) screen.outcode[i] |= kOutClip << c;
+    }
+  }
+  for (uint32_t c = 0; c < plan_->cull_count; ++c) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const auto distance = std::bit_cast<float>(outputs[columns.cull_distances[c]][i]);
+      if (!(distance >= 0)) screen.outcode[i] |= kOutCull << c;
+    }
+  }
+  if (plan_->picks_viewport) {
+    std::memcpy(&viewports_[first], outputs[columns.viewport_array_index], sizeof(shader::Column));
+  } else {
+    to_screen(clip, plan_->viewports[0], screen);
+  }
+  if (plan_->picks_slice) {
+    std::memcpy(&slices_[first], outputs[columns.target_array_index], sizeof(shader::Column));
+  }
+  const auto words = static_cast<uint32_t>(plan_->row_columns.size());
+  uint32_t* rows = batch_->rows.data() + size_t{first} * words;
+  for (uint32_t word = 0; word < words; ++word) {
+    const shader::Column& column = outputs[plan_->row_columns[word]];
+    for (uint32_t i = 0; i < count; ++i) rows[i * words + word] = column[i];
+  }
+}
+
+// ---------------------------------------------------------------------------------------------
+// Triangles
+
+void FrontEnd::add_triangles() {
+  const uint32_t* corner = corners_.data();
+  for (uint32_t i = 0; i < range_->count; ++i) {
+    uint32_t vertex[3];
+    if (range_->strip) {
+      const bool odd = ((i & 1) != 0) != range_->odd;
+      vertex[0] = corner[i];
+      vertex[1] = corner[odd ? i + 2 : i + 1];
+      vertex[2] = corner[odd ? i + 1 : i + 2];
+    } else {
+      for (int c = 0; c < 3; ++c) vertex[c] = corner[3 * i + static_cast<uint32_t>(c)];
+    }
+    add_triangle(vertex, range_->primitive_id + i);
+  }
+}
+
+void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
+  uint32_t all = ~0u;
+  uint32_t any = 0;
+  for (int i = 0; i < 3; ++i) {
+    const uint32_t code = screen_[vertex[i] / kGroup].outcode[vertex[i] % kGroup];
+    all &= code;
+    any |= code;
+  }
+  if ((all & kOutside) != 0 || (any & kNotFinite) != 0) return;
+  uint32_t number = plan_->picks_viewport ? viewports_[vertex[0]] : 0;
+  if (number >= rtapi::kViewportAndScissorRectCount) number = 0;
+  viewport_ = &plan_->viewports[number];
+  if (viewport_->rect.empty()) return;
+  viewport_flags_ = number << kViewportShift;
+  slice_ = plan_->picks_slice ? slices_[vertex[0]] : 0;
+  if (slice_ >= plan_->slices) slice_ = 0;
+
+  ScreenVertex screen[3];
+  gather(vertex, screen, any);
+  Triangle triangle;
+  triangle.primitive_id = primitive_id;
+  if ((any & kNeedsClip) != 0) {
+    add_clipped(triangle, vertex, any);
+    return;
+  }
+  if (!emit(screen, triangle)) return;
+  Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
+  const bool swapped = (added.flags & kSwapped) != 0;
+  added.vertex[0] = vertex[0];
+  added.vertex[1] = vertex[swapped ? 2 : 1];
+  added.vertex[2] = vertex[swapped ? 1 : 2];
+}
+
+// Where each triangle may choose its viewport, vertices are transformed here.
+void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const {
+  if (!plan_->picks_viewport) {
+    for (int i = 0; i < 3; ++i) {
+      const Screen& group = screen_[vertex[i] / kGroup];
+      const uint32_t lane = vertex[i] % kGroup;
+      screen[i] = {group.x[lane], group.y[lane], group.z[lane], group.inv_w[lane]};
+    }
+    return;
+  }
+  ClipVertices<3> clip_vertices;
+  ScreenVertices<3> out;
+  for (int i = 0; i < 3; ++i) {
+    const Vertices& group = clip_[vertex[i] / kGroup];
+    const uint32_t lane = vertex[i] % kGroup;
+    clip_vertices.x[i] = group.x[lane];
+    clip_vertices.y[i] = group.y[lane];
+    clip_vertices.z[i] = group.z[lane];
+    clip_vertices.w[i] = group.w[lane];
+    out.outcode[i] = 0;
+  }
+  to_screen(clip_vertices, *viewport_, out);
+  for (int i = 0; i < 3; ++i) {
+    codes |= out.outcode[i];
+    screen[i] = {out.x[i], out.y[i], out.z[i], out.inv_w[i]};
+  }
+}
+
+bool FrontEnd::emit(const ScreenVertex screen[3], Triangle& triangle) {
+  if (!set_up_triangle(*plan_, viewport_->rect, screen, triangle)) return false;
+  triangle.flags |= viewport_flags_;
+  const auto number = static_cast<uint32_t>(batch_->triangles.size());
+  batch_->triangles.push_back(triangle);
+  bins_.add(triangle, box_of(triangle, viewport_->rect), slice_, number);
+  return true;
+}
+
+// The cut polygon as a fan.
+void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3], uint32_t codes) {
+  ClipVertex polygon[kMaxClippedVertices];
+  for (int i = 0; i < 3; ++i) {
+    const Vertices& group = clip_[vertex[i] / kGroup];
+    const uint32_t lane = vertex[i] % kGroup;
+    ClipVertex& v = polygon[i];
+    v.x = static_cast<double>(group.x[lane]);
+    v.y = static_cast<double>(group.y[lane]);
+    v.z = static_cast<double>(group.z[lane]);
+    v.w = static_cast<double>(group.w[lane]);
+    for (int k = 0; k < 3; ++k) v.weight[k] = i == k ? 1 : 0;
+    for (uint32_t k = 0; k < plan_->clip_count; ++k) {
+      v.distance[k] = static_cast<double>(distances_[vertex[i] * plan_->clip_count + k]);
+    }
+  }
+  float original_w[3];
+  for (int i = 0; i < 3; ++i) original_w[i] = static_cast<float>(polygon[i].w);
+  const int count =
+      clip({plan_->depth_clip, plan_->clip_count, codes / kOutClip & 0xFF}, *viewport_, polygon);
+  if (count == 0) return;
+
+  ScreenVertex screen[kMaxClippedVertices];
+  for (int i = 0; i < count; ++i) screen[i] = project(polygon[i], *viewport_);
+  const auto area = [&](int b, int c) {
+    const int64_t dx1 = screen[b].x - screen[0].x, dy1 = screen[b].y - screen[0].y;
+    const int64_t dx2 = screen[c].x - screen[0].x, dy2 = screen[c].y - screen[0].y;
+    return dx1 * dy2 - dx2 * dy1;
+  };
+  int64_t whole = 0;
+  for (int i = 1; i + 1 < count; ++i) whole += area(i, i + 1);
+  for (int i = 0; i < 3; ++i) triangle.vertex[i] = vertex[i];
+  for (int i = 1; i + 1 < count; ++i) {
+    // Snapping may have turned a part without a breadth over; the others cover its pixels.
+    if ((area(i, i + 1) < 0) != (whole < 0)) continue;
+    const ScreenVertex part[3] = {screen[0], screen[i], screen[i + 1]};
+    triangle.clip = static_cast<uint32_t>(batch_->clips.size());
+    if (!emit(part, triangle)) continue;
+    Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
+    added.flags |= kClipped;
+    const bool swapped = (added.flags & kSwapped) != 0;
+    const int order[3] = {0, swapped ? i + 1 : i, swapped ? i : i + 1};
+    ClipWeights weights;
+    for (int v = 0; v < 3; ++v) {
+      const ClipVertex& from = polygon[order[v]];
+      for (int k = 0; k < 3; ++k) {
+        weights.perspective[v][k] = static_cast<float>(from.weight[k]);
+        weights.screen[v][k] =
+            static_cast<float>(from.weight[k] * static_cast<double>(original_w[k]) / from.w);
+      }
+    }
+    batch_->clips.push_back(weights);
+  }
+}
+
+}  // namespace kaamos::raster

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+//
+// Eight pixels side by side: a block of 4 x 2 pixels, or two quads of 2 x 2, in the order of
+// pixel shaders. What includes this is compiled once for any processor and once for AVX2, into
+// namespaces of different names, with the same results.
+#pragma once
+
+#include <cstdint>
+
+#include "kaamos/shader/wide.h"
+
+#ifdef __AVX2__
+#define KAAMOS_RASTER_LEVEL avx2
+#else
+#define KAAMOS_RASTER_LEVEL baseline
+#endif
+
+namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
+
+using shader::bits_of;
+using shader::by_register;
+using shader::lanes;
+using shader::wide;
+namespace simd = shader::simd;
+
+using Floats8 = wide<float>;
+using Ints8 = wide<int32_t>;
+
+template <class T>
+KAAMOS_INLINE wide<T> load(const void* from) {
+  wide<T> out;
+  __builtin_memcpy(&out, from, sizeof(out));
+  return out;
+}
+template <class T>
+KAAMOS_INLINE void store(void* to, const wide<T>& value) {
+  __builtin_memcpy(to, &value, sizeof(value));
+}
+template <class T>
+KAAMOS_INLINE wide<T> splat(T value) {
+  wide<T> out;
+  shader::fill_lanes(out, value);
+  return out;
+}
+template <class T>
+KAAMOS_INLINE wide<T> operator+(const wide<T>& a, const wide<T>& b) {
+  return by_register<T>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x + y; }, a, b);
+}
+template <class T>
+KAAMOS_INLINE wide<T> operator-(const wide<T>& a, const wide<T>& b) {
+  return by_register<T>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x - y; }, a, b);
+}
+template <class T>
+KAAMOS_INLINE wide<T> operator*(const wide<T>& a, const wide<T>& b) {
+  return by_register<T>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x * y; }, a, b);
+}
+KAAMOS_INLINE Floats8 operator/(const Floats8& a, const Floats8& b) {
+  return by_register<float>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x / y; }, a, b);
+}
+KAAMOS_INLINE Ints8 operator|(const Ints8& a, const Ints8& b) {
+  return by_register<int32_t>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x | y; }, a, b);
+}
+KAAMOS_INLINE Ints8 operator&(const Ints8& a, const Ints8& b) {
+  return by_register<int32_t>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x & y; }, a, b);
+}
+template <class T>
+KAAMOS_INLINE lanes less(const wide<T>& a, const wide<T>& b) {
+  return by_register<bool>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x < y; }, a, b);
+}
+template <class T>
+KAAMOS_INLINE lanes equal(const wide<T>& a, const wide<T>& b) {
+  return by_register<bool>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x == y; }, a, b);
+}
+// `b` where a comparison with it does not hold, so where `a` is NaN.
+KAAMOS_INLINE Floats8 larger(const Floats8& a, const Floats8& b) {
+  return by_register<float>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x > y ? x : y; }, a,
+                            b);
+}
+KAAMOS_INLINE Floats8 smaller(const Floats8& a, const Floats8& b) {
+  return by_register<float>([](auto x, auto y) KAAMOS_INLINE_LAMBDA { return x < y ? x : y; }, a,
+                            b);
+}
+template <class T>
+KAAMOS_INLINE wide<T> choose(const lanes& mask, const wide<T>& a, const wide<T>& b) {
+  wide<T> out = b;
+  shader::blend(out, a, mask);
+  return out;
+}
+// The lanes whose bits are set.
+KAAMOS_INLINE lanes lanes_of(uint32_t bits) {
+#ifdef __AVX2__
+  const simd::Ints each = {1, 2, 4, 8, 16, 32, 64, 128};
+  return {(simd::Ints{} + static_cast<int32_t>(bits) & each) == each};
+#else
+  const simd::Ints low = {1, 2, 4, 8};
+  const simd::Ints high = {16, 32, 64, 128};
+  const simd::Ints all = simd::Ints{} + static_cast<int32_t>(bits);
+  return {(all & low) == low, (all & high) == high};
+#endif
+}
+KAAMOS_INLINE lanes every_lane_if(bool condition) {
+  return by_register<bool>([condition](auto x)
+                               KAAMOS_INLINE_LAMBDA { return x - static_cast<int32_t>(condition); },
+                           lanes{});
+}
+// Signs of integers: the lanes that are 0 or more.
+KAAMOS_INLINE lanes not_negative(const Ints8& a) {
+  return by_register<bool>([](auto x) KAAMOS_INLINE_LAMBDA { return ~(x >> 31); }, a);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Doubles, for what must not round before the end.
+
+using DoubleRegister [[gnu::vector_size(simd::kRegisterBytes)]] = double;
+inline constexpr int kDoubleRegisters = 64 / simd::kRegisterBytes;
+
+struct Doubles8 {
+  DoubleRegister r[kDoubleRegisters];
+};
+KAAMOS_INLINE Doubles8 doubles(double value) {
+  Doubles8 out;
+  for (auto& r : out.r) r = DoubleRegister{} + value;
+  return out;
+}
+KAAMOS_INLINE Doubles8 load_doubles(const double* from) {
+  Doubles8 out;
+  __builtin_memcpy(&out, from, sizeof(out));
+  return out;
+}
+KAAMOS_INLINE Doubles8 operator+(const Doubles8& a, const Doubles8& b) {
+  Doubles8 out;
+  for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = a.r[i] + b.r[i];
+  return out;
+}
+KAAMOS_INLINE Doubles8 operator-(const Doubles8& a, const Doubles8& b) {
+  Doubles8 out;
+  for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = a.r[i] - b.r[i];
+  return out;
+}
+KAAMOS_INLINE Doubles8 operator*(const Doubles8& a, const Doubles8& b) {
+  Doubles8 out;
+  for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = a.r[i] * b.r[i];
+  return out;
+}
+
+using FloatQuarter [[gnu::vector_size(16)]] = float;
+using IntQuarter [[gnu::vector_size(16)]] = int32_t;
+KAAMOS_INLINE Floats8 to_floats(const Doubles8& x) {
+#ifdef __AVX2__
+  const FloatQuarter low = __builtin_convertvector(x.r[0], FloatQuarter);
+  const FloatQuarter high = __builtin_convertvector(x.r[1], FloatQuarter);
+  return {__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7)};
+#else
+  Floats8 out;
+  float values[8];
+  for (int i = 0; i < 4; ++i) {
+    values[2 * i] = static_cast<float>(x.r[i][0]);
+    values[2 * i + 1] = static_cast<float>(x.r[i][1]);
+  }
+  __builtin_memcpy(&out, values, sizeof(out));
+  return out;
+#endif
+}
+// Rounded toward zero; they fit.
+KAAMOS_INLINE Ints8 to_ints(const Doubles8& x) {
+#ifdef __AVX2__
+  const IntQuarter low = __builtin_convertvector(x.r[0], IntQuarter);
+  const IntQuarter high = __builtin_convertvector(x.r[1], IntQuarter);
+  return {__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7)};
+#else
+  Ints8 out;
+  int32_t values[8];
+  for (int i = 0; i < 4; ++i) {
+    values[2 * i] = static_cast<int32_t>(x.r[i][0]);
+    values[2 * i + 1] = static_cast<int32_t>(x.r[i][1]);
+  }
+  __builtin_memcpy(&out, values, sizeof(out));
+  return out;
+#endif
+}
+KAAMOS_INLINE Doubles8 to_doubles(const Floats8& x) {
+  float values[8];
+  __builtin_memcpy(values, &x, sizeof(values));
+  double wide_values[8];
+  for (int i = 0; i < 8; ++i) wide_values[i] = static_cast<double>(values[i]);
+  return load_doubles(wide_values);
+}
+KAAMOS_INLINE Ints8 to_ints(const Floats8& x) {
+  return by_register<int32_t>(
+      [](simd::Floats f) KAAMOS_INLINE_LAMBDA { return __builtin_convertvector(f, simd::Ints); },
+      x);
+}
+
+}  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs the pixel shader on quads of one triangle, two at a time: attributes, late depth test,
+// render targets.
+#pragma once
+
+#include "runtime/raster/depth_test.h"
+#include "runtime/raster/output_merger.h"
+#include "runtime/raster/tile.h"
+
+namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
+
+// Weights of the primitive's vertices 1 and 2, in the order of Triangle::vertex.
+struct Weights8 {
+  Floats8 first, second;
+};
+
+class QuadShader {
+ public:
+  QuadShader(const TileJob& job, TileScratch& scratch, ShaderThread& thread)
+      : job_(job), scratch_(scratch), thread_(thread) {}
+
+  void begin_batch(const Batch& batch, const DrawPlan& plan) {
+    batch_ = &batch;
+    plan_ = &plan;
+    constexpr size_t kColumn = shader::kGraphicsLanes;
+    scratch_.columns.resize((plan.pixel_inputs + plan.pixel_outputs) * kColumn);
+    inputs_ = reinterpret_cast<shader::Column*>(scratch_.columns.data());
+    outputs_ = inputs_ + plan.pixel_inputs;
+    linear_words_ = plan.linear.size() + plan.screen_linear.size();
+    scratch_.attributes.resize(3 * linear_words_);
+  }
+  void begin_triangle(const Triangle& triangle) {
+    triangle_ = &triangle;
+    is_set_up_ = false;
+  }
+  // Runs what waits in the queue.
+  void flush() {
+    QuadQueue& queue = scratch_.queue;
+    if (queue.count == 0) return;
+    if (!is_set_up_) set_up();
+    for (uint32_t i = 0; i < queue.count; i += 2) shade(i, i + 1 < queue.count);
+    queue.count = 0;
+  }
+
+ private:
+  void set_up();
+  void set_up_attributes();
+  void shade(uint32_t first, bool pair);
+  KAAMOS_INLINE void set_position(const QuadPlaces& places, const Floats8& inv_w_scale);
+  KAAMOS_INLINE void set_attributes(const QuadPlaces& places);
+  KAAMOS_INLINE void interpolate(const std::vector<RowAttribute>& attributes, size_t first,
+                                 const Weights8& weights);
+  KAAMOS_INLINE void set_barycentrics(const Weights8& weights);
+  uint32_t test_late(uint32_t first, bool pair, uint32_t live);
+  template <DepthKind kKind>
+  uint32_t test_late_as(uint32_t* quads[2], const Floats8& z, uint32_t live) const;
+
+  const TileJob& job_;
+  TileScratch& scratch_;
+  ShaderThread& thread_;
+  const Batch* batch_ = nullptr;
+  const DrawPlan* plan_ = nullptr;
+  const Triangle* triangle_ = nullptr;
+  const ClipWeights* clip_ = nullptr;  // null: not clipped
+  shader::Column* inputs_ = nullptr;
+  shader::Column* outputs_ = nullptr;
+  size_t linear_words_ = 0;
+  bool is_set_up_ = false;
+
+  // Of the triangle.
+  double edge_[2][2];  // of vertices 1 and 2: by x and y, from vertex 0, in subpixels
+  double area_;
+  float inv_area_;
+  float inv_w_[3];  // scaled so that the largest is between 1 and 2
+  float inv_w_scale_;
+  bool affine_;  // all w are the same
+};
+
+inline void QuadShader::set_up() {
+  is_set_up_ = true;
+  const Triangle& t = *triangle_;
+  const double dx1 = t.x[1] - t.x[0], dy1 = t.y[1] - t.y[0];
+  const double dx2 = t.x[2] - t.x[0], dy2 = t.y[2] - t.y[0];
+  edge_[0][0] = dy2;
+  edge_[0][1] = -dx2;
+  edge_[1][0] = -dy1;
+  edge_[1][1] = dx1;
+  area_ = dx1 * dy2 - dx2 * dy1;
+  inv_area_ = static_cast<float>(1 / area_);
+  const float largest = std::max({t.inv_w[0], t.inv_w[1], t.inv_w[2]});
+  // A power of 2: nothing rounds.
+  const uint32_t exponent = std::bit_cast<uint32_t>(largest) & 0x7F800000u;
+  inv_w_scale_ = std::bit_cast<float>(0x7F000000u - exponent);
+  for (int i = 0; i < 3; ++i) inv_w_[i] = t.inv_w[i] * inv_w_scale_;
+  affine_ = t.inv_w[0] == t.inv_w[1] && t.inv_w[0] == t.inv_w[2];
+  clip_ = (t.flags & kClipped) != 0 ? &batch_->clips[t.clip] : nullptr;
+  set_up_attributes();
+}
+
+inline void QuadShader::set_up_attributes() {
+  const Triangle& t = *triangle_;
+  const size_t words = plan_->row_columns.size();
+  const uint32_t* rows[3];
+  for (int i = 0; i < 3; ++i) rows[i] = batch_->rows.data() + t.vertex[i] * words;
+  float* base = scratch_.attributes.data();
+  float* first = base + linear_words_;
+  float* second = first + linear_words_;
+  for (size_t i = 0; i < linear_words_; ++i) {
+    const auto value = std::bit_cast<float>(rows[0][i]);
+    base[i] = value;
+    first[i] = std::bit_cast<float>(rows[1][i]) - value;
+    second[i] = std::bit_cast<float>(rows[2][i]) - value;
+  }
+  for (const RowAttribute& attribute : plan_->flat) {
+    store(inputs_[attribute.pixel_column], splat(static_cast<int32_t>(rows[0][attribute.word])));
+  }
+  const runtime::PixelSystemColumns& columns = plan_->linked->pixel_columns;
+  if (columns.primitive_id != runtime::kNoColumn) {
+    store(inputs_[columns.primitive_id], splat(static_cast<int32_t>(t.primitive_id)));
+  }
+  if (columns.is_front_face != runtime::kNoColumn) {
+    store(inputs_[columns.is_front_face], splat((t.flags & kFrontFacing) != 0 ? 1 : 0));
+  }
+}
+
+inline void QuadShader::shade(uint32_t first, bool pair) {
+  const QuadQueue& queue = scratch_.queue;
+  const uint32_t second = pair ? first + 1 : first;
+  QuadPlaces places;
+  for (int i = 0; i < 2; ++i) {
+    const uint32_t quad = queue.quad[i == 0 ? first : second];
+    places.x[i] = job_.x + quad % kQuadsPerRow * 2;
+    places.y[i] = job_.y + quad / kQuadsPerRow * 2;
+  }
+  places.slice = job_.slice;
+  set_attributes(places);
+  const auto& columns = plan_->linked->pixel_columns;
+  if (columns.position != runtime::kNoColumn && columns.position_components > 2) {
+    float* z = reinterpret_cast<float*>(inputs_[columns.position + 2]);
+    __builtin_memcpy(z, queue.z + first * 4, 16);
+    __builtin_memcpy(z + 4, queue.z + second * 4, 16);
+  }
+  const uint32_t covered =
+      queue.covered[first] | (pair ? static_cast<uint32_t>(queue.covered[second]) << 4 : 0u);
+  shader::PixelLanes pixel_lanes{inputs_, outputs_, pair ? 0xFFu : 0xFu, covered};
+  thread_.pixels(batch_->draw, pixel_lanes);
+  uint32_t live = pixel_lanes.live & covered;
+  if (live != 0 && (plan_->late_test || plan_->late_write)) live = test_late(first, pair, live);
+  if (live != 0) write_targets(*plan_, places, outputs_, live);
+}
+
+inline void QuadShader::set_attributes(const QuadPlaces& places) {
+  const auto& columns = plan_->linked->pixel_columns;
+  const bool position = columns.position != runtime::kNoColumn;
+  const auto pixel = [](const uint32_t quad[2], const uint32_t offset[4]) {
+    Floats8 out;
+    float values[8];
+    for (int i = 0; i < 8; ++i) {
+      values[i] = static_cast<float>(quad[i / 4] + offset[i % 4]) + 0.5f;
+    }
+    __builtin_memcpy(&out, values, sizeof(out));
+    return out;
+  };
+  constexpr uint32_t kQuadX[4] = {0, 1, 0, 1};
+  constexpr uint32_t kQuadY[4] = {0, 0, 1, 1};
+  if (!plan_->needs_perspective && !plan_->needs_screen && !position) return;
+  const Floats8 px = pixel(places.x, kQuadX);
+  const Floats8 py = pixel(places.y, kQuadY);
+  if (position) {
+    store(inputs_[columns.position], px);
+    if (columns.position_components > 1) store(inputs_[columns.position + 1], py);
+  }
+  if (!plan_->needs_perspective && !plan_->needs_screen) return;
+
+  const Doubles8 subpixels = doubles(kSubpixels);
+  const Doubles8 x = to_doubles(px) * subpixels - doubles(triangle_->x[0]);
+  const Doubles8 y = to_doubles(py) * subpixels - doubles(triangle_->y[0]);
+  const Doubles8 edge1 = doubles(edge_[0][0]) * x + doubles(edge_[0][1]) * y;
+  const Doubles8 edge2 = doubles(edge_[1][0]) * x + doubles(edge_[1][1]) * y;
+  const Floats8 inv_area = splat(inv_area_);
+  const Weights8 screen{to_floats(edge1) * inv_area, to_floats(edge2) * inv_area};
+  Weights8 perspective = screen;
+  if (plan_->needs_perspective) {
+    const Floats8 screen0 = to_floats(doubles(area_) - edge1 - edge2) * inv_area;
+    const Floats8 first = screen.first * splat(inv_w_[1]);
+    const Floats8 second = screen.second * splat(inv_w_[2]);
+    const Floats8 inv_sum = splat(1.0f) / (screen0 * splat(inv_w_[0]) + first + second);
+    if (!affine_) perspective = {first * inv_sum, second * inv_sum};
+    if (position && columns.position_components > 3) {
+      store(inputs_[columns.position + 3], inv_sum * splat(inv_w_scale_));
+    }
+  }
+  const auto of_primitive = [](const Weights8& w, const float of[3][3]) {
+    const auto weight = [&](int k) {
+      return splat(of[0][k]) + w.first * splat(of[1][k] - of[0][k]) +
+             w.second * splat(of[2][k] - of[0][k]);
+    };
+    return Weights8{weight(1), weight(2)};
+  };
+  if (plan_->needs_perspective) {
+    if (clip_ != nullptr) perspective = of_primitive(perspective, clip_->perspective);
+    interpolate(plan_->linear, 0, perspective);
+  }
+  Weights8 on_screen = screen;
+  if (plan_->needs_screen) {
+    // A part's weights on the screen are linear there, too.
+    if (clip_ != nullptr) on_screen = of_primitive(screen, clip_->screen);
+    interpolate(plan_->screen_linear, plan_->linear.size(), on_screen);
+  }
+  if (columns.barycentrics != runtime::kNoColumn) {
+    set_barycentrics(columns.barycentrics_no_perspective ? on_screen : perspective);
+  }
+}
+
+inline void QuadShader::interpolate(const std::vector<RowAttribute>& attributes, size_t first,
+                                    const Weights8& weights) {
+  const float* base = scratch_.attributes.data() + first;
+  const float* d1 = base + linear_words_;
+  const float* d2 = d1 + linear_words_;
+  const size_t count = attributes.size();
+  for (size_t i = 0; i < count; ++i) {
+    store(inputs_[attributes[i].pixel_column],
+          splat(base[i]) + weights.first * splat(d1[i]) + weights.second * splat(d2[i]));
+  }
+}
+
+inline void QuadShader::set_barycentrics(const Weights8& weights) {
+  const auto& columns = plan_->linked->pixel_columns;
+  const bool swapped = (triangle_->flags & (kSwapped | kClipped)) == kSwapped;
+  const Floats8& first = swapped ? weights.second : weights.first;
+  const Floats8& second = swapped ? weights.first : weights.second;
+  shader::Column* out = inputs_ + columns.barycentrics;
+  store(out[0], splat(1.0f) - weights.first - weights.second);
+  if (columns.barycentric_components > 1) store(out[1], first);
+  if (columns.barycentric_components > 2) store(out[2], second);
+}
+
+template <DepthKind kKind>
+inline uint32_t QuadShader::test_late_as(uint32_t* quads[2], const Floats8& z,
+                                         uint32_t live) const {
+  const ViewportState& viewport = plan_->viewports[triangle_->flags >> kViewportShift];
+  // What was tested before passes again.
+  const uint32_t func = plan_->late_test ? plan_->depth_func : 7;
+  const DepthTest<kKind> test(func, viewport.depth_low, viewport.depth_high);
+  return bits_of(test.run(quads[0], quads[1], z, lanes_of(live), plan_->late_write));
+}
+
+inline uint32_t QuadShader::test_late(uint32_t first, bool pair, uint32_t live) {
+  const QuadQueue& queue = scratch_.queue;
+  uint32_t alone[4] = {};  // where there is no second quad
+  uint32_t* quads[2] = {scratch_.depth.words + queue.quad[first] * 4,
+                        pair ? scratch_.depth.words + queue.quad[first + 1] * 4 : alone};
+  Floats8 z;
+  if (plan_->reads_depth_output) {
+    z = load<float>(outputs_[plan_->linked->pixel_columns.depth]);
+  } else {
+    float values[8] = {};
+    __builtin_memcpy(values, queue.z + first * 4, pair ? 32 : 16);
+    z = load<float>(values);
+  }
+  switch (plan_->depth) {
+    case DepthKind::kFloat32:
+      return test_late_as<DepthKind::kFloat32>(quads, z, live);
+    case DepthKind::kUnorm16:
+      return test_late_as<DepthKind::kUnorm16>(quads, z, live);
+    case DepthKind::kUnorm24:
+      return test_late_as<DepthKind::kUnorm24>(quads, z, live);
+    default:
+      return live;
+  }
+}
+
+}  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// Draws passes: draws that follow each other on the same targets, with results as if their
+// primitives were drawn one after another. Start here.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "runtime/raster/draw.h"
+#include "runtime/raster/workers.h"
+
+namespace kaamos::raster {
+
+// Results depend on neither.
+struct RasterizerOptions {
+  uint32_t batch_triangles = 2048;
+  // What may wait for tiles to be drawn, roughly; a batch at least.
+  uint64_t batch_bytes = uint64_t{64} << 20;
+};
+
+class Rasterizer {
+ public:
+  explicit Rasterizer(const RasterizerOptions& options = {});
+  ~Rasterizer();
+  Rasterizer(const Rasterizer&) = delete;
+  Rasterizer& operator=(const Rasterizer&) = delete;
+
+  // One pass at a time. Memory is kept for the next one.
+  void draw(const Targets& targets, std::span<const Draw> draws, Workers& workers);
+
+ private:
+  struct Pass;
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
+
+}  // namespace kaamos::raster

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile of the targets while its triangles are drawn: depth is in a buffer of its own, in the
+// order of pixel shaders; colours are in the targets.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/raster/draw_plan.h"
+#include "runtime/raster/edges.h"
+#include "runtime/raster/triangle.h"
+#include "runtime/raster/workers.h"
+
+namespace kaamos::raster {
+
+inline constexpr uint32_t kTilePixels = kTileSize * kTileSize;
+inline constexpr uint32_t kQuadsPerRow = kTileSize / 2;
+
+// Four words for each quad, row by row of quads; two quads side by side are a block.
+struct alignas(64) TileDepth {
+  uint32_t words[kTilePixels];
+
+  // From and to a slice of the target, whose pixel (x, y) is the tile's first. What is beyond the
+  // target is left alone.
+  void load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice);
+  void store(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) const;
+};
+
+// Quads of one triangle that wait for the pixel shader.
+struct QuadQueue {
+  static constexpr uint32_t kCapacity = 64;
+  uint32_t count = 0;
+  uint16_t quad[kCapacity];  // number in the tile
+  uint8_t covered[kCapacity];
+  alignas(32) float z[kCapacity * 4];
+};
+
+// Memory of one thread.
+struct TileScratch {
+  TileDepth depth;
+  QuadQueue queue;
+  Storage<uint32_t> columns;  // inputs and outputs of the pixel shader
+  Storage<float> attributes;  // at vertex 0 and the differences to the others
+};
+
+// Runs of triangles of one tile, in the order of drawing.
+struct TileJob {
+  struct Run {
+    const Batch* batch;
+    uint32_t first;
+    uint32_t count;
+  };
+  const Targets* targets = nullptr;
+  const DrawPlan* plans = nullptr;
+  const Run* runs = nullptr;
+  uint32_t run_count = 0;
+  uint32_t x = 0;  // of the tile's first pixel
+  uint32_t y = 0;
+  uint32_t slice = 0;
+};
+
+using DrawTile = void (*)(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
+// For any processor, and for those with AVX2: the same results.
+void draw_tile_baseline(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
+void draw_tile_avx2(const TileJob& job, TileScratch& scratch, ShaderThread& thread);
+
+}  // namespace kaamos::raster

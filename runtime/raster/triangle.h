@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangles on the screen, ready to be drawn, and the batches they come in.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/raster/storage.h"
+
+namespace kaamos::raster {
+
+// A vertex on the screen.
+struct ScreenVertex {
+  int32_t x;  // snapped
+  int32_t y;
+  float z;      // after the viewport
+  float inv_w;  // 1 / w
+};
+
+enum TriangleFlags : uint32_t {
+  kFrontFacing = 1,
+  kSwapped = 2,  // its vertices are 0, 2, 1 of the primitive
+  kClipped = 4,  // part of a primitive: `clip` is valid
+  kSliver = 8,   // so long and thin that its plane of depth is not exact enough
+  kViewportShift = 8,
+};
+
+// Its vertices are clockwise, y down. Vertex 0 is the leading one unless it is clipped.
+struct Triangle {
+  int32_t x[3];
+  int32_t y[3];
+  float z[3];      // with the depth bias
+  uint32_t flags;  // TriangleFlags, and the viewport's number << kViewportShift
+  double dz_dx;    // by subpixel
+  double dz_dy;
+  uint32_t vertex[3];  // of the batch; if it is clipped those of the primitive, in its order
+  uint32_t primitive_id;
+  float inv_w[3];
+  uint32_t clip;  // number of its ClipWeights
+};
+
+// What a clipped triangle's vertices are made of: weights of the primitive's vertices, by vertex.
+struct ClipWeights {
+  float perspective[3][3];  // in clip space
+  float screen[3][3];       // on the screen, for what is linear there
+};
+
+// Triangles of a batch in one tile.
+struct TileRun {
+  uint32_t tile;
+  uint32_t first;  // in Batch::order
+  uint32_t count;
+};
+
+// Triangles of one instance of a draw that are set up together.
+struct Batch {
+  uint32_t draw = 0;
+  uint32_t plan = 0;
+  Storage<uint32_t> rows;  // what pixels need of each vertex, by DrawPlan
+  Storage<Triangle> triangles;
+  Storage<ClipWeights> clips;
+  Storage<uint32_t> order;  // triangles of all runs, in the order of drawing in each
+  Storage<TileRun> runs;
+
+  void clear() {
+    rows.clear();
+    triangles.clear();
+    clips.clear();
+    order.clear();
+    runs.clear();
+  }
+  size_t bytes() const {
+    return rows.bytes() + triangles.bytes() + clips.bytes() + order.bytes() + runs.bytes();
+  }
+};
+
+}  // namespace kaamos::raster

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/raster/triangle_setup.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace kaamos::raster {
+namespace {
+
+// 2^(exponent of z - 23), the distance of floats there.
+float step_of(float z) {
+  const uint32_t exponent = std::bit_cast<uint32_t>(z) >> 23 & 0xFF;
+  return exponent > 23 ? std::bit_cast<float>((exponent - 23) << 23) : 0.0f;
+}
+
+void set_plane(Triangle& t, double area) {
+  const double dz1 = static_cast<double>(t.z[1]) - static_cast<double>(t.z[0]);
+  const double dz2 = static_cast<double>(t.z[2]) - static_cast<double>(t.z[0]);
+  const double dx1 = t.x[1] - t.x[0], dy1 = t.y[1] - t.y[0];
+  const double dx2 = t.x[2] - t.x[0], dy2 = t.y[2] - t.y[0];
+  t.dz_dx = (dz1 * dy2 - dz2 * dy1) / area;
+  t.dz_dy = (dz2 * dx1 - dz1 * dx2) / area;
+}
+
+float bias_of(const DrawPlan& plan, const Triangle& t) {
+  float unit;
+  switch (plan.bias_kind) {
+    case DepthKind::kUnorm16:
+      unit = 1.0f / 65535.0f;
+      break;
+    case DepthKind::kUnorm24:
+      unit = 1.0f / 16777215.0f;
+      break;
+    default:
+      unit = step_of(std::max({std::fabs(t.z[0]), std::fabs(t.z[1]), std::fabs(t.z[2])}));
+  }
+  float bias = plan.depth_bias * unit;
+  if (plan.slope_bias != 0) {
+    const double slope = std::max(std::fabs(t.dz_dx), std::fabs(t.dz_dy)) * kSubpixels;
+    bias += plan.slope_bias * static_cast<float>(slope);
+  }
+  if (plan.bias_clamp > 0) return std::min(plan.bias_clamp, bias);
+  if (plan.bias_clamp < 0) return std::max(plan.bias_clamp, bias);
+  return bias;
+}
+
+}  // namespace
+
+PixelRect box_of(const Triangle& t, const PixelRect& rect) {
+  const int32_t left = std::min({t.x[0], t.x[1], t.x[2]});
+  const int32_t right = std::max({t.x[0], t.x[1], t.x[2]});
+  const int32_t top = std::min({t.y[0], t.y[1], t.y[2]});
+  const int32_t bottom = std::max({t.y[0], t.y[1], t.y[2]});
+  constexpr int32_t kUp = kSubpixels - 1 - kPixelCenter;
+  return {std::max(rect.left, (left + kUp) >> kSubpixelBits),
+          std::max(rect.top, (top + kUp) >> kSubpixelBits),
+          std::min(rect.right, ((right - kPixelCenter) >> kSubpixelBits) + 1),
+          std::min(rect.bottom, ((bottom - kPixelCenter) >> kSubpixelBits) + 1)};
+}
+
+bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex v[3],
+                     Triangle& out) {
+  const int64_t dx1 = v[1].x - v[0].x, dy1 = v[1].y - v[0].y;
+  const int64_t dx2 = v[2].x - v[0].x, dy2 = v[2].y - v[0].y;
+  const int64_t area = dx1 * dy2 - dx2 * dy1;  // positive: clockwise, as y points down
+  if (area == 0) return false;
+  const bool front = (area > 0) == plan.front_is_clockwise;
+  if (front ? plan.cull_front : plan.cull_back) return false;
+  const bool swap = area < 0;
+  const int order[3] = {0, swap ? 2 : 1, swap ? 1 : 2};
+  for (int i = 0; i < 3; ++i) {
+    out.x[i] = v[order[i]].x;
+    out.y[i] = v[order[i]].y;
+  }
+  if (box_of(out, rect).empty()) return false;
+  for (int i = 0; i < 3; ++i) {
+    out.z[i] = v[order[i]].z;
+    out.inv_w[i] = v[order[i]].inv_w;
+  }
+  const auto magnitude = static_cast<double>(swap ? -area : area);
+  set_plane(out, magnitude);
+  if (plan.biased) {
+    const float bias = bias_of(plan, out);
+    for (float& z : out.z) z += bias;
+    set_plane(out, magnitude);
+  }
+  // Rounding of the plane's gradients grows by the square of the length over the area.
+  const double length =
+      static_cast<double>(std::max({std::abs(dx1), std::abs(dx2), std::abs(dy1), std::abs(dy2)}));
+  constexpr double kThin = 0x1p24;
+  out.flags = (front ? kFrontFacing : 0u) | (swap ? kSwapped : 0u) |
+              (length * length > kThin * magnitude ? kSliver : 0u);
+  return true;
+}
+
+}  // namespace kaamos::raster
