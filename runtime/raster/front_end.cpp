@@ -23,6 +23,26 @@ ScreenVertex project(const ClipVertex& v, const ViewportState& viewport) {
           static_cast<float>(1 / v.w)};
 }
 
+// The vertex from which the others form a fan without overlaps: snapping can make a corner of a
+// polygon turn the other way.
+int fan_center(const ScreenVertex* polygon, int count) {
+  for (int center = 0; center < count; ++center) {
+    bool clockwise = false;
+    bool counter_clockwise = false;
+    for (int i = 1; i + 1 < count; ++i) {
+      const ScreenVertex& a = polygon[center];
+      const ScreenVertex& b = polygon[(center + i) % count];
+      const ScreenVertex& c = polygon[(center + i + 1) % count];
+      const int64_t area = static_cast<int64_t>(b.x - a.x) * (c.y - a.y) -
+                           static_cast<int64_t>(c.x - a.x) * (b.y - a.y);
+      clockwise = clockwise || area > 0;
+      counter_clockwise = counter_clockwise || area < 0;
+    }
+    if (!(clockwise && counter_clockwise)) return center;
+  }
+  return 0;
+}
+
 }  // namespace
 
 void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan& plan,
@@ -272,24 +292,17 @@ void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3], uint32_
 
   ScreenVertex screen[kMaxClippedVertices];
   for (int i = 0; i < count; ++i) screen[i] = project(polygon[i], *viewport_);
-  const auto area = [&](int b, int c) {
-    const int64_t dx1 = screen[b].x - screen[0].x, dy1 = screen[b].y - screen[0].y;
-    const int64_t dx2 = screen[c].x - screen[0].x, dy2 = screen[c].y - screen[0].y;
-    return dx1 * dy2 - dx2 * dy1;
-  };
-  int64_t whole = 0;
-  for (int i = 1; i + 1 < count; ++i) whole += area(i, i + 1);
+  const int first = fan_center(screen, count);
   for (int i = 0; i < 3; ++i) triangle.vertex[i] = vertex[i];
   for (int i = 1; i + 1 < count; ++i) {
-    // Snapping may have turned a part without a breadth over; the others cover its pixels.
-    if ((area(i, i + 1) < 0) != (whole < 0)) continue;
-    const ScreenVertex part[3] = {screen[0], screen[i], screen[i + 1]};
+    const int part[3] = {first, (first + i) % count, (first + i + 1) % count};
+    const ScreenVertex corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
     triangle.clip = static_cast<uint32_t>(batch_->clips.size());
-    if (!emit(part, triangle)) continue;
+    if (!emit(corners, triangle)) continue;
     Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
     added.flags |= kClipped;
     const bool swapped = (added.flags & kSwapped) != 0;
-    const int order[3] = {0, swapped ? i + 1 : i, swapped ? i : i + 1};
+    const int order[3] = {part[0], part[swapped ? 2 : 1], part[swapped ? 1 : 2]};
     ClipWeights weights;
     for (int v = 0; v < 3; ++v) {
       const ClipVertex& from = polygon[order[v]];

@@ -4,8 +4,8 @@
 // render targets.
 #pragma once
 
-#include "runtime/raster/depth_test.h"
 #include "runtime/raster/output_merger.h"
+#include "runtime/raster/pixel_depth.h"
 #include "runtime/raster/tile.h"
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
