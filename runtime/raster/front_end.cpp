@@ -220,7 +220,7 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
   Triangle triangle;
   triangle.primitive_id = primitive_id;
   if ((any & kNeedsClip) != 0) {
-    add_clipped(triangle, vertex, any);
+    add_clipped(triangle, vertex, screen, any);
     return;
   }
   if (!emit(screen, triangle)) return;
@@ -269,7 +269,8 @@ bool FrontEnd::emit(const ScreenVertex screen[3], Triangle& triangle) {
 }
 
 // The cut polygon as a fan.
-void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3], uint32_t codes) {
+void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3],
+                           const ScreenVertex corners[3], uint32_t codes) {
   ClipVertex polygon[kMaxClippedVertices];
   for (int i = 0; i < 3; ++i) {
     const Vertices& group = clip_[vertex[i] / kGroup];
@@ -291,14 +292,19 @@ void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3], uint32_
   if (count == 0) return;
 
   ScreenVertex screen[kMaxClippedVertices];
-  for (int i = 0; i < count; ++i) screen[i] = project(polygon[i], *viewport_);
+  for (int i = 0; i < count; ++i) {
+    const double* weight = polygon[i].weight;
+    // A corner that was not cut off stays where it is for triangles that are not cut.
+    const int corner = weight[0] == 1 ? 0 : weight[1] == 1 ? 1 : weight[2] == 1 ? 2 : -1;
+    screen[i] = corner >= 0 ? corners[corner] : project(polygon[i], *viewport_);
+  }
   const int first = fan_center(screen, count);
   for (int i = 0; i < 3; ++i) triangle.vertex[i] = vertex[i];
   for (int i = 1; i + 1 < count; ++i) {
     const int part[3] = {first, (first + i) % count, (first + i + 1) % count};
-    const ScreenVertex corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
+    const ScreenVertex part_corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
     triangle.clip = static_cast<uint32_t>(batch_->clips.size());
-    if (!emit(corners, triangle)) continue;
+    if (!emit(part_corners, triangle)) continue;
     Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
     added.flags |= kClipped;
     const bool swapped = (added.flags & kSwapped) != 0;

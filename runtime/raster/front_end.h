@@ -32,7 +32,8 @@ class FrontEnd {
   void add_triangle(const uint32_t vertex[3], uint32_t primitive_id);
   // The vertices on the screen; adds to `codes`, the outcodes of any of them.
   void gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const;
-  void add_clipped(Triangle& triangle, const uint32_t vertex[3], uint32_t codes);
+  void add_clipped(Triangle& triangle, const uint32_t vertex[3], const ScreenVertex corners[3],
+                   uint32_t codes);
   bool emit(const ScreenVertex screen[3], Triangle& triangle);
 
   const TriangleRange* range_ = nullptr;

@@ -61,9 +61,10 @@ Extent common_extent(const Targets& targets) {
   return extent;
 }
 
-DrawTile draw_tile_function() {
+DrawTile draw_tile_function([[maybe_unused]] const RasterizerOptions& options) {
 #ifdef KAAMOS_RASTER_AVX2
-  if (shader::cpu_level() == shader::CpuLevel::kAvx2) return draw_tile_avx2;
+  if (!options.any_processor && shader::cpu_level() == shader::CpuLevel::kAvx2)
+    return draw_tile_avx2;
 #endif
   return draw_tile_baseline;
 }
@@ -73,7 +74,7 @@ DrawTile draw_tile_function() {
 // What stays from pass to pass.
 struct Rasterizer::Memory {
   RasterizerOptions options;
-  DrawTile draw_tile = draw_tile_function();
+  DrawTile draw_tile = nullptr;
   std::vector<std::unique_ptr<Batch>> batches;
   Pool<FrontEnd> front_ends;
   Pool<TileScratch> tiles;
@@ -218,6 +219,7 @@ struct Rasterizer::Pass {
 
 Rasterizer::Rasterizer(const RasterizerOptions& options) : memory_(std::make_unique<Memory>()) {
   memory_->options = options;
+  memory_->draw_tile = draw_tile_function(options);
 }
 Rasterizer::~Rasterizer() = default;
 

@@ -243,6 +243,10 @@ TEST(Rasterizer, ThreadsAndBatchesDoNotMatter) {  // RAS-149
   }
 }
 
+TEST(Rasterizer, ProcessorsDoNotMatter) {
+  EXPECT_EQ(many_draws(1, {}) == many_draws(1, {.any_processor = true}), true);
+}
+
 TEST(Rasterizer, MemoryIsUsedAgain) {
   Rasterizer rasterizer({.batch_triangles = 7});
   std::vector<uint8_t> first;
