@@ -22,14 +22,16 @@ endif()
 option(KAAMOS_SHADER_AVX2 "Compile shader libraries for AVX2 too" ${_kaamos_shader_avx2})
 
 # kaamos_add_shader_library(TARGET SOURCES a.hlsl b.hlsl ... [INCLUDES folder ...]
-#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [BASELINE_ONLY])
+#   [DEFINES NAME=VALUE ...] [OPTIONS more options of kaamos-hlsl ...] [SUFFIX text] [BASELINE_ONLY])
 # makes a static library TARGET to link to. Each source NAME.hlsl gets a header <shaders/NAME.h> with
 #   const kaamos::shader::LibraryDesc* kaamos_shaders_NAME();
-# to pass to rtapi::ShaderLibrary. The library runs on every backend; OPTIONS -no-spirv leaves out what
+# to pass to rtapi::ShaderLibrary. Sources are libraries unless OPTIONS has a target, such as
+# -T ps_6_6 -E main; SUFFIX _ps makes both names end so (NAME_ps), for a source with several entry
+# points. The library runs on every backend; OPTIONS -no-spirv leaves out what
 # Vulkan needs, BASELINE_ONLY leaves out the AVX2 version. It is compiled again when a source or anything
 # it includes changes.
 function(kaamos_add_shader_library target)
-  cmake_parse_arguments(arg "BASELINE_ONLY" "" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "BASELINE_ONLY" "SUFFIX" "SOURCES;INCLUDES;DEFINES;OPTIONS" ${ARGN})
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "kaamos_add_shader_library(${target}): unknown arguments: "
       "${arg_UNPARSED_ARGUMENTS}; name the files after SOURCES")
@@ -57,7 +59,7 @@ function(kaamos_add_shader_library target)
   foreach(source IN LISTS arg_SOURCES)
     get_filename_component(source "${source}" ABSOLUTE)
     get_filename_component(name "${source}" NAME_WE)
-    string(MAKE_C_IDENTIFIER "${name}" name)
+    string(MAKE_C_IDENTIFIER "${name}${arg_SUFFIX}" name)
     set(output "${folder}/${name}.cpp")
     add_custom_command(
       OUTPUT "${output}"
@@ -65,7 +67,7 @@ function(kaamos_add_shader_library target)
               -MF "${output}.d" -o "${output}" "${source}"
       DEPENDS "${source}" kaamos::kaamos-hlsl
       DEPFILE "${output}.d"
-      COMMENT "Compiling ${name}.hlsl"
+      COMMENT "Compiling ${name}"
       VERBATIM)
     set(header "${folder}/shaders/${name}.h")
     file(CONFIGURE OUTPUT "${header}" @ONLY CONTENT

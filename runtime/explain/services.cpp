@@ -124,6 +124,9 @@ shader::Services make_services() {
   table.sample_gradient = [](const shader::SampleArguments& a) {
     return texture_services().sample_gradient(Sampling(a).arguments);
   };
+  table.level_of_detail = [](const shader::SampleArguments& a) {
+    return texture_services().level_of_detail(Sampling(a).arguments);
+  };
   table.sample_compare_level = [](const shader::SampleArguments& a) {
     return texture_services().sample_compare_level(Sampling(a).arguments);
   };

@@ -42,6 +42,7 @@ Services make_services() {
   out.sample_level = sample;
   out.sample_gradient = sample;
   out.sample_compare_level = [](const SampleArguments&) { return 0.5f; };
+  out.level_of_detail = [](const SampleArguments&) { return 0.5f; };
   out.gather = sample;
   out.gather_compare = sample;
   out.load_texel = [](const Descriptor&, const int32_t[4]) { return Texel{{7, 6, 5, 4}}; };

@@ -165,6 +165,8 @@ class Analysis {
         facts.blends = write(stmt.result, differs, region);
         return kNone;
       }
+      case StmtKind::kDiscard:
+        return kNone;
       case StmtKind::kBarrier:
         refuse("it has a barrier");
         return kNone;
@@ -318,13 +320,16 @@ const WideFunction* WidePlan::add(const Function& function,
 }
 
 const WideFunction* WidePlan::add(const EntryPoint& entry, std::string& reason) {
-  if (entry.stage != kStageCompute && entry.function->has_waves) {
+  if (entry.stage != kStageCompute && entry.stage != kStagePixel && entry.function->has_waves) {
     reason = "it shares wave operations with compute shaders";
     return nullptr;
   }
   std::vector<bool> varying;
-  for (const EntryParameter parameter : entry.parameters) {
-    varying.push_back(parameter != EntryParameter::kGroupId);
+  for (size_t i = 0; i < entry.parameters.size(); ++i) {
+    // The pixels that run together are of one triangle.
+    const bool is_flat = entry.stage == kStagePixel && i < entry.inputs.size() &&
+                         entry.inputs[i].interpolation == shader::Interpolation::kNoInterpolation;
+    varying.push_back(entry.parameters[i] != EntryParameter::kGroupId && !is_flat);
   }
   return add(*entry.function, varying, reason);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Compute and ray generation shaders on a CPU: several threads of a group, or invocations of a row,
-// run at once, one in each lane of vector registers (kaamos/shader/wide.h). The plan finds out
-// whether an entry point can run that way, which of its values differ among the threads that run
-// together (varying) and which do not (uniform), and where threads diverge. TraceRay runs for one
-// thread after another.
+// Compute, ray generation, vertex and pixel shaders on a CPU: several threads of a group,
+// invocations of a row, vertices or pixels of a triangle run at once, one in each lane of vector
+// registers (kaamos/shader/wide.h). The plan finds out whether an entry point can run that way,
+// which of its values differ among the threads that run together (varying) and which do not
+// (uniform), and where threads diverge. TraceRay runs for one thread after another.
 //
 // Threads diverge at a varying condition. The code under it runs for some of them, under a mask,
 // while the others wait. A region is what runs under one mask, except that threads which have

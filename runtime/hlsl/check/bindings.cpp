@@ -76,6 +76,10 @@ VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
 void Checker::declare_binding(const VariableDecl* decl, const Type* type, Scope* scope) {
   VariableInfo* info = make_binding(qualify(scope, decl->name), type, decl->location);
   info->name = decl->name;
+  const TypeSyntax* written = decl->type;
+  while (written->kind == TypeSyntaxKind::kArray) written = written->element;
+  info->binding->is_ordered =
+      written->kind == TypeSyntaxKind::kNamed && is_ordered_view(written->name->last().identifier);
   apply_register(info->binding, decl->annotations);
   add_symbol(scope, SymbolKind::kVariable, decl->name, decl->location)->variable = info;
 }

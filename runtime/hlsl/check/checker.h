@@ -2,8 +2,8 @@
 //
 // The checker's inner state; check.h is what others include. It is one class, split into one file
 // per noun: scopes, resolve_types, declarations, structs, templates, specializations, bindings,
-// entry_points, subobjects, payloads, payload_uses, finish_module. The lowerer handles bodies and
-// expressions (lowerer.h).
+// entry_points, graphics_stages, pixel_functions, subobjects, payloads, payload_uses,
+// finish_module. The lowerer handles bodies and expressions (lowerer.h).
 #pragma once
 
 #include <deque>
@@ -34,6 +34,7 @@ uint32_t shader_model_minor(const std::string& target);
 // Whether the types and directions agree.
 bool have_same_parameters(const FunctionInfo& one, const FunctionInfo& other);
 // Finds the attribute with that name, ignoring case; null if there is none.
+const Attribute* find_attribute(const FunctionInfo& function, std::string_view name);
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name);
 
 class Checker {
@@ -180,23 +181,13 @@ class Checker {
   // -- Entry points, exports, subobjects
   void find_entry_points();
   void check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name);
-  // -- Vertex and pixel shaders (graphics_stages.cpp)
-  struct GraphicsEntry {
-    FunctionInfo* function;
-    uint32_t stage;
-    std::string name;
-  };
-  // An input or output of one.
-  struct GraphicsValue {
-    const Type* type;
-    const Semantic* semantic;
-    SourceLocation location;
-    std::string_view name;
-    bool is_output;
-  };
-  void check_graphics_entry(FunctionInfo* function, uint32_t stage, const std::string& name);
-  void check_graphics_value(const GraphicsValue& value, const GraphicsEntry& entry);
-  void check_graphics_uses();
+  // -- Vertex and pixel shaders (graphics_stages.cpp, pixel_functions.cpp)
+  class GraphicsSignature;
+  bool check_graphics_signature(FunctionInfo* function, ir::EntryPoint& entry);
+  // The static global that says whether a pixel may still write.
+  const ir::Variable* live_variable();
+  class PixelFunctions;
+  void make_pixel_functions();
   void report_stage_use(const StageUse& use, uint32_t stage, const std::string& name);
   bool check_ray_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
@@ -267,7 +258,8 @@ class Checker {
 
   std::vector<FunctionInfo*> all_functions_;  // in declaration order, without templates
   std::vector<std::pair<FunctionInfo*, size_t>> entries_;
-  std::vector<GraphicsEntry> graphics_entries_;
+  ir::Variable* live_ = nullptr;
+  bool names_ordered_views_ = false;
   std::set<const ir::Struct*> collected_structs_;
   std::set<const ir::Expr*> collected_exprs_;
   // An entry point that is generated around a function of the source.

@@ -35,6 +35,8 @@ constexpr StageWord kStageWords[] = {
 constexpr std::string_view kOtherStages[] = {"geometry", "hull",          "domain",
                                              "mesh",     "amplification", "node"};
 
+}  // namespace
+
 const Attribute* find_attribute(const FunctionInfo& function, std::string_view name) {
   for (const FunctionDecl* decl : {function.decl, function.definition}) {
     if (!decl) continue;
@@ -42,8 +44,6 @@ const Attribute* find_attribute(const FunctionInfo& function, std::string_view n
   }
   return nullptr;
 }
-
-}  // namespace
 
 const Attribute* find_attribute(std::span<const Attribute> attributes, std::string_view name) {
   for (const Attribute& attribute : attributes) {
@@ -121,10 +121,6 @@ void Checker::find_entry_points() {
 }
 
 void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const std::string& name) {
-  if (stage == ir::kStageVertex || stage == ir::kStagePixel) {
-    check_graphics_entry(function, stage, name);
-    return;
-  }
   const SourceLocation location = function->definition->location;
   for (const ir::EntryPoint& other : module_->entry_points) {
     if (other.name == name) {
@@ -140,7 +136,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
   entry.name = name;
   entry.stage = stage;
   bool valid = true;
-  if (!function->result->is_void()) {
+  if (!function->result->is_void() && !entry.is_graphics()) {
     report(CheckId::kEntryResult, location,
            {std::string(stage_name(stage)), name, to_string(function->result)});
     valid = false;
@@ -148,6 +144,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
   // The body is checked even if the signature is wrong, so that one run reports all errors.
   lower_.lower_function(function, location);
   const bool parameters = stage == ir::kStageCompute ? check_compute_parameters(function, entry)
+                          : entry.is_graphics()      ? check_graphics_signature(function, entry)
                                                      : check_ray_parameters(function, entry);
   if (const Attribute* attribute = find_attribute(*function, "rootsignature")) {
     const auto* text =
@@ -162,7 +159,7 @@ void Checker::check_entry_point(FunctionInfo* function, uint32_t stage, const st
   }
   if (!valid || !parameters || !function->ir) return;
   if (!entry.function) entry.function = function->ir;
-  if (stage != ir::kStageCompute && stage != ir::kStageCallable)
+  if (stage != ir::kStageCompute && stage != ir::kStageCallable && !entry.is_graphics())
     lower_.wrap_payload(function, entry);
   entries_.push_back({function, module_->entry_points.size()});
   module_->entry_points.push_back(std::move(entry));

@@ -26,6 +26,10 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
   for (BindingInfo* binding : function->bindings) {
     binding->reachable = true;
     entry_bindings_.insert(binding);
+    if (binding->is_ordered && entry.stage != ir::kStagePixel) {
+      report_stage_use({binding->location, binding->name, ir::kStagePixel, false}, entry.stage,
+                       entry.name);
+    }
   }
   entry.uses_view_heap = entry.uses_view_heap || function->uses_view_heap;
   entry.uses_sampler_heap = entry.uses_sampler_heap || function->uses_sampler_heap;
@@ -60,7 +64,6 @@ void Checker::finish(ir::Module& module) {
       node->has_barrier |= callee->ir->has_barrier;
     }
   }
-  check_graphics_uses();
   std::set<VariableInfo*> all_globals;
   std::vector<std::set<BindingInfo*>> bindings_of(module.entry_points.size());
   std::set<const ir::Function*> started;
@@ -113,6 +116,7 @@ void Checker::finish(ir::Module& module) {
       module.globals.push_back(variable.variable);
     }
   }
+  make_pixel_functions();
   assign_registers();
   for (size_t i = 0; i < bindings_of.size(); ++i) {
     for (const BindingInfo* binding : bindings_of[i]) {
@@ -124,11 +128,11 @@ void Checker::finish(ir::Module& module) {
   collect_structs();
 }
 
-// Where only ray shaders come, a wave is one lane; everywhere else its statements stay.
+// Where only ray and vertex shaders come, a wave is one lane; everywhere else its statements stay.
 void Checker::finish_waves(
     const std::vector<std::pair<FunctionInfo*, FunctionInfo*>>& initialisers) {
   const auto keep = [this](FunctionInfo& function) {
-    const bool stays = (function.stages & ir::kStageCompute) != 0;
+    const bool stays = (function.stages & (ir::kStageCompute | ir::kStagePixel)) != 0;
     if (!stays) {
       for (ir::Stmt* wave : function.waves) lower_.make_wave_lone(*wave);
       function.waves.clear();

@@ -63,6 +63,46 @@ const std::vector<LanguageCase>& language_cases() {
       {"PixelNoSemantic", Id::kGraphicsSemantic, "float4 main(float2 @p) : SV_Target { return 1; }",
        "ps_6_6"},
       {"PixelResultNoSemantic", Id::kGraphicsSemantic, "float4 @main() { return 1; }", "ps_6_6"},
+      {"PixelCoverage", Id::kSemanticNotOffered, "uint main() : @SV_Coverage { return 1; }",
+       "ps_6_6"},
+      {"VertexViewId", Id::kSemanticNotOffered,
+       "float4 main(uint v : @SV_ViewID) : SV_Position { return v; }", "vs_6_6"},
+      {"PixelVertexId", Id::kSemanticNotThere,
+       "float4 main(uint v : @SV_VertexID) : SV_Target { return v; }", "ps_6_6"},
+      {"VertexTarget", Id::kSemanticNotThere, "float4 main() : @SV_Target { return 0; }", "vs_6_6"},
+      {"UnknownSystemValue", Id::kSemanticNotThere,
+       "float4 main(uint v : @SV_Missing) : SV_Position { return v; }", "vs_6_6"},
+      {"PositionOfThree", Id::kSystemValueType, "float3 @main() : SV_Position { return 0; }",
+       "vs_6_6"},
+      {"FrontFaceFloat", Id::kSystemValueType,
+       "float4 main(float @f : SV_IsFrontFace) : SV_Target { return f; }", "ps_6_6"},
+      {"DepthOfTwo", Id::kSystemValueType, "float2 @main() : SV_Depth { return 0; }", "ps_6_6"},
+      {"SemanticTwice", Id::kSemanticTwice,
+       "float4 main(float a : A, float @b : a0) : SV_Target { return a + b; }", "ps_6_6"},
+      {"SemanticTwiceInArray", Id::kSemanticTwice,
+       "float4 main(float a[2] : A, float @b : A1) : SV_Target { return a[0] + b; }", "ps_6_6"},
+      {"DoubleInput", Id::kSignatureType,
+       "float4 main(double @a : A) : SV_Target { return (float)a; }", "ps_6_6"},
+      {"ResourceInput", Id::kSignatureType,
+       "float4 main(Texture2D @a : A) : SV_Target { return 0; }", "ps_6_6"},
+      {"LinearInteger", Id::kInterpolatedInteger,
+       "float4 main(linear uint @a : A) : SV_Target { return a; }", "ps_6_6"},
+      {"NoPerspectiveBool", Id::kInterpolatedInteger,
+       "struct V { noperspective bool @a : A; };\nfloat4 main(V v) : SV_Target { return v.a; }",
+       "ps_6_6"},
+      {"NineDistances", Id::kClipDistances,
+       "void @main(out float4 p : SV_Position, out float4 c : SV_ClipDistance,\n"
+       "          out float4 d : SV_CullDistance, out float e : SV_CullDistance1) {\n"
+       "  p = c = d = e = 0; }",
+       "vs_6_6"},
+      {"ThirtyThreeVectors", Id::kSignatureVectors,
+       "void @main(out float4 p : SV_Position, out float4 a[32] : A) { p = 0; a = (float4[32])0; }",
+       "vs_6_6"},
+      {"NinthTarget", Id::kTargetNumber, "float4 main() : @SV_Target8 { return 0; }", "ps_6_6"},
+      {"UniformParameter", Id::kUnsupported,
+       "float4 main(uniform float @a) : SV_Target { return a; }", "ps_6_6"},
+      {"PixelWave", Id::kStage, pixel("p = @WaveActiveSum(p.x);"), "ps_6_6"},
+      {"OrderedInCompute", Id::kStage, kernel("r[0] = 1;", "RasterizerOrderedBuffer<uint> @r;")},
       {"PixelOutput", Id::kPixelOutput, "float4 main() : @SV_Position { return 1; }", "ps_6_6"},
       {"VertexFieldNoSemantic", Id::kGraphicsSemantic,
        "struct V { float4 a : SV_Position; float2 @b; };\nV main() { return (V)0; }", "vs_6_0"},
@@ -74,12 +114,10 @@ const std::vector<LanguageCase>& language_cases() {
        "float4 main(float2 a : A) : SV_Position { return @ddx(a.x); }", "vs_6_6"},
       {"VertexDiscardInFunction", Id::kStage,
        "void f() { @discard; }\nfloat4 main() : SV_Position { f(); return 1; }", "vs_6_6"},
-      {"VertexImplicitLevel", Id::kImplicitLevel,
+      {"VertexImplicitLevel", Id::kStage,
        "Texture2D t;\nSamplerState s;\n"
        "float4 main() : SV_Position { return t.@Sample(s, 0); }",
        "vs_6_6"},
-      {"VertexInLibrary", Id::kNoCodeForStage,
-       "[shader(\"vertex\")] float4 @main() : SV_Position { return 1; }"},
       {"PixelInLibraryBody", Id::kUndeclared,
        "[shader(\"pixel\")] float4 main() : SV_Target { return @missing; }"},
       {"NoPixelEntry", Id::kNoEntryPoint, "void f() {}", "ps_6_6"},
@@ -116,19 +154,25 @@ std::string messages_of(const std::string& text, const char* target, bool native
 TEST(GraphicsStages, WhatTheyMayUse) {
   const std::string text = pixel(
       "float4 c = t.Sample(s, p.xy) + ddx(p) + fwidth(p.x) + shade(p);\n"
-      "clip(c.x);\nif (c.y < 0) discard;\np = c + WaveActiveSum(c.x);",
+      "clip(c.x);\nif (c.y < 0) discard;\np = c + QuadReadAcrossX(c.x);",
       "Texture2D t;\nSamplerState s;\nstruct V { float4 p : SV_Position; nointerpolation uint i : "
       "I; "
       "};\nfloat4 shade(float4 a) { return ddy_fine(a); }");
   const std::string messages = messages_of(text, "ps_6_6");
   EXPECT_EQ(messages.find("error"), std::string::npos) << messages;
-  EXPECT_NE(messages.find("'main' is checked, but there is no code for it: pixel shaders"),
-            std::string::npos)
-      << messages;
   EXPECT_EQ(messages.find("KA2512"), std::string::npos) << messages;
 }
 
-TEST(GraphicsStages, AreNotInTheModule) {
+TEST(GraphicsStages, LimitsAreInclusive) {
+  const char* const allowed[] = {
+      "void main(out float4 p : SV_Position, out float4 a[31] : A) { p = 0; a = (float4[31])0; }",
+      "void main(out float4 p : SV_Position, out float a[124] : A) { p = 0; a = (float[124])0; }",
+      "void main(out float4 p : SV_Position, out float4 c : SV_ClipDistance,\n"
+      "          out float4 d : SV_CullDistance) { p = c = d = 0; }"};
+  for (const char* text : allowed) EXPECT_EQ(messages_of(text, "vs_6_6"), "") << text;
+}
+
+TEST(GraphicsStages, AreInTheModule) {
   const Compilation compilation(
       "struct V { float4 position : SV_Position; float2 uv : TEXCOORD0; };\n"
       "static float shared_value = 2;\nRWByteAddressBuffer r : register(u0);\n"
@@ -138,9 +182,32 @@ TEST(GraphicsStages, AreNotInTheModule) {
       "[shader(\"pixel\")] float4 Pixel(V v) : SV_Target1 { return ddx(v.uv.x); }\n"
       "[shader(\"raygeneration\")] void Rays() { r.Store(0, twice(2)); }");
   ASSERT_NE(compilation.module, nullptr) << compilation.messages();
-  ASSERT_EQ(compilation.module->entry_points.size(), 1u);
-  EXPECT_EQ(compilation.module->entry_points[0].name, "Rays");
-  EXPECT_EQ(compilation.module->functions.size(), 2u);
+  ASSERT_EQ(compilation.module->entry_points.size(), 3u);
+  EXPECT_EQ(compilation.module->entry_points[0].name, "Vertex");
+  EXPECT_EQ(compilation.module->entry_points[0].inputs.size(), 1u);
+  EXPECT_EQ(compilation.module->entry_points[0].outputs.size(), 2u);
+  EXPECT_EQ(compilation.module->entry_points[1].graphics_flags, shader::kGraphicsReadsQuad);
+  EXPECT_EQ(compilation.module->entry_points[2].name, "Rays");
+}
+
+// What a pixel shader shares with other stages is made twice, so that theirs does not change.
+TEST(GraphicsStages, SharedFunctionsAreCopied) {
+  const Compilation compilation(
+      "Texture2D t;\nSamplerState s;\nRWByteAddressBuffer r : register(u0);\n"
+      "float4 look(float2 uv) { r.Store(4, 1); return t.SampleBias(s, uv, 2); }\n"
+      "[shader(\"pixel\")] float4 Pixel(float2 uv : UV) : SV_Target { return look(uv); }\n"
+      "[shader(\"raygeneration\")] void Rays() { r.Store(0, asuint(look(0).x)); }");
+  ASSERT_NE(compilation.module, nullptr) << compilation.messages();
+  std::vector<std::string> looks;
+  for (const ir::Function* function : compilation.module->functions) {
+    if (function->name == "look") looks.push_back(dump(*function));
+  }
+  ASSERT_EQ(looks.size(), 2u);
+  EXPECT_NE(looks[0].find("sample_level"), std::string::npos) << looks[0];
+  EXPECT_NE(looks[0].find(", 0)"), std::string::npos) << looks[0];
+  EXPECT_EQ(looks[0].find("live"), std::string::npos) << looks[0];
+  EXPECT_NE(looks[1].find("sample_gradient"), std::string::npos) << looks[1];
+  EXPECT_NE(looks[1].find("if live"), std::string::npos) << looks[1];
 }
 
 TEST(LanguageMessages, AMissingIncludeIsTheOnlyError) {

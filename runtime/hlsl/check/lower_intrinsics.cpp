@@ -24,10 +24,6 @@ bool Lowerer::check_count(std::string_view name, size_t given, size_t lowest, si
   return false;
 }
 
-void Lowerer::use_implicit_level(std::string_view name, SourceLocation location) {
-  if (function_) function_->stage_uses.push_back({location, name, ir::kStagePixel, true});
-}
-
 void Lowerer::use_in_stages(std::string_view name, uint32_t stages, SourceLocation location) {
   if (!function_) return;
   const bool known = std::any_of(function_->stage_uses.begin(), function_->stage_uses.end(),
@@ -95,15 +91,7 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
     emit(statement);
     return rvalue(build_.int32(0), types_.void_type());
   }
-  if (is_pixel_function(name)) {
-    if (!check_count(name, count, 1, 1, location)) return error_value();
-    use_in_stages(name, ir::kStagePixel, location);
-    if (name == "clip" || !is_number(arguments[0])) {
-      return rvalue(build_.int32(0), types_.void_type());
-    }
-    const Type* type = types_.with_scalar(arguments[0].type, Scalar::kFloat32);
-    return rvalue(build_.zero(type->ir), type);
-  }
+  if (is_pixel_function(name)) return call_pixel_function(name, arguments, location);
   if (name.find("Float") == std::string_view::npos) {
     if (const AtomicRule* rule = find_atomic(name); rule && !name.ends_with("64")) {
       return call_interlocked(*rule, arguments, location);

@@ -205,6 +205,7 @@ void Lowerer::lower_statement(const Stmt* statement) {
       break;
     case StmtKind::kDiscard:
       use_in_stages("discard", ir::kStagePixel, statement->location);
+      emit(build_.stmt(ir::StmtKind::kDiscard));
       break;
   }
   --depth_;

@@ -11,12 +11,8 @@ std::optional<Value> Lowerer::call_texture_method(const Value& object, const Nam
   const bool sampled = is_sampled_texture(object.type->resource);
   if (name == "Load") return call_load(object, arguments, location);
   if (!sampled) return std::nullopt;
-  if (name.starts_with("CalculateLevelOfDetail")) {
-    use_in_stages(
-        name.ends_with("Unclamped") ? "CalculateLevelOfDetailUnclamped" : "CalculateLevelOfDetail",
-        0, location);
-    const Type* type = types_.scalar(Scalar::kFloat32);
-    return rvalue(build_.zero(type->ir), type);
+  if (name == "CalculateLevelOfDetail" || name == "CalculateLevelOfDetailUnclamped") {
+    return call_level_of_detail(object, !name.ends_with("Unclamped"), arguments, location);
   }
   if (const SampleRule* rule = find_sample(name)) {
     return call_sample(object, *rule, arguments, location);
@@ -131,10 +127,9 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   ir::SampleKind kind = ir::SampleKind::kLevel;
   switch (rule.form) {
     case F::kSample:
-    case F::kBias:
-      use_implicit_level(rule.name, location);
       zero_level();
       break;
+    case F::kBias:
     case F::kLevel:
       scalar_operand(2);
       break;
@@ -146,8 +141,6 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
       }
       break;
     case F::kCompare:
-      use_implicit_level(rule.name, location);
-      [[fallthrough]];
     case F::kCompareZero:
       kind = ir::SampleKind::kCompareLevel;
       scalar_operand(2);
@@ -181,6 +174,9 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   node->operands = std::move(operands);
   node->sample = kind;
   node->index = rule.component;
+  if (rule.form == F::kSample || rule.form == F::kBias || rule.form == F::kCompare) {
+    use_implicit_level(rule.name, node, location);
+  }
   return rvalue(node, result);
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Wave and quad intrinsics. In compute shaders each becomes a statement; in ray tracing shaders
-// each thread is a wave of its own, which DXR allows, since waves may be re-formed at every trace
-// and call, and the statement becomes an assignment. [DXR: Wave intrinsics]
+// Wave and quad intrinsics. In compute shaders, and those of quads in pixel shaders, each becomes a
+// statement; in ray tracing and vertex shaders each thread is a wave of its own, which DXR allows,
+// since waves may be re-formed at every trace and call, and the statement becomes an assignment.
+// [DXR: Wave intrinsics]
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -9,9 +10,9 @@ namespace {
 
 using shader::WaveOp;
 
-constexpr uint32_t kRayStages = ir::kStageRayGeneration | ir::kStageIntersection |
-                                ir::kStageAnyHit | ir::kStageClosestHit | ir::kStageMiss |
-                                ir::kStageCallable;
+constexpr uint32_t kLoneStages = ir::kStageVertex | ir::kStageRayGeneration |
+                                 ir::kStageIntersection | ir::kStageAnyHit | ir::kStageClosestHit |
+                                 ir::kStageMiss | ir::kStageCallable;
 
 }  // namespace
 
@@ -100,7 +101,7 @@ std::optional<Value> Lowerer::call_wave(std::string_view name, std::vector<Value
     return error_value();
   }
   const bool quad = shader::is_quad_operation(rule->op);
-  use_in_stages(rule->name, ir::kStageCompute | (quad ? 0 : kRayStages), location);
+  use_in_stages(rule->name, ir::kStageCompute | (quad ? ir::kStagePixel : kLoneStages), location);
   const Type* number = types_.scalar(Scalar::kUint32);
   const Type* four = types_.vector(Scalar::kUint32, 4);
   std::vector<const ir::Expr*> operands;

@@ -187,8 +187,17 @@ class Lowerer {
                                         SourceLocation location, bool& copied);
   bool check_count(std::string_view name, size_t given, size_t lowest, size_t highest,
                    SourceLocation location);
-  void use_implicit_level(std::string_view name, SourceLocation location);
   void use_in_stages(std::string_view name, uint32_t stages, SourceLocation location);
+
+  // -- Derivatives and what depends on them, discard (lower_pixels.cpp)
+  Value call_pixel_function(std::string_view name, std::vector<Value>& arguments,
+                            SourceLocation location);
+  const ir::Expr* quad_value(shader::WaveOp op, const ir::Expr* operand);
+  Value call_level_of_detail(const Value& object, bool clamped, std::vector<Value>& arguments,
+                             SourceLocation location);
+  void use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location);
+  // Without derivatives: level 0.
+  void take_level_zero(FunctionInfo& function);
 
   // -- Resource methods (lower_resources.cpp, lower_textures.cpp)
   Value call_resource_method(const Value& object, const NamePart& part,

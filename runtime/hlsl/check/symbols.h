@@ -29,6 +29,7 @@ struct BindingInfo {
   bool has_space = false;
   uint32_t space = 0;
   uint32_t size_bytes = 0;
+  bool is_ordered = false;  // a RasterizerOrdered view
   SourceLocation location;
   bool reachable = false;
   uint32_t index = 0;  // in Module::bindings, once known
@@ -135,7 +136,9 @@ struct FunctionInfo {
   uint32_t reported_bytes = 0;  // size of the largest attributes that it passes to ReportHit
   uint32_t reported_type = 0;   // ir::EntryPoint::attribute_type
   bool has_barrier = false;
-  std::vector<ir::Stmt*> waves;  // kWave
+  std::vector<ir::Stmt*> waves;            // kWave
+  std::vector<ir::Expr*> implicit_levels;  // kSample
+  std::vector<ir::Expr*> quads;            // kQuad
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;
   uint32_t visit_mark = 0;

@@ -2,8 +2,8 @@
 //
 // The C++ emitter's state, shared by its files: types.cpp (types, literals, memory access of
 // structs), expressions.cpp, statements.cpp, emit_cpp.cpp (functions, entry points, tables),
-// groups.cpp (compute shaders with barriers), waves.cpp. WideEmitter emits those that run several
-// threads at once.
+// groups.cpp (compute shaders with barriers), graphics.cpp (vertex and pixel shaders), waves.cpp.
+// WideEmitter emits those that run several threads at once.
 //
 // The emitted unit has the prelude as namespace `ks` and everything that belongs to the library in
 // namespace `u`: structs, constants, `u::Context` (one per shader invocation, with the ABI's
@@ -154,6 +154,13 @@ class CppEmitter {
   void collect_parameters_by_reference();
   void collect_static_use();
   void look_up_once(const ir::Function& function);
+
+  // graphics.cpp: vertex and pixel shaders
+  void emit_signature_elements(const std::string& name,
+                               const std::vector<ir::SignatureElement>& elements);
+  void emit_graphics_desc(size_t index, const std::string& functions);
+  void emit_graphics_lane(const ir::EntryPoint& entry);
+  void emit_graphics_entry(size_t index);
 
   // groups.cpp: compute shaders that are cut at their barriers
   bool emit_split_group(size_t index);  // false: it must run on fibers

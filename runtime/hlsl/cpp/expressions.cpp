@@ -399,6 +399,9 @@ std::string CppEmitter::sample_text(const Expr& expr, const TextOf& text) {
       parameters = operand(3) + ", " + operand(4);
       fixed = 5;
       break;
+    case SampleKind::kLevelOfDetail:
+      return "ks::level_of_detail(ctx.invocation, " + operand(0) + ", " + operand(1) + ", " +
+             operand(2) + ", " + operand(3) + ", " + operand(4) + ")";
     case SampleKind::kGather:
       function = "gather";
       parameters = std::to_string(expr.index) + "u";
@@ -495,6 +498,8 @@ std::string CppEmitter::value(const Expr* e) {
     case ExprKind::kDimensions:
       return "ks::dimensions(ctx.invocation, " + value(expr.operands[0]) + ", " +
              (expr.operands.size() > 1 ? "uint32_t(" + value(expr.operands[1]) + ")" : "0u") + ")";
+    case ExprKind::kQuad:  // a statement by now
+      break;
   }
   return "";
 }

@@ -369,6 +369,8 @@ void CppEmitter::statement(const Stmt& stmt) {
       line("ctx.invocation.dispatch->services->remove_device(ctx.invocation, ks::RemovalReason(" +
            std::to_string(static_cast<int>(stmt.removal)) + "));");
       break;
+    case StmtKind::kDiscard:  // the assignment before it is enough
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

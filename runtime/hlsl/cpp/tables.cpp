@@ -30,6 +30,10 @@ const char* stage_name(uint32_t stage) {
       return "kCallable";
     case kStageCompute:
       return "kCompute";
+    case kStageVertex:
+      return "kVertex";
+    case kStagePixel:
+      return "kPixel";
     default:
       return "kLibrary";
   }
@@ -134,18 +138,20 @@ void CppEmitter::emit_tables() {
                      (e.attributes != nullptr && !reads_attributes(e) ? 256u : 0u);
     line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
          ", ks::Stage::" + stage_name(e.stage) + ", " +
-         (compute ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") + ", " +
-         (compute ? "&compute_" + n : "nullptr") + ", " + number(callable ? 0 : e.payload_bytes) +
-         ", " + storage + ", " + number(e.attribute_bytes) + ", " +
-         number(callable ? e.payload_bytes : 0) + ", " + number(stack_[e.function]) + ", " +
-         number(flags) + ", bindings_" + n + ", " + number(e.bindings.size()) +
+         (compute || e.is_graphics() ? "nullptr" : "reinterpret_cast<ks::AnyFn>(entry_" + n + ")") +
+         ", " + (compute ? "&compute_" + n : "nullptr") + ", " +
+         number(callable ? 0 : e.payload_bytes) + ", " + storage + ", " +
+         number(e.attribute_bytes) + ", " + number(callable ? e.payload_bytes : 0) + ", " +
+         number(stack_[e.function]) + ", " + number(flags) + ", bindings_" + n + ", " +
+         number(e.bindings.size()) +
          (i < options_.spirv.size() ? ", spirv_" + n + ", " + number(options_.spirv[i].size())
                                     : ", nullptr, 0u") +
          ", traces_" + n + ", " + number(calls[i].traces.size()) + ", callables_" + n + ", " +
          number(calls[i].callables.size()) + ", " + quote(value_layout(e.payload)) + ", " +
          quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) +
          (has_row_[i] ? ", row_" + n : ", nullptr") +
-         (e.root_signature ? ", " + quote(*e.root_signature) : "") + "},");
+         (e.root_signature ? ", " + quote(*e.root_signature) : ", nullptr") +
+         (e.is_graphics() ? ", &graphics_" + n : "") + "},");
   }
   for (size_t i = 0; i < module_.library_functions.size(); ++i) {
     const LibraryFunction& f = module_.library_functions[i];

@@ -34,7 +34,8 @@ void WideEmitter::plan(const EntryPoint& entry) {
       uint64_t{entry.thread_group[0]} * entry.thread_group[1] * entry.thread_group[2];
   std::string reason;
   const bool compute = entry.stage == kStageCompute;
-  if ((compute || entry.stage == kStageRayGeneration) && !out_.module_.check_access &&
+  const bool rows = entry.stage == kStageRayGeneration;
+  if ((compute || rows || entry.is_graphics()) && !out_.module_.check_access &&
       out_.options_.wide != WideThreads::kNever) {
     const bool where_faster = out_.options_.wide == WideThreads::kWhereFaster;
     // A group of fewer threads than lanes is slower this way than thread by thread.
@@ -46,7 +47,7 @@ void WideEmitter::plan(const EntryPoint& entry) {
   }
   if (!reason.empty()) line("// " + entry.name + " runs thread by thread: " + reason);
   entries_.push_back(function);
-  has_rows_ = has_rows_ || (function != nullptr && !compute);
+  has_rows_ = has_rows_ || (function != nullptr && rows);
 }
 
 bool WideEmitter::any() const {

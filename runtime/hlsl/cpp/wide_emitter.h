@@ -36,6 +36,8 @@ class WideEmitter {
   bool emit_group(size_t index);
   // The same for the row function of a ray generation shader.
   bool emit_row(size_t index);
+  // The same for the function of a vertex or pixel shader (graphics.cpp).
+  bool emit_graphics(size_t index);
 
  private:
   // wide.cpp

@@ -462,6 +462,10 @@ void WideEmitter::wave(const Stmt& stmt) {
     if (varying) text = "ks::spread<" + type(stmt.result->type) + ">(" + text + ")";
   } else if (stmt.wave == shader::WaveOp::kLaneIndex) {
     text = "ks::wide_lane_index<" + type(stmt.result->type) + ">(*ctx.group, ctx.first)";
+  } else if (shader::is_derivative(stmt.wave) &&
+             stmt.operands[0]->type->scalar == Scalar::kFloat32) {
+    text = "ks::wide_derivative<" + out_.wave_operation(stmt) + ">(" + mask_ + ", " +
+           value(stmt.operands[0]) + ")";
   } else {
     out_.enter_wave_path(stmt);
     text = "ks::wide_wave_operation<" + out_.wave_operation(stmt) + ", " + type(stmt.result->type);
@@ -500,6 +504,8 @@ void WideEmitter::statement(const Stmt& stmt) {
       return trace_ray(stmt);
     case StmtKind::kWave:
       return wave(stmt);
+    case StmtKind::kDiscard:  // the assignment before it is enough
+      return;
     case StmtKind::kIf:
       return if_(stmt);
     case StmtKind::kLoop:

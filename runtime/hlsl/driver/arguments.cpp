@@ -217,8 +217,8 @@ const char* help_text() {
   return R"(kaamos-hlsl [options] FILE.hlsl: compiles HLSL shader libraries for Kaamos
 
 As in DXC:
-  -T PROFILE                lib_6_3 to lib_6_8 (default lib_6_6), or cs_6_0 to cs_6_8
-  -E NAME                   entry point of a cs profile
+  -T PROFILE                lib_6_3 to lib_6_8 (default lib_6_6), or cs_6_0 to cs_6_8, vs, ps
+  -E NAME                   entry point of a cs, vs or ps profile
   -D NAME[=VALUE]           defines a macro
   -I FOLDER                 where to look for #include files
   -HV 2018|2021             version of the language (default 2021)
@@ -247,8 +247,8 @@ Of its own:
                             slower
   -no-source                leaves out the source, from which a checked device compiles that code
                             for a library that was compiled without -check-access
-  -no-wide                  compute and ray generation shaders run thread by thread, never 8
-                            threads at once
+  -no-wide                  compute, ray generation, vertex and pixel shaders run thread by
+                            thread, never 8 threads at once
   --strict                  refuses what DXC refuses, even if Kaamos could accept it
   --entry-function NAME     name of the C function that returns the library's table
   -MF FILE                  writes a make rule with the files that were read

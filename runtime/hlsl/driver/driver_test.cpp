@@ -267,6 +267,24 @@ TEST_F(Driver, ComputeTargets) {
   EXPECT_THAT(pixel.error, HasSubstr("unknown target 'hs_6_0'"));
 }
 
+TEST_F(Driver, GraphicsTargets) {
+  write("draw.hlsl",
+        "struct V { float4 at : SV_Position; nointerpolation int id : ID2; };\n"
+        "V vs(float2 p : POSITION) { V v = {p, 0, 1, 7}; return v; }\n"
+        "float ps(V v) : SV_Target3 { return v.id; }\n");
+  const Outcome vertex = run("-T vs_6_0 -E vs -emit reflection -no-warnings draw.hlsl");
+  EXPECT_EQ(vertex.status, 0) << vertex.error;
+  EXPECT_THAT(vertex.out, HasSubstr("\"stage\": \"vertex\""));
+  EXPECT_THAT(vertex.out, HasSubstr("\"semantic\": \"POSITION\""));
+  const Outcome pixel = run("-T ps_6_0 -E ps -emit reflection -no-warnings draw.hlsl");
+  EXPECT_EQ(pixel.status, 0) << pixel.error;
+  EXPECT_THAT(pixel.out, HasSubstr("\"index\": 2"));
+  EXPECT_THAT(pixel.out, HasSubstr("\"interpolation\": \"nointerpolation\""));
+  EXPECT_THAT(run("-T ps_6_0 -E ps -emit glsl -no-warnings draw.hlsl").out,
+              HasSubstr("layout(location = 1) flat in int"));
+  EXPECT_THAT(run("-T ps_6_0 -E ps -no-warnings draw.hlsl").out, HasSubstr("spirv_0"));
+}
+
 TEST_F(Driver, WarningsAsErrors) {
   write("warns.hlsl",
         "RWByteAddressBuffer results;\n[shader(\"raygeneration\")]\nvoid Main() {\n"

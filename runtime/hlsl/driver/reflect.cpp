@@ -111,6 +111,21 @@ nlohmann::ordered_json binding_json(const Binding& binding) {
   return json;
 }
 
+nlohmann::ordered_json signature_json(const std::vector<SignatureElement>& elements) {
+  constexpr const char* kTypes[] = {"float", "int", "uint"};
+  constexpr const char* kInterpolations[] = {"linear", "noperspective", "nointerpolation"};
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SignatureElement& element : elements) {
+    json.push_back(
+        {{"semantic", element.semantic},
+         {"index", element.semantic_index},
+         {"type", kTypes[static_cast<size_t>(element.type)]},
+         {"components", element.components},
+         {"interpolation", kInterpolations[static_cast<size_t>(element.interpolation)]}});
+  }
+  return json;
+}
+
 nlohmann::ordered_json export_json(const Module& module, const EntryPoint& entry) {
   nlohmann::ordered_json json;
   json["name"] = entry.name;
@@ -118,6 +133,10 @@ nlohmann::ordered_json export_json(const Module& module, const EntryPoint& entry
   json["stage"] = stage_name(entry.stage);
   if (entry.stage == kStageCompute) {
     json["thread_group"] = entry.thread_group;
+  }
+  if (entry.is_graphics()) {
+    json["inputs"] = signature_json(entry.inputs);
+    json["outputs"] = signature_json(entry.outputs);
   }
   if (entry.payload != nullptr) json["payload_bytes"] = entry.payload_bytes;
   if (entry.attributes != nullptr) json["attribute_bytes"] = entry.attribute_bytes;

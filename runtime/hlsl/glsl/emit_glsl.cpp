@@ -162,6 +162,8 @@ std::string GlslEmitter::entry_argument(size_t index) {
       return group_value("gl_LocalInvocationID");
     case EntryParameter::kGroupIndex:
       return name + "(gl_LocalInvocationIndex)";
+    default:  // graphics.cpp
+      break;
   }
   return "";
 }
@@ -205,6 +207,11 @@ void GlslEmitter::emit_main() {
          "(g_in.data);");
   }
   count_invocation();
+  if (entry_.is_graphics()) {
+    graphics_main();
+    out_ = std::move(functions) + "void main() {\n" + start_ + out_ + "}\n";
+    return;
+  }
   std::string text = function_names_[entry_.function] + "(";
   for (size_t i = 0; i < entry_.parameters.size(); ++i) {
     text += (i == 0 ? "" : ", ") + entry_argument(i);
@@ -230,7 +237,9 @@ void GlslEmitter::define_check_place() {
           ? std::string(
                 "gl_WorkGroupID + uvec3(k_dispatch.base[0], k_dispatch.base[1], "
                 "k_dispatch.base[2])")
-          : system_value(index);
+      : entry_.stage == kStagePixel  ? "uvec3(gl_FragCoord.xy, gl_PrimitiveID)"
+      : entry_.stage == kStageVertex ? "uvec3(gl_VertexIndex, gl_InstanceIndex, 0)"
+                                     : system_value(index);
   constant(shader::spirv::kShaderConstant, "g_shader");
   helpers_ += "uint g_check_shader() { return g_shader; }\nuvec3 g_check_index() { return " + text +
               "; }\n";
@@ -241,7 +250,7 @@ GlslShader GlslEmitter::run() {
   if (entry_.attributes != nullptr) {
     attribute_types_.push_back(entry_.attributes);
   }
-  if (entry_.stage != kStageCompute) {
+  if (entry_.stage != kStageCompute && !entry_.is_graphics()) {
     declarations_ += "uint g_depths = 0u;\n";
   }
   if (entry_.function->may_end_shader) {
@@ -271,6 +280,9 @@ GlslShader GlslEmitter::run() {
     layout = "layout(local_size_x = " + std::to_string(entry_.thread_group[0]) +
              ", local_size_y = " + std::to_string(entry_.thread_group[1]) +
              ", local_size_z = " + std::to_string(entry_.thread_group[2]) + ") in;\n";
+  } else if (entry_.is_graphics()) {
+    head += graphics_head();
+    layout = graphics_layout();
   } else {
     head += "#extension GL_EXT_ray_tracing : require\n#define KAAMOS_SHADER_RECORD\n";
   }

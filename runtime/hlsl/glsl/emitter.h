@@ -3,7 +3,7 @@
 // The GLSL emitter's state, shared by its files: types.cpp (types, literals), memory.cpp (loads and
 // stores), matrices.cpp, expressions.cpp, resources.cpp (bindings, typed buffers, textures,
 // atomics), statements.cpp, rays.cpp (TraceRay and related calls), queries.cpp, waves.cpp,
-// system_values.cpp, emit_glsl.cpp (functions, main).
+// graphics.cpp (vertex and pixel shaders), system_values.cpp, emit_glsl.cpp (functions, main).
 //
 // Name prefixes: u_ for variables, f_ functions, s_ structs and m_ fields of the HLSL source, with
 // a number added if the name is not unique; k_ for the prelude; g_ for what is generated here.
@@ -170,6 +170,14 @@ class GlslEmitter {
   std::string wave_text(const ir::Stmt& stmt);
   void wave(const ir::Stmt& stmt);
   std::string wave_extensions() const;
+
+  // graphics.cpp
+  std::string graphics_input(size_t index);
+  void graphics_output(size_t index, const std::string& name);
+  void graphics_main();
+  std::string graphics_head() const;
+  std::string graphics_layout() const;
+  std::string derivative(const ir::Stmt& stmt);
 
   // queries.cpp
   void declare_query();

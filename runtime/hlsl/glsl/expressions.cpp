@@ -332,6 +332,8 @@ std::string GlslEmitter::value(const Expr* e) {
       return sample(expr);
     case ExprKind::kDimensions:
       return dimensions(expr);
+    case ExprKind::kQuad:  // a statement by now
+      break;
   }
   return "";
 }

@@ -262,6 +262,11 @@ void GlslEmitter::typed_store(const Stmt& stmt) {
 std::string GlslEmitter::sample(const Expr& expr) {
   const auto& operands = expr.operands;
   const Type* resource = operands[0]->type;
+  if (expr.sample == SampleKind::kLevelOfDetail) {
+    return texture_function("level_of_detail", resource, Scalar::kFloat32) + "(" +
+           value(operands[0]) + ", " + value(operands[1]) + ", " + value(operands[2]) + ", " +
+           value(operands[3]) + ", " + value(operands[4]) + ")";
+  }
   constexpr const char* kNames[] = {"sample_level", "sample_gradient", "sample_compare_level",
                                     "gather", "gather_compare"};
   constexpr size_t kFixed[] = {4, 5, 5, 3, 4};  // number of operands before the offset

@@ -23,6 +23,10 @@ EShLanguage language(uint32_t stage) {
       return EShLangMiss;
     case ir::kStageCallable:
       return EShLangCallable;
+    case ir::kStageVertex:
+      return EShLangVertex;
+    case ir::kStagePixel:
+      return EShLangFragment;
     default:
       return EShLangCompute;
   }

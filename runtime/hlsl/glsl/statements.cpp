@@ -252,6 +252,9 @@ void GlslEmitter::statement(const Stmt& stmt) {
       declare_remove_device();
       line("g_remove_device(" + glsl::number(static_cast<uint32_t>(stmt.removal)) + ");");
       break;
+    case StmtKind::kDiscard:
+      line("demote;");
+      break;
     case StmtKind::kIf:
       open("if (" + value(stmt.value) + ") {");
       block(stmt.body);

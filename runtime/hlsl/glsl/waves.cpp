@@ -219,12 +219,16 @@ std::string GlslEmitter::wave_text(const Stmt& stmt) {
 }
 
 void GlslEmitter::wave(const Stmt& stmt) {
-  const std::string text = entry_.stage == kStageCompute ? wave_text(stmt) : lone_wave(stmt);
+  const bool waves = entry_.stage == kStageCompute || entry_.stage == kStagePixel;
+  const std::string text = shader::is_derivative(stmt.wave) ? derivative(stmt)
+                           : waves                          ? wave_text(stmt)
+                                                            : lone_wave(stmt);
   line(variable(stmt.result) + " = " + text + ";");
 }
 
 std::string GlslEmitter::wave_extensions() const {
-  if (entry_.stage != kStageCompute || !entry_.function->has_waves) return "";
+  const bool waves = entry_.stage == kStageCompute || entry_.stage == kStagePixel;
+  if (!waves || !entry_.function->has_waves) return "";
   std::string out;
   for (const char* extension :
        {"GL_KHR_shader_subgroup_basic", "GL_KHR_shader_subgroup_vote",

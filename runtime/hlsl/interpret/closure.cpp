@@ -7,7 +7,7 @@ namespace kaamos::hlsl::interpret {
 
 struct Closure::Call {
   ffi_cif interface;
-  ffi_type* types[3] = {&ffi_type_pointer, &ffi_type_pointer, &ffi_type_pointer};
+  ffi_type* types[4] = {&ffi_type_pointer, &ffi_type_pointer, &ffi_type_pointer, &ffi_type_uint32};
   ffi_closure* closure = nullptr;
   Target target;
 };
@@ -57,6 +57,32 @@ void run_group(ffi_cif*, void*, void** arguments, void* target) {
   }
 }
 
+void run_vertices(ffi_cif*, void*, void** arguments, void* target) {
+  const auto& to = *static_cast<const Closure::Target*>(target);
+  const auto& lanes = *argument<const shader::VertexLanes>(arguments, 1);
+  for (uint32_t lane = 0; lane < shader::kGraphicsLanes; ++lane) {
+    if ((lanes.active >> lane & 1u) == 0) continue;
+    run_vertex(*to.program, *to.entry, *argument<shader::Invocation>(arguments, 0), lanes, lane);
+  }
+}
+
+void run_pixels(ffi_cif*, void*, void** arguments, void* target) {
+  const auto& to = *static_cast<const Closure::Target*>(target);
+  auto& lanes = *argument<shader::PixelLanes>(arguments, 1);
+  for (uint32_t lane = 0; lane < shader::kGraphicsLanes; ++lane) {
+    if ((lanes.live >> lane & 1u) == 0) continue;
+    run_pixel(*to.program, *to.entry, *argument<shader::Invocation>(arguments, 0), lanes, nullptr,
+              lane);
+  }
+}
+
+void run_pixel_thread(ffi_cif*, void*, void** arguments, void* target) {
+  const auto& to = *static_cast<const Closure::Target*>(target);
+  run_pixel(*to.program, *to.entry, *argument<shader::Invocation>(arguments, 0),
+            *argument<shader::PixelLanes>(arguments, 1),
+            argument<shader::ComputeGroup>(arguments, 2), *static_cast<uint32_t*>(arguments[3]));
+}
+
 struct Signature {
   unsigned arguments;
   Handler handler;
@@ -73,6 +99,10 @@ Signature signature_of(const ir::EntryPoint& entry) {
     case ir::kStageCompute:
       return entry.function->has_barrier || entry.function->has_waves ? Signature{3, run_thread}
                                                                       : Signature{2, run_group};
+    case ir::kStageVertex:
+      return {2, run_vertices};
+    case ir::kStagePixel:
+      return entry.function->has_waves ? Signature{4, run_pixel_thread} : Signature{2, run_pixels};
     default:
       return {1, run_ray<1>};
   }

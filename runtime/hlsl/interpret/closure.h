@@ -18,7 +18,7 @@ class Closure {
   Closure& operator=(const Closure&) = delete;
 
   // Has the ABI's type for the entry's stage; for compute, ComputeThreadFn if it has barriers, else
-  // ComputeGroupFn.
+  // ComputeGroupFn; for pixels, PixelThreadFn if it has derivatives, else PixelFn.
   shader::AnyFn function() const { return function_; }
 
   struct Target {

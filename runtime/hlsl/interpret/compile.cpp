@@ -124,6 +124,12 @@ EntryCode Compiler::entry(const EntryPoint& entry) {
   out.entry = &entry;
   out.code = codes_[entry.function];
   out.path_words = program_.wave_paths->length(*entry.function);
+  for (size_t i = 0; i < entry.parameters.size() && entry.is_graphics(); ++i) {
+    out.output_offsets.push_back(out.output_bytes);
+    if (entry.parameters[i] == EntryParameter::kOutput) {
+      out.output_bytes += align(bytes_of(entry.function->parameters[i]->type), 16);
+    }
+  }
   out.payload_bytes = entry.payload != nullptr ? bytes_of(entry.payload) : 0;
   most_temporary_bytes_ = 0;
   statics_.clear();

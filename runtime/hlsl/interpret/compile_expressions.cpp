@@ -263,6 +263,8 @@ void Compiler::compile(Node& node) {
       return in_slot(node, evaluate_sample());
     case ExprKind::kDimensions:
       return in_slot(node, evaluate_dimensions());
+    case ExprKind::kQuad:  // a statement by now
+      break;
   }
 }
 

@@ -22,6 +22,8 @@ struct InterpretedLibrary::Tables {
   std::vector<shader::ExportDesc> exports;
   std::vector<shader::SubobjectDesc> subobjects;
   std::deque<shader::ComputeDesc> compute;
+  std::deque<shader::GraphicsDesc> graphics;
+  std::deque<std::vector<shader::SignatureElement>> signatures;
   std::deque<std::string> layouts;
   std::deque<ReachedCalls> calls;
   std::vector<const char*> files;
@@ -46,6 +48,10 @@ shader::Stage stage_of(uint32_t stage) {
       return shader::Stage::kCallable;
     case ir::kStageCompute:
       return shader::Stage::kCompute;
+    case ir::kStageVertex:
+      return shader::Stage::kVertex;
+    case ir::kStagePixel:
+      return shader::Stage::kPixel;
     default:
       return shader::Stage::kLibrary;
   }
@@ -113,6 +119,44 @@ shader::ComputeDesc describe_compute(const EntryCode& code, uint32_t shared_byte
   return out;
 }
 
+std::vector<shader::SignatureElement> describe(const std::vector<ir::SignatureElement>& elements,
+                                               const ir::Module& module) {
+  std::vector<shader::SignatureElement> out;
+  for (const ir::SignatureElement& e : elements) {
+    const bool placed = e.location.line != 0 && e.location.file < module.files.size();
+    out.push_back({e.semantic.c_str(), e.semantic_index, e.system_value, e.type, e.interpolation,
+                   e.components, e.first_column,
+                   placed ? module.files[e.location.file].c_str() : nullptr, e.location.line});
+  }
+  return out;
+}
+
+uint32_t column_count(const std::vector<shader::SignatureElement>& elements) {
+  return elements.empty() ? 0 : elements.back().first_column + elements.back().components;
+}
+
+shader::GraphicsDesc describe_graphics(const ir::EntryPoint& entry,
+                                       const std::vector<shader::SignatureElement>& inputs,
+                                       const std::vector<shader::SignatureElement>& outputs,
+                                       shader::AnyFn function) {
+  shader::GraphicsDesc out = {};
+  out.inputs = inputs.data();
+  out.input_count = static_cast<uint32_t>(inputs.size());
+  out.input_columns = column_count(inputs);
+  out.outputs = outputs.data();
+  out.output_count = static_cast<uint32_t>(outputs.size());
+  out.output_columns = column_count(outputs);
+  out.flags = entry.graphics_flags;
+  if (entry.stage == ir::kStageVertex) {
+    out.vertex = reinterpret_cast<shader::VertexFn>(function);
+  } else if (entry.function->has_waves) {
+    out.pixel_thread = reinterpret_cast<shader::PixelThreadFn>(function);
+  } else {
+    out.pixel = reinterpret_cast<shader::PixelFn>(function);
+  }
+  return out;
+}
+
 shader::ExportDesc describe(const EntryCode& code) {
   const ir::EntryPoint& entry = *code.entry;
   const bool callable = entry.stage == ir::kStageCallable;
@@ -173,6 +217,11 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     if (code.entry->stage == ir::kStageCompute) {
       desc.compute = &tables.compute.emplace_back(
           describe_compute(code, tables.program->shared_bytes, closure->function()));
+    } else if (code.entry->is_graphics()) {
+      const auto& inputs = tables.signatures.emplace_back(describe(code.entry->inputs, m));
+      const auto& outputs = tables.signatures.emplace_back(describe(code.entry->outputs, m));
+      desc.graphics = &tables.graphics.emplace_back(
+          describe_graphics(*code.entry, inputs, outputs, closure->function()));
     } else {
       desc.entry = closure->function();
     }

@@ -32,6 +32,8 @@ struct Context {
   const ir::EntryPoint* entry = nullptr;
   std::byte* shared = nullptr;
   std::byte* statics = nullptr;
+  std::byte* outputs = nullptr;  // of a vertex or pixel shader
+  bool* stays_live = nullptr;    // of a pixel shader: whether it did not discard
   uint64_t steps_left = 0;
   uint32_t* path = nullptr;  // for wave operations
   uint32_t path_depth = 0;   // where the running function's part of it begins
@@ -141,6 +143,8 @@ struct EntryCode {
   uint32_t temporary_bytes = 0;  // of the initialisers
   uint32_t static_bytes = 0;
   uint32_t path_words = 0;
+  std::vector<uint32_t> output_offsets;  // by parameter; those of others are not used
+  uint32_t output_bytes = 0;
 };
 
 struct Program {
@@ -172,6 +176,12 @@ shader::AnyHitResult run_ray_entry(const Program& program, const EntryCode& entr
 void run_compute_thread(const Program& program, const EntryCode& entry,
                         shader::Invocation& invocation, shader::ComputeGroup& group,
                         const uint32_t thread[3]);
+
+// `lane` of the columns. A pixel's helper runs only where derivatives need it.
+void run_vertex(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+                const shader::VertexLanes& lanes, uint32_t lane);
+void run_pixel(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+               shader::PixelLanes& lanes, shader::ComputeGroup* group, uint32_t lane);
 
 // Calls the hook, if there is one.
 void report(Context& context, InterpretFinding finding, const ir::Location& location);

@@ -21,6 +21,10 @@ struct Arguments {
   const void* attributes = nullptr;
   const uint32_t* thread = nullptr;
   const uint32_t* size = nullptr;
+  const shader::Column* inputs = nullptr;
+  shader::Column* outputs = nullptr;
+  uint32_t lane = 0;
+  bool is_live = false;
 };
 
 void put_numbers(std::byte* to, const ir::Type* type, const uint32_t (&numbers)[3]) {
@@ -70,6 +74,26 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
     case EntryParameter::kAttributes:
       std::memcpy(to, arguments.attributes, bytes);
       break;
+    case EntryParameter::kInput: {
+      const ir::SignatureElement& element = entry.entry->inputs[i];
+      for (uint32_t c = 0; c < element.components; ++c) {
+        std::memcpy(to + c * sizeof(uint32_t),
+                    &arguments.inputs[element.first_column + c][arguments.lane], sizeof(uint32_t));
+      }
+      break;
+    }
+    case EntryParameter::kOutput: {
+      std::byte* const place = frame.context->outputs + entry.output_offsets[i];
+      std::memset(place, 0, bytes);
+      std::memcpy(to, &place, sizeof(place));
+      break;
+    }
+    case EntryParameter::kStaysLive:
+      std::memcpy(to, &frame.context->stays_live, sizeof(frame.context->stays_live));
+      break;
+    case EntryParameter::kIsLive:
+      std::memcpy(to, &arguments.is_live, sizeof(arguments.is_live));
+      break;
     default:
       put_compute_value(entry.entry->parameters[i], to, variable.type, *frame.context->group,
                         arguments);
@@ -91,6 +115,18 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
   }
 }
 
+void put_outputs(const EntryCode& entry, const Context& context, const Arguments& arguments) {
+  const size_t first = entry.entry->inputs.size();
+  for (size_t i = 0; i < entry.entry->outputs.size(); ++i) {
+    const ir::SignatureElement& element = entry.entry->outputs[i];
+    const std::byte* const from = context.outputs + entry.output_offsets[first + i];
+    for (uint32_t c = 0; c < element.components; ++c) {
+      std::memcpy(&arguments.outputs[element.first_column + c][arguments.lane],
+                  from + c * sizeof(uint32_t), sizeof(uint32_t));
+    }
+  }
+}
+
 // Not inlined into a loop over threads, because its memory is released only when it returns.
 [[gnu::noinline]] void run_entry(const EntryCode& entry, Context& context,
                                  const Arguments& arguments) {
@@ -104,10 +140,12 @@ void put_parameter(const EntryCode& entry, size_t i, Frame& frame, const Argumen
   frame.context = &context;
   frame.variables = static_cast<std::byte*>(alloca(entry.code->variable_bytes + 16));
   frame.temporaries = static_cast<std::byte*>(alloca(entry.code->temporary_bytes + 16));
+  context.outputs = static_cast<std::byte*>(alloca(entry.output_bytes + 16));
   for (size_t i = 0; i < entry.entry->parameters.size(); ++i) {
     put_parameter(entry, i, frame, arguments);
   }
   run_body(*entry.code, frame);
+  if (arguments.outputs != nullptr) put_outputs(entry, context, arguments);
 }
 
 }  // namespace
@@ -136,6 +174,35 @@ void run_compute_thread(const Program& program, const EntryCode& entry,
   context.group = &group;
   context.shared = static_cast<std::byte*>(group.shared);
   run_entry(entry, context, {nullptr, nullptr, thread, entry.entry->thread_group});
+}
+
+void run_vertex(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+                const shader::VertexLanes& lanes, uint32_t lane) {
+  Context context;
+  context.program = &program;
+  context.invocation = &invocation;
+  Arguments arguments;
+  arguments.inputs = lanes.inputs;
+  arguments.outputs = lanes.outputs;
+  arguments.lane = lane;
+  run_entry(entry, context, arguments);
+}
+
+void run_pixel(const Program& program, const EntryCode& entry, shader::Invocation& invocation,
+               shader::PixelLanes& lanes, shader::ComputeGroup* group, uint32_t lane) {
+  Context context;
+  context.program = &program;
+  context.invocation = &invocation;
+  context.group = group;
+  bool stays_live = false;
+  context.stays_live = &stays_live;
+  Arguments arguments;
+  arguments.inputs = lanes.inputs;
+  arguments.outputs = lanes.outputs;
+  arguments.lane = lane;
+  arguments.is_live = (lanes.live >> lane & 1u) != 0;
+  run_entry(entry, context, arguments);
+  if (!stays_live) lanes.live &= ~(1u << lane);
 }
 
 }  // namespace kaamos::hlsl::interpret

@@ -357,6 +357,8 @@ Flow run(const Action& action, Frame& frame) {
       context.invocation->dispatch->services->remove_device(
           *context.invocation, static_cast<shader::RemovalReason>(stmt.removal));
       return Flow::kNext;
+    case StmtKind::kDiscard:  // the assignment before it is enough
+      return Flow::kNext;
     case StmtKind::kIf:
       return run(evaluate_as<bool>(*action.value, frame) ? action.body : action.orelse, frame);
     case StmtKind::kLoop:

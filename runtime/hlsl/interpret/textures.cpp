@@ -91,6 +91,7 @@ size_t fixed_operands(SampleKind kind) {
       return 4;
     case SampleKind::kGradient:
     case SampleKind::kCompareLevel:
+    case SampleKind::kLevelOfDetail:
       return 5;
     case SampleKind::kGather:
       return 3;
@@ -120,6 +121,9 @@ const std::byte* sample(const Node& node, Frame& frame) {
       case SampleKind::kCompareLevel:
         return shader::sample_compare_level<V>(invocation, texture, sampler, location, third.e[0],
                                                fourth.e[0], offset);
+      case SampleKind::kLevelOfDetail:
+        return shader::splat<V>(shader::op::Convert<shader::scalar_of<V>>::apply(
+            shader::level_of_detail(invocation, texture, sampler, location, third, fourth)));
       case SampleKind::kGather:
         return shader::gather<V>(invocation, texture, sampler, location, node.expr->index, offset);
       case SampleKind::kGatherCompare:

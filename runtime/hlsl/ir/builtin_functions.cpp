@@ -340,6 +340,10 @@ const WaveRule* find_wave(std::string_view name) {
   return find_rule(kWaves, name);
 }
 std::string_view wave_function_name(shader::WaveOp op) {
+  if (shader::is_derivative(op)) {
+    constexpr std::string_view kNames[] = {"ddx_coarse", "ddy_coarse", "ddx_fine", "ddy_fine"};
+    return kNames[static_cast<size_t>(op) - static_cast<size_t>(W::kDdxCoarse)];
+  }
   for (const WaveRule& rule : kWaves) {
     if (rule.op == op) return rule.name;
   }

@@ -42,26 +42,19 @@ constexpr ResourceTraits kTraits[] = {
     {"ConsumeStructuredBuffer", K::kConsumeStructuredBuffer, E::kStruct, 1, 0, false, true},
 };
 
+constexpr std::string_view kOrdered = "RasterizerOrdered";
+
 struct Unsupported {
   std::string_view name;
   std::string_view reason;
 };
 
 constexpr Unsupported kUnsupported[] = {
-    {"FeedbackTexture2D", "sampler feedback"},
-    {"FeedbackTexture2DArray", "sampler feedback"},
-    {"TextureBuffer", "texture buffers"},
-    {"RasterizerOrderedTexture2D", "rasterizer-ordered views"},
-    {"RasterizerOrderedBuffer", "rasterizer-ordered views"},
-    {"RasterizerOrderedStructuredBuffer", "rasterizer-ordered views"},
-    {"RasterizerOrderedByteAddressBuffer", "rasterizer-ordered views"},
-    {"InputPatch", "hull and domain shaders"},
-    {"OutputPatch", "hull and domain shaders"},
-    {"PointStream", "geometry shaders"},
-    {"LineStream", "geometry shaders"},
-    {"TriangleStream", "geometry shaders"},
-    {"DispatchNodeInputRecord", "work graphs"},
-    {"NodeOutput", "work graphs"},
+    {"FeedbackTexture2D", "sampler feedback"},  {"FeedbackTexture2DArray", "sampler feedback"},
+    {"TextureBuffer", "texture buffers"},       {"InputPatch", "hull and domain shaders"},
+    {"OutputPatch", "hull and domain shaders"}, {"PointStream", "geometry shaders"},
+    {"LineStream", "geometry shaders"},         {"TriangleStream", "geometry shaders"},
+    {"DispatchNodeInputRecord", "work graphs"}, {"NodeOutput", "work graphs"},
 };
 
 }  // namespace
@@ -74,13 +67,23 @@ std::string_view resource_name(ir::ResourceKind kind) {
   return traits_of(kind).name;
 }
 
+bool is_ordered_view(std::string_view name) {
+  return name.starts_with(kOrdered);
+}
+
 const ResourceTraits* find_resource(std::string_view name) {
   if (name == "sampler" || name == "sampler2D" || name == "SamplerState") {
     return &traits_of(K::kSampler);
   }
   if (name == "texture" || name == "texture2D") return &traits_of(K::kTexture2D);
+  // They are written like the others; only the order of pixels differs.
+  const bool ordered = is_ordered_view(name);
+  if (ordered) name.remove_prefix(kOrdered.size());
   for (const ResourceTraits& traits : kTraits) {
-    if (traits.name == name) return &traits;
+    if (ordered ? traits.name.starts_with("RW") && traits.name.substr(2) == name
+                : traits.name == name) {
+      return &traits;
+    }
   }
   return nullptr;
 }

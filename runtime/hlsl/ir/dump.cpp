@@ -16,7 +16,7 @@ constexpr const char* kUnaryNames[] = {"-", "!", "~"};
 constexpr const char* kBinaryNames[] = {"+",  "-",  "*", "/",  "%", "&",  "|",  "^",
                                         "<<", ">>", "<", "<=", ">", ">=", "==", "!="};
 constexpr const char* kSampleNames[] = {"sample_level", "sample_gradient", "sample_compare_level",
-                                        "gather", "gather_compare"};
+                                        "gather",       "gather_compare",  "level_of_detail"};
 constexpr const char* kAtomicNames[] = {
     "add", "and", "or", "xor", "min", "max", "exchange", "compare_exchange", "compare_store"};
 constexpr const char* kQueryOpNames[] = {"trace_inline", "proceed", "abort", "commit_triangle",
@@ -171,6 +171,8 @@ class Dumper {
         return call(std::string(kSampleNames[static_cast<size_t>(of->sample)]), *of);
       case ir::ExprKind::kDimensions:
         return call("dimensions", *of);
+      case ir::ExprKind::kQuad:
+        return call(std::string(wave_function_name(of->wave)), *of);
     }
   }
 
@@ -270,6 +272,9 @@ class Dumper {
         break;
       case ir::StmtKind::kAcceptHitAndEndSearch:
         line("accept_hit_and_end_search");
+        break;
+      case ir::StmtKind::kDiscard:
+        line("discard");
         break;
       case ir::StmtKind::kRemoveDevice:
         line("remove_device " + std::to_string(static_cast<int>(of.removal)));

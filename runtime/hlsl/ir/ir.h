@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "kaamos/shader/graphics.h"
 #include "kaamos/shader/wave_op.h"
 #include "runtime/hlsl/ir/intrinsics.h"
 
@@ -191,6 +192,8 @@ enum class ExprKind : uint8_t {
   kQueryValue,  // operands: the kVariable of a RayQuery; query_value, index 1: of what is committed
   kDimensions,  // operands: resource, [mip level]. uint4: textures {width, height,
                 // depth or elements, mips}; buffers {elements or bytes, stride, 0, 0}
+  kQuad,  // only while a module is made (pixel_functions.h): operands[0] combined over the quad
+          // of a pixel shader, by `wave`
 };
 
 enum class UnaryOp : uint8_t { kNegate, kNot, kBitNot };
@@ -219,11 +222,12 @@ enum class BinaryOp : uint8_t {
 // Operands after {texture, sampler, location}: what is listed, then an optional offset (int
 // vector).
 enum class SampleKind : uint8_t {
-  kLevel,          // lod. Also .Sample in stages without derivatives: lod 0
+  kLevel,          // lod
   kGradient,       // ddx, ddy
-  kCompareLevel,   // comparison value, lod (float). SampleCmp, SampleCmpLevelZero
+  kCompareLevel,   // comparison value, lod (float)
   kGather,         // `index` is the component 0..3
   kGatherCompare,  // comparison value
+  kLevelOfDetail,  // ddx, ddy; never an offset. The level before any bias and clamp (float)
 };
 
 enum class SystemValue : uint8_t {
@@ -291,6 +295,10 @@ struct Expr {
   QueryValue query_value = {};
   Layout layout = Layout::kStructured;  // kLoad, kLoadElement
   bool row_major = false;               // kLoad, kLoadElement of a matrix or an array of them
+  shader::WaveOp wave = {};             // kQuad
+  // Only while a module is made: a kSample whose level of detail comes from the quad. kLevel: the
+  // lod is a bias; kLevelOfDetail: without its derivatives.
+  bool implicit_level = false;
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -326,6 +334,8 @@ enum class StmtKind : uint8_t {
   kWave,          // wave: what the active lanes of a wave do together. operands: those of
                   // shader::WaveOp, scalars or vectors; result. In a ray shader a wave has one lane
   kRemoveDevice,  // removal: why. What follows may or may not run
+  kDiscard,  // the pixel writes nothing from here on, and goes on for the derivatives of others.
+             // Does nothing where the assignment before it (pixel_functions.h) is enough
 };
 
 enum class QueryOp : uint8_t { kTrace, kProceed, kAbort, kCommitTriangle, kCommitProcedural };
@@ -404,7 +414,7 @@ enum StageBits : uint32_t {
   kStageMiss = 16,
   kStageCallable = 32,
   kStageCompute = 64,
-  kStageVertex = 128,  // only checked: no entry point of a module has this stage or the next
+  kStageVertex = 128,
   kStagePixel = 256,
 };
 
@@ -435,6 +445,22 @@ enum class EntryParameter : uint8_t {
   kGroupId,
   kGroupThreadId,
   kGroupIndex,
+  kInput,      // of a vertex or pixel shader, and kOutput: as many as `inputs` and `outputs`, in
+  kOutput,     // their order, each a scalar or vector of 32-bit numbers
+  kIsLive,     // bool: whether the pixel is covered; helpers are not
+  kStaysLive,  // bool, out: whether it was not discarded either
+};
+
+// An input or output of a vertex or pixel shader. [kaamos/shader/graphics.h: SignatureElement]
+struct SignatureElement {
+  std::string semantic;
+  uint32_t semantic_index = 0;
+  shader::SystemValue system_value = {};
+  shader::ColumnType type = {};
+  shader::Interpolation interpolation = {};
+  uint8_t components = 1;
+  uint32_t first_column = 0;
+  Location location;
 };
 
 struct EntryPoint {
@@ -458,6 +484,11 @@ struct EntryPoint {
   std::vector<uint32_t> bindings;  // indices into Module::bindings that it can reach
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;
+  std::vector<SignatureElement> inputs;
+  std::vector<SignatureElement> outputs;
+  uint32_t graphics_flags = 0;  // shader::GraphicsFlags
+
+  bool is_graphics() const { return (stage & (kStageVertex | kStagePixel)) != 0; }
 };
 
 // An exported function that is not an entry point. [-default-linkage external, -exports, `export`]
@@ -477,6 +508,7 @@ struct Binding {
   bool is_array = false;
   bool automatic = false;   // assigned by the compiler
   uint32_t size_bytes = 0;  // constant buffers: bytes; structured buffers: element stride
+  bool is_ordered = false;  // a RasterizerOrdered view
   Location location;
 };
 

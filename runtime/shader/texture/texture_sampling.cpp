@@ -423,6 +423,11 @@ Texel sample_gradient(const SampleArguments& arguments) {
   });
 }
 
+float level_of_detail(const SampleArguments& arguments) {
+  return with_sampling<float>(
+      arguments, false, [&](const Sampling& sampling) { return sampling.lod_of_gradients(); });
+}
+
 float sample_compare_level(const SampleArguments& arguments) {
   return with_sampling<float>(arguments, true, [&](const Sampling& sampling) {
     return sampling.at_lod(arguments.lod).c[0];
@@ -440,6 +445,7 @@ void set_texture_services(Services& services) {
   services.sample_level = sample_level;
   services.sample_gradient = sample_gradient;
   services.sample_compare_level = sample_compare_level;
+  services.level_of_detail = level_of_detail;
   services.gather = gather;
   services.gather_compare = gather_compare;
   services.load_texel = load_texel;

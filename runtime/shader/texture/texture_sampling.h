@@ -15,6 +15,7 @@ namespace kaamos::shader {
 
 Texel sample_level(const SampleArguments& arguments);
 Texel sample_gradient(const SampleArguments& arguments);
+float level_of_detail(const SampleArguments& arguments);
 // The filtered fraction of texels that pass `comparison func texel`.
 float sample_compare_level(const SampleArguments& arguments);
 // One component of the four texels that linear filtering would blend on the view's first mip: x

@@ -140,6 +140,32 @@ $V k_sample_gradient_$D_$C(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy
                      k_coordinate(ddy));
 }
 
+// The level that sample_gradient takes, before the sampler's bias and clamps.
+//@ k_level_of_detail_$D_f 1d 1d_array 2d 2d_array 3d
+float k_level_of_detail_$D_f(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy) {
+  if (!k_can_sample(t, s, $Ru, k_class_f)) return 0.0;
+  $G size = $G(k_spatial_$D(k_size_$D_f(t, 0)));
+  return 0.5 * log2(max(dot(ddx * size, ddx * size), dot(ddy * size, ddy * size)));
+}
+//@ k_face_change
+vec2 k_face_change(vec3 at, vec3 change) {
+  vec3 a = abs(at);
+  int major = a.z >= a.x && a.z >= a.y ? 2 : a.y >= a.x ? 1 : 0;
+  int u = major == 0 ? 2 : 0;
+  int v = major == 1 ? 2 : 1;
+  float grows = sign(at[major]) * change[major];
+  return vec2(change[u] - at[u] / a[major] * grows, change[v] - at[v] / a[major] * grows) /
+         (2.0 * a[major]);
+}
+//@ k_level_of_detail_$D_f cube cube_array
+float k_level_of_detail_$D_f(k_Descriptor t, k_Descriptor s, $L at, $G ddx, $G ddy) {
+  if (!k_can_sample(t, s, $Ru, k_class_f)) return 0.0;
+  vec2 size = vec2(k_size_$D_f(t, 0).xy);
+  vec2 x = k_face_change(at.xyz, ddx) * size;
+  vec2 y = k_face_change(at.xyz, ddy) * size;
+  return 0.5 * log2(max(dot(x, x), dot(y, y)));
+}
+
 // With a constant offset from -8 to 7 texels; t and s are names.
 //@ k_sample_level_offset_$D_$C 1d 1d_array 2d 2d_array 3d
 #define k_sample_level_offset_$D_$C(t, s, at, lod, offset)                                      \

@@ -426,6 +426,8 @@ struct Services {
   Texel (*sample_level)(const SampleArguments&);
   Texel (*sample_gradient)(const SampleArguments&);
   float (*sample_compare_level)(const SampleArguments&);
+  // The level that sample_gradient takes, before the sampler's bias and clamps.
+  float (*level_of_detail)(const SampleArguments&);
   Texel (*gather)(const SampleArguments&);
   Texel (*gather_compare)(const SampleArguments&);
   // coordinates: x, y, z or array element, mip level. Out of bounds, loads give 0 and stores do

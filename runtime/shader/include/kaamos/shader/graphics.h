@@ -27,7 +27,7 @@ enum class SystemValue : uint8_t {
   kIsFrontFace,             // pixel shader in: 0 or 1
   kBarycentrics,            // pixel shader in
   kClipDistance,            // vertex shader out, pixel shader in
-  kCullDistance,            // vertex shader out
+  kCullDistance,            // vertex shader out, pixel shader in
   kRenderTargetArrayIndex,  // vertex shader out, pixel shader in
   kViewportArrayIndex,      // vertex shader out, pixel shader in
   kTarget,                  // pixel shader out; semantic_index is the slot
@@ -65,8 +65,9 @@ struct VertexLanes {
   uint32_t active = 0;  // a bit for each lane
 };
 
-// Pixels. Whole quads run: lanes that are in `active` but not in `live` are helpers, which write
-// nothing but what derivatives read of them.
+// Pixels of one triangle, so that columns of kNoInterpolation are the same in all lanes. Whole
+// quads run: lanes that are in `active` but not in `live` are helpers, which write nothing but what
+// derivatives read of them.
 struct PixelLanes {
   const Column* inputs = nullptr;
   Column* outputs = nullptr;
@@ -77,7 +78,8 @@ struct PixelLanes {
 using VertexFn = void (*)(Invocation&, const VertexLanes&);
 using PixelFn = void (*)(Invocation&, PixelLanes&);
 // Runs one lane of a quad on its own fiber: derivatives go through Services::wave, whose wave is
-// the quad. Clears the lane's bit of `live` if it discards.
+// the quad, of 4 lanes (ComputeGroup::wave_lanes); all active lanes of the quad must run. Clears
+// the lane's bit of `live` if it discards.
 using PixelThreadFn = void (*)(Invocation&, PixelLanes&, ComputeGroup&, uint32_t lane);
 
 enum GraphicsFlags : uint32_t {

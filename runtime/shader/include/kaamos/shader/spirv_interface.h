@@ -193,4 +193,27 @@ static_assert(sizeof(ReachedEntry) == 32);
 //
 // Attributes: vec2 if the HLSL type holds two 32-bit floats, otherwise uint[words].
 
+
+// ---------------------------------------------------------------------------------------------
+// Vertex and pixel shaders
+//
+// Input i of a vertex shader (GraphicsDesc::inputs) is at location i, but SV_VertexID and
+// SV_InstanceID, which are built in. Output i of a vertex shader is at location i, but SV_Position.
+// SV_RenderTargetArrayIndex, SV_ViewportArrayIndex, SV_ClipDistance and SV_CullDistance are built
+// in too: those at their locations are for the pixel shader, as they were written. gl_Layer is 0
+// for an index that is not below DispatchBlock::dimensions[0], the slices of the targets.
+//
+// Input i of a pixel shader is at location i, but SV_Position, SV_PrimitiveID and SV_IsFrontFace.
+// The two were compiled alone: relocate_inputs() (spirv_locations.h) gives a pixel shader's inputs
+// the locations of the vertex shader's outputs with the same semantics. SV_Barycentrics is a
+// location like any other, which the backend has to feed.
+//
+// Output SV_Target n is at location n. An SV_Depth that is not a number becomes the float whose
+// bits are DispatchBlock::base[0], the lower end of the viewport's range; all others leave as they
+// are.
+//
+// Device features: shaderDrawParameters (base vertex and instance); by use shaderClipDistance,
+// shaderCullDistance, shaderOutputLayer, shaderOutputViewportIndex, geometryShader (SV_PrimitiveID),
+// shaderDemoteToHelperInvocation, vertexPipelineStoresAndAtomics, fragmentStoresAndAtomics.
+
 }  // namespace kaamos::shader::spirv

@@ -81,6 +81,17 @@ KAAMOS_INLINE V sample_gradient(const Invocation& invocation, const Descriptor& 
   return texture_access::from_texel<V>(invocation.dispatch->services->sample_gradient(a));
 }
 
+// The level that sample_gradient takes, before the sampler's bias and clamps.
+template <class Location, class Gradient>
+KAAMOS_INLINE float level_of_detail(const Invocation& invocation, const Descriptor& texture,
+                                    const Descriptor& sampler, const Location& location,
+                                    const Gradient& ddx, const Gradient& ddy) {
+  SampleArguments a = texture_access::arguments(texture, sampler, location, int32_t{});
+  texture_access::copy(ddx, a.ddx, 3);
+  texture_access::copy(ddy, a.ddy, 3);
+  return invocation.dispatch->services->level_of_detail(a);
+}
+
 template <class V = float, class Location, class Offset = int32_t>
 KAAMOS_INLINE V sample_compare_level(const Invocation& invocation, const Descriptor& texture,
                                      const Descriptor& sampler, const Location& location,

@@ -47,6 +47,10 @@ enum class WaveOp : uint8_t {
   kQuadReadAcrossDiagonal,
   kQuadAny,  // bool of a bool, as the next one
   kQuadAll,
+  kDdxCoarse,  // of a float, as the next ones: the difference at the quad's upper left pixel
+  kDdyCoarse,
+  kDdxFine,  // at the pixel's own row or column
+  kDdyFine,
   kCount
 };
 
@@ -72,6 +76,9 @@ constexpr bool has_mask_operand(WaveOp op) {
 }
 constexpr bool is_quad_operation(WaveOp op) {
   return op >= WaveOp::kQuadReadLaneAt && op <= WaveOp::kQuadAll;
+}
+constexpr bool is_derivative(WaveOp op) {
+  return op >= WaveOp::kDdxCoarse && op <= WaveOp::kDdyFine;
 }
 constexpr bool gives_bool(WaveOp op) {
   return op == WaveOp::kIsFirstLane || op == WaveOp::kAnyTrue || op == WaveOp::kAllTrue ||

@@ -204,6 +204,22 @@ KAAMOS_INLINE void numbers(WaveOp op, const Operands<T>& o) {
   }
 }
 
+// Where one of the two lanes takes no part, the difference is 0.
+template <class T>
+KAAMOS_INLINE void derivative(WaveOp op, const Operands<T>& o) {
+  const bool across = op == WaveOp::kDdxCoarse || op == WaveOp::kDdxFine;
+  const bool fine = op == WaveOp::kDdxFine || op == WaveOp::kDdyFine;
+  const uint32_t step = across ? 1 : 2;
+  each_component<T, T>(o, [&](const T* in, T* out) {
+    each(o.active, [&](uint32_t i) {
+      const uint32_t first = i & ~(fine ? step : 3u);
+      const uint32_t pair = 1u << first | 1u << (first + step);
+      const bool there = (o.active & pair) == pair;
+      out[i] = there ? op::Subtract::apply(in[first + step], in[first]) : T{};
+    });
+  });
+}
+
 }  // namespace wave
 
 // For every operation but kLaneCount and kLaneIndex.
@@ -232,6 +248,12 @@ KAAMOS_INLINE void wave_results(WaveOp op, const wave::Operands<T>& o) {
       return wave::read(o, [](uint32_t i) { return i ^ 2u; });
     case WaveOp::kQuadReadAcrossDiagonal:
       return wave::read(o, [](uint32_t i) { return i ^ 3u; });
+    case WaveOp::kDdxCoarse:
+    case WaveOp::kDdyCoarse:
+    case WaveOp::kDdxFine:
+    case WaveOp::kDdyFine:
+      if constexpr (!std::is_same_v<T, bool>) wave::derivative(op, o);
+      return;
     default:
       break;
   }

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// What needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip. What is
+// made of them here stays an expression until it is known which stages reach it.
+// [pixel_functions.h]
+#include "runtime/hlsl/check/checker.h"
+
+namespace kaamos::hlsl {
+
+using shader::WaveOp;
+
+const ir::Expr* Lowerer::quad_value(WaveOp op, const ir::Expr* operand) {
+  ir::Expr* node = build_.expr(ir::ExprKind::kQuad, operand->type, {operand});
+  node->wave = op;
+  if (function_) function_->quads.push_back(node);
+  return node;
+}
+
+Value Lowerer::call_pixel_function(std::string_view name, std::vector<Value>& arguments,
+                                   SourceLocation location) {
+  if (!check_count(name, arguments.size(), 1, 1, location)) return error_value();
+  use_in_stages(name, ir::kStagePixel, location);
+  const Type* type = arguments[0].type;
+  if (!type || !type->is_numeric()) {
+    report(CheckId::kIntrinsicArgument, arguments[0].location,
+           {"1", std::string(name), "a number, a vector or a matrix",
+            type ? to_string(type) : "a resource"});
+    return error_value();
+  }
+  type = settled(type);
+  if (!is_floating(type->scalar) || type->scalar == Scalar::kFloat64) {
+    type = types_.with_scalar(type, Scalar::kFloat32);
+  }
+  const ir::Expr* operand = convert(arguments[0], type, arguments[0].location);
+  if (!operand) return error_value();
+  at(location);
+  operand = repeatable(operand);
+  std::vector<const ir::Expr*> rows;  // of a matrix
+  for (uint8_t row = 0; row < type->rows; ++row) {
+    std::vector<uint8_t> components;
+    for (uint8_t column = 0; column < type->columns; ++column) {
+      components.push_back(static_cast<uint8_t>(row * 4 + column));
+    }
+    rows.push_back(build_.matrix_swizzle(operand, components));
+  }
+  if (rows.empty()) rows.push_back(operand);
+  if (name == "clip") {
+    const ir::Expr* negative = nullptr;
+    for (const ir::Expr* row : rows) {
+      const ir::Expr* less = build_.binary(ir::BinaryOp::kLess, row, build_.zero(row->type));
+      const ir::Type* flag = build_.scalar_type(ir::Scalar::kBool);
+      const ir::Expr* any = build_.intrinsic(Intrinsic::any, flag, {less});
+      negative = negative ? build_.binary(ir::BinaryOp::kBitOr, negative, any) : any;
+    }
+    ir::Stmt* condition = build_.stmt(ir::StmtKind::kIf);
+    condition->value = negative;
+    condition->body.push_back(build_.stmt(ir::StmtKind::kDiscard));
+    emit(condition);
+    return rvalue(build_.int32(0), types_.void_type());
+  }
+  const bool across = name.starts_with("ddx");
+  const WaveOp op = name.ends_with("_fine") ? (across ? WaveOp::kDdxFine : WaveOp::kDdyFine)
+                                            : (across ? WaveOp::kDdxCoarse : WaveOp::kDdyCoarse);
+  for (const ir::Expr*& row : rows) {
+    if (name != "fwidth") {
+      row = quad_value(op, row);
+      continue;
+    }
+    const auto length = [&](WaveOp which) {
+      return build_.intrinsic(Intrinsic::abs, row->type, {quad_value(which, row)});
+    };
+    row = build_.binary(ir::BinaryOp::kAdd, length(WaveOp::kDdxCoarse), length(WaveOp::kDdyCoarse));
+  }
+  return rvalue(type->is_matrix() ? build_.construct(type->ir, rows) : rows[0], type);
+}
+
+void Lowerer::use_implicit_level(std::string_view name, ir::Expr* sample, SourceLocation location) {
+  sample->implicit_level = true;
+  if (!function_) return;
+  function_->stage_uses.push_back({location, name, ir::kStagePixel, true});
+  function_->implicit_levels.push_back(sample);
+}
+
+Value Lowerer::call_level_of_detail(const Value& object, bool clamped,
+                                    std::vector<Value>& arguments, SourceLocation location) {
+  const std::string_view name =
+      clamped ? "CalculateLevelOfDetail" : "CalculateLevelOfDetailUnclamped";
+  if (!check_count(name, arguments.size(), 2, 2, location)) return error_value();
+  use_in_stages(name, ir::kStagePixel, location);
+  const ResourceTraits& traits = traits_of(object.type->resource);
+  const uint32_t size = traits.coordinates - (traits.is_array ? 1u : 0u);
+  const ir::Expr* resource = load(object);
+  const bool compares = arguments[0].type && arguments[0].type->is_resource() &&
+                        arguments[0].type->resource == ir::ResourceKind::kSamplerComparison;
+  const auto kind = compares ? ir::ResourceKind::kSamplerComparison : ir::ResourceKind::kSampler;
+  const ir::Expr* sampler =
+      convert(arguments[0], types_.resource(kind, nullptr), arguments[0].location);
+  const ir::Expr* coordinates =
+      to_vector(arguments[1], Scalar::kFloat32, size, arguments[1].location);
+  if (!resource || !sampler || !coordinates) return error_value();
+  at(location);
+  if (traits.is_array) {
+    std::vector<const ir::Expr*> parts = {coordinates,
+                                          build_.zero(build_.scalar_type(ir::Scalar::kFloat32))};
+    coordinates =
+        build_.construct(build_.vector_type(ir::Scalar::kFloat32, size + 1), std::move(parts));
+  }
+  const Type* type = types_.scalar(Scalar::kFloat32);
+  ir::Expr* level = build_.expr(ir::ExprKind::kSample, type->ir, {resource, sampler, coordinates});
+  level->sample = ir::SampleKind::kLevelOfDetail;
+  level->implicit_level = true;
+  if (!clamped) return rvalue(level, type);
+  const ir::Expr* sizes =
+      build_.expr(ir::ExprKind::kDimensions, build_.vector_type(ir::Scalar::kUint32, 4),
+                  {resource, build_.uint32(0)});
+  const ir::Expr* mips = build_.convert(build_.swizzle(sizes, {3}), ir::Scalar::kFloat32);
+  const ir::Expr* last = build_.binary(ir::BinaryOp::kSubtract, mips,
+                                       build_.convert(build_.uint32(1), ir::Scalar::kFloat32));
+  const ir::Expr* lowest = build_.zero(type->ir);
+  return rvalue(build_.intrinsic(Intrinsic::clamp, type->ir, {level, lowest, last}), type);
+}
+
+void Lowerer::take_level_zero(FunctionInfo& function) {
+  for (ir::Expr* sample : function.implicit_levels) {
+    if (!sample->implicit_level) continue;
+    sample->implicit_level = false;
+    if (sample->sample != ir::SampleKind::kLevel) continue;
+    sample->operands[3] = build_.zero(build_.scalar_type(ir::Scalar::kFloat32));
+  }
+}
+
+}  // namespace kaamos::hlsl

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: MIT
+// Functions as pixel shaders need them. What other stages reach too is copied, so that theirs stay
+// as they are. In these functions
+// - derivatives become statements of the quad, and implicit levels of detail gradients,
+// - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
+//   was not discarded; an atomic of another lane gives 0.
+// [D3D11.3: 16.13 Pixel shader, discard; 7.18.11 LOD]
+#include <algorithm>
+#include <map>
+
+#include "runtime/hlsl/check/checker.h"
+#include "runtime/hlsl/ir/visit.h"
+
+namespace kaamos::hlsl {
+
+using shader::WaveOp;
+
+class Checker::PixelFunctions {
+ public:
+  explicit PixelFunctions(Checker& checker)
+      : module_(*checker.module_), build_(checker.build_), live_(checker.live_variable()) {}
+
+  void run() {
+    std::vector<ir::Function*> functions;
+    for (ir::Function* function : module_.functions) {
+      const bool is_shared = function->stages != ir::kStagePixel;
+      if (is_shared) functions.push_back(function);
+      if (function->stages & ir::kStagePixel) functions.push_back(make(function, is_shared));
+    }
+    module_.functions = std::move(functions);
+    for (ir::EntryPoint& entry : module_.entry_points) {
+      if (entry.stage == ir::kStagePixel) entry.function = made_.at(entry.function);
+    }
+  }
+
+ private:
+  ir::Function* make(ir::Function* from, bool is_shared) {
+    ir::Function* to = from;
+    variables_.clear();
+    if (is_shared) {
+      to = &module_.function_pool.emplace_back(*from);
+      to->mangled += "#pixel";
+      to->stages = ir::kStagePixel;
+      from->stages &= ~uint32_t{ir::kStagePixel};
+      for (ir::Variable*& parameter : to->parameters) parameter = copy(parameter);
+    }
+    is_shared_ = is_shared;
+    to->body = block(from->body);
+    to->has_waves = false;
+    ir::visit(
+        to->body, [](const ir::Expr&) {},
+        [&](const ir::Stmt& stmt) {
+          const bool waits = stmt.kind == ir::StmtKind::kWave ||
+                             (stmt.kind == ir::StmtKind::kCall && stmt.function->has_waves);
+          to->has_waves = to->has_waves || waits;
+        });
+    made_[from] = to;
+    return to;
+  }
+
+  ir::Variable* copy(const ir::Variable* from) {
+    const uint32_t id = build_.variable({}, from->type, from->storage)->id;
+    ir::Variable* to = &module_.variable_pool.back();
+    *to = *from;
+    to->id = id;
+    variables_[from] = to;
+    return to;
+  }
+  const ir::Variable* variable(const ir::Variable* from) const {
+    const auto found = variables_.find(from);
+    return found == variables_.end() ? from : found->second;
+  }
+
+  // -- Expressions. What they need first is put at the end of `out_`.
+
+  const ir::Expr* expr(const ir::Expr* from) {
+    if (!from) return nullptr;
+    if (from->kind == ir::ExprKind::kVariable) {
+      const ir::Variable* own = variable(from->variable);
+      if (own == from->variable) return from;
+      ir::Expr* read = &module_.expr_pool.emplace_back(*from);
+      read->variable = own;
+      return read;
+    }
+    if (from->kind == ir::ExprKind::kQuad) return quad(from->wave, expr(from->operands[0]));
+    std::vector<const ir::Expr*> operands;
+    bool is_same = !from->implicit_level;
+    for (const ir::Expr* operand : from->operands) {
+      operands.push_back(expr(operand));
+      is_same = is_same && operands.back() == operand;
+    }
+    if (is_same) return from;
+    ir::Expr* to = &module_.expr_pool.emplace_back(*from);
+    to->operands = std::move(operands);
+    if (to->implicit_level) take_derivatives(*to);
+    return to;
+  }
+
+  const ir::Expr* quad(WaveOp op, const ir::Expr* operand) {
+    const ir::Variable* result = declare(operand->type, nullptr);
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kWave);
+    statement->wave = op;
+    statement->operands = {operand};
+    statement->result = result;
+    out_->push_back(statement);
+    return build_.read(result);
+  }
+
+  const ir::Variable* declare(const ir::Type* type, const ir::Expr* value) {
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kDeclare);
+    statement->variable = build_.variable({}, type, ir::Storage::kLocal);
+    statement->value = value;
+    out_->push_back(statement);
+    return statement->variable;
+  }
+
+  void take_derivatives(ir::Expr& sample) {
+    sample.implicit_level = false;
+    const ResourceTraits& traits = traits_of(sample.operands[0]->type->resource);
+    const ir::Expr*& at = sample.operands[2];
+    if (at->kind != ir::ExprKind::kVariable) at = build_.read(declare(at->type, at));
+    const ir::Expr* place = at;
+    if (traits.is_array) {
+      std::vector<uint8_t> components;
+      for (uint8_t i = 0; i + 1 < traits.coordinates; ++i) components.push_back(i);
+      place = build_.swizzle(at, components);
+    }
+    const ir::Expr* ddx = quad(WaveOp::kDdxCoarse, place);
+    const ir::Expr* ddy = quad(WaveOp::kDdyCoarse, place);
+    if (sample.sample == ir::SampleKind::kLevelOfDetail) {
+      sample.operands.push_back(ddx);
+      sample.operands.push_back(ddy);
+      return;
+    }
+    const ir::Type* real = build_.scalar_type(ir::Scalar::kFloat32);
+    if (sample.sample == ir::SampleKind::kCompareLevel) {
+      ir::Expr* level = build_.expr(ir::ExprKind::kSample, real,
+                                    {sample.operands[0], sample.operands[1], at, ddx, ddy});
+      level->sample = ir::SampleKind::kLevelOfDetail;
+      sample.operands[4] = level;
+      return;
+    }
+    // A bias is a factor of the derivatives.
+    const ir::Expr* bias = sample.operands[3];
+    const bool is_zero = bias->kind == ir::ExprKind::kZero ||
+                         (bias->kind == ir::ExprKind::kLiteral && bias->literal[0] == 0);
+    if (!is_zero) {
+      const ir::Expr* factor =
+          build_.read(declare(real, build_.intrinsic(Intrinsic::exp2, real, {bias})));
+      const auto scaled = [&](const ir::Expr* derivative) {
+        const bool is_scalar = derivative->type->kind == ir::TypeKind::kScalar;
+        return build_.binary(ir::BinaryOp::kMultiply, derivative,
+                             is_scalar ? factor : build_.splat(factor, derivative->type));
+      };
+      ddx = scaled(ddx);
+      ddy = scaled(ddy);
+    }
+    sample.sample = ir::SampleKind::kGradient;
+    sample.operands[3] = ddx;
+    sample.operands.insert(sample.operands.begin() + 4, ddy);
+  }
+
+  // -- Statements
+
+  ir::Block block(const ir::Block& from) {
+    ir::Block to;
+    ir::Block* const outer = out_;
+    out_ = &to;
+    for (const ir::Stmt* each : from) statement(*each);
+    out_ = outer;
+    return to;
+  }
+
+  void statement(const ir::Stmt& from) {
+    build_.location = from.location;
+    ir::Stmt* to = &module_.stmt_pool.emplace_back(from);
+    if (from.kind == ir::StmtKind::kDeclare && is_shared_) {
+      to->variable = copy(from.variable);
+    }
+    if (from.kind == ir::StmtKind::kCall) to->function = made_.at(from.function);
+    if (from.result) to->result = variable(from.result);
+    to->place = expr(from.place);
+    if (from.kind != ir::StmtKind::kLoop) to->value = expr(from.value);
+    to->compare = expr(from.compare);
+    for (const ir::Expr*& operand : to->operands) operand = expr(operand);
+    for (const ir::Expr*& argument : to->arguments) argument = expr(argument);
+    to->prelude = block(from.prelude);
+    if (from.kind == ir::StmtKind::kLoop) {
+      ir::Block* const outer = out_;
+      out_ = &to->prelude;
+      to->value = expr(from.value);
+      out_ = outer;
+    }
+    to->body = block(from.body);
+    to->orelse = block(from.orelse);
+    to->step = block(from.step);
+    for (ir::SwitchCase& one : to->cases) one.body = block(one.body);
+    switch (from.kind) {
+      case ir::StmtKind::kStore:
+      case ir::StmtKind::kStoreElement:
+      case ir::StmtKind::kTypedStore:
+        return if_live(to, nullptr);
+      case ir::StmtKind::kAtomic:
+        if (from.target != ir::AtomicTarget::kPlace) return if_live(to, to->result);
+        break;
+      case ir::StmtKind::kDiscard:
+        assign(live_, build_.boolean(false));
+        break;
+      default:
+        break;
+    }
+    out_->push_back(to);
+  }
+
+  void assign(const ir::Variable* variable, const ir::Expr* value) {
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kAssign);
+    statement->place = build_.read(variable);
+    statement->value = value;
+    out_->push_back(statement);
+  }
+
+  // `result` is 0 otherwise.
+  void if_live(const ir::Stmt* statement, const ir::Variable* result) {
+    ir::Stmt* condition = build_.stmt(ir::StmtKind::kIf);
+    condition->value = build_.read(live_);
+    condition->body.push_back(statement);
+    if (result) {
+      ir::Block* const outer = out_;
+      out_ = &condition->orelse;
+      assign(result, build_.zero(result->type));
+      out_ = outer;
+    }
+    out_->push_back(condition);
+  }
+
+  ir::Module& module_;
+  IrBuilder& build_;
+  const ir::Variable* live_;
+  std::map<const ir::Function*, ir::Function*> made_;
+  std::map<const ir::Variable*, const ir::Variable*> variables_;  // of the function being copied
+  bool is_shared_ = false;
+  ir::Block* out_ = nullptr;
+};
+
+namespace {
+
+// What the functions that an entry point reaches can do.
+uint32_t flags_of(const ir::Function& function, std::set<const ir::Function*>& seen) {
+  if (!seen.insert(&function).second) return 0;
+  uint32_t flags = 0;
+  ir::visit(
+      function.body, [](const ir::Expr&) {},
+      [&](const ir::Stmt& stmt) {
+        switch (stmt.kind) {
+          case ir::StmtKind::kStore:
+          case ir::StmtKind::kStoreElement:
+          case ir::StmtKind::kTypedStore:
+            flags |= shader::kGraphicsWritesMemory;
+            break;
+          case ir::StmtKind::kAtomic:
+            if (stmt.target != ir::AtomicTarget::kPlace) flags |= shader::kGraphicsWritesMemory;
+            break;
+          case ir::StmtKind::kDiscard:
+            flags |= shader::kGraphicsDiscards;
+            break;
+          case ir::StmtKind::kWave:
+            flags |= shader::kGraphicsReadsQuad;
+            break;
+          case ir::StmtKind::kCall:
+            flags |= flags_of(*stmt.function, seen);
+            break;
+          default:
+            break;
+        }
+      });
+  return flags;
+}
+
+}  // namespace
+
+void Checker::make_pixel_functions() {
+  // Initialisers are the same for all pixels, so their derivatives are 0. Where no pixel shader
+  // comes, levels are 0 too; copies for pixel shaders are made first.
+  for (VariableInfo& variable : variables_) {
+    FunctionInfo* facts = variable.initialiser_facts.get();
+    if (!facts) continue;
+    lower_.take_level_zero(*facts);
+    for (ir::Expr* quad : facts->quads) {
+      quad->kind = ir::ExprKind::kZero;
+      quad->operands.clear();
+    }
+  }
+  const bool has_errors = has_errors_ || diagnostics_.has_errors();
+  if (live_ && !has_errors) {
+    module_->globals.push_back(live_);
+    PixelFunctions(*this).run();
+  }
+  for (FunctionInfo* function : lower_.lowered_functions_) lower_.take_level_zero(*function);
+  if (has_errors) return;
+  for (ir::EntryPoint& entry : module_->entry_points) {
+    if (!entry.is_graphics()) continue;
+    std::set<const ir::Function*> seen;
+    entry.graphics_flags |= flags_of(*entry.function, seen);
+    const bool orders = names_ordered_views_ && entry.stage == ir::kStagePixel &&
+                        (entry.graphics_flags & shader::kGraphicsWritesMemory);
+    if (orders) entry.graphics_flags |= shader::kGraphicsOrdersPixels;
+  }
+}
+
+}  // namespace kaamos::hlsl

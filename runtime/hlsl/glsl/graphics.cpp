@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+//
+// Inputs and outputs of vertex and pixel shaders, as kaamos/shader/spirv_interface.h has them.
+#include "kaamos/shader/spirv_interface.h"
+#include "runtime/hlsl/glsl/emitter.h"
+
+namespace kaamos::hlsl {
+
+using namespace ir;
+
+namespace {
+
+std::string vector_type(const SignatureElement& element) {
+  constexpr Scalar kScalars[] = {Scalar::kFloat32, Scalar::kInt32, Scalar::kUint32};
+  return glsl::vector_name(kScalars[static_cast<size_t>(element.type)], element.components);
+}
+
+std::string component_of(const SignatureElement& element, const std::string& name, int index) {
+  return element.components == 1 ? name : name + "." + glsl::component(index);
+}
+
+}  // namespace
+
+// Declares the variable of an input and returns its value, of the element's type.
+std::string GlslEmitter::graphics_input(size_t index) {
+  const SignatureElement& element = entry_.inputs[index];
+  const std::string type = vector_type(element);
+  switch (element.system_value) {
+    case shader::SystemValue::kVertexId:
+      return type + "(gl_VertexIndex - gl_BaseVertex)";
+    case shader::SystemValue::kInstanceId:
+      return type + "(gl_InstanceIndex - gl_BaseInstance)";
+    case shader::SystemValue::kPrimitiveId:
+      return type + "(gl_PrimitiveID)";
+    case shader::SystemValue::kIsFrontFace:
+      return type + "(gl_FrontFacing)";
+    case shader::SystemValue::kPosition:
+      return "vec4(gl_FragCoord.xyz, 1.0 / gl_FragCoord.w)";
+    default:
+      break;
+  }
+  const std::string name = "g_in_" + std::to_string(index);
+  constexpr const char* kModes[] = {"", "noperspective ", "flat "};
+  const char* mode =
+      entry_.stage == kStagePixel ? kModes[static_cast<size_t>(element.interpolation)] : "";
+  declarations_ += "layout(location = " + std::to_string(index) + ") " + mode + "in " + type + " " +
+                   name + ";\n";
+  return name;
+}
+
+// Declares the variables that an output goes to and writes `name`, of the element's type, to them.
+void GlslEmitter::graphics_output(size_t index, const std::string& name) {
+  const SignatureElement& element = entry_.outputs[index];
+  const std::string type = vector_type(element);
+  const auto at_location = [&](uint32_t location) {
+    const std::string out = "g_out_" + std::to_string(index);
+    const bool flat = entry_.stage == kStageVertex &&
+                      element.interpolation == shader::Interpolation::kNoInterpolation;
+    declarations_ += "layout(location = " + std::to_string(location) + ") " +
+                     (flat ? "flat " : "") + "out " + type + " " + out + ";\n";
+    line(out + " = " + name + ";");
+  };
+  switch (element.system_value) {
+    case shader::SystemValue::kTarget:
+      return at_location(element.semantic_index);
+    case shader::SystemValue::kDepth:
+      return line("gl_FragDepth = isnan(" + name +
+                  ") ? uintBitsToFloat(k_dispatch.base[0]) : " + name + ";");
+    case shader::SystemValue::kPosition:
+      return line("gl_Position = " + name + ";");
+    case shader::SystemValue::kRenderTargetArrayIndex:
+      line("gl_Layer = uint(" + name + ") < k_dispatch.dimensions[0] ? int(" + name + ") : 0;");
+      break;
+    case shader::SystemValue::kViewportArrayIndex:
+      line("gl_ViewportIndex = uint(" + name + ") < 16u ? int(" + name + ") : 0;");
+      break;
+    case shader::SystemValue::kClipDistance:
+    case shader::SystemValue::kCullDistance: {
+      const bool clips = element.system_value == shader::SystemValue::kClipDistance;
+      int first = 0;
+      for (size_t i = 0; i < index; ++i) {
+        const SignatureElement& other = entry_.outputs[i];
+        if (other.system_value == element.system_value) first += other.components;
+      }
+      for (int i = 0; i < element.components; ++i) {
+        line(std::string(clips ? "gl_ClipDistance[" : "gl_CullDistance[") +
+             std::to_string(first + i) + "] = " + component_of(element, name, i) + ";");
+      }
+      break;
+    }
+    default:
+      break;
+  }
+  at_location(static_cast<uint32_t>(index));
+}
+
+void GlslEmitter::graphics_main() {
+  const auto& parameters = entry_.function->parameters;
+  std::string call = function_names_[entry_.function] + "(";
+  for (size_t i = 0; i < parameters.size(); ++i) {
+    if (i > 0) call += ", ";
+    switch (entry_.parameters[i]) {
+      case EntryParameter::kInput:
+        call += graphics_input(i);
+        break;
+      case EntryParameter::kIsLive:
+        call += "!gl_HelperInvocation";
+        break;
+      default:
+        line(type(parameters[i]->type) + " g_result_" + std::to_string(i) + ";");
+        call += "g_result_" + std::to_string(i);
+        break;
+    }
+  }
+  line(call + ");");
+  for (size_t i = 0; i < entry_.outputs.size(); ++i) {
+    graphics_output(i, "g_result_" + std::to_string(entry_.inputs.size() + i));
+  }
+}
+
+std::string GlslEmitter::graphics_head() const {
+  std::string out;
+  for (const SignatureElement& element : entry_.outputs) {
+    const bool layered = element.system_value == shader::SystemValue::kRenderTargetArrayIndex ||
+                         element.system_value == shader::SystemValue::kViewportArrayIndex;
+    if (!layered) continue;
+    out += "#extension GL_ARB_shader_viewport_layer_array : require\n";
+    break;
+  }
+  if (entry_.graphics_flags & shader::kGraphicsDiscards) {
+    out += "#extension GL_EXT_demote_to_helper_invocation : require\n";
+  }
+  return out;
+}
+
+std::string GlslEmitter::graphics_layout() const {
+  std::string out;
+  if (entry_.stage == kStagePixel) {
+    const bool early = entry_.graphics_flags & shader::kGraphicsEarlyDepthStencil;
+    return early ? "layout(early_fragment_tests) in;\n" : "";
+  }
+  int sizes[2] = {0, 0};  // clip and cull distances
+  bool has_position = false;
+  for (const SignatureElement& element : entry_.outputs) {
+    has_position = has_position || element.system_value == shader::SystemValue::kPosition;
+    if (element.system_value == shader::SystemValue::kClipDistance) sizes[0] += element.components;
+    if (element.system_value == shader::SystemValue::kCullDistance) sizes[1] += element.components;
+  }
+  if (has_position) out += "invariant gl_Position;\n";
+  if (sizes[0] != 0) out += "out float gl_ClipDistance[" + std::to_string(sizes[0]) + "];\n";
+  if (sizes[1] != 0) out += "out float gl_CullDistance[" + std::to_string(sizes[1]) + "];\n";
+  return out;
+}
+
+// Only pixel shaders have derivatives. SPIR-V takes them of 32-bit floats only.
+std::string GlslEmitter::derivative(const Stmt& stmt) {
+  constexpr const char* kNames[] = {"dFdxCoarse", "dFdyCoarse", "dFdxFine", "dFdyFine"};
+  const Type* t = stmt.operands[0]->type;
+  const auto op = static_cast<size_t>(stmt.wave) - static_cast<size_t>(shader::WaveOp::kDdxCoarse);
+  const std::string real = glsl::vector_name(
+      Scalar::kFloat32, t->kind == TypeKind::kScalar ? 1 : static_cast<int>(t->columns));
+  return type(t) + "(" + kNames[op] + "(" + real + "(" + value(stmt.operands[0]) + ")))";
+}
+
+}  // namespace kaamos::hlsl
