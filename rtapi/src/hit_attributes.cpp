@@ -17,6 +17,10 @@ bool IgnoresAttributes(const Subject& s) {
 
 const char* StageName(Stage stage) {
   switch (stage) {
+    case Stage::kPixel:
+      return "pixel";
+    case Stage::kVertex:
+      return "vertex";
     case Stage::kCompute:
       return "compute";
     case Stage::kLibrary:

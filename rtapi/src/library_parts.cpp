@@ -58,7 +58,11 @@ bool Gatherer::IsListed(const DxilLibraryDesc& sub, const char* name) {
 
 void Gatherer::AddShader(const shader::ExportDesc& code, const ShaderLibrary& library, int scope,
                          const std::string& renamed) {
-  if (code.stage == shader::Stage::kCompute) return;
+  // What a state object has no use for.
+  if (code.stage == shader::Stage::kCompute || code.stage == shader::Stage::kVertex ||
+      code.stage == shader::Stage::kPixel) {
+    return;
+  }
   auto subject = std::make_shared<Subject>();
   subject->name = renamed.empty() ? code.name : renamed;
   if (renamed.empty() && code.mangled_name) subject->mangled = code.mangled_name;

@@ -19,7 +19,7 @@ const std::vector<ShaderExportInfo> kNoExports;
 
 bool IsStage(shader::Stage stage) {
   const auto s = static_cast<uint32_t>(stage);
-  return s >= 5 && s <= 12;
+  return s <= 1 || (s >= 5 && s <= 12);
 }
 
 // A foreign library's tables are trusted no further than their version. Every index is checked
@@ -45,12 +45,19 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
     if (!e.name || !*e.name || !IsStage(e.stage)) {
       return broken("export ", i, " has no name or an invalid stage");
     }
+    const bool draws = e.stage == shader::Stage::kVertex || e.stage == shader::Stage::kPixel;
     const bool needs_entry =
-        e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute;
+        e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute && !draws;
     if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
     if (e.stage == shader::Stage::kCompute &&
         (!e.compute || (!e.compute->group && !e.compute->thread && !e.compute->lanes))) {
       return broken("compute export ", Quoted(e.name), " has no code");
+    }
+    const shader::GraphicsDesc* graphics = draws ? e.graphics : nullptr;
+    if (draws && (!graphics || (e.stage == shader::Stage::kVertex
+                                    ? !graphics->vertex
+                                    : !graphics->pixel && !graphics->pixel_thread))) {
+      return broken("export ", Quoted(e.name), " has no code");
     }
     if (e.binding_count && !e.bindings) {
       return broken("export ", Quoted(e.name), " has no list of its bindings");

@@ -71,6 +71,10 @@ std::string range_name(const runtime::AddressMap& addresses, uint64_t address,
 
 const char* stage_name(shader::Stage stage) {
   switch (stage) {
+    case shader::Stage::kPixel:
+      return "pixel";
+    case shader::Stage::kVertex:
+      return "vertex";
     case shader::Stage::kCompute:
       return "compute";
     case shader::Stage::kLibrary:

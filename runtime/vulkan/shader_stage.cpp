@@ -62,6 +62,10 @@ VkShaderStageFlagBits stage_of(shader::Stage stage) {
       return VK_SHADER_STAGE_MISS_BIT_KHR;
     case shader::Stage::kCallable:
       return VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+    case shader::Stage::kPixel:
+      return VK_SHADER_STAGE_FRAGMENT_BIT;
+    case shader::Stage::kVertex:
+      return VK_SHADER_STAGE_VERTEX_BIT;
     case shader::Stage::kCompute:
     case shader::Stage::kLibrary:
       break;

@@ -308,7 +308,36 @@ void main(float4 p : SV_Position, out float4 a : SV_Target0, out float4 b : SV_T
          EXPECT_EQ(run.floats("SV_Target", 1, 2), all(2));
          EXPECT_EQ(run.floats("SV_Target", 1, 3), all(1));
        }},
-      // RAS-88: lanes that are off have no part in it.
+      // RAS-88: where all lanes have the value, its derivative is right in any flow.
+      {"DerivativesOfFixedValues", "ps_6_6", R"(
+Texture2D<float> t;
+SamplerState s;
+float slope(float v) { return ddx_fine(v * 2); }
+float4 main(float4 p : SV_Position) : SV_Target {
+  if (uint(p.y) == 20) return -1;
+  const float x = p.x * 3;
+  float a = 0, b = 0;
+  for (uint i = 0; i < uint(p.x) - 10; ++i) {
+    a += ddx_fine(x);
+    b += ddy_fine(p.y * p.x) + ddx_fine(ddy(p.y * p.x)) + ddx_fine(x);
+  }
+  if (uint(p.x) & 1) b += slope(p.x + ddx_coarse(p.x * 8));
+  return float4(a, b, p.x > 12 ? t.CalculateLevelOfDetailUnclamped(s, p.xy * 4) : 0, 0);
+})",
+       [](GraphicsRunner& run) {
+         run.texture.format = 41;
+         run.texture.mip_count = 1;
+         float texel = 0;
+         run.texture.mips[0] = {reinterpret_cast<uint8_t*>(&texel), 1, 1, 1, 4, 4};
+         run.set_position();
+         run.run();
+         // x has no value in the upper pixels, where its derivative would be the same.
+         EXPECT_EQ(run.floats("SV_Target", 0, 0), (Floats{-1, -1, 0, 3, -1, -1, 6, 9}));
+         // 11.5 + 0 + 3; twice 12.5 + 3, three times 13.5 + 3; slope() runs in odd pixels only.
+         EXPECT_EQ(run.floats("SV_Target", 0, 1), (Floats{-1, -1, 0, 14.5f, -1, -1, 31, 49.5f}));
+         EXPECT_EQ(run.floats("SV_Target", 0, 2), (Floats{-1, -1, 0, 0, -1, -1, 2, 2}));
+       }},
+      // Other values belong to the lanes that run the statement.
       {"DivergentDerivatives", "ps_6_6", R"(
 float4 main(float4 p : SV_Position) : SV_Target {
   const float x = p.x * 2;

@@ -22,6 +22,8 @@ struct ShaderLibraryImpl;
 
 /// The kind of a shader. [D3D12: D3D12_SHADER_VERSION_TYPE]
 enum class ShaderStage : uint32_t {
+  kPixel = 0,
+  kVertex = 1,
   kCompute = 5,
   kLibrary = 6,  ///< a function that is no entry point
   kRayGeneration = 7,

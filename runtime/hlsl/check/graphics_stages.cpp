@@ -312,7 +312,11 @@ bool Checker::check_graphics_signature(FunctionInfo* function, ir::EntryPoint& e
   const SourceLocation location = function->definition->location;
   ir::Function* wrapper = &module_->function_pool.emplace_back();
   wrapper->name = function->qualified;
-  wrapper->mangled = function->ir->mangled + "#entry";
+  // The export keeps the name that DXC gives it.
+  std::string& mangled = function->ir->mangled;
+  if (mangled.ends_with("#body")) mangled.resize(mangled.size() - 5);
+  wrapper->mangled = mangled;
+  mangled += "#body";
   wrapper->result = types_.void_type()->ir;
   wrapper->location = function->ir->location;
   wrapper->end_location = function->ir->end_location;

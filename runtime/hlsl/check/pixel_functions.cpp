@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Functions as pixel shaders need them. What other stages reach too is copied, so that theirs stay
 // as they are. In these functions
-// - derivatives become statements of the quad, and implicit levels of detail gradients,
+// - derivatives become statements of the quad, and implicit levels of detail gradients. Where the
+//   operand is made of values that do not change, the statement stands right behind the last of
+//   them, so that it is run by all lanes that have the values, and once,
 // - stores and atomics depend on `live`, a static global that says whether the pixel is covered and
 //   was not discarded; an atomic of another lane gives 0.
 // [D3D11.3: 16.13 Pixel shader, discard; 7.18.11 LOD]
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
+#include <string>
 
 #include "runtime/hlsl/check/checker.h"
 #include "runtime/hlsl/ir/visit.h"
@@ -14,6 +19,13 @@
 namespace kaamos::hlsl {
 
 using shader::WaveOp;
+
+namespace {
+
+// How many variables an expression may replace by their values.
+constexpr int kMostReplaced = 8;
+
+}  // namespace
 
 class Checker::PixelFunctions {
  public:
@@ -37,6 +49,10 @@ class Checker::PixelFunctions {
   ir::Function* make(ir::Function* from, bool is_shared) {
     ir::Function* to = from;
     variables_.clear();
+    positions_.clear();
+    values_.clear();
+    made_quads_.clear();
+    find_changing(*from);
     if (is_shared) {
       to = &module_.function_pool.emplace_back(*from);
       to->mangled += "#pixel";
@@ -45,6 +61,10 @@ class Checker::PixelFunctions {
       for (ir::Variable*& parameter : to->parameters) parameter = copy(parameter);
     }
     is_shared_ = is_shared;
+    for (const ir::Variable* parameter : to->parameters) {
+      const bool is_in = parameter->mode == ir::ParameterMode::kIn && !parameter->type->is_query();
+      if (is_in && changing_.count(parameter) == 0) positions_[parameter] = {0, 0};
+    }
     to->body = block(from->body);
     to->has_waves = false;
     ir::visit(
@@ -64,6 +84,7 @@ class Checker::PixelFunctions {
     *to = *from;
     to->id = id;
     variables_[from] = to;
+    if (changing_.count(from) != 0) changing_.insert(to);
     return to;
   }
   const ir::Variable* variable(const ir::Variable* from) const {
@@ -97,13 +118,148 @@ class Checker::PixelFunctions {
   }
 
   const ir::Expr* quad(WaveOp op, const ir::Expr* operand) {
-    const ir::Variable* result = declare(operand->type, nullptr);
+    std::optional<Position> position = position_of(operand);
+    std::string key;
+    if (position) {
+      int budget = kMostReplaced;
+      operand = early(operand, budget);
+      position = position_of(operand);
+      key = std::to_string(static_cast<int>(op));
+      add_key(*operand, key);
+      const auto known = made_quads_.find(key);
+      if (known != made_quads_.end()) return build_.read(known->second);
+    }
+    ir::Stmt* declaration = build_.stmt(ir::StmtKind::kDeclare);
+    declaration->variable = build_.variable({}, operand->type, ir::Storage::kLocal);
     ir::Stmt* statement = build_.stmt(ir::StmtKind::kWave);
     statement->wave = op;
     statement->operands = {operand};
-    statement->result = result;
-    out_->push_back(statement);
-    return build_.read(result);
+    statement->result = declaration->variable;
+    if (position) {
+      insert(*position, {declaration, statement});
+      positions_[statement->result] = {position->depth, position->index + 2};
+      made_quads_[key] = statement->result;
+    } else {
+      out_->push_back(declaration);
+      out_->push_back(statement);
+    }
+    return build_.read(statement->result);
+  }
+
+  // -- Values that do not change once they are there
+
+  // The first place where a variable can be read: the index in a block that is open, counted from
+  // the function's, which is 0.
+  struct Position {
+    size_t depth = 0;
+    size_t index = 0;
+    auto operator<=>(const Position&) const = default;
+  };
+
+  void find_changing(const ir::Function& function) {
+    changing_.clear();
+    ir::visit(
+        function.body, [](const ir::Expr&) {},
+        [&](const ir::Stmt& stmt) {
+          if (stmt.kind == ir::StmtKind::kDeclare) return;
+          ir::visit_written(stmt, [&](const ir::Variable* written, const ir::Expr*) {
+            changing_.insert(written);
+          });
+        });
+  }
+
+  // From where on the expression has its value; nothing if that changes, or costs much.
+  std::optional<Position> position_of(const ir::Expr* of) const {
+    Position last;
+    for (const ir::Expr* operand : of->operands) {
+      const std::optional<Position> one = position_of(operand);
+      if (!one) return std::nullopt;
+      last = std::max(last, *one);
+    }
+    switch (of->kind) {
+      case ir::ExprKind::kVariable: {
+        if (of->variable->storage == ir::Storage::kConstant) return last;
+        const auto found = positions_.find(of->variable);
+        if (found == positions_.end()) return std::nullopt;
+        return found->second;
+      }
+      case ir::ExprKind::kLoad:
+        if (of->operands[0]->type->resource != ir::ResourceKind::kConstantBuffer) break;
+        return last;
+      case ir::ExprKind::kBinding:
+      case ir::ExprKind::kLiteral:
+      case ir::ExprKind::kZero:
+      case ir::ExprKind::kField:
+      case ir::ExprKind::kElement:
+      case ir::ExprKind::kSwizzle:
+      case ir::ExprKind::kMatrixSwizzle:
+      case ir::ExprKind::kConvert:
+      case ir::ExprKind::kSplat:
+      case ir::ExprKind::kTruncate:
+      case ir::ExprKind::kConstruct:
+      case ir::ExprKind::kUnary:
+      case ir::ExprKind::kBinary:
+      case ir::ExprKind::kSelect:
+      case ir::ExprKind::kIntrinsic:
+        return last;
+      default:
+        break;
+    }
+    return std::nullopt;
+  }
+
+  // The expression with the values of variables in place of those variables, where that gives it
+  // its value earlier.
+  const ir::Expr* early(const ir::Expr* of, int& budget) {
+    if (of->kind == ir::ExprKind::kVariable) {
+      const auto value = values_.find(of->variable);
+      if (value == values_.end() || budget == 0) return of;
+      const std::optional<Position> before = position_of(value->second);
+      if (!before || *before >= positions_.at(of->variable)) return of;
+      --budget;
+      return early(value->second, budget);
+    }
+    std::vector<const ir::Expr*> operands;
+    for (const ir::Expr* operand : of->operands) operands.push_back(early(operand, budget));
+    if (operands == of->operands) return of;
+    ir::Expr* to = &module_.expr_pool.emplace_back(*of);
+    to->operands = std::move(operands);
+    return to;
+  }
+
+  // Tells expressions that position_of() accepts apart.
+  static void add_key(const ir::Expr& of, std::string& key) {
+    const auto add = [&](uint64_t number) { key += "," + std::to_string(number); };
+    add(static_cast<uint64_t>(of.kind));
+    add(reinterpret_cast<uintptr_t>(of.type));
+    if (of.variable) add(of.variable->id);
+    for (const uint64_t bits : of.literal) add(bits);
+    for (const uint8_t component : of.components) add(component);
+    add(of.index);
+    add(static_cast<uint64_t>(of.unary) << 24 | static_cast<uint64_t>(of.binary) << 16 |
+        static_cast<uint64_t>(of.intrinsic) << 8 | static_cast<uint64_t>(of.layout) << 1 |
+        (of.row_major ? 1u : 0u));
+    key += "(";
+    for (const ir::Expr* operand : of.operands) add_key(*operand, key);
+    key += ")";
+  }
+
+  void insert(const Position& position, std::initializer_list<const ir::Stmt*> statements) {
+    ir::Block& block = *blocks_[position.depth];
+    block.insert(block.begin() + static_cast<std::ptrdiff_t>(position.index), statements);
+    for (auto& [variable, other] : positions_) {
+      if (other.depth == position.depth && other.index > position.index) {
+        other.index += statements.size();
+      }
+    }
+  }
+
+  void close_block() {
+    const size_t depth = blocks_.size() - 1;
+    std::erase_if(positions_, [&](const auto& one) { return one.second.depth == depth && depth; });
+    std::erase_if(values_, [&](const auto& one) { return !positions_.count(one.first); });
+    std::erase_if(made_quads_, [&](const auto& one) { return !positions_.count(one.second); });
+    blocks_.pop_back();
   }
 
   const ir::Variable* declare(const ir::Type* type, const ir::Expr* value) {
@@ -111,19 +267,29 @@ class Checker::PixelFunctions {
     statement->variable = build_.variable({}, type, ir::Storage::kLocal);
     statement->value = value;
     out_->push_back(statement);
+    note_declaration(*statement);
     return statement->variable;
+  }
+  void note_declaration(const ir::Stmt& statement) {
+    if (out_ != blocks_.back() || changing_.count(statement.variable) != 0) return;
+    positions_[statement.variable] = {blocks_.size() - 1, out_->size()};
+    if (statement.value) values_[statement.variable] = statement.value;
   }
 
   void take_derivatives(ir::Expr& sample) {
     sample.implicit_level = false;
     const ResourceTraits& traits = traits_of(sample.operands[0]->type->resource);
     const ir::Expr*& at = sample.operands[2];
-    if (at->kind != ir::ExprKind::kVariable) at = build_.read(declare(at->type, at));
     const ir::Expr* place = at;
+    if (at->kind != ir::ExprKind::kVariable) {
+      const bool is_fixed = position_of(at).has_value();
+      at = build_.read(declare(at->type, at));
+      if (!is_fixed) place = at;
+    }
     if (traits.is_array) {
       std::vector<uint8_t> components;
       for (uint8_t i = 0; i + 1 < traits.coordinates; ++i) components.push_back(i);
-      place = build_.swizzle(at, components);
+      place = build_.swizzle(place, components);
     }
     const ir::Expr* ddx = quad(WaveOp::kDdxCoarse, place);
     const ir::Expr* ddy = quad(WaveOp::kDdyCoarse, place);
@@ -166,7 +332,9 @@ class Checker::PixelFunctions {
     ir::Block to;
     ir::Block* const outer = out_;
     out_ = &to;
+    blocks_.push_back(&to);
     for (const ir::Stmt* each : from) statement(*each);
+    close_block();
     out_ = outer;
     return to;
   }
@@ -210,6 +378,7 @@ class Checker::PixelFunctions {
         break;
     }
     out_->push_back(to);
+    if (from.kind == ir::StmtKind::kDeclare) note_declaration(*to);
   }
 
   void assign(const ir::Variable* variable, const ir::Expr* value) {
@@ -238,6 +407,11 @@ class Checker::PixelFunctions {
   const ir::Variable* live_;
   std::map<const ir::Function*, ir::Function*> made_;
   std::map<const ir::Variable*, const ir::Variable*> variables_;  // of the function being copied
+  std::set<const ir::Variable*> changing_;                        // written after their declaration
+  std::map<const ir::Variable*, Position> positions_;             // of those that do not change
+  std::map<const ir::Variable*, const ir::Expr*> values_;
+  std::map<std::string, const ir::Variable*> made_quads_;
+  std::vector<ir::Block*> blocks_;  // those that are open, the function's first
   bool is_shared_ = false;
   ir::Block* out_ = nullptr;
 };

@@ -25,6 +25,10 @@ const char* stage_name(uint32_t stage) {
       return "callable";
     case kStageCompute:
       return "compute";
+    case kStageVertex:
+      return "vertex";
+    case kStagePixel:
+      return "pixel";
     default:
       return "library";
   }
