@@ -174,6 +174,7 @@ class GlslEmitter {
   // graphics.cpp
   std::string graphics_input(size_t index);
   void graphics_output(size_t index, const std::string& name);
+  std::string converted_target(const ir::SignatureElement& element, const std::string& name);
   void graphics_main();
   std::string graphics_head() const;
   std::string graphics_layout() const;

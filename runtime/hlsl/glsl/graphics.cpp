@@ -48,6 +48,21 @@ std::string GlslEmitter::graphics_input(size_t index) {
   return name;
 }
 
+// What the driver does not convert as D3D does. [spirv_interface.h: kTargetConstant]
+std::string GlslEmitter::converted_target(const SignatureElement& element,
+                                          const std::string& name) {
+  const uint32_t slot = element.semantic_index;
+  const std::string bits = "g_target_" + std::to_string(slot);
+  constant(shader::spirv::kTargetConstant + slot, bits);
+  const std::string type = vector_type(element);
+  std::string out = type + "(";
+  for (int i = 0; i < element.components; ++i) {
+    out += (i == 0 ? "k_target(" : ", k_target(") + component_of(element, name, i) + ", " + bits +
+           " >> " + std::to_string(8 * i) + " & 255u)";
+  }
+  return out + ")";
+}
+
 // Declares the variables that an output goes to and writes `name`, of the element's type, to them.
 void GlslEmitter::graphics_output(size_t index, const std::string& name) {
   const SignatureElement& element = entry_.outputs[index];
@@ -62,6 +77,7 @@ void GlslEmitter::graphics_output(size_t index, const std::string& name) {
   };
   switch (element.system_value) {
     case shader::SystemValue::kTarget:
+      line(name + " = " + converted_target(element, name) + ";");
       return at_location(element.semantic_index);
     case shader::SystemValue::kDepth:
       return line("gl_FragDepth = isnan(" + name +

@@ -4,6 +4,22 @@
 // out-of-range values the nearest limit [D3D11.3 ftoi, ftou]. Narrower floats are rounded to
 // nearest even.
 
+// A component of a pixel shader's output, for a target whose component has that many bits. 0: as it
+// is.
+//@ k_target
+float k_target(float value, uint bits) {
+  if (bits == 0u) return value;
+  float most = float((1u << bits) - 1u);
+  float inside = value > 0.0 ? min(value, 1.0) : 0.0;  // not a number: 0
+  return floor(inside * most + 0.5) / most + exp2(-float(bits) - 2.0);
+}
+uint k_target(uint value, uint bits) {
+  return bits == 0u || bits > 31u ? value : min(value, (1u << bits) - 1u);
+}
+int k_target(int value, uint bits) {
+  if (bits == 0u || bits > 31u) return value;
+  return clamp(value, -(1 << (bits - 1u)), (1 << (bits - 1u)) - 1);
+}
 //@ k_to_bool b each
 bool k_to_bool(bool x) { return x; }
 //@ k_to_bool ints floats each

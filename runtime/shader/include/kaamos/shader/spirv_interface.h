@@ -49,6 +49,11 @@ inline constexpr uint32_t kMaxCallableDepthConstant = 0xFFFF0002u;  // callable 
 inline constexpr uint32_t kCountConstant = 0xFFFF0003u;
 // Checked libraries: CheckEntry::shader.
 inline constexpr uint32_t kShaderConstant = 0xFFFF0004u;
+// Pixel shaders: kTargetConstant + n for SV_Target n, how the driver converts to the target's format
+// differently than D3D does. Four bytes, for the components from the lowest byte on; 0: it does not.
+// The bits of an integer component, to whose range values are clamped; of a UNORM component, to
+// whose steps values are rounded.
+inline constexpr uint32_t kTargetConstant = 0xFFFF0010u;
 
 // Driver faults that generated code works around; each is off unless its bit is set. The ids are
 // those of the list in runtime/vulkan/README.md.
@@ -208,7 +213,7 @@ static_assert(sizeof(ReachedEntry) == 32);
 // the locations of the vertex shader's outputs with the same semantics. SV_Barycentrics is a
 // location like any other, which the backend has to feed.
 //
-// Output SV_Target n is at location n. An SV_Depth that is not a number becomes the float whose
+// Output SV_Target n is at location n, prepared as kTargetConstant + n says. An SV_Depth that is not a number becomes the float whose
 // bits are DispatchBlock::base[0], the lower end of the viewport's range; all others leave as they
 // are.
 //
