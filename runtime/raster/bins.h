@@ -24,8 +24,8 @@ struct TileGrid {
 class Bins {
  public:
   void begin(const TileGrid& grid);
-  // `box`: the pixels of the triangle's box that may be drawn; not empty.
-  void add(const Triangle& triangle, const PixelRect& box, uint32_t slice, uint32_t number) {
+  void add(const Triangle& triangle, uint32_t slice, uint32_t number) {
+    const PixelBox& box = triangle.box;
     const auto left = static_cast<uint32_t>(box.left) / kTileSize;
     const auto right = static_cast<uint32_t>(box.right - 1) / kTileSize;
     const auto top = static_cast<uint32_t>(box.top) / kTileSize;

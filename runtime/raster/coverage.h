@@ -19,32 +19,34 @@ class Coverage {
   // The triangle in the tile whose first pixel is (x, y); only pixels of `rect` count. False if it
   // covers nothing there.
   KAAMOS_INLINE bool begin(const Triangle& triangle, const PixelRect& rect, int32_t x, int32_t y) {
-    const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
-    const PixelRect box = box_of(triangle, cut(rect, tile));
-    if (box.empty()) return false;
-    first_block_x_ = (box.left - x) >> 2;
-    last_block_x_ = (box.right - 1 - x) >> 2;
-    first_block_y_ = (box.top - y) >> 1;
-    last_block_y_ = (box.bottom - 1 - y) >> 1;
-    // Blocks may hold pixels beyond `rect`, and beyond the box, which edges see to.
-    rect_ = {rect.left - x, rect.top - y, rect.right - x, rect.bottom - y};
-    masked_ = rect_.left > first_block_x_ * 4 || rect_.right < last_block_x_ * 4 + 4 ||
-              rect_.top > first_block_y_ * 2 || rect_.bottom < last_block_y_ * 2 + 2;
+    const PixelBox& box = triangle.box;
+    first_block_x_ = box.left > x ? (box.left - x) >> 2 : 0;
+    first_block_y_ = box.top > y ? (box.top - y) >> 1 : 0;
+    last_block_x_ = (box.right < x + kTileSize ? box.right - 1 - x : kTileSize - 1) >> 2;
+    last_block_y_ = (box.bottom < y + kTileSize ? box.bottom - 1 - y : kTileSize - 1) >> 1;
+    masked_ = (triangle.flags & kMasked) != 0;
+    if (masked_) rect_ = {rect.left - x, rect.top - y, rect.right - x, rect.bottom - y};
     for (int i = 0; i < 3; ++i) {
       const Edge edge = edge_of(triangle, i);
       const int64_t corner = edge.at(x, y);
-      if (corner + edge.most(kTileSize) < 0) return false;
-      const bool inside = corner + edge.least(kTileSize) >= 0;
-      a_[i] = inside ? 0 : edge.a;
-      b_[i] = inside ? 0 : edge.b;
-      e_[i] = inside ? 0 : static_cast<int32_t>(corner);
+      if ((triangle.flags & kSmall) == 0) {
+        if (corner + edge.most(kTileSize) < 0) return false;
+        if (corner + edge.least(kTileSize) >= 0) {
+          a_[i] = b_[i] = e_[i] = 0;
+          continue;
+        }
+      }
+      a_[i] = edge.a;
+      b_[i] = edge.b;
+      e_[i] = static_cast<int32_t>(corner);
     }
     return true;
   }
 
-  // Calls sink(block x, block y, covered) for blocks that may have covered pixels, top to bottom.
+  // Calls sink.row(block y) for rows of blocks, top to bottom, and for each sink.block(block x,
+  // block y, covered) for those that have covered pixels.
   template <class Sink>
-  KAAMOS_INLINE void each_block(const Sink& sink) const {
+  KAAMOS_INLINE void each_block(Sink& sink) const {
     Ints8 in_block[3];
     for (int i = 0; i < 3; ++i) {
       in_block[i] = splat(a_[i]) * load<int32_t>(kBlockX) + splat(b_[i]) * load<int32_t>(kBlockY);
@@ -73,24 +75,20 @@ class Coverage {
   }
 
  private:
-  KAAMOS_INLINE static PixelRect cut(const PixelRect& a, const PixelRect& b) {
-    return {a.left > b.left ? a.left : b.left, a.top > b.top ? a.top : b.top,
-            a.right < b.right ? a.right : b.right, a.bottom < b.bottom ? a.bottom : b.bottom};
-  }
-
   template <class Sink>
   KAAMOS_INLINE void rows(int32_t left, int32_t right, int32_t top, int32_t bottom,
-                          const Ints8 in_block[3], const Sink& sink) const {
+                          const Ints8 in_block[3], Sink& sink) const {
     for (int32_t y = top; y <= bottom; ++y) {
       int32_t e[3];
       for (int i = 0; i < 3; ++i) e[i] = e_[i] + a_[i] * left * 4 + b_[i] * y * 2;
+      sink.row(y);
       for (int32_t x = left; x <= right; ++x) {
         const Ints8 signs =
             (splat(e[0]) + in_block[0]) | (splat(e[1]) + in_block[1]) | (splat(e[2]) + in_block[2]);
         for (int i = 0; i < 3; ++i) e[i] += a_[i] * 4;
         lanes covered = not_negative(signs);
         if (masked_) covered = covered & lanes_of(rect_bits(x, y));
-        if (shader::any_lane(covered)) sink(x, y, covered);
+        if (shader::any_lane(covered)) sink.block(x, y, covered);
       }
     }
   }

@@ -15,6 +15,9 @@ namespace kaamos::raster {
 
 inline constexpr int32_t kTileSize = 64;
 
+// In subpixels: triangles up to this size have values that fit in 32 bits in all blocks they touch.
+inline constexpr int32_t kSmallSize = 64 * kSubpixels;
+
 struct Edge {
   int32_t a;
   int32_t b;

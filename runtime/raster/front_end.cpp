@@ -56,6 +56,7 @@ void FrontEnd::run(const TriangleRange& range, const Draw& draw, const DrawPlan&
   collect_vertices();
   shade_vertices(thread);
   bins_.begin(grid);
+  batch.triangles.reserve(range.count);
   add_triangles();
   bins_.finish(batch);
 }
@@ -217,18 +218,16 @@ void FrontEnd::add_triangle(const uint32_t vertex[3], uint32_t primitive_id) {
 
   ScreenVertex screen[3];
   gather(vertex, screen, any);
-  Triangle triangle;
-  triangle.primitive_id = primitive_id;
   if ((any & kNeedsClip) != 0) {
-    add_clipped(triangle, vertex, screen, any);
+    add_clipped(primitive_id, vertex, screen, any);
     return;
   }
-  if (!emit(screen, triangle)) return;
-  Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
-  const bool swapped = (added.flags & kSwapped) != 0;
-  added.vertex[0] = vertex[0];
-  added.vertex[1] = vertex[swapped ? 2 : 1];
-  added.vertex[2] = vertex[swapped ? 1 : 2];
+  Triangle* added = emit(screen, primitive_id);
+  if (added == nullptr) return;
+  const bool swapped = (added->flags & kSwapped) != 0;
+  added->vertex[0] = vertex[0];
+  added->vertex[1] = vertex[swapped ? 2 : 1];
+  added->vertex[2] = vertex[swapped ? 1 : 2];
 }
 
 // Where each triangle may choose its viewport, vertices are transformed here.
@@ -259,17 +258,23 @@ void FrontEnd::gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t
   }
 }
 
-bool FrontEnd::emit(const ScreenVertex screen[3], Triangle& triangle) {
-  if (!set_up_triangle(*plan_, viewport_->rect, screen, triangle)) return false;
+// Null if it need not be drawn.
+Triangle* FrontEnd::emit(const ScreenVertex screen[3], uint32_t primitive_id) {
+  Storage<Triangle>& triangles = batch_->triangles;
+  const size_t number = triangles.size();
+  Triangle& triangle = triangles.resize(number + 1)[number];
+  if (!set_up_triangle(*plan_, viewport_->rect, screen, triangle)) {
+    triangles.resize(number);
+    return nullptr;
+  }
   triangle.flags |= viewport_flags_;
-  const auto number = static_cast<uint32_t>(batch_->triangles.size());
-  batch_->triangles.push_back(triangle);
-  bins_.add(triangle, box_of(triangle, viewport_->rect), slice_, number);
-  return true;
+  triangle.primitive_id = primitive_id;
+  bins_.add(triangle, slice_, static_cast<uint32_t>(number));
+  return &triangle;
 }
 
 // The cut polygon as a fan.
-void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3],
+void FrontEnd::add_clipped(uint32_t primitive_id, const uint32_t vertex[3],
                            const ScreenVertex corners[3], uint32_t codes) {
   ClipVertex polygon[kMaxClippedVertices];
   for (int i = 0; i < 3; ++i) {
@@ -299,15 +304,15 @@ void FrontEnd::add_clipped(Triangle& triangle, const uint32_t vertex[3],
     screen[i] = corner >= 0 ? corners[corner] : project(polygon[i], *viewport_);
   }
   const int first = fan_center(screen, count);
-  for (int i = 0; i < 3; ++i) triangle.vertex[i] = vertex[i];
   for (int i = 1; i + 1 < count; ++i) {
     const int part[3] = {first, (first + i) % count, (first + i + 1) % count};
     const ScreenVertex part_corners[3] = {screen[part[0]], screen[part[1]], screen[part[2]]};
-    triangle.clip = static_cast<uint32_t>(batch_->clips.size());
-    if (!emit(part_corners, triangle)) continue;
-    Triangle& added = batch_->triangles[batch_->triangles.size() - 1];
-    added.flags |= kClipped;
-    const bool swapped = (added.flags & kSwapped) != 0;
+    Triangle* added = emit(part_corners, primitive_id);
+    if (added == nullptr) continue;
+    added->flags |= kClipped;
+    added->clip = static_cast<uint32_t>(batch_->clips.size());
+    for (int k = 0; k < 3; ++k) added->vertex[k] = vertex[k];
+    const bool swapped = (added->flags & kSwapped) != 0;
     const int order[3] = {part[0], part[swapped ? 2 : 1], part[swapped ? 1 : 2]};
     ClipWeights weights;
     for (int v = 0; v < 3; ++v) {

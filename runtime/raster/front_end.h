@@ -32,9 +32,9 @@ class FrontEnd {
   void add_triangle(const uint32_t vertex[3], uint32_t primitive_id);
   // The vertices on the screen; adds to `codes`, the outcodes of any of them.
   void gather(const uint32_t vertex[3], ScreenVertex screen[3], uint32_t& codes) const;
-  void add_clipped(Triangle& triangle, const uint32_t vertex[3], const ScreenVertex corners[3],
+  void add_clipped(uint32_t primitive_id, const uint32_t vertex[3], const ScreenVertex corners[3],
                    uint32_t codes);
-  bool emit(const ScreenVertex screen[3], Triangle& triangle);
+  Triangle* emit(const ScreenVertex screen[3], uint32_t primitive_id);
 
   const TriangleRange* range_ = nullptr;
   const Draw* draw_ = nullptr;

@@ -26,15 +26,27 @@ namespace simd = shader::simd;
 using Floats8 = wide<float>;
 using Ints8 = wide<int32_t>;
 
+// A register in memory, anywhere. Copies of its bytes would go through the stack in halves, which a
+// load of the whole then has to wait for.
+template <class T>
+using InMemory [[gnu::vector_size(simd::kRegisterBytes), gnu::aligned(4), gnu::may_alias]] = T;
+
 template <class T>
 KAAMOS_INLINE wide<T> load(const void* from) {
-  wide<T> out;
-  __builtin_memcpy(&out, from, sizeof(out));
-  return out;
+  const auto* registers = static_cast<const InMemory<T>*>(from);
+#ifdef __AVX2__
+  return {(simd::Register<T>)registers[0]};
+#else
+  return {(simd::Register<T>)registers[0], (simd::Register<T>)registers[1]};
+#endif
 }
 template <class T>
 KAAMOS_INLINE void store(void* to, const wide<T>& value) {
-  __builtin_memcpy(to, &value, sizeof(value));
+  auto* registers = static_cast<InMemory<T>*>(to);
+  registers[0] = (InMemory<T>)value.a;
+#ifndef __AVX2__
+  registers[1] = (InMemory<T>)value.b;
+#endif
 }
 template <class T>
 KAAMOS_INLINE wide<T> splat(T value) {
@@ -122,9 +134,18 @@ KAAMOS_INLINE Doubles8 doubles(double value) {
   for (auto& r : out.r) r = DoubleRegister{} + value;
   return out;
 }
-KAAMOS_INLINE Doubles8 load_doubles(const double* from) {
+// One value for each quad.
+KAAMOS_INLINE Doubles8 doubles(double first, double second) {
   Doubles8 out;
-  __builtin_memcpy(&out, from, sizeof(out));
+  for (int i = 0; i < kDoubleRegisters; ++i) {
+    out.r[i] = DoubleRegister{} + (i < kDoubleRegisters / 2 ? first : second);
+  }
+  return out;
+}
+KAAMOS_INLINE Doubles8 load_doubles(const double* from) {
+  const auto* registers = reinterpret_cast<const InMemory<double>*>(from);
+  Doubles8 out;
+  for (int i = 0; i < kDoubleRegisters; ++i) out.r[i] = (DoubleRegister)registers[i];
   return out;
 }
 KAAMOS_INLINE Doubles8 operator+(const Doubles8& a, const Doubles8& b) {

@@ -27,17 +27,22 @@ class DepthPlane {
     if (sliver_) begin_sliver(t);
   }
 
-  // Of the block in the tile.
-  KAAMOS_INLINE Floats8 at_block(int32_t block_x, int32_t block_y) const {
+  // The part that all blocks of a row of the tile have in common.
+  KAAMOS_INLINE Doubles8 at_row(int32_t block_y) const {
+    return doubles(z_) + doubles(dz_dy_) * row_y(block_y);
+  }
+  KAAMOS_INLINE Floats8 at_block(const Doubles8& row, int32_t block_x, int32_t block_y) const {
     const Doubles8 x =
         doubles(static_cast<double>(x_ + block_x * 4 * kSubpixels)) + load_doubles(kBlockCenterX);
-    const Doubles8 y =
-        doubles(static_cast<double>(y_ + block_y * 2 * kSubpixels)) + load_doubles(kBlockCenterY);
-    if (sliver_) return at_sliver(x, y);
-    return to_floats(doubles(z_) + doubles(dz_dy_) * y + doubles(dz_dx_) * x);
+    if (sliver_) return at_sliver(x, row_y(block_y));
+    return to_floats(row + doubles(dz_dx_) * x);
   }
 
  private:
+  KAAMOS_INLINE Doubles8 row_y(int32_t block_y) const {
+    return doubles(static_cast<double>(y_ + block_y * 2 * kSubpixels)) +
+           load_doubles(kBlockCenterY);
+  }
   // From the exact values of two edges instead.
   void begin_sliver(const Triangle& t) {
     const double dx1 = t.x[1] - t.x[0], dy1 = t.y[1] - t.y[0];
@@ -78,30 +83,30 @@ class DepthTest {
   // The lanes of `active` that pass; writes theirs if `write`.
   KAAMOS_INLINE lanes run(uint32_t* words, const Floats8& z, const lanes& active,
                           bool write) const {
-    return run(words, words + 4, z, active, write);
+    const Floats8 clamped = smaller(larger(z, low_), high_);
+    lanes pass;
+    if constexpr (kKind == DepthKind::kFloat32) {
+      const Floats8 stored = load<float>(words);
+      pass = compare(clamped, stored) & active;
+      if (write) store(words, choose(pass, clamped, stored));
+    } else {
+      const Ints8 old = load<int32_t>(words);
+      const Ints8 value = convert(clamped);
+      pass = compare(value, old & splat(kDepthBits)) & active;
+      if (write) store(words, choose(pass, value | (old & splat(~kDepthBits)), old));
+    }
+    return pass;
   }
   // Of two quads that need not be side by side.
   KAAMOS_INLINE lanes run(uint32_t* first, uint32_t* second, const Floats8& z, const lanes& active,
                           bool write) const {
-    const Floats8 clamped = smaller(larger(z, low_), high_);
     uint32_t both[8];
     __builtin_memcpy(both, first, 16);
     __builtin_memcpy(both + 4, second, 16);
-    lanes pass;
-    uint32_t result[8];
-    if constexpr (kKind == DepthKind::kFloat32) {
-      const Floats8 stored = load<float>(both);
-      pass = compare(clamped, stored) & active;
-      store(result, choose(pass, clamped, stored));
-    } else {
-      const Ints8 old = load<int32_t>(both);
-      const Ints8 value = convert(clamped);
-      pass = compare(value, old & splat(kDepthBits)) & active;
-      store(result, choose(pass, value | (old & splat(~kDepthBits)), old));
-    }
+    const lanes pass = run(both, z, active, write);
     if (write) {
-      __builtin_memcpy(first, result, 16);
-      __builtin_memcpy(second, result + 4, 16);
+      __builtin_memcpy(first, both, 16);
+      __builtin_memcpy(second, both + 4, 16);
     }
     return pass;
   }

@@ -10,6 +10,10 @@
 
 namespace kaamos::raster::KAAMOS_RASTER_LEVEL {
 
+// Centres of two quads' pixels in subpixels, from the first pixel's corner.
+inline constexpr double kQuadCenterX[8] = {128, 384, 128, 384, 128, 384, 128, 384};
+inline constexpr double kQuadCenterY[8] = {128, 128, 384, 384, 128, 128, 384, 384};
+
 // Weights of the primitive's vertices 1 and 2, in the order of Triangle::vertex.
 struct Weights8 {
   Floats8 first, second;
@@ -132,6 +136,7 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
     const uint32_t quad = queue.quad[i == 0 ? first : second];
     places.x[i] = job_.x + quad % kQuadsPerRow * 2;
     places.y[i] = job_.y + quad / kQuadsPerRow * 2;
+    places.inside[i] = places.x[i] + 2 <= job_.width && places.y[i] + 2 <= job_.height;
   }
   places.slice = job_.slice;
   set_attributes(places);
@@ -153,29 +158,28 @@ inline void QuadShader::shade(uint32_t first, bool pair) {
 inline void QuadShader::set_attributes(const QuadPlaces& places) {
   const auto& columns = plan_->linked->pixel_columns;
   const bool position = columns.position != runtime::kNoColumn;
-  const auto pixel = [](const uint32_t quad[2], const uint32_t offset[4]) {
-    Floats8 out;
-    float values[8];
-    for (int i = 0; i < 8; ++i) {
-      values[i] = static_cast<float>(quad[i / 4] + offset[i % 4]) + 0.5f;
-    }
-    __builtin_memcpy(&out, values, sizeof(out));
-    return out;
-  };
-  constexpr uint32_t kQuadX[4] = {0, 1, 0, 1};
-  constexpr uint32_t kQuadY[4] = {0, 0, 1, 1};
   if (!plan_->needs_perspective && !plan_->needs_screen && !position) return;
-  const Floats8 px = pixel(places.x, kQuadX);
-  const Floats8 py = pixel(places.y, kQuadY);
   if (position) {
-    store(inputs_[columns.position], px);
-    if (columns.position_components > 1) store(inputs_[columns.position + 1], py);
+    const auto pixel = [](const uint32_t quad[2], const double* centers) KAAMOS_INLINE_LAMBDA {
+      return to_floats(doubles(quad[0], quad[1]) +
+                       load_doubles(centers) * doubles(1.0 / kSubpixels));
+    };
+    store(inputs_[columns.position], pixel(places.x, kQuadCenterX));
+    if (columns.position_components > 1) {
+      store(inputs_[columns.position + 1], pixel(places.y, kQuadCenterY));
+    }
   }
   if (!plan_->needs_perspective && !plan_->needs_screen) return;
 
-  const Doubles8 subpixels = doubles(kSubpixels);
-  const Doubles8 x = to_doubles(px) * subpixels - doubles(triangle_->x[0]);
-  const Doubles8 y = to_doubles(py) * subpixels - doubles(triangle_->y[0]);
+  const auto from_corner = [](const uint32_t quad[2], int32_t corner,
+                              const double* centers) KAAMOS_INLINE_LAMBDA {
+    const auto at = [&](int i) {
+      return static_cast<double>(static_cast<int32_t>(quad[i]) * kSubpixels - corner);
+    };
+    return doubles(at(0), at(1)) + load_doubles(centers);
+  };
+  const Doubles8 x = from_corner(places.x, triangle_->x[0], kQuadCenterX);
+  const Doubles8 y = from_corner(places.y, triangle_->y[0], kQuadCenterY);
   const Doubles8 edge1 = doubles(edge_[0][0]) * x + doubles(edge_[0][1]) * y;
   const Doubles8 edge2 = doubles(edge_[1][0]) * x + doubles(edge_[1][1]) * y;
   const Floats8 inv_area = splat(inv_area_);

@@ -85,6 +85,7 @@ struct Rasterizer::Pass {
   const Targets& targets;
   std::span<const Draw> draws;
   Workers& workers;
+  Extent extent;
   TileGrid grid;
   std::vector<DrawPlan> plans = {};
   std::vector<uint32_t> plan_of_draw = {};
@@ -92,7 +93,7 @@ struct Rasterizer::Pass {
   std::vector<TileJob::Run> runs = {};
   std::vector<TileJob> jobs = {};
 
-  void make_plans(const Extent& extent) {
+  void make_plans() {
     for (const Draw& draw : draws) {
       if (plans.empty() || plans.back().linked != draw.linked || plans.back().state != draw.state) {
         plans.push_back(plan_draw(draw, targets, extent.width, extent.height, extent.slices));
@@ -204,6 +205,8 @@ struct Rasterizer::Pass {
       job.x = in_slice % grid.columns * kTileSize;
       job.y = in_slice / grid.columns * kTileSize;
       job.slice = tile / (grid.columns * grid.rows);
+      job.width = extent.width;
+      job.height = extent.height;
       jobs.push_back(job);
     }
   }
@@ -230,12 +233,9 @@ void Rasterizer::draw(const Targets& targets, std::span<const Draw> draws, Worke
   const auto tiles = [](uint32_t size) {
     return (size + uint32_t{kTileSize} - 1) / uint32_t{kTileSize};
   };
-  Pass pass{*memory_,
-            targets,
-            draws,
-            workers,
-            {tiles(extent.width), tiles(extent.height), extent.slices}};
-  pass.make_plans(extent);
+  Pass pass{*memory_, targets, draws,
+            workers,  extent,  {tiles(extent.width), tiles(extent.height), extent.slices}};
+  pass.make_plans();
   pass.run();
 }
 

@@ -39,6 +39,9 @@ class Storage {
     size_ = size;
     return data();
   }
+  void reserve(size_t size) {
+    if (size > capacity_) grow(size);
+  }
   void push_back(const T& value) {
     if (size_ == capacity_) grow(size_ + 1);
     data_[size_++] = value;

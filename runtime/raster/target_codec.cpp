@@ -116,21 +116,29 @@ constexpr TargetCodec codec_of() {
     }
     codec.encode = encode_plain<kFormat, kInfo.bytes>;
     codec.decode = decode_plain<kFormat, kInfo.bytes>;
+    if (kInfo.channel_bits == 32) codec.fast = FastEncode::kWords;
     switch (kTheFormat) {
+      case Format::kR8G8B8A8Unorm:
+        codec.fast = FastEncode::kRgba8;
+        break;
       case Format::kR16G16B16A16Float:
         codec.encode = encode_halves<4>;
+        codec.fast = FastEncode::kHalves;
         break;
       case Format::kR16G16Float:
         codec.encode = encode_halves<2>;
+        codec.fast = FastEncode::kHalves;
         break;
       case Format::kR16Float:
         codec.encode = encode_halves<1>;
         break;
       case Format::kR8G8B8A8UnormSrgb:
         codec.encode = encode_srgb<0, 16, true>;
+        codec.fast = FastEncode::kRgba8Srgb;
         break;
       case Format::kB8G8R8A8UnormSrgb:
         codec.encode = encode_srgb<16, 0, true>;
+        codec.fast = FastEncode::kBgra8Srgb;
         fields = {{{16, 8}, {8, 8}, {0, 8}, {24, 8}}};
         break;
       case Format::kB8G8R8X8UnormSrgb:
@@ -138,6 +146,7 @@ constexpr TargetCodec codec_of() {
         fields = {{{16, 8}, {8, 8}, {0, 8}, {24, 0}}};
         break;
       case Format::kB8G8R8A8Unorm:
+        codec.fast = FastEncode::kBgra8;
         fields = {{{16, 8}, {8, 8}, {0, 8}, {24, 8}}};
         break;
       case Format::kB8G8R8X8Unorm:
@@ -166,6 +175,8 @@ constexpr TargetCodec codec_of() {
       default:
         break;
     }
+    if (codec.fast == FastEncode::kWords) codec.columns = codec.words;
+    if (codec.fast == FastEncode::kHalves) codec.columns = 2 * codec.words;
     set_fields(codec, fields);
     return codec;
   }

@@ -10,11 +10,16 @@
 
 namespace kaamos::raster {
 
+// How fast_encode.h writes a format.
+enum class FastEncode : uint8_t { kNone, kWords, kHalves, kRgba8, kRgba8Srgb, kBgra8, kBgra8Srgb };
+
 // A texel is up to four words; those of fewer than 32 bits are in the low bits of one. Word w of
 // pixel i is words[w][i].
 struct TargetCodec {
   uint8_t bytes = 0;  // of a texel: 1, 2, 4, 8 or 16; 0: the format cannot be drawn to
   uint8_t words = 0;
+  FastEncode fast = FastEncode::kNone;
+  uint8_t columns = 4;   // of colours that encoding reads
   bool integer = false;  // does not blend
   // What blending clamps to: 0 to 1, -1 to 1 (clamped_signed), or nothing.
   bool clamped = false;

@@ -22,6 +22,19 @@ void each_texel(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice, 
   }
 }
 
+// Texels of 4 bytes, two side by side at a time, if the whole tile is in the target.
+template <class Texels, class F>
+bool each_pair(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice, const F& f) {
+  if (x + kTileSize > surface.width || y + kTileSize > surface.height) return false;
+  for (uint32_t row = 0; row < kTileSize; ++row) {
+    Texels texels = surface.texels + slice * surface.slice_pitch + (y + row) * surface.row_pitch +
+                    uint64_t{x} * 4;
+    const uint32_t word = row / 2 * kQuadsPerRow * 4 + (row & 1) * 2;
+    for (uint32_t quad = 0; quad < kQuadsPerRow; ++quad) f(texels + quad * 8, word + quad * 4);
+  }
+  return true;
+}
+
 }  // namespace
 
 void TileDepth::load(const Surface& surface, uint32_t x, uint32_t y, uint32_t slice) {
@@ -39,6 +52,11 @@ void TileDepth::load(const Surface& surface, uint32_t x, uint32_t y, uint32_t sl
       });
       break;
     default:
+      if (each_pair<const uint8_t*>(surface, x, y, slice, [&](const uint8_t* pair, uint32_t word) {
+            std::memcpy(&words[word], pair, 8);
+          })) {
+        break;
+      }
       each_texel<4>(surface, x, y, slice, [&](const uint8_t* texel, uint32_t word) {
         std::memcpy(&words[word], texel, 4);
       });
@@ -58,6 +76,11 @@ void TileDepth::store(const Surface& surface, uint32_t x, uint32_t y, uint32_t s
                     [&](uint8_t* texel, uint32_t word) { std::memcpy(texel, &words[word], 4); });
       break;
     default:
+      if (each_pair<uint8_t*>(surface, x, y, slice, [&](uint8_t* pair, uint32_t word) {
+            std::memcpy(pair, &words[word], 8);
+          })) {
+        break;
+      }
       each_texel<4>(surface, x, y, slice,
                     [&](uint8_t* texel, uint32_t word) { std::memcpy(texel, &words[word], 4); });
   }

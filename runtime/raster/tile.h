@@ -57,6 +57,8 @@ struct TileJob {
   uint32_t x = 0;  // of the tile's first pixel
   uint32_t y = 0;
   uint32_t slice = 0;
+  uint32_t width = 0;  // of what all targets have in common
+  uint32_t height = 0;
 };
 
 using DrawTile = void (*)(const TileJob& job, TileScratch& scratch, ShaderThread& thread);

@@ -54,34 +54,89 @@ class TileDrawing {
     }
   }
 
+  // What happens to the blocks of one triangle.
+  template <DepthKind kKind, bool kShades>
+  struct Blocks {
+    TileDrawing& tile;
+    const DrawPlan& plan;
+    const DepthTest<kKind>& test;
+    DepthPlane plane;
+    Doubles8 z_of_row;
+    const bool needs_z = kKind != DepthKind::kNone || (kShades && plan.needs_z);
+
+    KAAMOS_INLINE void row(int32_t block_y) {
+      if (needs_z) z_of_row = plane.at_row(block_y);
+    }
+    KAAMOS_INLINE void block(int32_t block_x, int32_t block_y, const lanes& covered) {
+      const auto quad =
+          static_cast<uint32_t>(block_y) * kQuadsPerRow + static_cast<uint32_t>(block_x) * 2;
+      lanes pass = covered;
+      Floats8 z{};
+      if (needs_z) z = plane.at_block(z_of_row, block_x, block_y);
+      if constexpr (kKind != DepthKind::kNone) {
+        pass = test.run(tile.scratch_.depth.words + quad * 4, z, covered, plan.early_write);
+      }
+      if constexpr (kShades) tile.put(quad, bits_of(pass), z, plan.needs_z);
+    }
+  };
+
   template <DepthKind kKind, bool kShades>
   void draw_triangles(const TileJob::Run& run, const DrawPlan& plan) {
     const uint32_t* order = run.batch->order.data() + run.first;
+    const Triangle* triangles = run.batch->triangles.data();
     const auto x = static_cast<int32_t>(job_.x);
     const auto y = static_cast<int32_t>(job_.y);
+    uint32_t number = 0;  // of the viewport
+    const auto test_of = [&] {
+      const ViewportState& viewport = plan.viewports[number];
+      return DepthTest<kKind>(plan.depth_func, viewport.depth_low, viewport.depth_high);
+    };
+    DepthTest<kKind> test = test_of();
     for (uint32_t i = 0; i < run.count; ++i) {
-      const Triangle& triangle = run.batch->triangles[order[i]];
-      const ViewportState& viewport = plan.viewports[triangle.flags >> kViewportShift];
+      // A batch's triangles of a tile lie apart.
+      constexpr uint32_t kAhead = 6;
+      if (i + kAhead < run.count) {
+        const Triangle* later = triangles + order[i + kAhead];
+        __builtin_prefetch(later);
+        __builtin_prefetch(reinterpret_cast<const char*>(later + 1) - 1);
+      }
+      const Triangle& triangle = triangles[order[i]];
+      if (triangle.flags >> kViewportShift != number) {
+        number = triangle.flags >> kViewportShift;
+        test = test_of();
+      }
       Coverage coverage;
-      if (!coverage.begin(triangle, viewport.rect, x, y)) continue;
-      DepthPlane plane;
-      if (kKind != DepthKind::kNone || plan.needs_z) plane.begin(triangle, x, y);
-      const DepthTest<kKind> test(plan.depth_func, viewport.depth_low, viewport.depth_high);
-      if constexpr (kShades) quads_.begin_triangle(triangle);
-      coverage.each_block([&](int32_t block_x, int32_t block_y, const lanes& covered) {
-        const auto quad =
-            static_cast<uint32_t>(block_y) * kQuadsPerRow + static_cast<uint32_t>(block_x) * 2;
-        lanes pass = covered;
-        Floats8 z{};
-        if (kKind != DepthKind::kNone || (kShades && plan.needs_z)) {
-          z = plane.at_block(block_x, block_y);
-        }
-        if constexpr (kKind != DepthKind::kNone) {
-          pass = test.run(scratch_.depth.words + quad * 4, z, covered, plan.early_write);
-        }
-        if constexpr (kShades) put(quad, bits_of(pass), z, plan.needs_z);
-      });
+      if (!coverage.begin(triangle, plan.viewports[number].rect, x, y)) continue;
+      Blocks<kKind, kShades> blocks{*this, plan, test, {}, {}};
+      if (blocks.needs_z) blocks.plane.begin(triangle, x, y);
+      if constexpr (kShades) {
+        prefetch(triangle, plan);
+        quads_.begin_triangle(triangle);
+      }
+      coverage.each_block(blocks);
       if constexpr (kShades) quads_.flush();
+    }
+  }
+
+  // The tile's rows of targets that a triangle is the first to reach, in bands of 8. Otherwise each
+  // quad would wait for memory.
+  KAAMOS_INLINE void prefetch(const Triangle& triangle, const DrawPlan& plan) {
+    if (prefetched_for_ != &plan) {
+      prefetched_for_ = &plan;
+      prefetched_ = 0;
+    }
+    const auto top = static_cast<int32_t>(job_.y);
+    const int32_t first = triangle.box.top > top ? (triangle.box.top - top) / 8 : 0;
+    const int32_t last =
+        triangle.box.bottom < top + kTileSize ? (triangle.box.bottom - 1 - top) / 8 : 7;
+    const uint32_t bands = ((2u << last) - 1) & ~((1u << first) - 1) & ~prefetched_;
+    if (bands != 0) prefetch_bands(plan, bands);
+  }
+  void prefetch_bands(const DrawPlan& plan, uint32_t bands) {
+    prefetched_ |= bands;
+    for (; bands != 0; bands &= bands - 1) {
+      const auto y = job_.y + 8 * static_cast<uint32_t>(std::countr_zero(bands));
+      prefetch_targets(plan, job_.x, y, job_.slice, kTileSize, 8);
     }
   }
 
@@ -104,6 +159,8 @@ class TileDrawing {
   const TileJob& job_;
   TileScratch& scratch_;
   QuadShader quads_;
+  const DrawPlan* prefetched_for_ = nullptr;
+  uint32_t prefetched_ = 0;  // a bit for each band
 };
 
 }  // namespace kaamos::raster::KAAMOS_RASTER_LEVEL

@@ -22,7 +22,14 @@ enum TriangleFlags : uint32_t {
   kSwapped = 2,  // its vertices are 0, 2, 1 of the primitive
   kClipped = 4,  // part of a primitive: `clip` is valid
   kSliver = 8,   // so long and thin that its plane of depth is not exact enough
+  kSmall = 16,   // edges fit in 32 bits without regard to tiles
+  kMasked = 32,  // blocks that it reaches hold pixels that may not be drawn
   kViewportShift = 8,
+};
+
+// Pixels [left, right) x [top, bottom) of a target.
+struct PixelBox {
+  int16_t left, top, right, bottom;
 };
 
 // Its vertices are clockwise, y down. Vertex 0 is the leading one unless it is clipped.
@@ -31,6 +38,7 @@ struct Triangle {
   int32_t y[3];
   float z[3];      // with the depth bias
   uint32_t flags;  // TriangleFlags, and the viewport's number << kViewportShift
+  PixelBox box;    // what it reaches of what may be drawn
   double dz_dx;    // by subpixel
   double dz_dy;
   uint32_t vertex[3];  // of the batch; if it is clipped those of the primitive, in its order

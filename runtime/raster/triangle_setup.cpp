@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "runtime/raster/edges.h"
+
 namespace kaamos::raster {
 namespace {
 
@@ -45,19 +47,13 @@ float bias_of(const DrawPlan& plan, const Triangle& t) {
   return bias;
 }
 
-}  // namespace
-
-PixelRect box_of(const Triangle& t, const PixelRect& rect) {
-  const int32_t left = std::min({t.x[0], t.x[1], t.x[2]});
-  const int32_t right = std::max({t.x[0], t.x[1], t.x[2]});
-  const int32_t top = std::min({t.y[0], t.y[1], t.y[2]});
-  const int32_t bottom = std::max({t.y[0], t.y[1], t.y[2]});
-  constexpr int32_t kUp = kSubpixels - 1 - kPixelCenter;
-  return {std::max(rect.left, (left + kUp) >> kSubpixelBits),
-          std::max(rect.top, (top + kUp) >> kSubpixelBits),
-          std::min(rect.right, ((right - kPixelCenter) >> kSubpixelBits) + 1),
-          std::min(rect.bottom, ((bottom - kPixelCenter) >> kSubpixelBits) + 1)};
+// Whether one of the blocks of 4 x 2 pixels that the box touches reaches beyond `rect`.
+bool needs_masks(const PixelRect& box, const PixelRect& rect) {
+  return (box.left & ~3) < rect.left || ((box.right + 3) & ~3) > rect.right ||
+         (box.top & ~1) < rect.top || ((box.bottom + 1) & ~1) > rect.bottom;
 }
+
+}  // namespace
 
 bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex v[3],
                      Triangle& out) {
@@ -67,14 +63,23 @@ bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVe
   if (area == 0) return false;
   const bool front = (area > 0) == plan.front_is_clockwise;
   if (front ? plan.cull_front : plan.cull_back) return false;
+  const int32_t left = std::min({v[0].x, v[1].x, v[2].x});
+  const int32_t right = std::max({v[0].x, v[1].x, v[2].x});
+  const int32_t top = std::min({v[0].y, v[1].y, v[2].y});
+  const int32_t bottom = std::max({v[0].y, v[1].y, v[2].y});
+  constexpr int32_t kUp = kSubpixels - 1 - kPixelCenter;
+  const PixelRect box{std::max(rect.left, (left + kUp) >> kSubpixelBits),
+                      std::max(rect.top, (top + kUp) >> kSubpixelBits),
+                      std::min(rect.right, ((right - kPixelCenter) >> kSubpixelBits) + 1),
+                      std::min(rect.bottom, ((bottom - kPixelCenter) >> kSubpixelBits) + 1)};
+  if (box.empty()) return false;
+  out.box = {static_cast<int16_t>(box.left), static_cast<int16_t>(box.top),
+             static_cast<int16_t>(box.right), static_cast<int16_t>(box.bottom)};
   const bool swap = area < 0;
   const int order[3] = {0, swap ? 2 : 1, swap ? 1 : 2};
   for (int i = 0; i < 3; ++i) {
     out.x[i] = v[order[i]].x;
     out.y[i] = v[order[i]].y;
-  }
-  if (box_of(out, rect).empty()) return false;
-  for (int i = 0; i < 3; ++i) {
     out.z[i] = v[order[i]].z;
     out.inv_w[i] = v[order[i]].inv_w;
   }
@@ -86,11 +91,12 @@ bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVe
     set_plane(out, magnitude);
   }
   // Rounding of the plane's gradients grows by the square of the length over the area.
-  const double length =
-      static_cast<double>(std::max({std::abs(dx1), std::abs(dx2), std::abs(dy1), std::abs(dy2)}));
+  const int32_t length = std::max(right - left, bottom - top);
+  const double square = static_cast<double>(length) * length;
   constexpr double kThin = 0x1p24;
   out.flags = (front ? kFrontFacing : 0u) | (swap ? kSwapped : 0u) |
-              (length * length > kThin * magnitude ? kSliver : 0u);
+              (square > kThin * magnitude ? kSliver : 0u) | (length <= kSmallSize ? kSmall : 0u) |
+              (needs_masks(box, rect) ? kMasked : 0u);
   return true;
 }
 

@@ -10,11 +10,8 @@
 namespace kaamos::raster {
 
 // False if the triangle has no area, is culled, or holds no centre of a pixel of `rect`; else fills
-// in the position, the depth and the flags of facing and order.
+// in the position, the depth and the flags but kClipped and the viewport's number.
 bool set_up_triangle(const DrawPlan& plan, const PixelRect& rect, const ScreenVertex vertices[3],
                      Triangle& out);
-
-// Pixels of `rect` whose centres are in the triangle's box.
-PixelRect box_of(const Triangle& triangle, const PixelRect& rect);
 
 }  // namespace kaamos::raster
