@@ -42,12 +42,14 @@ std::string Describe(const BindingDesc& b) {
   return Text(Quoted(b.name), " (", RegisterText(b.register_class, b.register_index, b.space), ")");
 }
 
-// Finds the range of a signature that contains the binding's first register.
-std::optional<RegisterRange> Find(const RootSignature& signature, const BindingDesc& binding) {
+// Finds the range of a signature that contains the binding's first register and is visible.
+std::optional<RegisterRange> Find(const RootSignature& signature, const BindingDesc& binding,
+                                  ShaderVisibility stage) {
   if (!signature) return std::nullopt;
   for (const RegisterRange& r : GetRegisterRanges(signature.GetDesc())) {
     if (r.register_class == binding.register_class && r.space == binding.space &&
-        binding.register_index >= r.first && binding.register_index < r.end) {
+        binding.register_index >= r.first && binding.register_index < r.end &&
+        (r.visibility == ShaderVisibility::kAll || r.visibility == stage)) {
       return r;
     }
   }
@@ -177,25 +179,27 @@ Result<std::vector<BindingSlot>> ResolveBindings(const shader::LibraryDesc& libr
                                                  const shader::ExportDesc& code,
                                                  const RootSignature& global,
                                                  const RootSignature& local,
-                                                 const std::string& where) {
+                                                 const std::string& where, ShaderVisibility stage) {
   if (Status s = CheckHeapAccess(code, global, where); !s.ok()) return s.error();
   std::vector<BindingSlot> slots(library.binding_count);
   for (uint32_t i = 0; i < code.binding_count; ++i) {
     const uint32_t index = code.bindings[i];
     const BindingDesc& binding = library.bindings[index];
     const RootSignature* signature = &local;
-    auto range = Find(local, binding);
+    auto range = Find(local, binding, stage);
     if (!range) {
       signature = &global;
-      range = Find(global, binding);
+      range = Find(global, binding, stage);
     }
     if (!range) {
-      return MakeError(Id::kBindingMissing, where, ": resource ", Describe(binding), " of ",
-                       Quoted(library.name ? library.name : ""), " is ",
-                       global && local ? "in neither its global nor its local root signature"
-                       : global        ? "not in its global root signature; it has no local one"
-                       : local         ? "not in its local root signature; it has no global one"
-                                       : "in no root signature: none is associated with it");
+      return MakeError(
+          Id::kBindingMissing, where, ": resource ", Describe(binding), " of ",
+          Quoted(library.name ? library.name : ""), " is ",
+          global && local ? "in neither its global nor its local root signature"
+          : global ? "not in its global root signature, or not visible to this stage; it has no "
+                     "local one"
+          : local  ? "not in its local root signature; it has no global one"
+                   : "in no root signature: none is associated with it");
     }
     if (Status s = FillSlot(*signature, binding, *range, where, slots[index]); !s.ok()) {
       return s.error();

@@ -15,11 +15,12 @@ namespace rtapi::detail {
 struct DeviceImpl;
 
 // Returns one slot per binding of the library; bindings that the export does not reach stay
-// unbound. Either signature may be empty. `where` names the export in messages. [DXR:
-// D3D12_LOCAL_ROOT_SIGNATURE]
+// unbound. Either signature may be empty. `where` names the export in messages. Parameters that are
+// visible to another stage only are not looked at. [DXR: D3D12_LOCAL_ROOT_SIGNATURE]
 Result<std::vector<kaamos::shader::BindingSlot>> ResolveBindings(
     const kaamos::shader::LibraryDesc& library, const kaamos::shader::ExportDesc& code,
-    const RootSignature& global, const RootSignature& local, const std::string& where);
+    const RootSignature& global, const RootSignature& local, const std::string& where,
+    ShaderVisibility stage = ShaderVisibility::kAll);
 
 // Fails if both signatures define the same register. Either may be empty.
 Status CheckRootSignaturesDisjoint(const RootSignature& global, const RootSignature& local,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// State and dispatches of command lists. Acceleration structures and copies are in files of their
-// own.
+// State and dispatches of command lists. Root arguments, draws, acceleration structures and copies
+// are in files of their own.
 #include <rtapi/command_list.h>
 
 #include <algorithm>
@@ -23,16 +23,6 @@ bool CommandListImpl::CheckOpen(const char* call) {
   return false;
 }
 
-runtime::RootArguments& CommandListImpl::WritableArguments() {
-  if (arguments.use_count() > 1) arguments = std::make_shared<runtime::RootArguments>(*arguments);
-  return *arguments;
-}
-
-void CommandListImpl::ClearArgument(uint32_t offset_bytes, uint32_t size_bytes) {
-  if (uint64_t{offset_bytes} + size_bytes > runtime::kRootArgumentBytes) return;
-  std::memset(WritableArguments().bytes.data() + offset_bytes, 0, size_bytes);
-}
-
 void CommandListImpl::Use(const char* call, GpuVirtualAddress address, std::string role) {
   MemoryUse use = UseOf(*device, address, std::move(role));
   if (use.address == 0) return;
@@ -41,17 +31,17 @@ void CommandListImpl::Use(const char* call, GpuVirtualAddress address, std::stri
   uses->push_back(std::move(use));
 }
 
-runtime::RootBindings CommandListImpl::Snapshot(const char* call) {
-  for (const auto& [parameter, view] : root_views) {
+runtime::RootBindings CommandListImpl::Snapshot(const char* call, const RootState& root) {
+  for (const auto& [parameter, view] : root.views) {
     MemoryUse& use = uses->emplace_back(view);
     use.call = call;
     use.command = commands->size();
   }
   runtime::RootBindings state;
-  state.root_arguments = arguments;
+  state.root_arguments = root.arguments;
   if (view_heap) state.view_heap = view_heap.impl()->memory;
   if (sampler_heap) state.sampler_heap = sampler_heap.impl()->memory;
-  state.root_signature = root_signature;
+  state.root_signature = root.signature;
   return state;
 }
 
@@ -67,11 +57,11 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
   const auto& globals = pipeline.global_root_signatures;
   const bool fits =
       globals.empty() || std::any_of(globals.begin(), globals.end(), [&](const RootSignature& g) {
-        return !g || SameDefinition(g, root_signature);
+        return !g || SameDefinition(g, compute.signature);
       });
   if (fits) return &pipeline;
   Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
-                 root_signature
+                 compute.signature
                      ? "the compute root signature does not match any ray generation shader of the "
                        "pipeline"
                      : "no compute root signature is set",
@@ -79,72 +69,37 @@ const StateObjectImpl* CommandListImpl::RaysPipeline(const char* call) {
   return nullptr;
 }
 
-const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
-  if (!compute_pipeline) {
-    Fail(MakeError(Id::kPipelineNotSet, call,
-                   " without a compute pipeline; call SetPipelineState first"));
+namespace {
+
+// Returns the pipeline that is set if it is of the kind and has the root signature; else null.
+const PipelineStateImpl* FitPipeline(CommandListImpl& list, const char* call, bool graphics) {
+  const char* const kind = graphics ? "graphics" : "compute";
+  const PipelineStateImpl* pipeline = list.pipeline_state.impl().get();
+  if (!pipeline || (pipeline->graphics != nullptr) != graphics) {
+    list.Fail(MakeError(Id::kPipelineNotSet, call, " without a ", kind,
+                        " pipeline; call SetPipelineState first"));
     return nullptr;
   }
-  const PipelineStateImpl& pipeline = *compute_pipeline.impl();
-  if (SameDefinition(pipeline.root_signature, root_signature)) return &pipeline;
-  Fail(MakeError(Id::kPipelineRootSignature, call, ": ",
-                 root_signature
-                     ? "the compute root signature is not that of pipeline "
-                     : "no compute root signature is set, but one is needed by pipeline ",
-                 Quoted(pipeline.name)));
+  const RootSignature& set = graphics ? list.graphics.signature : list.compute.signature;
+  if (SameDefinition(pipeline->root_signature, set)) return pipeline;
+  list.Fail(
+      MakeError(Id::kPipelineRootSignature, call, ": ",
+                set ? Text("the ", kind, " root signature is not that of pipeline ")
+                    : Text("no ", kind, " root signature is set, but one is needed by pipeline "),
+                Quoted(pipeline->name)));
   return nullptr;
 }
 
+}  // namespace
+
+const PipelineStateImpl* CommandListImpl::ComputePipeline(const char* call) {
+  return FitPipeline(*this, call, false);
+}
+const PipelineStateImpl* CommandListImpl::GraphicsPipeline(const char* call) {
+  return FitPipeline(*this, call, true);
+}
+
 namespace {
-
-// Returns the parameter if it exists and has the type that the call sets, else null.
-const RootParameter* FindParameter(CommandListImpl& list, const char* call, uint32_t index,
-                                   RootParameterType type) {
-  if (!list.CheckOpen(call)) return nullptr;
-  if (!list.root_signature) {
-    list.Fail(MakeError(Id::kRootSignatureNotSet, call, ": call SetComputeRootSignature first"));
-    return nullptr;
-  }
-  const auto& parameters = list.root_signature.GetDesc().Parameters;
-  if (index >= parameters.size()) {
-    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index,
-                        " does not exist; the root signature has ", parameters.size(),
-                        " parameters"));
-    return nullptr;
-  }
-  if (parameters[index].ParameterType != type) {
-    list.Fail(MakeError(Id::kRootParameterMismatch, call, ": parameter ", index, " is of type ",
-                        static_cast<uint32_t>(parameters[index].ParameterType),
-                        ", but this call sets one of type ", static_cast<uint32_t>(type)));
-    return nullptr;
-  }
-  return &parameters[index];
-}
-
-void WriteArgument(CommandListImpl& list, uint32_t parameter, uint32_t extra_bytes,
-                   const void* value, size_t bytes) {
-  const size_t offset = list.root_signature.GetArgumentOffset(parameter) + extra_bytes;
-  if (offset + bytes > runtime::kRootArgumentBytes) return;  // 64 DWORDs always fit
-  std::memcpy(list.WritableArguments().bytes.data() + offset, value, bytes);
-}
-
-void SetRootView(CommandListImpl* list, const char* call, uint32_t index, RootParameterType type,
-                 GpuVirtualAddress address) {
-  if (!list || !FindParameter(*list, call, index, type)) return;
-  const uint32_t alignment = type == RootParameterType::kCbv ? 256 : 4;
-  // Address 0 is a null descriptor: an acceleration structure that every ray misses.
-  if (address % alignment != 0 || (address != 0 && !list->device->addresses.find(address))) {
-    list->Fail(MakeError(Id::kRootDescriptorAddress, call, ": parameter ", index, " is ",
-                         list->device->DescribeAddress(address),
-                         "; it must lie in a live buffer, at a multiple of ", alignment));
-    return;
-  }
-  WriteArgument(*list, index, 0, &address, sizeof address);
-  list->root_views.erase(index);
-  if (address != 0) {
-    list->root_views[index] = UseOf(*list->device, address, Text("root parameter ", index));
-  }
-}
 
 // Turns a rule that the host's arguments break into its error.
 Status CheckRules(const runtime::DispatchProblem& problem) {
@@ -223,91 +178,12 @@ void CommandList::SetDescriptorHeaps(std::span<const DescriptorHeap> heaps) {
   impl_->sampler_heap = samplers;
 }
 
-void CommandList::SetComputeRootSignature(const RootSignature& signature) {
-  if (!impl_ || !impl_->CheckOpen("SetComputeRootSignature")) return;
-  if (Status s = CheckHandle(impl_->device, signature, "SetComputeRootSignature: the signature");
-      !s.ok()) {
-    return impl_->Fail(s.error());
-  }
-  if (signature.is_local()) {
-    return impl_->Fail(
-        MakeError(Id::kRootSignatureKind,
-                  "SetComputeRootSignature takes a global root signature, but this one "
-                  "is local; local arguments belong in shader records"));
-  }
-  if (impl_->root_signature && SameDefinition(impl_->root_signature, signature)) return;
-  impl_->root_signature = signature;
-  impl_->arguments = std::make_shared<runtime::RootArguments>();
-  impl_->root_views.clear();
-}
-
-void CommandList::SetComputeRoot32BitConstant(uint32_t parameter, uint32_t value,
-                                              uint32_t dest_offset) {
-  SetComputeRoot32BitConstants(parameter, 1, &value, dest_offset);
-}
-
-void CommandList::SetComputeRoot32BitConstants(uint32_t parameter, uint32_t count,
-                                               const void* values, uint32_t dest_offset) {
-  if (!impl_) return;
-  const auto* p = FindParameter(*impl_, "SetComputeRoot32BitConstants", parameter,
-                                RootParameterType::k32BitConstants);
-  if (!p) return;
-  const uint32_t total = p->Constants.Num32BitValues;
-  if (dest_offset > total || count > total - dest_offset) {
-    return impl_->Fail(MakeError(Id::kRootConstantsRange, "SetComputeRoot32BitConstants: values ",
-                                 dest_offset, "..", uint64_t{dest_offset} + count, " of parameter ",
-                                 parameter, ", which has only ", total));
-  }
-  if (count != 0 && !values) {
-    return impl_->Fail(MakeError(Id::kRootConstantsRange,
-                                 "SetComputeRoot32BitConstants: the pointer to the values of "
-                                 "parameter ",
-                                 parameter, " is null"));
-  }
-  if (count == 0) return;
-  WriteArgument(*impl_, parameter, dest_offset * 4, values, size_t{count} * 4);
-}
-
-void CommandList::SetComputeRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address) {
-  SetRootView(impl_.get(), "SetComputeRootConstantBufferView", parameter, RootParameterType::kCbv,
-              address);
-}
-void CommandList::SetComputeRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address) {
-  SetRootView(impl_.get(), "SetComputeRootShaderResourceView", parameter, RootParameterType::kSrv,
-              address);
-}
-void CommandList::SetComputeRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address) {
-  SetRootView(impl_.get(), "SetComputeRootUnorderedAccessView", parameter, RootParameterType::kUav,
-              address);
-}
-
-void CommandList::SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base) {
-  if (!impl_) return;
-  const auto* p = FindParameter(*impl_, "SetComputeRootDescriptorTable", parameter,
-                                RootParameterType::kDescriptorTable);
-  if (!p) return;
-  const bool samplers =
-      p->DescriptorTable.Ranges.front().RangeType == DescriptorRangeType::kSampler;
-  const DescriptorHeap& heap = samplers ? impl_->sampler_heap : impl_->view_heap;
-  const uint64_t start = heap.GetGPUDescriptorHandleForHeapStart().ptr;
-  const uint64_t offset = base.ptr - start;
-  const bool inside = heap && base.ptr >= start && offset % kDescriptorHandleIncrementSize == 0 &&
-                      offset / kDescriptorHandleIncrementSize < heap.GetDesc().NumDescriptors;
-  if (!inside) {
-    return impl_->Fail(MakeError(
-        Id::kDescriptorTableHandle, "SetComputeRootDescriptorTable: handle ", Hex(base.ptr),
-        " for parameter ", parameter, " is not in the ", samplers ? "sampler" : "CBV/SRV/UAV",
-        " heap that is set", heap ? "" : "; call SetDescriptorHeaps first"));
-  }
-  WriteArgument(*impl_, parameter, 0, &base.ptr, sizeof base.ptr);
-}
-
 void CommandList::SetPipelineState(const PipelineState& pipeline) {
   if (!impl_ || !impl_->CheckOpen("SetPipelineState")) return;
   if (Status s = CheckHandle(impl_->device, pipeline, "SetPipelineState: the pipeline"); !s.ok()) {
     return impl_->Fail(s.error());
   }
-  impl_->compute_pipeline = pipeline;
+  impl_->pipeline_state = pipeline;
   impl_->raytracing_pipeline = {};
 }
 
@@ -323,7 +199,7 @@ void CommandList::SetPipelineState1(const StateObject& pipeline) {
                                  "collection"));
   }
   impl_->raytracing_pipeline = pipeline;
-  impl_->compute_pipeline = {};
+  impl_->pipeline_state = {};
 }
 
 void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
@@ -344,8 +220,9 @@ void CommandList::DispatchRays(const DispatchRaysDesc& desc) {
   for (const auto& [name, table] : tables) {
     if (table.SizeInBytes != 0) impl_->Use("DispatchRays", table.StartAddress, name);
   }
-  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline, impl_->Snapshot("DispatchRays"),
-                                             desc, pipeline->stack_bytes.load(), pipeline->linked});
+  impl_->Record(runtime::DispatchRaysCommand{pipeline->pipeline,
+                                             impl_->Snapshot("DispatchRays", impl_->compute), desc,
+                                             pipeline->stack_bytes.load(), pipeline->linked});
 }
 
 void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
@@ -361,7 +238,7 @@ void CommandList::Dispatch(uint32_t x, uint32_t y, uint32_t z) {
   }
   command.pipeline = pipeline->pipeline;
   command.linked = pipeline->linked;
-  command.state = impl_->Snapshot("Dispatch");
+  command.state = impl_->Snapshot("Dispatch", impl_->compute);
   impl_->Record(std::move(command));
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "rtapi/src/device_impl.h"
 #include "rtapi/src/memory_use.h"
+#include "rtapi/src/root_state.h"
 #include "runtime/backend/commands.h"
 
 namespace rtapi::detail {
@@ -31,27 +31,28 @@ struct CommandListImpl {
   // State that the application sets.
   DescriptorHeap view_heap;
   DescriptorHeap sampler_heap;
-  RootSignature root_signature;
-  std::shared_ptr<runtime::RootArguments> arguments = std::make_shared<runtime::RootArguments>();
-  std::map<uint32_t, MemoryUse> root_views;  // by root parameter: what they refer to
-  PipelineState compute_pipeline;            // at most one of the two is set
+  RootState compute;  // of dispatches of both kinds
+  RootState graphics;
+  PipelineState pipeline_state;  // compute or graphics; at most one of the two is set
   StateObject raytracing_pipeline;
+  std::shared_ptr<runtime::DrawState> draw_state = std::make_shared<runtime::DrawState>();
+  std::vector<MemoryUse> target_uses;  // the textures of its targets
   uint32_t open_events = 0;
 
   // Keeps the error: as in D3D12, Close() reports it.
   void Fail(Error error) { errors.push_back(std::move(error)); }
   // Returns whether recording is possible; if not, keeps an error.
   bool CheckOpen(const char* call);
-  // Returns arguments that no recorded dispatch shares, so that they can be written.
-  runtime::RootArguments& WritableArguments();
-  void ClearArgument(uint32_t offset_bytes, uint32_t size_bytes);
   // For the next command that is recorded, and what it uses of memory.
-  runtime::RootBindings Snapshot(const char* call);
+  runtime::RootBindings Snapshot(const char* call, const RootState& root);
+  // Returns state that no recorded draw shares, so that it can be written.
+  runtime::DrawState& WritableDrawState();
   // The next command uses the memory at an address; one that is in no live buffer is ignored.
   void Use(const char* call, GpuVirtualAddress address, std::string role);
   // Returns the pipeline if one is set and fits the root signature; else null, with an error kept.
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);
+  const PipelineStateImpl* GraphicsPipeline(const char* call);
 
   // Built in place, because gcc 12 at -O3 warns that members of a temporary variant are
   // uninitialised.

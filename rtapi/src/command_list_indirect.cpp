@@ -58,7 +58,7 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
     return impl_->Fail(s.error());
   }
   const CommandSignatureImpl& given = *signature.impl();
-  if (given.root_signature && !SameDefinition(given.root_signature, impl_->root_signature)) {
+  if (given.root_signature && !SameDefinition(given.root_signature, impl_->compute.signature)) {
     return impl_->Fail(
         MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
                   " was made for another root signature than the one that is set on the list"));
@@ -89,14 +89,14 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   command.count_offset = count_offset;
   // What the commands bring along is looked at when they are read.
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
-    impl_->root_views.erase(argument.root_parameter);
+    impl_->compute.views.erase(argument.root_parameter);
   }
-  command.state = impl_->Snapshot("ExecuteIndirect");
+  command.state = impl_->Snapshot("ExecuteIndirect", impl_->compute);
   impl_->Record(std::move(command));
   // After ExecuteIndirect, everything that the signature sets is zero or null. [D3D12: Indirect
   // drawing]
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
-    impl_->ClearArgument(argument.dest_offset, argument.size_bytes);
+    impl_->compute.Clear(argument.dest_offset, argument.size_bytes);
   }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cstring>
 
 #include <rtapi/descriptor.h>
@@ -15,17 +16,25 @@ namespace {
 constexpr uint32_t kMaxViews = 1'000'000;  // [D3D12: hardware tiers]
 const DescriptorHeapDesc kEmptyHeap;
 
+bool HoldsTargets(DescriptorHeapType type) {
+  return type == DescriptorHeapType::kRtv || type == DescriptorHeapType::kDsv;
+}
+
 Status CheckHeap(const DescriptorHeapDesc& desc) {
   const std::string name = Named("descriptor heap", desc.Name);
   const bool samplers = desc.Type == DescriptorHeapType::kSampler;
-  if (!samplers && desc.Type != DescriptorHeapType::kCbvSrvUav) {
+  if (desc.Type > DescriptorHeapType::kDsv) {
     return MakeError(Id::kHeapType, name, " has type ", static_cast<uint32_t>(desc.Type),
-                     "; it must be kCbvSrvUav or kSampler");
+                     "; it must be kCbvSrvUav, kSampler, kRtv or kDsv");
   }
   const bool visible = HasAny(desc.Flags, DescriptorHeapFlags::kShaderVisible);
   if ((desc.Flags & ~DescriptorHeapFlags::kShaderVisible) != DescriptorHeapFlags::kNone) {
     return MakeError(Id::kHeapType, name, " has undefined flags ",
                      Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  if (visible && HoldsTargets(desc.Type)) {
+    return MakeError(Id::kHeapType, name,
+                     " has kShaderVisible, but shaders do not read heaps of RTVs and DSVs");
   }
   const uint32_t limit = samplers && visible ? kMaxShaderVisibleSamplerHeapSize : kMaxViews;
   if (desc.NumDescriptors == 0 || desc.NumDescriptors > limit) {
@@ -66,7 +75,9 @@ Result<DescriptorHeap> Device::CreateDescriptorHeap(const DescriptorHeapDesc& de
   heap->device = impl_;
   heap->desc = desc;
   heap->memory = std::move(*memory);
-  impl_->RegisterHeap(heap->memory->host(), heap->memory->address(), desc);
+  if (HoldsTargets(desc.Type)) heap->targets.resize(desc.NumDescriptors);
+  impl_->RegisterHeap(heap->memory->host(), heap->memory->address(), desc,
+                      heap->targets.empty() ? nullptr : heap->targets.data());
   return DescriptorHeap(std::move(heap));
 }
 
@@ -94,6 +105,11 @@ Status Device::CopyDescriptorsSimple(uint32_t count, CpuDescriptorHandle dest,
     return MakeError(Id::kDescriptorCopy, count, " descriptors do not fit: dest has ",
                      to->count_from_here, " from slot ", to->index, " on, source ",
                      from->count_from_here, " from slot ", from->index, " on");
+  }
+  if (to->target) {
+    const std::vector<TargetSlot> copied(from->target, from->target + count);
+    std::copy(copied.begin(), copied.end(), to->target);
+    return {};
   }
   std::memmove(to->slot, from->slot, size_t{count} * kDescriptorHandleIncrementSize);
   return {};

@@ -47,11 +47,13 @@ void DeviceImpl::Report(MessageSeverity severity, const Error& error) const {
   if (desc.OnMessage) desc.OnMessage({severity, error.id, error.message});
 }
 
-void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap) {
+void DeviceImpl::RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                              TargetSlot* targets) {
   std::lock_guard lock(heaps_mutex_);
   heaps_[reinterpret_cast<uintptr_t>(host)] = {
-      heap.Type, HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible), heap.NumDescriptors,
-      address, heap.Name};
+      heap.Type,           HasAny(heap.Flags, DescriptorHeapFlags::kShaderVisible),
+      heap.NumDescriptors, address,
+      heap.Name,           targets};
 }
 
 void DeviceImpl::UnregisterHeap(uint8_t* host) {
@@ -69,7 +71,8 @@ std::optional<HeapSlot> DeviceImpl::FindSlot(CpuDescriptorHandle handle) const {
   if (index >= heap.count || offset % kDescriptorHandleIncrementSize != 0) return std::nullopt;
   return HeapSlot{heap.type,
                   heap.shader_visible,
-                  reinterpret_cast<shader::Descriptor*>(handle.ptr),
+                  heap.targets ? nullptr : reinterpret_cast<shader::Descriptor*>(handle.ptr),
+                  heap.targets ? heap.targets + index : nullptr,
                   static_cast<uint32_t>(index),
                   heap.count - static_cast<uint32_t>(index),
                   heap.name};

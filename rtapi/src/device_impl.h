@@ -13,6 +13,7 @@
 #include <rtapi/device.h>
 
 #include "rtapi/src/error_table.h"
+#include "rtapi/src/target_view.h"
 #include "rtapi/src/view_names.h"
 #include "runtime/backend/backend.h"
 #include "runtime/checks/layer.h"
@@ -27,7 +28,8 @@ namespace shader = kaamos::shader;
 struct HeapSlot {
   DescriptorHeapType type = DescriptorHeapType::kCbvSrvUav;
   bool shader_visible = false;
-  shader::Descriptor* slot = nullptr;
+  shader::Descriptor* slot = nullptr;  // null in heaps of targets
+  TargetSlot* target = nullptr;        // null in other heaps
   uint32_t index = 0;
   uint32_t count_from_here = 0;
   std::string heap_name = {};
@@ -51,7 +53,8 @@ struct DeviceImpl {
   void Report(MessageSeverity severity, const Error& error) const;
 
   // Finds the slot of a handle. Handles carry no type, so heaps are registered by host address.
-  void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap);
+  void RegisterHeap(uint8_t* host, uint64_t address, const DescriptorHeapDesc& heap,
+                    TargetSlot* targets);
   void UnregisterHeap(uint8_t* host);
   std::optional<HeapSlot> FindSlot(CpuDescriptorHandle handle) const;
   // The same by GPU handle, for shader-visible heaps only.
@@ -72,6 +75,7 @@ struct DeviceImpl {
     uint32_t count;
     uint64_t address;  // for GPU handles
     std::string name;
+    TargetSlot* targets;  // null unless RTVs or DSVs
   };
   mutable std::mutex heaps_mutex_;
   std::map<uintptr_t, HeapRange> heaps_;
@@ -100,6 +104,7 @@ struct DescriptorHeapImpl {
   std::shared_ptr<DeviceImpl> device;
   DescriptorHeapDesc desc;
   std::shared_ptr<runtime::BackendBuffer> memory;
+  std::vector<TargetSlot> targets;  // of RTVs and DSVs; their memory only gives them addresses
   ~DescriptorHeapImpl();
 };
 

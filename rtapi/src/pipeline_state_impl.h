@@ -15,7 +15,9 @@ struct PipelineStateImpl {
   std::string name;
   RootSignature root_signature;
   std::shared_ptr<runtime::BackendPipeline> pipeline;
+  // Exactly one of the two.
   std::shared_ptr<const runtime::LinkedCompute> linked;
+  std::shared_ptr<const runtime::LinkedGraphics> graphics;
 };
 
 }  // namespace rtapi::detail

@@ -67,6 +67,50 @@ uint32_t AxisLimit(const TextureDesc& desc) {
   }
 }
 
+// [D3D12: D3D12_RESOURCE_FLAGS]
+Status CheckTextureFlags(const TextureDesc& desc, const std::string& name) {
+  using F = ResourceFlags;
+  constexpr F kKnown = F::kAllowRenderTarget | F::kAllowDepthStencil | F::kAllowUnorderedAccess |
+                       F::kDenyShaderResource;
+  const auto fail = [&](const auto&... text) {
+    return MakeError(Id::kTextureFormat, name, " has ", text...);
+  };
+  if ((desc.Flags & ~kKnown) != F::kNone) {
+    return fail("undefined flags ", Hex(static_cast<uint32_t>(desc.Flags)));
+  }
+  const bool depth = HasAny(desc.Flags, F::kAllowDepthStencil);
+  const bool color = HasAny(desc.Flags, F::kAllowRenderTarget);
+  if (depth && HasAny(desc.Flags, F::kAllowRenderTarget | F::kAllowUnorderedAccess)) {
+    return fail("kAllowDepthStencil, which does not go with render targets or unordered access");
+  }
+  if ((depth || color) && desc.Dimension != ResourceDimension::kTexture2D) {
+    return fail("a flag of targets, which must be 2-D textures");
+  }
+  if (HasAny(desc.Flags, F::kDenyShaderResource) && !depth) {
+    return fail("kDenyShaderResource without kAllowDepthStencil");
+  }
+  if (depth && GetDepthFormat(desc.Format) == Format::kUnknown) {
+    return fail("kAllowDepthStencil and DXGI format ", static_cast<uint32_t>(desc.Format),
+                "; it must be a depth format or typeless: R32, R16, R24G8 or R32G8X24");
+  }
+  if (!depth && IsDepthFormat(desc.Format)) {
+    return fail("depth format ", static_cast<uint32_t>(desc.Format),
+                ", which needs the flag kAllowDepthStencil");
+  }
+  return {};
+}
+
+// Whether draws can write to a texture as its flags say. Typeless formats are tried by their views.
+Status CheckTargetSupport(const DeviceImpl& device, const TextureDesc& desc) {
+  const bool depth = HasAny(desc.Flags, ResourceFlags::kAllowDepthStencil);
+  if (!depth && !HasAny(desc.Flags, ResourceFlags::kAllowRenderTarget)) return {};
+  const Format format = depth ? GetDepthFormat(desc.Format) : desc.Format;
+  if (GetFormatInfo(format).type == FormatClass::kTypeless) return {};
+  if (device.backend->supports_target(format, false)) return {};
+  return MakeError(Id::kTargetFormat, Named("texture", desc.Name), " has DXGI format ",
+                   static_cast<uint32_t>(desc.Format), ", which this backend cannot draw to");
+}
+
 Status CheckTexture(const TextureDesc& desc) {
   const std::string name = Named("texture", desc.Name);
   const auto d = desc.Dimension;
@@ -94,10 +138,7 @@ Status CheckTexture(const TextureDesc& desc) {
                      static_cast<uint32_t>(desc.Format),
                      "; only the uncompressed colour formats of rtapi/format.h are supported");
   }
-  if ((desc.Flags & ~ResourceFlags::kAllowUnorderedAccess) != ResourceFlags::kNone) {
-    return MakeError(Id::kTextureFormat, name, " has undefined flags ",
-                     Hex(static_cast<uint32_t>(desc.Flags)));
-  }
+  if (Status s = CheckTextureFlags(desc, name); !s.ok()) return s;
   if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
     return MakeError(Id::kAccelerationStructureBuffer, name,
                      " is a texture; only buffers hold acceleration structures");
@@ -130,8 +171,8 @@ uint32_t ArraySize(const TextureDesc& desc) {
 uint32_t FormatFamily(Format format) {
   const auto f = static_cast<uint32_t>(format);
   // First and last number of each DXGI format family, including its typeless member.
-  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18},
-                                              {23, 25}, {27, 32}, {33, 38}, {39, 43},
+  static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {19, 22},
+                                              {23, 25}, {27, 32}, {33, 38}, {39, 43}, {44, 47},
                                               {48, 52}, {53, 59}, {60, 64}};
   for (const auto& family : kFamilies) {
     if (f >= family[0] && f <= family[1]) return family[0];
@@ -219,6 +260,7 @@ Result<Texture> Device::CreateTexture(const TextureDesc& desc) const {
   if (!impl_) return MakeError(Id::kNullHandle, "CreateTexture on an empty device handle");
   if (Status s = impl_->removed(); !s.ok()) return s.error();
   if (Status s = CheckTexture(desc); !s.ok()) return s.error();
+  if (Status s = CheckTargetSupport(*impl_, desc); !s.ok()) return s.error();
   TextureDesc resolved = desc;
   if (resolved.MipLevels == 0) resolved.MipLevels = static_cast<uint16_t>(FullMipCount(desc));
   auto memory = impl_->backend->create_texture(resolved);

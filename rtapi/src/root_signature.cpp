@@ -93,13 +93,17 @@ Status CheckTable(RootDescriptorTable& table, const std::string& where) {
   return {};
 }
 
-Status CheckParameter(RootParameter& parameter, uint32_t index) {
+Status CheckVisibility(ShaderVisibility visibility, bool local, const std::string& where) {
+  if (visibility == ShaderVisibility::kAll) return {};
+  if (!local && visibility <= ShaderVisibility::kMesh) return {};
+  return MakeError(Id::kRootSignatureVisibility, where, " has visibility ",
+                   static_cast<uint32_t>(visibility), "; it must be ",
+                   local ? "kAll, as in every local root signature" : "0 to 7");
+}
+
+Status CheckParameter(RootParameter& parameter, uint32_t index, bool local) {
   const std::string where = Text("parameter ", index);
-  if (parameter.ShaderVisibility != ShaderVisibility::kAll) {
-    return MakeError(Id::kRootSignatureVisibility, where, " has visibility ",
-                     static_cast<uint32_t>(parameter.ShaderVisibility),
-                     "; compute and ray tracing need kAll");
-  }
+  if (Status s = CheckVisibility(parameter.ShaderVisibility, local, where); !s.ok()) return s;
   switch (parameter.ParameterType) {
     case RootParameterType::kDescriptorTable:
       return CheckTable(parameter.DescriptorTable, where);
@@ -135,11 +139,8 @@ Status CheckStaticSamplers(const RootSignatureDesc& desc) {
   for (size_t i = 0; i < desc.StaticSamplers.size(); ++i) {
     const StaticSamplerDesc& sampler = desc.StaticSamplers[i];
     const std::string where = Text("static sampler ", i);
-    if (sampler.ShaderVisibility != ShaderVisibility::kAll) {
-      return MakeError(Id::kRootSignatureVisibility, where, " has visibility ",
-                       static_cast<uint32_t>(sampler.ShaderVisibility),
-                       "; compute and ray tracing need kAll");
-    }
+    const bool local = HasAny(desc.Flags, RootSignatureFlags::kLocalRootSignature);
+    if (Status s = CheckVisibility(sampler.ShaderVisibility, local, where); !s.ok()) return s;
     if (sampler.BorderColor > StaticBorderColor::kOpaqueWhite) {
       return MakeError(Id::kStaticSamplerInvalid, where, ": BorderColor is ",
                        static_cast<uint32_t>(sampler.BorderColor), "; it must be 0 to 2");
@@ -154,22 +155,18 @@ Status CheckStaticSamplers(const RootSignatureDesc& desc) {
 }
 
 Status CheckOverlaps(const RootSignatureDesc& desc) {
-  auto ranges = GetRegisterRanges(desc);
-  std::sort(ranges.begin(), ranges.end(), [](const RegisterRange& a, const RegisterRange& b) {
-    return std::tie(a.register_class, a.space, a.first) <
-           std::tie(b.register_class, b.space, b.first);
-  });
-  // Sorted by start: if any two ranges overlap, some range overlaps its neighbour.
-  for (size_t i = 1; i < ranges.size(); ++i) {
-    if (!Overlap(ranges[i - 1], ranges[i])) {
-      continue;
+  const auto ranges = GetRegisterRanges(desc);
+  for (size_t i = 0; i < ranges.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      if (!Overlap(ranges[k], ranges[i])) continue;
+      const RegisterRange& a = ranges[k];
+      const RegisterRange& b = ranges[i];
+      return MakeError(Id::kRootSignatureOverlap,
+                       RegisterText(b.register_class, std::max(a.first, b.first), b.space),
+                       " is bound by ", a.static_sampler ? "static sampler " : "parameter ",
+                       a.parameter, " and by ", b.static_sampler ? "static sampler " : "parameter ",
+                       b.parameter);
     }
-    const RegisterRange& b = ranges[i];
-    return MakeError(Id::kRootSignatureOverlap, RegisterText(b.register_class, b.first, b.space),
-                     " is bound by ",
-                     ranges[i - 1].static_sampler ? "static sampler " : "parameter ",
-                     ranges[i - 1].parameter, " and by ",
-                     b.static_sampler ? "static sampler " : "parameter ", b.parameter);
   }
   return {};
 }
@@ -229,26 +226,30 @@ std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc) {
         const uint64_t end = r.NumDescriptors == kUnboundedDescriptors
                                  ? kRegisterEnd
                                  : uint64_t{r.BaseShaderRegister} + r.NumDescriptors;
-        out.push_back({ClassOf(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false});
+        out.push_back({ClassOf(r.RangeType), r.RegisterSpace, r.BaseShaderRegister, end, i, false,
+                       p.ShaderVisibility});
       }
       continue;
     }
     const bool constants = p.ParameterType == RootParameterType::k32BitConstants;
     const uint32_t first = constants ? p.Constants.ShaderRegister : p.Descriptor.ShaderRegister;
     const uint32_t space = constants ? p.Constants.RegisterSpace : p.Descriptor.RegisterSpace;
-    out.push_back({ClassOf(p.ParameterType), space, first, uint64_t{first} + 1, i, false});
+    out.push_back({ClassOf(p.ParameterType), space, first, uint64_t{first} + 1, i, false,
+                   p.ShaderVisibility});
   }
   for (uint32_t i = 0; i < desc.StaticSamplers.size(); ++i) {
     const StaticSamplerDesc& s = desc.StaticSamplers[i];
     out.push_back({RegisterClass::kSampler, s.RegisterSpace, s.ShaderRegister,
-                   uint64_t{s.ShaderRegister} + 1, i, true});
+                   uint64_t{s.ShaderRegister} + 1, i, true, s.ShaderVisibility});
   }
   return out;
 }
 
 bool Overlap(const RegisterRange& a, const RegisterRange& b) {
-  return a.register_class == b.register_class && a.space == b.space && a.first < b.end &&
-         b.first < a.end;
+  const bool seen_together = a.visibility == ShaderVisibility::kAll ||
+                             b.visibility == ShaderVisibility::kAll || a.visibility == b.visibility;
+  return seen_together && a.register_class == b.register_class && a.space == b.space &&
+         a.first < b.end && b.first < a.end;
 }
 
 std::string RegisterText(RegisterClass register_class, uint32_t index, uint32_t space) {
@@ -262,7 +263,7 @@ bool SameSampler(const StaticSamplerDesc& a, const StaticSamplerDesc& b) {
   auto key = [](const StaticSamplerDesc& s) {
     return std::tie(s.Filter, s.AddressU, s.AddressV, s.AddressW, s.MipLODBias, s.MaxAnisotropy,
                     s.ComparisonFunc, s.BorderColor, s.MinLOD, s.MaxLOD, s.ShaderRegister,
-                    s.RegisterSpace);
+                    s.RegisterSpace, s.ShaderVisibility);
   };
   return key(a) == key(b);
 }
@@ -278,7 +279,8 @@ bool SameDefinition(const RootSignature& a, const RootSignature& b) {
            r.OffsetInDescriptorsFromTableStart == s.OffsetInDescriptorsFromTableStart;
   };
   auto same_parameter = [&](const RootParameter& p, const RootParameter& q) {
-    if (p.ParameterType != q.ParameterType) return false;
+    if (p.ParameterType != q.ParameterType || p.ShaderVisibility != q.ShaderVisibility)
+      return false;
     if (p.ParameterType == RootParameterType::kDescriptorTable) {
       return std::equal(p.DescriptorTable.Ranges.begin(), p.DescriptorTable.Ranges.end(),
                         q.DescriptorTable.Ranges.begin(), q.DescriptorTable.Ranges.end(),
@@ -306,7 +308,8 @@ Result<RootSignature> MakeRootSignature(const std::shared_ptr<DeviceImpl>& devic
   impl->desc = desc;
   if (Status s = CheckFlags(desc.Flags); !s.ok()) return s.error();
   for (uint32_t i = 0; i < desc.Parameters.size(); ++i) {
-    if (Status s = CheckParameter(impl->desc.Parameters[i], i); !s.ok()) return s.error();
+    if (Status s = CheckParameter(impl->desc.Parameters[i], i, impl->is_local()); !s.ok())
+      return s.error();
   }
   if (Status s = CheckStaticSamplers(desc); !s.ok()) return s.error();
   if (Status s = CheckOverlaps(impl->desc); !s.ok()) return s.error();

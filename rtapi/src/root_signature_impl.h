@@ -34,8 +34,10 @@ struct RegisterRange {
   uint64_t end = 0;        // one past the last; 2^32 if unbounded
   uint32_t parameter = 0;  // its index; for static samplers, the sampler's
   bool static_sampler = false;
+  ShaderVisibility visibility = ShaderVisibility::kAll;
 };
 std::vector<RegisterRange> GetRegisterRanges(const RootSignatureDesc& desc);
+// Whether some shader sees a register of both.
 bool Overlap(const RegisterRange& a, const RegisterRange& b);
 std::string RegisterText(shader::RegisterClass register_class, uint32_t index, uint32_t space);
 

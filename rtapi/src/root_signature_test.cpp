@@ -70,9 +70,22 @@ TEST_F(RootSignatureTest, ROOT_08_LocalFlagStandsAlone) {
   EXPECT_ERROR(device_.CreateRootSignature(desc), "KA0602");
 }
 
-TEST_F(RootSignatureTest, ROOT_09_VisibilityIsAll) {
-  EXPECT_ERROR(Make("SRV(t0, visibility=SHADER_VISIBILITY_PIXEL)"), "KA0603", "parameter 0");
-  EXPECT_ERROR(Make("StaticSampler(s0, visibility=SHADER_VISIBILITY_PIXEL)"), "KA0603");
+TEST_F(RootSignatureTest, ROOT_09_LocalVisibilityIsAll) {
+  RootParameter parameter = RootParameter::Srv(0);
+  parameter.ShaderVisibility = ShaderVisibility::kPixel;
+  EXPECT_ERROR(device_.CreateRootSignature(Local({parameter})), "KA0603", "parameter 0");
+  parameter.ShaderVisibility = static_cast<ShaderVisibility>(8);
+  EXPECT_ERROR(device_.CreateRootSignature({.Parameters = {parameter}}), "KA0603", "0 to 7");
+}
+
+TEST_F(RootSignatureTest, StagesMayShareRegisters) {
+  EXPECT_OK(
+      Make("CBV(b0, visibility=SHADER_VISIBILITY_VERTEX), "
+           "CBV(b0, visibility=SHADER_VISIBILITY_PIXEL)"));
+  EXPECT_ERROR(Make("CBV(b0, visibility=SHADER_VISIBILITY_VERTEX), CBV(b0)"), "KA0604", "b0");
+  EXPECT_OK(
+      Make("StaticSampler(s0, visibility=SHADER_VISIBILITY_PIXEL), "
+           "StaticSampler(s0, visibility=SHADER_VISIBILITY_VERTEX)"));
 }
 
 TEST_F(RootSignatureTest, OverlapsAreFoundBetweenAllKinds) {

@@ -32,7 +32,7 @@ Status WriteSlot(const DeviceImpl& device, CpuDescriptorHandle dest, const Descr
   const auto slot = device.FindSlot(dest);
   if (!slot || slot->type != DescriptorHeapType::kCbvSrvUav) {
     return MakeError(Id::kDescriptorHandle, "view: ", Hex(dest.ptr),
-                     slot ? " is in a sampler heap" : " is not in a live descriptor heap");
+                     slot ? " is in a heap of another type" : " is not in a live descriptor heap");
   }
   std::memcpy(slot->slot, &value, sizeof value);
   return {};
@@ -70,7 +70,13 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
     return view.stride;
   }
   const FormatInfo info = GetFormatInfo(view.format);
-  const bool typed = info.type != FormatClass::kUnsupported && info.type != FormatClass::kTypeless;
+  // Formats of textures with depth, or depth and stencil, are none of buffers.
+  const uint32_t family = FormatFamily(view.format);
+  const bool of_depth = IsDepthFormat(view.format) ||
+                        family == static_cast<uint32_t>(Format::kR32G8X24Typeless) ||
+                        family == static_cast<uint32_t>(Format::kR24G8Typeless);
+  const bool typed = info.type != FormatClass::kUnsupported &&
+                     info.type != FormatClass::kTypeless && !of_depth;
   if (!typed || !device.backend->supports_format(view.format, uav)) {
     return MakeError(Id::kViewFormat, "typed view of ", name, " has format ",
                      static_cast<uint32_t>(view.format),
@@ -175,6 +181,13 @@ Status CheckViewFormat(const DeviceImpl& device, const Texture& texture, const T
   const FormatInfo info = GetFormatInfo(view.format);
   const bool castable = view.format == own || (GetFormatInfo(own).type == FormatClass::kTypeless &&
                                                FormatFamily(own) == FormatFamily(view.format));
+  if (IsDepthFormat(view.format)) {
+    return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
+                     Named("texture", texture.name()),
+                     " is a depth format, which shaders cannot read; create the texture with the "
+                     "typeless format of the family, and view it as R32_FLOAT, R16_UNORM, "
+                     "R24_UNORM_X8_TYPELESS or R32_FLOAT_X8X24_TYPELESS");
+  }
   if (info.type == FormatClass::kUnsupported || info.type == FormatClass::kTypeless || !castable) {
     return MakeError(Id::kViewFormat, "view format ", static_cast<uint32_t>(view.format), " of ",
                      Named("texture", texture.name()), " with format ", static_cast<uint32_t>(own),
@@ -245,6 +258,10 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
   if (view.uav && !HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
     return MakeError(Id::kViewAccess, Named("texture", desc.Name),
                      " was created without kAllowUnorderedAccess; add the flag to its TextureDesc");
+  }
+  if (!view.uav && HasAny(desc.Flags, ResourceFlags::kDenyShaderResource)) {
+    return MakeError(Id::kViewAccess, Named("texture", desc.Name),
+                     " was created with kDenyShaderResource; shaders cannot read it");
   }
   if (view.format == Format::kUnknown) view.format = desc.Format;
   if (Status s = CheckViewFormat(*device, texture, view); !s.ok()) return s;

@@ -45,6 +45,9 @@ class LibraryBuilder {
     e.stack_bytes = 100;
     if (stage == shader::Stage::kCompute) {
       e.compute = &kKernel;
+    } else if (stage == shader::Stage::kVertex || stage == shader::Stage::kPixel) {
+      graphics_.push_back({});
+      e.graphics = &graphics_.back();
     } else if (stage != shader::Stage::kLibrary) {
       e.entry = [] {};
     }
@@ -53,6 +56,46 @@ class LibraryBuilder {
     e.binding_count = static_cast<uint32_t>(used_.back().size());
     exports_.push_back(e);
     return exports_.back();
+  }
+
+  // A vertex or pixel shader with these inputs and outputs; columns are assigned in order.
+  shader::ExportDesc& GraphicsExport(std::string name, shader::Stage stage,
+                                     std::vector<shader::SignatureElement> inputs,
+                                     std::vector<shader::SignatureElement> outputs,
+                                     std::vector<uint32_t> bindings = {}) {
+    shader::ExportDesc& e = Export(std::move(name), stage, std::move(bindings));
+    shader::GraphicsDesc& g = graphics_.back();
+    const auto keep = [this](std::vector<shader::SignatureElement> elements, uint32_t& columns) {
+      for (shader::SignatureElement& element : elements) {
+        element.first_column = columns;
+        element.file = name_.c_str();
+        columns += element.components;
+      }
+      elements_.push_back(std::move(elements));
+      return elements_.back().data();
+    };
+    g.input_count = static_cast<uint32_t>(inputs.size());
+    g.inputs = keep(std::move(inputs), g.input_columns);
+    g.output_count = static_cast<uint32_t>(outputs.size());
+    g.outputs = keep(std::move(outputs), g.output_columns);
+    g.vertex = [](shader::Invocation&, const shader::VertexLanes&) {};
+    g.pixel = [](shader::Invocation&, shader::PixelLanes&) {};
+    return e;
+  }
+  // "float3 COLOR1", for GraphicsExport.
+  static shader::SignatureElement Element(const char* semantic, uint32_t index, uint8_t components,
+                                          shader::ColumnType type = shader::ColumnType::kFloat,
+                                          shader::SystemValue value = shader::SystemValue::kNone) {
+    shader::SignatureElement e = {};
+    e.semantic = semantic;
+    e.semantic_index = index;
+    e.system_value = value;
+    e.type = type;
+    e.interpolation = type == shader::ColumnType::kFloat ? shader::Interpolation::kLinear
+                                                         : shader::Interpolation::kNoInterpolation;
+    e.components = components;
+    e.line = 7;
+    return e;
   }
 
   void Subobject(std::string name, uint32_t type, std::vector<std::string> strings,
@@ -99,6 +142,8 @@ class LibraryBuilder {
   std::deque<std::string> strings_;
   std::deque<std::vector<uint32_t>> used_;
   std::deque<shader::ExportDesc> exports_;
+  std::deque<shader::GraphicsDesc> graphics_;
+  std::deque<std::vector<shader::SignatureElement>> elements_;
   std::vector<shader::ExportDesc> flat_exports_;
   std::vector<shader::BindingDesc> bindings_;
   std::vector<shader::SubobjectDesc> subobjects_;

@@ -57,6 +57,12 @@ class NullBackend : public runtime::BackendDevice {
   bool supports_format(Format format, bool) const override {
     return GetFormatInfo(format).type != FormatClass::kUnsupported;
   }
+  // All but R9G9B9E5; SNORM cannot be blended, as on lavapipe.
+  bool supports_target(Format format, bool blended) const override {
+    const FormatClass type = GetFormatInfo(format).type;
+    return type != FormatClass::kUnsupported && format != Format::kR9G9B9E5Sharedexp &&
+           (!blended || type != FormatClass::kSnorm);
+  }
 
   Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const runtime::LinkedPipeline> linked) override {
@@ -70,6 +76,14 @@ class NullBackend : public runtime::BackendDevice {
     auto pipeline = std::make_shared<NullPipeline>();
     g_log.last_compute = linked;
     pipeline->compute = std::move(linked);
+    return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
+  }
+
+  Result<std::shared_ptr<runtime::BackendPipeline>> create_graphics_pipeline(
+      std::shared_ptr<const runtime::LinkedGraphics> linked) override {
+    auto pipeline = std::make_shared<NullPipeline>();
+    g_log.last_graphics = linked;
+    pipeline->graphics = std::move(linked);
     return std::shared_ptr<runtime::BackendPipeline>(std::move(pipeline));
   }
 

@@ -16,6 +16,7 @@ namespace rtapi::testing {
 struct NullPipeline : kaamos::runtime::BackendPipeline {
   std::shared_ptr<const kaamos::runtime::LinkedPipeline> raytracing;
   std::shared_ptr<const kaamos::runtime::LinkedCompute> compute;
+  std::shared_ptr<const kaamos::runtime::LinkedGraphics> graphics;
 };
 
 // What the backend of one device saw.
@@ -25,6 +26,7 @@ struct NullLog {
   std::vector<SamplerDesc> samplers;
   std::shared_ptr<const kaamos::runtime::LinkedPipeline> last_raytracing;
   std::shared_ptr<const kaamos::runtime::LinkedCompute> last_compute;
+  std::shared_ptr<const kaamos::runtime::LinkedGraphics> last_graphics;
   Status fail_next_execute;  // returned once
 };
 

@@ -18,7 +18,6 @@
 #include <rtapi/root_signature.h>
 
 #include "runtime/backend/draw_commands.h"
-#include "runtime/backend/draw_commands.h"
 #include "runtime/backend/root_bindings.h"
 
 namespace kaamos::runtime {

@@ -47,8 +47,7 @@ class Executor {
     return target_.clear_target(command);
   }
   rtapi::Status operator()(const BarrierCommand&) {
-    target_.barrier();
-    return {};
+    return target_.barrier();
   }
   rtapi::Status operator()(const EventCommand& command) {
     if (command.begin) {

@@ -10,6 +10,7 @@
 #include "runtime/backend/errors.h"
 #include "runtime/backend/wave_size.h"
 #include "runtime/embree/state_object.h"
+#include "runtime/raster/target_codec.h"
 #include "runtime/shader/texture/format_codec.h"
 
 namespace kaamos::embree {
@@ -191,6 +192,18 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_
   }
   return std::shared_ptr<runtime::BackendPipeline>(
       std::make_shared<ComputePipeline>(std::move(pipeline)));
+}
+
+bool Device::supports_target(rtapi::Format format, bool blended) const {
+  if (rtapi::IsDepthFormat(format)) return !blended;
+  const raster::TargetCodec& codec = raster::target_codec(format);
+  return codec.bytes != 0 && !(blended && codec.integer);
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(
+    std::shared_ptr<const runtime::LinkedGraphics> pipeline) {
+  return std::shared_ptr<runtime::BackendPipeline>(
+      std::make_shared<GraphicsPipeline>(std::move(pipeline)));
 }
 
 rtapi::RaytracingAccelerationStructurePrebuildInfo Device::prebuild_info(

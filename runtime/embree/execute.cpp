@@ -9,42 +9,59 @@
 #include "runtime/backend/executor.h"
 #include "runtime/embree/acceleration_structure.h"
 #include "runtime/embree/device.h"
+#include "runtime/embree/draw.h"
 #include "runtime/embree/texture.h"
+#include "runtime/raster/clear.h"
 
 namespace kaamos::embree {
 namespace {
 
 class Target final : public runtime::CommandTarget {
  public:
-  explicit Target(Device& device) : device_(device) {}
+  explicit Target(Device& device) : device_(device), pass_(device.dispatch_environment()) {}
 
   runtime::DispatchOutcome dispatch_rays(const runtime::DispatchRaysCommand& command,
                                          const std::string& label) override {
+    if (auto s = finish(); !s) return {s};
     if (auto s = complete_top_levels(device_); !s) return {s};
     return counted(embree::dispatch_rays(device_.dispatch_environment(), command, label));
   }
   runtime::DispatchOutcome dispatch(const runtime::DispatchCommand& command,
                                     const std::string& label) override {
+    if (auto s = finish(); !s) return {s};
     if (auto s = complete_top_levels(device_); !s) return {s};
     return counted(dispatch_compute(device_.dispatch_environment(), command, label));
   }
+  rtapi::Status draw(const runtime::DrawCommand& command, const std::string& label) override {
+    // Shaders may trace rays.
+    if (auto s = complete_top_levels(device_); !s) return s;
+    return reported(pass_.draw(command, label));
+  }
+  rtapi::Status clear_target(const runtime::ClearTargetCommand& command) override {
+    if (auto s = finish(); !s) return s;
+    raster::clear(surface_of(command.view), command);
+    return {};
+  }
   rtapi::Status build(const runtime::BuildCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return embree::build(device_, command);
   }
   rtapi::Status emit_postbuild_info(const runtime::EmitPostbuildInfoCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return runtime::emit_postbuild_info(device_.structure_environment(), command.desc,
                                         command.sources);
   }
   rtapi::Status copy_structure(const runtime::CopyAccelerationStructureCommand& command) override {
+    if (auto s = finish(); !s) return s;
     return copy(device_, command);
   }
   rtapi::Status copy_buffer(const runtime::CopyBufferCommand& command,
                             const std::string& label) override;
   rtapi::Status copy_texture(const runtime::CopyTextureCommand& command) override;
   rtapi::Status clear(const runtime::ClearUavCommand& command) override;
-  // Nothing overlaps.
-  void barrier() override {}
-  rtapi::Status finish() override { return {}; }
+  // Only draws wait; nothing overlaps.
+  rtapi::Status barrier() override { return finish(); }
+  rtapi::Status finish() override { return reported(pass_.flush()); }
 
  private:
   runtime::DispatchOutcome counted(CountedOutcome result) {
@@ -52,10 +69,21 @@ class Target final : public runtime::CommandTarget {
     return result;
   }
 
+  // Warnings of draws go out when they have run, which may be later than their commands.
+  rtapi::Status reported(CountedOutcome result) {
+    device_.add_counters(result.counters);
+    for (const auto& warning : result.warnings) {
+      device_.context().message(runtime::make_message(warning.id, warning.text));
+    }
+    return std::move(result.status);
+  }
+
   Device& device_;
+  DrawPass pass_;
 };
 
 rtapi::Status Target::copy_buffer(const runtime::CopyBufferCommand& command, const std::string&) {
+  if (auto s = finish(); !s) return s;
   device_.memory().evict(command.dest->address() + command.dest_offset, command.size_bytes);
   std::memmove(command.dest->host() + command.dest_offset,
                command.source->host() + command.source_offset, command.size_bytes);
@@ -86,6 +114,7 @@ Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t texel_bytes) {
 }
 
 rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
+  if (auto s = finish(); !s) return s;
   const uint32_t texel_bytes =
       std::max(texel_bytes_of(command.dest), texel_bytes_of(command.source));
   const Rows dest = rows_of(command.dest, texel_bytes);
@@ -101,6 +130,7 @@ rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
 }
 
 rtapi::Status Target::clear(const runtime::ClearUavCommand& command) {
+  if (auto s = finish(); !s) return s;
   if (command.view.kind != shader::DescriptorKind::kTexture) {
     device_.memory().evict(command.view.address, command.view.size_bytes);
   }
@@ -112,7 +142,8 @@ rtapi::Status Target::clear(const runtime::ClearUavCommand& command) {
 
 rtapi::Status Device::execute(std::span<const runtime::Command> commands) {
   Target target(*this);
-  return runtime::execute(commands, target, context_);
+  auto status = runtime::execute(commands, target, context_);
+  return status ? target.finish() : status;
 }
 
 }  // namespace kaamos::embree

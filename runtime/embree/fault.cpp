@@ -192,9 +192,12 @@ void record_removal(Worker& worker) {
   RunningDispatch& dispatch = *worker.dispatch;
   std::string text = detail_of(worker) + " (" + dispatch.label;
   if (worker.running != nullptr) {
-    text += std::string(", shader \"") + worker.running->name + "\" at (" +
-            std::to_string(worker.fault_index[0]) + "," + std::to_string(worker.fault_index[1]) +
-            "," + std::to_string(worker.fault_index[2]) + ")";
+    text += std::string(", shader \"") + worker.running->name + "\"";
+    if (worker.index != nullptr) {
+      text += " at (" + std::to_string(worker.fault_index[0]) + "," +
+              std::to_string(worker.fault_index[1]) + "," + std::to_string(worker.fault_index[2]) +
+              ")";
+    }
   }
   text += ").";
   const std::lock_guard lock(dispatch.mutex);

@@ -51,4 +51,9 @@ const RecordTarget* RaytracingPipeline::find(const void* self, const uint8_t* id
 ComputePipeline::ComputePipeline(std::shared_ptr<const runtime::LinkedCompute> linked)
     : linked_(std::move(linked)), shader_(flatten(linked_->shader, 0)) {}
 
+GraphicsPipeline::GraphicsPipeline(std::shared_ptr<const runtime::LinkedGraphics> linked)
+    : linked_(std::move(linked)), vertex_(flatten(linked_->vertex, 0)) {
+  if (linked_->has_pixel()) pixel_ = flatten(linked_->pixel, 1);
+}
+
 }  // namespace kaamos::embree

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Ray tracing and compute pipelines as this backend runs them: linked exports, flattened to what a
-// call needs.
+// Ray tracing, compute and graphics pipelines as this backend runs them: linked exports, flattened
+// to what a call needs.
 #pragma once
 
 #include <deque>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "runtime/backend/backend.h"
+#include "runtime/backend/linked_graphics.h"
 #include "runtime/embree/shader_record.h"
 
 namespace kaamos::embree {
@@ -43,6 +44,20 @@ class ComputePipeline final : public runtime::BackendPipeline {
  private:
   std::shared_ptr<const runtime::LinkedCompute> linked_;
   Shader shader_;
+};
+
+class GraphicsPipeline final : public runtime::BackendPipeline {
+ public:
+  explicit GraphicsPipeline(std::shared_ptr<const runtime::LinkedGraphics> linked);
+
+  const runtime::LinkedGraphics& linked() const { return *linked_; }
+  const Shader& vertex() const { return vertex_; }
+  const Shader& pixel() const { return pixel_; }  // runs nothing if there is none
+
+ private:
+  std::shared_ptr<const runtime::LinkedGraphics> linked_;
+  Shader vertex_;
+  Shader pixel_;
 };
 
 }  // namespace kaamos::embree

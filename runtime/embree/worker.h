@@ -114,7 +114,7 @@ struct alignas(64) Worker {
   uint64_t stack_left = UINT64_MAX;  // bytes of the pipeline's stack [DXR: Pipeline stack]
   uintptr_t stack_limit = 0;         // no shader is called with less stack than this
   const Shader* running = nullptr;   // the shader that is executing: for messages
-  const uint32_t* index = nullptr;   // its DispatchRaysIndex or thread group
+  const uint32_t* index = nullptr;   // its DispatchRaysIndex or thread group; null: a draw
   sigjmp_buf* jump = nullptr;        // where a fault ends the tile
   // Set by the signal handler or by remove_device before the jump.
   shader::RemovalReason fault_reason = shader::RemovalReason::kOther;

@@ -87,6 +87,15 @@ rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_raytraci
   return RaytracingPipeline::create(layout_, std::move(pipeline));
 }
 
+bool Device::supports_target(rtapi::Format, bool) const {
+  return false;
+}
+
+rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_graphics_pipeline(
+    std::shared_ptr<const runtime::LinkedGraphics>) {
+  return runtime::make_error(runtime::Id::kNoGraphics, "this is the Vulkan backend.");
+}
+
 rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> Device::create_compute_pipeline(
     std::shared_ptr<const runtime::LinkedCompute> pipeline) {
   return ComputePipeline::create(layout_, std::move(pipeline));

@@ -33,10 +33,13 @@ class Device final : public runtime::BackendDevice {
                                               const runtime::TextureViewDesc& desc) override;
   rtapi::Result<uint64_t> create_sampler(const rtapi::SamplerDesc& desc) override;
   bool supports_format(rtapi::Format format, bool unordered_access) const override;
+  bool supports_target(rtapi::Format format, bool blended) const override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_raytracing_pipeline(
       std::shared_ptr<const runtime::LinkedPipeline> pipeline) override;
   rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_compute_pipeline(
       std::shared_ptr<const runtime::LinkedCompute> pipeline) override;
+  rtapi::Result<std::shared_ptr<runtime::BackendPipeline>> create_graphics_pipeline(
+      std::shared_ptr<const runtime::LinkedGraphics> pipeline) override;
   rtapi::RaytracingAccelerationStructurePrebuildInfo prebuild_info(
       rtapi::RaytracingAccelerationStructureType type,
       rtapi::RaytracingAccelerationStructureBuildFlags flags,

@@ -24,6 +24,9 @@ class Target final : public runtime::CommandTarget {
                                     const std::string& label) override {
     return counted(dispatch_compute(device_.dispatch_environment(), command, label));
   }
+  // Without graphics pipelines and targets there is nothing to record.
+  rtapi::Status draw(const runtime::DrawCommand&, const std::string&) override { return {}; }
+  rtapi::Status clear_target(const runtime::ClearTargetCommand&) override { return {}; }
   rtapi::Status build(const runtime::BuildCommand& command) override {
     return device_.structures().build(device_.stream(), command);
   }
@@ -49,7 +52,10 @@ class Target final : public runtime::CommandTarget {
     }
     return device_.textures().clear(device_.stream(), command);
   }
-  void barrier() override { device_.stream().everything(); }
+  rtapi::Status barrier() override {
+    device_.stream().everything();
+    return {};
+  }
   rtapi::Status finish() override { return device_.stream().flush(); }
 
  private:

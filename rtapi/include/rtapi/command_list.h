@@ -12,6 +12,7 @@
 
 #include <rtapi/command_signature.h>
 #include <rtapi/descriptor.h>
+#include <rtapi/graphics_pipeline.h>
 #include <rtapi/pipeline_state.h>
 #include <rtapi/raytracing.h>
 #include <rtapi/resource.h>
@@ -25,7 +26,8 @@ namespace detail {
 struct CommandListImpl;
 }
 
-/// A compute command list; open when created. A copyable handle, for one thread at a time.
+/// A command list for every kind of work; open when created. A copyable handle, for one thread at a
+/// time.
 ///
 /// Calls that record return nothing, as in D3D12: a call that breaks a rule is not recorded, its
 /// error is kept, and Close() returns the first of them. The errors listed below are those. On a
@@ -132,11 +134,34 @@ class CommandList {
   /// type; KA0810 the handle is in no heap of this type that is set.
   void SetComputeRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base);
 
-  /// Sets the pipeline of Dispatch, and unsets that of DispatchRays. Root arguments stay.
+  /// Root arguments of draws. They are separate from those of dispatches: setting one does not
+  /// touch the other. Otherwise as the calls with Compute in their names, with their errors.
+  /// [D3D12: SetGraphicsRootSignature, SetGraphicsRoot...]
+  /// @errors KA0800; KA0536, KA0903, KA0904 the root signature; KA0805, KA0807-KA0810 an argument.
+  ///@{
+  void SetGraphicsRootSignature(const RootSignature& root_signature);
+  void SetGraphicsRoot32BitConstant(uint32_t parameter, uint32_t value,
+                                    uint32_t dest_offset_dwords);
+  void SetGraphicsRoot32BitConstants(uint32_t parameter, uint32_t count, const void* values,
+                                     uint32_t dest_offset_dwords);
+  template <class T>
+  void SetGraphicsRoot32BitConstants(uint32_t parameter, const T& value) {
+    static_assert(sizeof(T) % 4 == 0 && std::is_trivially_copyable_v<T>);
+    SetGraphicsRoot32BitConstants(parameter, sizeof(T) / 4, &value, 0);
+  }
+  void SetGraphicsRootConstantBufferView(uint32_t parameter, GpuVirtualAddress address);
+  void SetGraphicsRootShaderResourceView(uint32_t parameter, GpuVirtualAddress address);
+  void SetGraphicsRootUnorderedAccessView(uint32_t parameter, GpuVirtualAddress address);
+  void SetGraphicsRootDescriptorTable(uint32_t parameter, GpuDescriptorHandle base);
+  ///@}
+
+  /// Sets the pipeline of Dispatch or of draws, and unsets the other and that of DispatchRays. All
+  /// other state stays.
   /// [D3D12: SetPipelineState]
   /// @errors KA0800; KA0903 a pipeline of another device; KA0904 empty handle.
   void SetPipelineState(const PipelineState& pipeline);
-  /// Sets the pipeline of DispatchRays, and unsets that of Dispatch. Root arguments stay.
+  /// Sets the pipeline of DispatchRays, and unsets those of Dispatch and draws. All other state
+  /// stays.
   /// [DXR: SetPipelineState1]
   /// @errors KA0800; KA0811 a collection; KA0903 a state object of another device; KA0904 empty
   /// handle.
@@ -162,6 +187,81 @@ class CommandList {
   /// not the pipeline's; KA0814 more than 65535 groups in a dimension. When it executes: KA0892,
   /// KA0893, KA0897 as of DispatchRays. Checked mode: KA0400-0499.
   void Dispatch(uint32_t groups_x, uint32_t groups_y, uint32_t groups_z);
+  // Draws
+
+  /// Sets how the vertices of draws form triangles. [D3D12: IASetPrimitiveTopology]
+  /// @errors KA0800; KA0721 points, lines and patches; KA0740 a number that is no topology.
+  void IASetPrimitiveTopology(PrimitiveTopology topology);
+  /// Sets vertex buffers of slots start_slot, start_slot + 1, ... The views are copied; the buffers
+  /// must live until the list has executed. Each element reads zeros where its bytes are not all in
+  /// the view, and missing components are (0, 0, 0, 1). [D3D12: IASetVertexBuffers]
+  /// @errors KA0800; KA0741 a slot above 31, a stride above 2048, or an address in no live buffer.
+  void IASetVertexBuffers(uint32_t start_slot, std::span<const VertexBufferView> views);
+  /// Sets one vertex buffer.
+  /// @errors KA0800; KA0741 as of the overload with several.
+  void IASetVertexBuffers(uint32_t slot, const VertexBufferView& view) {
+    IASetVertexBuffers(slot, std::span<const VertexBufferView>(&view, 1));
+  }
+  /// Sets the index buffer, which must live until the list has executed; null: none, and every
+  /// index is 0. [D3D12: IASetIndexBuffer]
+  /// @errors KA0800; KA0741 the format, the alignment, or an address in no live buffer.
+  void IASetIndexBuffer(const IndexBufferView* view);
+  /// Sets all viewports; those that are not given are empty. At first all are. Draws use number 0,
+  /// or that which the vertex shader writes to SV_ViewportArrayIndex. [D3D12: RSSetViewports]
+  /// @errors KA0800; KA0742 more than 16, or numbers that are not finite or out of their range.
+  void RSSetViewports(std::span<const Viewport> viewports);
+  /// Sets one viewport.
+  /// @errors KA0800; KA0742 as of the overload with several.
+  void RSSetViewports(const Viewport& viewport) {
+    RSSetViewports(std::span<const Viewport>(&viewport, 1));
+  }
+  /// Sets the scissor rectangle of each viewport; those that are not given are empty. At first all
+  /// are, and nothing is drawn. [D3D12: RSSetScissorRects]
+  /// @errors KA0800; KA0742 more than 16.
+  void RSSetScissorRects(std::span<const Rect> rects);
+  /// Sets one scissor rectangle.
+  /// @errors KA0800; KA0742 as of the overload with several.
+  void RSSetScissorRects(const Rect& rect) { RSSetScissorRects(std::span<const Rect>(&rect, 1)); }
+  /// Sets what draws write to: `count` render targets by RTV handles, and a depth buffer by a DSV
+  /// handle or null. The descriptors are read now, so that their slots may be written anew; the
+  /// textures must live until the list has executed. [D3D12: OMSetRenderTargets]
+  /// @errors KA0800; KA0731 a handle without such a view; KA0742 more than 8 render targets, or a
+  /// null pointer to them.
+  void OMSetRenderTargets(uint32_t count, const CpuDescriptorHandle* render_targets,
+                          bool single_handle_to_descriptor_range = false,
+                          const CpuDescriptorHandle* depth_stencil = nullptr);
+  /// Sets the factor of Blend::kBlendFactor: red, green, blue, alpha; null and at first: ones.
+  /// [D3D12: OMSetBlendFactor]
+  /// @errors KA0800.
+  void OMSetBlendFactor(const float factor[4]);
+  /// Sets every texel of a render target view, or those in rectangles, to a colour, which is
+  /// converted to the format like a pixel shader's output. Viewports, scissors, masks and blending
+  /// do not count. [D3D12: ClearRenderTargetView]
+  /// @errors KA0800; KA0731 the handle; KA0743 a null pointer.
+  void ClearRenderTargetView(CpuDescriptorHandle view, const float color[4],
+                             std::span<const Rect> rects = {});
+  /// Sets depth (0 to 1), stencil, or both, of every texel of a depth-stencil view, or of those in
+  /// rectangles. [D3D12: ClearDepthStencilView]
+  /// @errors KA0800; KA0731 the handle; KA0743 no flag, an unknown one, or a depth that is not from
+  /// 0 to 1.
+  void ClearDepthStencilView(CpuDescriptorHandle view, ClearFlags flags, float depth,
+                             uint8_t stencil, std::span<const Rect> rects = {});
+  /// Draws vertices 0, 1, ... of each instance; nothing where a count is 0. State is that of now;
+  /// vertices, heaps and whatever addresses name are read when the list executes. Results in
+  /// targets and depth are as if triangles were drawn one after another, in order. [D3D12:
+  /// DrawInstanced]
+  /// @errors KA0800; KA0740 no topology is set; KA0811 no graphics pipeline is set; KA0812 the root
+  /// signature that is set is not the pipeline's. When it executes: KA0892, KA0893, KA0897 as of
+  /// Dispatch.
+  void DrawInstanced(uint32_t vertex_count_per_instance, uint32_t instance_count,
+                     uint32_t start_vertex_location, uint32_t start_instance_location);
+  /// Draws the vertices that indices name, with `base_vertex_location` added to each.
+  /// [D3D12: DrawIndexedInstanced]
+  /// @errors KA0800, KA0740, KA0811, KA0812 as of DrawInstanced.
+  void DrawIndexedInstanced(uint32_t index_count_per_instance, uint32_t instance_count,
+                            uint32_t start_index_location, int32_t base_vertex_location,
+                            uint32_t start_instance_location);
+
   /// Up to `max_command_count` dispatches whose arguments stand in `argument_buffer` when the list
   /// executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4, and
   /// the arguments of max_command_count commands lie inside the buffer. The pipeline and all other

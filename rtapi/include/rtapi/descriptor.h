@@ -16,7 +16,12 @@ struct DescriptorHeapImpl;
 }
 
 /// What a heap holds. [D3D12: D3D12_DESCRIPTOR_HEAP_TYPE]
-enum class DescriptorHeapType : uint32_t { kCbvSrvUav = 0, kSampler = 1 };
+enum class DescriptorHeapType : uint32_t {
+  kCbvSrvUav = 0,
+  kSampler = 1,
+  kRtv = 2,  ///< render target views; never shader-visible
+  kDsv = 3,  ///< depth-stencil views; never shader-visible
+};
 /// Whether shaders see a heap. [D3D12: D3D12_DESCRIPTOR_HEAP_FLAGS]
 enum class DescriptorHeapFlags : uint32_t { kNone = 0, kShaderVisible = 1 };
 template <>
@@ -24,7 +29,7 @@ inline constexpr bool kIsFlags<DescriptorHeapFlags> = true;
 
 /// Describes a heap for Device::CreateDescriptorHeap. [D3D12: D3D12_DESCRIPTOR_HEAP_DESC]
 struct DescriptorHeapDesc {
-  DescriptorHeapType Type = DescriptorHeapType::kCbvSrvUav;  ///< views or samplers
+  DescriptorHeapType Type = DescriptorHeapType::kCbvSrvUav;  ///< what it holds
   /// 1 to 1,000,000; shader-visible sampler heaps: to 2048.
   uint32_t NumDescriptors = 0;
   DescriptorHeapFlags Flags = DescriptorHeapFlags::kNone;  ///< kShaderVisible, to be set on a list

@@ -217,6 +217,24 @@ class Device {
   /// that are not all in one live buffer.
   Status CreateConstantBufferView(const ConstantBufferViewDesc& desc,
                                   CpuDescriptorHandle dest) const;
+  /// Writes a view of a texture that draws write colours to into slot `dest` of a living RTV heap.
+  /// An empty texture makes a null descriptor, which drops what is drawn. The view does not keep
+  /// the texture alive. [D3D12: CreateRenderTargetView]
+  /// @errors KA0904 empty device; KA0903 texture of another device; KA0731 `dest` is no such slot;
+  /// KA0730 dimension, format, mip, slices, or a texture without kAllowRenderTarget; KA0726 the
+  /// backend cannot draw to the format.
+  ///@{
+  Status CreateRenderTargetView(const Texture& texture, const RenderTargetViewDesc& desc,
+                                CpuDescriptorHandle dest) const;
+  Status CreateRenderTargetView(const Texture& texture, CpuDescriptorHandle dest) const;
+  ///@}
+  /// The same for depth, in a DSV heap. [D3D12: CreateDepthStencilView]
+  /// @errors as of CreateRenderTargetView, for kAllowDepthStencil; KA0730 also for undefined flags.
+  ///@{
+  Status CreateDepthStencilView(const Texture& texture, const DepthStencilViewDesc& desc,
+                                CpuDescriptorHandle dest) const;
+  Status CreateDepthStencilView(const Texture& texture, CpuDescriptorHandle dest) const;
+  ///@}
   /// Writes a sampler into slot `dest` of a living sampler heap. [D3D12: CreateSampler]
   /// @errors KA0904 empty device; KA0622 `dest` is no such slot; KA0631 a member out of its range;
   /// on Vulkan KA0956 too many samplers, KA0962 the device has no such sampler.
@@ -276,6 +294,14 @@ class Device {
   /// have; on Vulkan KA0551 no subgroup operations, KA0952, KA0954, KA0956, KA0963; the reason if
   /// the device is removed.
   Result<PipelineState> CreateComputePipelineState(const ComputePipelineStateDesc& desc) const;
+  /// Makes a graphics pipeline. Stages are linked by semantics: elements of the layout to inputs of
+  /// the vertex shader, its outputs to inputs of the pixel shader.
+  /// [D3D12: CreateGraphicsPipelineState]
+  /// @errors KA0904 an empty handle; KA0903 a root signature of another device; KA0536 a local root
+  /// signature; KA0528, KA0529, KA0543 it does not feed a resource; KA0542 RayQuery on a device of
+  /// tier 1.0; KA0720-KA0727 the description; on Vulkan KA0952, KA0954, KA0956, KA0963; the reason
+  /// if the device is removed. Warning: KA0728.
+  Result<PipelineState> CreateGraphicsPipelineState(const GraphicsPipelineStateDesc& desc) const;
   /// Makes a command signature for ExecuteIndirect. `root_signature` is a global one; it is needed
   /// if an argument sets a root argument, and ignored otherwise.
   /// [D3D12: CreateCommandSignature; DXR: D3D12_COMMAND_SIGNATURE_DESC]

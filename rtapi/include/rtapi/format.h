@@ -130,7 +130,7 @@ struct FormatInfo {
 };
 
 /// What a format looks like, for every format that textures, typed buffers and vertices can have.
-/// The type is kUnsupported for all others (depth, block-compressed, video and packed YUV formats,
+/// The type is kUnsupported for all others (block-compressed, video and packed YUV formats,
 /// and numbers that are none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
 constexpr FormatInfo GetFormatInfo(Format format) {
   using F = Format;
@@ -172,6 +172,14 @@ constexpr FormatInfo GetFormatInfo(Format format) {
       return {C::kUint, 8, 2, 32};
     case F::kR32G32Sint:
       return {C::kSint, 8, 2, 32};
+    case F::kR32G8X24Typeless:
+      return {C::kTypeless, 8, 2, 0};
+    case F::kD32FloatS8X24Uint:
+      return {C::kFloat, 8, 2, 0};
+    case F::kR32FloatX8X24Typeless:
+      return {C::kFloat, 8, 1, 0};
+    case F::kX32TypelessG8X24Uint:
+      return {C::kUint, 8, 2, 0};
     case F::kR10G10B10A2Typeless:
       return {C::kTypeless, 4, 4, 0};
     case F::kR10G10B10A2Unorm:
@@ -206,12 +214,22 @@ constexpr FormatInfo GetFormatInfo(Format format) {
       return {C::kSint, 4, 2, 16};
     case F::kR32Typeless:
       return {C::kTypeless, 4, 1, 32};
+    case F::kD32Float:
+      return {C::kFloat, 4, 1, 32};
     case F::kR32Float:
       return {C::kFloat, 4, 1, 32};
     case F::kR32Uint:
       return {C::kUint, 4, 1, 32};
     case F::kR32Sint:
       return {C::kSint, 4, 1, 32};
+    case F::kR24G8Typeless:
+      return {C::kTypeless, 4, 2, 0};
+    case F::kD24UnormS8Uint:
+      return {C::kUnorm, 4, 2, 0};
+    case F::kR24UnormX8Typeless:
+      return {C::kUnorm, 4, 1, 0};
+    case F::kX24TypelessG8Uint:
+      return {C::kUint, 4, 2, 0};
     case F::kR8G8Typeless:
       return {C::kTypeless, 2, 2, 8};
     case F::kR8G8Unorm:
@@ -226,6 +244,8 @@ constexpr FormatInfo GetFormatInfo(Format format) {
       return {C::kTypeless, 2, 1, 16};
     case F::kR16Float:
       return {C::kFloat, 2, 1, 16};
+    case F::kD16Unorm:
+      return {C::kUnorm, 2, 1, 16};
     case F::kR16Unorm:
       return {C::kUnorm, 2, 1, 16};
     case F::kR16Uint:
@@ -266,6 +286,34 @@ constexpr FormatInfo GetFormatInfo(Format format) {
       return {C::kUnorm, 4, 4, 8, true};
     default:
       return {};
+  }
+}
+
+/// Whether a depth-stencil view can have the format. Shaders read such textures through the other
+/// formats of the family. [D3D12: depth-stencil formats]
+constexpr bool IsDepthFormat(Format format) {
+  return format == Format::kD32Float || format == Format::kD16Unorm ||
+         format == Format::kD24UnormS8Uint || format == Format::kD32FloatS8X24Uint;
+}
+
+/// Whether a depth format has stencil, too.
+constexpr bool HasStencil(Format format) {
+  return format == Format::kD24UnormS8Uint || format == Format::kD32FloatS8X24Uint;
+}
+
+/// The depth format of a typeless one's family, or `format` itself if it is one; else kUnknown.
+constexpr Format GetDepthFormat(Format format) {
+  switch (format) {
+    case Format::kR32Typeless:
+      return Format::kD32Float;
+    case Format::kR16Typeless:
+      return Format::kD16Unorm;
+    case Format::kR24G8Typeless:
+      return Format::kD24UnormS8Uint;
+    case Format::kR32G8X24Typeless:
+      return Format::kD32FloatS8X24Uint;
+    default:
+      return IsDepthFormat(format) ? format : Format::kUnknown;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file
-/// Compute pipelines.
+/// Compute pipelines, and the handle of compute and graphics pipelines.
 #pragma once
 
 #include <memory>
@@ -24,8 +24,8 @@ struct ComputePipelineStateDesc {
   std::string Name = {};              ///< for messages; empty: the shader's name
 };
 
-/// A compute shader with its root signature, for CommandList::SetPipelineState. A copyable handle;
-/// lists keep it alive until they are reset, and it keeps its library and root signature alive.
+/// A compute or graphics pipeline, for CommandList::SetPipelineState. A copyable handle;
+/// lists keep it alive until they are reset, and it keeps its libraries and root signature alive.
 /// [D3D12: ID3D12PipelineState]
 class PipelineState {
  public:

@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include <rtapi/render_target.h>
 #include <rtapi/result.h>
 #include <rtapi/types.h>
 
@@ -39,7 +40,10 @@ enum class ResourceDimension : uint32_t {
 /// What a resource may be used for beyond reading. [D3D12: D3D12_RESOURCE_FLAGS]
 enum class ResourceFlags : uint32_t {
   kNone = 0,
+  kAllowRenderTarget = 0x1,     ///< 2-D textures: draws may write colours to it
+  kAllowDepthStencil = 0x2,     ///< 2-D textures of a depth format: draws may test depth with it
   kAllowUnorderedAccess = 0x4,  ///< shaders and builds may write it
+  kDenyShaderResource = 0x8,    ///< with kAllowDepthStencil: shaders do not read it
 };
 template <>
 inline constexpr bool kIsFlags<ResourceFlags> = true;
@@ -50,10 +54,14 @@ inline constexpr bool kIsFlags<ResourceFlags> = true;
 enum class ResourceStates : uint32_t {
   kCommon = 0,
   kVertexAndConstantBuffer = 0x1,
+  kIndexBuffer = 0x2,
+  kRenderTarget = 0x4,  ///< draws and clears write colours; alone
   kUnorderedAccess = 0x8,
+  kDepthWrite = 0x10,              ///< draws and clears write depth; alone
+  kDepthRead = 0x20,               ///< draws test depth without writing it
   kNonPixelShaderResource = 0x40,  ///< what ray tracing shaders, builds and shader tables read
-  kPixelShaderResource = 0x80,
-  kIndirectArgument = 0x200,  ///< argument and count buffers of ExecuteIndirect
+  kPixelShaderResource = 0x80,     ///< what pixel shaders read
+  kIndirectArgument = 0x200,       ///< argument and count buffers of ExecuteIndirect
   kCopyDest = 0x400,
   kCopySource = 0x800,
   kGenericRead = 0xAC3,
@@ -152,11 +160,13 @@ struct TextureDesc {
   uint16_t DepthOrArraySize = 1;
   uint16_t MipLevels = 1;                          ///< at most the full chain; 0: the full chain
   rtapi::Format Format = rtapi::Format::kUnknown;  ///< any with a FormatInfo; typeless ones too
-  ResourceFlags Flags = ResourceFlags::kNone;      ///< unordered access or none
+  ResourceFlags Flags = ResourceFlags::kNone;      ///< what may write it
   /// The state before the first barrier, of all subresources; not
   /// kRaytracingAccelerationStructure, which is for buffers.
   ResourceStates InitialState = ResourceStates::kCommon;
   std::string Name = {};  ///< for messages
+  /// Targets: what they will be cleared to most often. A hint without effect.
+  ClearValue OptimizedClearValue = {};
 };
 
 /// A texture on the default heap; its texels start at zero. Filled and read by

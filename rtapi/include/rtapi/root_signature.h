@@ -91,8 +91,8 @@ enum class RootParameterType : uint32_t {
   kUav = 4,              ///< Descriptor counts
 };
 
-/// Which shaders see a parameter. Compute and ray tracing need kAll (KA0603).
-/// [DXR: Note on shader visibility]
+/// Which shaders see a parameter. Compute and ray tracing shaders see only those with kAll.
+/// [D3D12: D3D12_SHADER_VISIBILITY; DXR: Note on shader visibility]
 enum class ShaderVisibility : uint32_t {
   kAll = 0,
   kVertex = 1,
@@ -114,7 +114,8 @@ struct RootParameter {
   RootConstants Constants = {};
   RootDescriptor Descriptor = {};
   ///@}
-  rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;  ///< kAll
+  /// Which shaders see it; in a local root signature kAll (KA0603).
+  rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;
 
   /// A descriptor table. It costs 1 DWORD, in a shader record 8 bytes.
   static RootParameter Table(std::vector<DescriptorRange> ranges) {
@@ -175,19 +176,20 @@ struct StaticSamplerDesc {
   ///@}
   uint32_t ShaderRegister = 0;  ///< s register
   uint32_t RegisterSpace = 0;   ///< up to 0xFFFFFFEF (KA0605)
-  rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;  ///< kAll (KA0603)
+  /// Which shaders see it; in a local root signature kAll (KA0603).
+  rtapi::ShaderVisibility ShaderVisibility = rtapi::ShaderVisibility::kAll;
 };
 
-/// What a root signature is for. The flags of graphics are accepted and without effect.
+/// What a root signature is for. Flags of stages that do not exist here are without effect.
 /// [D3D12: D3D12_ROOT_SIGNATURE_FLAGS]
 enum class RootSignatureFlags : uint32_t {
   kNone = 0,
-  kAllowInputAssemblerInputLayout = 0x1,
-  kDenyVertexShaderRootAccess = 0x2,
+  kAllowInputAssemblerInputLayout = 0x1,  ///< needed by pipelines with an InputLayout
+  kDenyVertexShaderRootAccess = 0x2,      ///< the vertex shader has no resources
   kDenyHullShaderRootAccess = 0x4,
   kDenyDomainShaderRootAccess = 0x8,
   kDenyGeometryShaderRootAccess = 0x10,
-  kDenyPixelShaderRootAccess = 0x20,
+  kDenyPixelShaderRootAccess = 0x20,  ///< the pixel shader has no resources
   kAllowStreamOutput = 0x40,
   kLocalRootSignature = 0x80,  ///< with no other flag (KA0602)
   kDenyAmplificationShaderRootAccess = 0x100,
@@ -199,8 +201,8 @@ template <>
 inline constexpr bool kIsFlags<RootSignatureFlags> = true;
 
 /// Describes a root signature for Device::CreateRootSignature, which checks it. No register may be
-/// fed twice (KA0604). A global one costs up to 64 DWORDs (KA0600); the arguments of a local one
-/// take up to 4064 bytes (KA0601). [D3D12: D3D12_ROOT_SIGNATURE_DESC1]
+/// fed twice for one stage (KA0604). A global one costs up to 64 DWORDs (KA0600); the arguments of
+/// a local one take up to 4064 bytes (KA0601). [D3D12: D3D12_ROOT_SIGNATURE_DESC1]
 struct RootSignatureDesc {
   std::vector<RootParameter> Parameters = {};            ///< by their index calls set them
   std::vector<StaticSamplerDesc> StaticSamplers = {};    ///< take no arguments

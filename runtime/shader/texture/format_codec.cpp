@@ -241,6 +241,22 @@ Texel decode_r9g9b9e5(const uint8_t* at) {
 }
 
 // ---------------------------------------------------------------------------------------------
+// Depth and stencil of textures that hold both, each by itself: depth is red, stencil green.
+// [D3D12: R24G8 and R32G8X24 families]
+
+Texel decode_depth24(const uint8_t* at) {
+  const uint32_t depth = read<uint32_t>(at) & 0xFFFFFFu;
+  return {{bits_of(static_cast<float>(depth) / 16777215.0f), 0, 0, bits_of(1.0f)}};
+}
+Texel decode_depth32(const uint8_t* at) {
+  return {{read<uint32_t>(at), 0, 0, bits_of(1.0f)}};
+}
+template <int kByte>
+Texel decode_stencil(const uint8_t* at) {
+  return {{0, at[kByte], 0, 1}};
+}
+
+// ---------------------------------------------------------------------------------------------
 
 constexpr FormatCodec codec_of(uint32_t format) {
   constexpr NumberClass kF = NumberClass::kFloat;
@@ -273,6 +289,10 @@ constexpr FormatCodec codec_of(uint32_t format) {
       return Plain<Uint, uint32_t, 2>::codec();
     case 18:
       return Plain<Sint, uint32_t, 2>::codec();
+    case 21:
+      return {8, 1, kF, false, decode_depth32, nullptr};
+    case 22:
+      return {8, 2, NumberClass::kUint, false, decode_stencil<4>, nullptr};
     case 24:
       return Packed<Unorm, uint32_t, 0, 10, 10, 10, 20, 10, 30, 2>::codec();
     case 25:
@@ -305,6 +325,10 @@ constexpr FormatCodec codec_of(uint32_t format) {
       return Plain<Uint, uint32_t, 1>::codec();
     case 43:
       return Plain<Sint, uint32_t, 1>::codec();
+    case 46:
+      return {4, 1, kF, true, decode_depth24, nullptr};
+    case 47:
+      return {4, 2, NumberClass::kUint, false, decode_stencil<3>, nullptr};
     case 49:
       return Plain<Unorm, uint8_t, 2>::codec();
     case 50:

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/draw.h"
+
+#include <utility>
+
+#include "runtime/embree/texture.h"
+
+namespace kaamos::embree {
+namespace {
+
+// The list holds the buffer while it executes, and the view was checked when it was recorded.
+std::span<const uint8_t> bytes_of(uint64_t address, uint64_t size_bytes) {
+  if (address == 0) return {};
+  return {reinterpret_cast<const uint8_t*>(address), size_bytes};
+}
+
+raster::Draw resolve(const runtime::DrawCommand& command) {
+  raster::Draw draw;
+  draw.linked = command.linked.get();
+  draw.state = command.state.get();
+  draw.indexed = command.indexed;
+  draw.arguments = command.arguments;
+  for (const runtime::LinkedElement& element : command.linked->elements) {
+    const rtapi::VertexBufferView& view = command.state->vertex_buffers[element.slot];
+    draw.vertex_buffers[element.slot] = bytes_of(view.BufferLocation, view.SizeInBytes);
+  }
+  const rtapi::IndexBufferView& indices = command.state->index_buffer;
+  draw.indices = bytes_of(indices.BufferLocation, indices.SizeInBytes);
+  return draw;
+}
+
+}  // namespace
+
+raster::Surface surface_of(const runtime::TargetView& view) {
+  raster::Surface surface;
+  if (view.texture == nullptr) return surface;
+  const auto& texture = static_cast<const Texture&>(*view.texture);
+  const Texture::Subresource first = texture.subresource(view.mip, view.first_slice);
+  surface.texels = first.texels;
+  surface.row_pitch = first.row_pitch;
+  if (view.slice_count > 1) {
+    const auto second = texture.subresource(view.mip, view.first_slice + 1);
+    surface.slice_pitch = static_cast<uint64_t>(second.texels - first.texels);
+  }
+  surface.width = view.width;
+  surface.height = view.height;
+  surface.slices = view.slice_count;
+  surface.format = view.format;
+  surface.read_only = view.read_only_depth;
+  return surface;
+}
+
+CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::string& label) {
+  CountedOutcome outcome;
+  const runtime::DrawTargets& targets = command.state->targets;
+  if (targets_ != nullptr && (running_.size() == kMostDraws || *targets_ != targets)) {
+    outcome = flush();
+    if (!outcome.status) return outcome;
+  }
+  targets_ = &targets;
+  RunningDraw& running = running_.emplace_back();
+  running.pipeline = static_cast<const GraphicsPipeline*>(command.pipeline.get());
+  running.label = label;
+  begin_draw(environment_, command.bindings, running);
+  draws_.push_back(resolve(command));
+  return outcome;
+}
+
+CountedOutcome DrawPass::flush() {
+  CountedOutcome outcome;
+  if (targets_ == nullptr) return outcome;
+  raster::Targets targets;
+  for (uint32_t i = 0; i < targets_->color_count; ++i) {
+    targets.color[i] = surface_of(targets_->color[i]);
+  }
+  targets.depth = surface_of(targets_->depth);
+  DrawWorkers workers(environment_, running_);
+  rasterizer_.draw(targets, draws_, workers);
+  for (RunningDraw& draw : running_) {
+    CountedOutcome one = end_dispatch(draw.dispatch);
+    outcome.counters.add(one.counters);
+    outcome.reached.insert(outcome.reached.end(), one.reached.begin(), one.reached.end());
+    for (auto& warning : one.warnings) outcome.warnings.push_back(std::move(warning));
+    if (outcome.status && !one.status) outcome.status = std::move(one.status);
+  }
+  running_.clear();
+  draws_.clear();
+  targets_ = nullptr;
+  return outcome;
+}
+
+}  // namespace kaamos::embree

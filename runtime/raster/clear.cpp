@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/raster/clear.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "runtime/raster/target_codec.h"
+
+namespace kaamos::raster {
+namespace {
+
+constexpr uint32_t kMostTexelBytes = 16;
+
+// A texel, and which of its bits are written.
+struct Fill {
+  uint32_t bytes = 0;
+  bool all_bits = true;
+  uint8_t value[kMostTexelBytes] = {};
+  uint8_t mask[kMostTexelBytes] = {};
+};
+
+// The nearest integer, as far as a column of the class can hold it; the codec clamps to the format.
+uint32_t nearest_integer(float value, bool is_signed) {
+  if (std::isnan(value)) return 0;
+  const double nearest = std::nearbyint(static_cast<double>(value));
+  if (is_signed) {
+    const double limited = std::fmin(std::fmax(nearest, -2147483648.0), 2147483647.0);
+    return static_cast<uint32_t>(static_cast<int32_t>(limited));
+  }
+  return static_cast<uint32_t>(std::fmin(std::fmax(nearest, 0.0), 4294967295.0));
+}
+
+Fill color_fill(rtapi::Format format, const float color[4]) {
+  const TargetCodec& codec = target_codec(format);
+  const rtapi::FormatClass type = rtapi::GetFormatInfo(format).type;
+  shader::Column columns[4] = {};
+  for (int c = 0; c < 4; ++c) {
+    const uint32_t bits = type == rtapi::FormatClass::kSint   ? nearest_integer(color[c], true)
+                          : type == rtapi::FormatClass::kUint ? nearest_integer(color[c], false)
+                                                              : std::bit_cast<uint32_t>(color[c]);
+    for (uint32_t& lane : columns[c]) lane = bits;
+  }
+  shader::Column words[4] = {};
+  codec.encode(columns, words);
+  Fill fill;
+  fill.bytes = codec.bytes;
+  for (uint32_t byte = 0; byte < codec.bytes; ++byte) {
+    fill.value[byte] = static_cast<uint8_t>(words[byte / 4][0] >> (byte % 4 * 8));
+  }
+  return fill;
+}
+
+void put(Fill& fill, uint32_t first, std::span<const uint8_t> bytes) {
+  std::memcpy(fill.value + first, bytes.data(), bytes.size());
+  std::memset(fill.mask + first, 0xFF, bytes.size());
+}
+
+// `steps` of a normalized depth: nearest. [RAS-60]
+uint32_t normalized(float depth, double steps) {
+  return static_cast<uint32_t>(static_cast<double>(depth) * steps + 0.5);
+}
+
+Fill depth_fill(rtapi::Format format, const runtime::ClearTargetCommand& command) {
+  Fill fill;
+  fill.all_bits = false;
+  fill.bytes = rtapi::GetFormatInfo(format).bytes;
+  const auto put_word = [&](uint32_t first, uint32_t word, uint32_t bytes) {
+    uint8_t memory[4];
+    std::memcpy(memory, &word, sizeof memory);
+    put(fill, first, std::span(memory, bytes));
+  };
+  if (command.clear_depth) {
+    switch (format) {
+      case rtapi::Format::kD16Unorm:
+        put_word(0, normalized(command.depth, 65535), 2);
+        break;
+      case rtapi::Format::kD24UnormS8Uint:
+        put_word(0, normalized(command.depth, 16777215), 3);
+        break;
+      default:
+        put_word(0, std::bit_cast<uint32_t>(command.depth), 4);
+        break;
+    }
+  }
+  if (command.clear_stencil && rtapi::HasStencil(format)) {
+    put_word(format == rtapi::Format::kD24UnormS8Uint ? 3 : 4, command.stencil, 1);
+  }
+  return fill;
+}
+
+void fill_row(uint8_t* texels, uint32_t count, const Fill& fill) {
+  for (uint32_t x = 0; x < count; ++x, texels += fill.bytes) {
+    if (fill.all_bits) {
+      std::memcpy(texels, fill.value, fill.bytes);
+      continue;
+    }
+    for (uint32_t byte = 0; byte < fill.bytes; ++byte) {
+      if (fill.mask[byte] != 0) texels[byte] = fill.value[byte];
+    }
+  }
+}
+
+}  // namespace
+
+void clear(const Surface& surface, const runtime::ClearTargetCommand& command) {
+  if (surface.texels == nullptr) return;
+  const Fill fill = command.depth_stencil ? depth_fill(surface.format, command)
+                                          : color_fill(surface.format, command.color);
+  const rtapi::Rect whole = {0, 0, static_cast<int32_t>(surface.width),
+                             static_cast<int32_t>(surface.height)};
+  const std::span<const rtapi::Rect> rects =
+      command.whole ? std::span(&whole, 1) : std::span<const rtapi::Rect>(command.rects);
+  for (uint32_t slice = 0; slice < surface.slices; ++slice) {
+    for (const rtapi::Rect& rect : rects) {
+      for (int32_t y = rect.top; y < rect.bottom; ++y) {
+        uint8_t* const row = surface.texels + slice * surface.slice_pitch +
+                             static_cast<uint64_t>(y) * surface.row_pitch;
+        fill_row(row + static_cast<uint64_t>(rect.left) * fill.bytes,
+                 static_cast<uint32_t>(rect.right - rect.left), fill);
+      }
+    }
+  }
+}
+
+}  // namespace kaamos::raster

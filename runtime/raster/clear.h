@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+//
+// Fills targets. [D3D11.3: 5.2.3; RAS-133 to RAS-136]
+#pragma once
+
+#include "runtime/backend/draw_commands.h"
+#include "runtime/raster/draw.h"
+
+namespace kaamos::raster {
+
+// Writes the colour, or the depth and stencil that the command names, to every slice of the surface:
+// everywhere or in the command's rectangles.
+void clear(const Surface& surface, const runtime::ClearTargetCommand& command);
+
+}  // namespace kaamos::raster
