@@ -88,27 +88,11 @@ void RecordClear(CommandListImpl& list, const char* call, CpuDescriptorHandle ha
 void RecordDraw(CommandListImpl& list, const char* call, bool indexed,
                 const DrawIndexedArguments& arguments) {
   if (!list.CheckOpen(call)) return;
-  const PipelineStateImpl* pipeline = list.GraphicsPipeline(call);
-  if (!pipeline) return;
-  const runtime::DrawState& state = *list.draw_state;
-  if (state.topology == PrimitiveTopology::kUndefined) {
-    return list.Fail(
-        MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
-  }
   if (arguments.IndexCountPerInstance == 0 || arguments.InstanceCount == 0) return;
-  for (const runtime::LinkedElement& element : pipeline->graphics->elements) {
-    const VertexBufferView& view = state.vertex_buffers[element.slot];
-    if (view.BufferLocation != 0) {
-      list.Use(call, view.BufferLocation, Text("vertex buffer ", element.slot));
-    }
-  }
-  if (indexed && state.index_buffer.BufferLocation != 0) {
-    list.Use(call, state.index_buffer.BufferLocation, "index buffer");
-  }
-  for (MemoryUse use : list.target_uses) {
-    use.call = call;
-    use.command = list.commands->size();
-    list.uses->push_back(std::move(use));
+  const PipelineStateImpl* pipeline = list.DrawPipeline(call);
+  if (!pipeline) return;
+  if (indexed && list.draw_state->index_buffer.BufferLocation != 0) {
+    list.Use(call, list.draw_state->index_buffer.BufferLocation, "index buffer");
   }
   runtime::DrawCommand command;
   command.pipeline = pipeline->pipeline;
@@ -121,6 +105,27 @@ void RecordDraw(CommandListImpl& list, const char* call, bool indexed,
 }
 
 }  // namespace
+
+const PipelineStateImpl* CommandListImpl::DrawPipeline(const char* call) {
+  const PipelineStateImpl* set = GraphicsPipeline(call);
+  if (!set) return nullptr;
+  if (draw_state->topology == PrimitiveTopology::kUndefined) {
+    Fail(MakeError(Id::kDrawState, call, " without a topology; call IASetPrimitiveTopology first"));
+    return nullptr;
+  }
+  for (const runtime::LinkedElement& element : set->graphics->elements) {
+    const VertexBufferView& view = draw_state->vertex_buffers[element.slot];
+    if (view.BufferLocation != 0) {
+      Use(call, view.BufferLocation, Text("vertex buffer ", element.slot));
+    }
+  }
+  for (MemoryUse use : target_uses) {
+    use.call = call;
+    use.command = commands->size();
+    uses->push_back(std::move(use));
+  }
+  return set;
+}
 
 }  // namespace detail
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What draws and clears record, and what lists refuse.
+#include "rtapi/src/device_impl.h"
 #include "rtapi/testing/graphics_fixture.h"
 
 namespace rtapi::testing {
@@ -169,6 +170,49 @@ TEST_F(DrawTest, RAS_143_AFreshListCannotDraw) {
                  list.Dispatch(1, 1, 1);
                }),
                "KA0811", "compute pipeline");
+}
+
+TEST_F(DrawTest, RAS_146_WhatASignatureSetsIsNullAfterwards) {
+  const RootSignature constants = Global("RootConstants(num32BitConstants=2, b0)");
+  desc_.pRootSignature = constants;
+  pipeline_ = Make(desc_).value();
+  using Type = IndirectArgumentType;
+  const CommandSignature signature =
+      device_
+          .CreateCommandSignature(
+              {.ByteStride = 52,
+               .ArgumentDescs = {{.Type = Type::kConstant, .Constant = {0, 1, 1}},
+                                 {.Type = Type::kVertexBufferView, .VertexBuffer = {3}},
+                                 {.Type = Type::kDrawIndexed}}},
+              constants)
+          .value();
+  const Buffer buffer = MakeBuffer(256);
+  Prepare(list_);
+  list_.SetGraphicsRoot32BitConstant(0, 11, 0);
+  list_.SetGraphicsRoot32BitConstant(0, 22, 1);
+  for (const uint32_t slot : {3u, 4u}) {
+    list_.IASetVertexBuffers(slot, VertexBufferView{buffer.GetGPUVirtualAddress(), 64, 4});
+  }
+  list_.ExecuteIndirect(signature, 2, buffer, 0);
+  list_.DrawInstanced(3, 1, 0, 0);
+  EXPECT_OK(list_.Close());
+  EXPECT_OK(queue_.ExecuteCommandLists({list_}));
+  const auto& indirect = Executed<runtime::ExecuteIndirectCommand>(0);
+  EXPECT_EQ(indirect.layout->work, runtime::IndirectWork::kDrawIndexed);
+  EXPECT_NE(indirect.linked_graphics, nullptr);
+  EXPECT_NE(indirect.draw_state->vertex_buffers[3].BufferLocation, 0u);
+  EXPECT_EQ(indirect.state.root_arguments->bytes[4], 22);
+  const auto& after = Executed<runtime::DrawCommand>(1);
+  EXPECT_EQ(after.bindings.root_arguments->bytes[0], 11);
+  EXPECT_EQ(after.bindings.root_arguments->bytes[4], 0);
+  EXPECT_EQ(after.state->vertex_buffers[3].BufferLocation, 0u);
+  EXPECT_NE(after.state->vertex_buffers[4].BufferLocation, 0u);
+  EXPECT_ERROR(Record([&](CommandList& list) {
+                 list.SetGraphicsRootSignature(constants);
+                 list.SetPipelineState(pipeline_);
+                 list.ExecuteIndirect(signature, 1, buffer, 0);
+               }),
+               "KA0740");
 }
 
 TEST_F(DrawTest, RAS_144_CountsOfZeroDrawNothing) {

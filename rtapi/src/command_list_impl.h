@@ -53,6 +53,8 @@ struct CommandListImpl {
   const StateObjectImpl* RaysPipeline(const char* call);
   const PipelineStateImpl* ComputePipeline(const char* call);
   const PipelineStateImpl* GraphicsPipeline(const char* call);
+  // The same for a draw, which needs a topology, too, and uses vertex buffers and targets.
+  const PipelineStateImpl* DrawPipeline(const char* call);
 
   // Built in place, because gcc 12 at -O3 warns that members of a temporary variant are
   // uninitialised.

@@ -47,6 +47,34 @@ Status CheckBuffers(const CommandListImpl& list, const CommandSignatureImpl& sig
   return CheckRange(list.device, count, count_offset, sizeof(uint32_t), "count buffer");
 }
 
+// Sets what the list has for this kind of work. Returns whether that is enough; if not, an error is
+// kept.
+bool TakePipeline(CommandListImpl& list, runtime::IndirectWork work,
+                  runtime::ExecuteIndirectCommand& command) {
+  constexpr const char* kCall = "ExecuteIndirect";
+  if (work == runtime::IndirectWork::kDispatchRays) {
+    const StateObjectImpl* pipeline = list.RaysPipeline(kCall);
+    if (!pipeline) return false;
+    command.pipeline = pipeline->pipeline;
+    command.linked = pipeline->linked;
+    command.pipeline_stack_bytes = pipeline->stack_bytes.load();
+    return true;
+  }
+  if (work == runtime::IndirectWork::kDispatch) {
+    const PipelineStateImpl* pipeline = list.ComputePipeline(kCall);
+    if (!pipeline) return false;
+    command.pipeline = pipeline->pipeline;
+    command.linked_compute = pipeline->linked;
+    return true;
+  }
+  const PipelineStateImpl* pipeline = list.DrawPipeline(kCall);
+  if (!pipeline) return false;
+  command.pipeline = pipeline->pipeline;
+  command.linked_graphics = pipeline->graphics;
+  command.draw_state = list.draw_state;
+  return true;
+}
+
 }  // namespace
 
 void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t max_count,
@@ -58,24 +86,17 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
     return impl_->Fail(s.error());
   }
   const CommandSignatureImpl& given = *signature.impl();
-  if (given.root_signature && !SameDefinition(given.root_signature, impl_->compute.signature)) {
+  const runtime::IndirectWork work = given.layout->work;
+  const bool draws =
+      work == runtime::IndirectWork::kDraw || work == runtime::IndirectWork::kDrawIndexed;
+  RootState& root = draws ? impl_->graphics : impl_->compute;
+  if (given.root_signature && !SameDefinition(given.root_signature, root.signature)) {
     return impl_->Fail(
         MakeError(Id::kIndirectArguments, Named("command signature", given.desc.Name),
                   " was made for another root signature than the one that is set on the list"));
   }
   runtime::ExecuteIndirectCommand command;
-  if (given.layout->dispatch_rays) {
-    const StateObjectImpl* pipeline = impl_->RaysPipeline("ExecuteIndirect");
-    if (!pipeline) return;
-    command.pipeline = pipeline->pipeline;
-    command.linked = pipeline->linked;
-    command.pipeline_stack_bytes = pipeline->stack_bytes.load();
-  } else {
-    const PipelineStateImpl* pipeline = impl_->ComputePipeline("ExecuteIndirect");
-    if (!pipeline) return;
-    command.pipeline = pipeline->pipeline;
-    command.linked_compute = pipeline->linked;
-  }
+  if (!TakePipeline(*impl_, work, command)) return;
   if (Status s =
           CheckBuffers(*impl_, given, max_count, arguments, arguments_offset, count, count_offset);
       !s.ok()) {
@@ -89,14 +110,22 @@ void CommandList::ExecuteIndirect(const CommandSignature& signature, uint32_t ma
   command.count_offset = count_offset;
   // What the commands bring along is looked at when they are read.
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
-    impl_->compute.views.erase(argument.root_parameter);
+    root.views.erase(argument.root_parameter);
   }
-  command.state = impl_->Snapshot("ExecuteIndirect", impl_->compute);
+  command.state = impl_->Snapshot("ExecuteIndirect", root);
   impl_->Record(std::move(command));
   // After ExecuteIndirect, everything that the signature sets is zero or null. [D3D12: Indirect
   // drawing]
   for (const runtime::IndirectArgument& argument : given.layout->root_arguments) {
-    impl_->compute.Clear(argument.dest_offset, argument.size_bytes);
+    root.Clear(argument.dest_offset, argument.size_bytes);
+  }
+  for (const runtime::IndirectBufferView& view : given.layout->buffer_views) {
+    runtime::DrawState& state = impl_->WritableDrawState();
+    if (view.of_indices) {
+      state.index_buffer = {};
+    } else {
+      state.vertex_buffers[view.slot] = {};
+    }
   }
 }
 

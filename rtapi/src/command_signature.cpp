@@ -3,6 +3,7 @@
 // CreateCommandSignature: every rule that concerns a signature alone. [D3D12: Indirect drawing]
 #include <rtapi/command_signature.h>
 #include <rtapi/device.h>
+#include <rtapi/graphics_pipeline.h>
 
 #include "rtapi/src/command_signature_impl.h"
 #include "rtapi/src/root_signature_impl.h"
@@ -27,31 +28,57 @@ class LayoutMaker {
   Status Add(const IndirectArgumentDesc& argument, size_t index);
   Status AddRoot(const std::string& where, uint32_t parameter, RootParameterType type,
                  uint32_t first_value, uint32_t values);
-  Status AddDispatch(const std::string& where, bool rays, size_t index);
+  Status AddWork(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
+                 size_t index);
+  Status AddBufferView(const std::string& where, bool of_indices, uint32_t slot);
 
   const DeviceImpl& device_;
   const CommandSignatureDesc& desc_;
   const RootSignature& root_signature_;
   runtime::IndirectLayout layout_;
-  bool complete_ = false;   // the dispatch argument was seen
+  bool complete_ = false;   // the draw or dispatch was seen
   uint64_t next_root_ = 0;  // the lowest (parameter, value) that may be set next
 };
 
-Status LayoutMaker::AddDispatch(const std::string& where, bool rays, size_t index) {
+Status LayoutMaker::AddWork(const std::string& where, runtime::IndirectWork work, uint32_t bytes,
+                            size_t index) {
   if (index + 1 != desc_.ArgumentDescs.size()) {
-    return MakeError(Id::kCommandSignature, where, " is a dispatch, but ",
+    return MakeError(Id::kCommandSignature, where, " is a draw or dispatch, but ",
                      desc_.ArgumentDescs.size() - 1 - index,
-                     " arguments follow it; the dispatch must be the last argument, and there must "
-                     "be only one");
+                     " arguments follow it; it must be the last argument, and there must be only "
+                     "one");
   }
-  if (rays && device_.desc.Tier < RaytracingTier::kTier1_1) {
+  if (work == runtime::IndirectWork::kDispatchRays &&
+      device_.desc.Tier < RaytracingTier::kTier1_1) {
     return MakeError(Id::kCommandSignatureTier, where,
                      ": kDispatchRays needs tier 1.1, but the device was created with tier 1.0");
   }
+  const bool draws =
+      work == runtime::IndirectWork::kDraw || work == runtime::IndirectWork::kDrawIndexed;
+  if (!draws && !layout_.buffer_views.empty()) {
+    return MakeError(Id::kCommandSignature, where,
+                     " is a dispatch, which does not go with vertex and index buffer views");
+  }
   complete_ = true;
-  layout_.dispatch_rays = rays;
-  layout_.dispatch_offset = layout_.packed_bytes;
-  layout_.packed_bytes += rays ? sizeof(DispatchRaysDesc) : sizeof(DispatchArguments);
+  layout_.work = work;
+  layout_.work_offset = layout_.packed_bytes;
+  layout_.packed_bytes += bytes;
+  return {};
+}
+
+Status LayoutMaker::AddBufferView(const std::string& where, bool of_indices, uint32_t slot) {
+  if (slot >= kIAVertexInputResourceSlotCount) {
+    return MakeError(Id::kCommandSignature, where, " sets vertex buffer ", slot,
+                     "; there are 0 to 31");
+  }
+  for (const runtime::IndirectBufferView& other : layout_.buffer_views) {
+    if (other.of_indices != of_indices || other.slot != slot) continue;
+    return MakeError(Id::kCommandSignature, where, " sets ",
+                     of_indices ? "the index buffer" : Text("vertex buffer ", slot),
+                     " a second time");
+  }
+  layout_.buffer_views.push_back({layout_.packed_bytes, of_indices, slot});
+  layout_.packed_bytes += sizeof(VertexBufferView);
   return {};
 }
 
@@ -104,8 +131,18 @@ Status LayoutMaker::Add(const IndirectArgumentDesc& argument, size_t index) {
   const std::string where = Text("argument ", index);
   switch (argument.Type) {
     case Type::kDispatch:
+      return AddWork(where, runtime::IndirectWork::kDispatch, sizeof(DispatchArguments), index);
     case Type::kDispatchRays:
-      return AddDispatch(where, argument.Type == Type::kDispatchRays, index);
+      return AddWork(where, runtime::IndirectWork::kDispatchRays, sizeof(DispatchRaysDesc), index);
+    case Type::kDraw:
+      return AddWork(where, runtime::IndirectWork::kDraw, sizeof(DrawArguments), index);
+    case Type::kDrawIndexed:
+      return AddWork(where, runtime::IndirectWork::kDrawIndexed, sizeof(DrawIndexedArguments),
+                     index);
+    case Type::kVertexBufferView:
+      return AddBufferView(where, false, argument.VertexBuffer.Slot);
+    case Type::kIndexBufferView:
+      return AddBufferView(where, true, 0);
     case Type::kConstant:
       return AddRoot(where, argument.Constant.RootParameterIndex,
                      RootParameterType::k32BitConstants, argument.Constant.DestOffsetIn32BitValues,
@@ -122,20 +159,20 @@ Status LayoutMaker::Add(const IndirectArgumentDesc& argument, size_t index) {
     default:
       return MakeError(Id::kCommandSignature, where, " has type ",
                        static_cast<uint32_t>(argument.Type),
-                       "; it must be kDispatch (2), kConstant (5), a root view (6 to 8) or "
-                       "kDispatchRays (9)");
+                       "; it must be 0 to 9: kDispatchMesh (10) is not supported");
   }
 }
 
 Result<runtime::IndirectLayout> LayoutMaker::Run() {
   if (desc_.ArgumentDescs.empty()) {
-    return MakeError(Id::kCommandSignature, "no arguments; the last one must be a dispatch");
+    return MakeError(Id::kCommandSignature,
+                     "no arguments; the last one must be a draw or dispatch");
   }
   for (size_t i = 0; i < desc_.ArgumentDescs.size(); ++i) {
     if (Status s = Add(desc_.ArgumentDescs[i], i); !s.ok()) return s.error();
   }
   if (!complete_) {
-    return MakeError(Id::kCommandSignature, "the last argument is not a dispatch");
+    return MakeError(Id::kCommandSignature, "the last argument is not a draw or dispatch");
   }
   if (desc_.ByteStride % 4 != 0 || desc_.ByteStride < layout_.packed_bytes) {
     return MakeError(Id::kCommandSignature, "ByteStride is ", desc_.ByteStride,

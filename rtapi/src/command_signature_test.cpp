@@ -42,14 +42,31 @@ TEST_F(CommandSignatureTest, DSP_09_OneDispatchAtTheEnd) {
   EXPECT_OK(Create({Plain(Type::kDispatchRays)}, 104, false));
   EXPECT_OK(Create({Plain(Type::kDispatch)}, 12, false));
   EXPECT_ERROR(Create({}), "KA0540", "no arguments");
-  EXPECT_ERROR(Create({Constant(0, 0, 4)}), "KA0540", "not a dispatch");
+  EXPECT_ERROR(Create({Constant(0, 0, 4)}), "KA0540", "not a draw or dispatch");
   EXPECT_ERROR(Create({Plain(Type::kDispatchRays), Constant(0, 0, 4)}), "KA0540", "argument 0",
                "must be the last");
   EXPECT_ERROR(Create({Plain(Type::kDispatch), Plain(Type::kDispatchRays)}), "KA0540", "only one");
-  for (Type type : {Type::kDraw, Type::kDrawIndexed, Type::kVertexBufferView,
-                    Type::kIndexBufferView, Type::kDispatchMesh, static_cast<Type>(77)}) {
+  for (Type type : {Type::kDraw, Type::kDrawIndexed, Type::kDispatchMesh, static_cast<Type>(77)}) {
     EXPECT_ERROR(Create({Plain(type), Plain(Type::kDispatchRays)}), "KA0540", "argument 0");
   }
+}
+
+TEST_F(CommandSignatureTest, RAS_147_DrawsComeLast) {
+  const auto vertices = [](uint32_t slot) {
+    return IndirectArgumentDesc{.Type = Type::kVertexBufferView, .VertexBuffer = {slot}};
+  };
+  const auto indices = Plain(Type::kIndexBufferView);
+  EXPECT_OK(Create({Plain(Type::kDraw)}, 16, false));
+  EXPECT_OK(Create({vertices(0), vertices(31), indices, Plain(Type::kDrawIndexed)}, 68, false));
+  EXPECT_OK(Create({Constant(0, 0, 1), Plain(Type::kDrawIndexed)}, 24));
+  EXPECT_ERROR(Create({Plain(Type::kDraw), Constant(0, 0, 1)}), "KA0540", "must be the last");
+  EXPECT_ERROR(Create({Constant(0, 0, 1), Plain(Type::kDraw)}, 256, false), "KA0540",
+               "root signature");
+  EXPECT_ERROR(Create({indices, Plain(Type::kDrawIndexed)}, 32), "KA0540", "36");
+  EXPECT_ERROR(Create({vertices(32), Plain(Type::kDraw)}), "KA0540", "vertex buffer 32");
+  EXPECT_ERROR(Create({vertices(2), vertices(2), Plain(Type::kDraw)}), "KA0540", "second time");
+  EXPECT_ERROR(Create({indices, indices, Plain(Type::kDraw)}), "KA0540", "index buffer");
+  EXPECT_ERROR(Create({vertices(0), Plain(Type::kDispatch)}), "KA0540", "is a dispatch");
 }
 
 TEST_F(CommandSignatureTest, StrideHoldsTheArguments) {
@@ -126,8 +143,8 @@ TEST_F(ExecuteIndirectTest, RecordsTheStateOfTheMoment) {
   const auto& command = Executed<runtime::ExecuteIndirectCommand>(0);
   EXPECT_EQ(command.max_count, 4u);
   EXPECT_EQ(command.count_offset, 4u);
-  EXPECT_FALSE(command.layout->dispatch_rays);
-  EXPECT_EQ(command.layout->dispatch_offset, 12u);
+  EXPECT_EQ(command.layout->work, runtime::IndirectWork::kDispatch);
+  EXPECT_EQ(command.layout->work_offset, 12u);
   EXPECT_EQ(command.layout->root_arguments[0].dest_offset, 4u);
   const auto word = [&](const runtime::RootBindings& state, uint32_t at) {
     uint32_t value;

@@ -139,7 +139,7 @@ TEST_F(GraphicsTest, RAS_21_StagesLinkBySemantics) {
 
 TEST_F(GraphicsTest, RAS_21_AnotherOrderIsAWarning) {
   std::vector<std::string> messages;
-  device_ = CreateNullDevice({.OnMessage = [&](const Message& m) { messages.push_back(m.text); }});
+  device_ = CreateNullDevice({.OnMessage = [&](const Message& m) { messages.push_back(m.Text); }});
   GraphicsPipelineStateDesc desc = Desc();
   desc.VS.Library = Vertex({}, {Position(), Value("A", 0, 1), Value("B", 0, 1)});
   desc.PS.Library = Pixel({Value("A", 0, 1), Value("B", 0, 1)}, {Target(0)});
@@ -329,7 +329,7 @@ TEST_F(GraphicsTest, ShadersAreFoundByStageAndName) {
 
 TEST_F(GraphicsTest, RAS_127_AnEmptySampleMaskIsAWarning) {
   std::string text;
-  device_ = CreateNullDevice({.OnMessage = [&](const Message& m) { text = m.text; }});
+  device_ = CreateNullDevice({.OnMessage = [&](const Message& m) { text = m.Text; }});
   GraphicsPipelineStateDesc desc = Desc();
   desc.SampleMask = 0xFFFFFFFE;
   EXPECT_OK(Make(desc));

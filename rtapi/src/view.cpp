@@ -75,8 +75,8 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
   const bool of_depth = IsDepthFormat(view.format) ||
                         family == static_cast<uint32_t>(Format::kR32G8X24Typeless) ||
                         family == static_cast<uint32_t>(Format::kR24G8Typeless);
-  const bool typed = info.type != FormatClass::kUnsupported &&
-                     info.type != FormatClass::kTypeless && !of_depth;
+  const bool typed =
+      info.type != FormatClass::kUnsupported && info.type != FormatClass::kTypeless && !of_depth;
   if (!typed || !device.backend->supports_format(view.format, uav)) {
     return MakeError(Id::kViewFormat, "typed view of ", name, " has format ",
                      static_cast<uint32_t>(view.format),

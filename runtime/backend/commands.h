@@ -52,16 +52,25 @@ struct IndirectArgument {
   uint32_t root_parameter = 0;  // for messages
   uint32_t view_alignment = 0;  // for addresses; 0: constants
 };
+// A VertexBufferView or IndexBufferView among the arguments.
+struct IndirectBufferView {
+  uint32_t source_offset = 0;
+  bool of_indices = false;
+  uint32_t slot = 0;  // of vertices
+};
+enum class IndirectWork : uint8_t { kDispatch, kDispatchRays, kDraw, kDrawIndexed };
 struct IndirectLayout {
   std::vector<IndirectArgument> root_arguments;
-  bool dispatch_rays = false;    // a DispatchRaysDesc, else three group counts
-  uint32_t dispatch_offset = 0;  // of the dispatch arguments in a command
-  uint32_t packed_bytes = 0;     // all arguments of a command together
+  std::vector<IndirectBufferView> buffer_views;  // draws
+  IndirectWork work = IndirectWork::kDispatch;
+  uint32_t work_offset = 0;   // of the dispatch's or draw's own arguments in a command
+  uint32_t packed_bytes = 0;  // all arguments of a command together
   uint32_t stride_bytes = 0;
 };
 
-// Dispatches whose arguments are read when the command executes; runtime/backend/indirect.h turns
-// it into plain dispatches. `arguments` has room for max_count commands, and `count` for a count.
+// Dispatches or draws whose arguments are read when the command executes;
+// runtime/backend/indirect.h turns it into plain ones. `arguments` has room for max_count commands,
+// and `count` for a count.
 struct ExecuteIndirectCommand {
   std::shared_ptr<const IndirectLayout> layout;
   uint32_t max_count = 0;
@@ -71,9 +80,11 @@ struct ExecuteIndirectCommand {
   uint64_t count_offset = 0;
   std::shared_ptr<BackendPipeline> pipeline;
   RootBindings state;
-  uint64_t pipeline_stack_bytes = 0;                              // for ray tracing pipelines
-  std::shared_ptr<const LinkedPipeline> linked = nullptr;         // for ray tracing pipelines
-  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;  // for compute pipelines
+  uint64_t pipeline_stack_bytes = 0;                                // for ray tracing pipelines
+  std::shared_ptr<const LinkedPipeline> linked = nullptr;           // for ray tracing pipelines
+  std::shared_ptr<const LinkedCompute> linked_compute = nullptr;    // for compute pipelines
+  std::shared_ptr<const LinkedGraphics> linked_graphics = nullptr;  // for graphics pipelines
+  std::shared_ptr<const DrawState> draw_state = nullptr;            // for graphics pipelines
 };
 
 struct BuildCommand {

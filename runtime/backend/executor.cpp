@@ -46,9 +46,7 @@ class Executor {
   rtapi::Status operator()(const ClearTargetCommand& command) {
     return target_.clear_target(command);
   }
-  rtapi::Status operator()(const BarrierCommand&) {
-    return target_.barrier();
-  }
+  rtapi::Status operator()(const BarrierCommand&) { return target_.barrier(); }
   rtapi::Status operator()(const EventCommand& command) {
     if (command.begin) {
       events_.push_back(command.name);

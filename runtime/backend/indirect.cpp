@@ -33,6 +33,11 @@ class Reader {
   bool launches_nothing(uint32_t index) const;
   rtapi::Result<RootBindings> state(uint32_t index) const;
   rtapi::Result<Command> dispatch(uint32_t index) const;
+  rtapi::Result<Command> draw(uint32_t index) const;
+  rtapi::Status take_views(uint32_t index, DrawState& state) const;
+  bool draws() const {
+    return layout_.work == IndirectWork::kDraw || layout_.work == IndirectWork::kDrawIndexed;
+  }
   rtapi::Error problem(uint32_t index, const std::string& text) const;
 
   const AddressMap& addresses_;
@@ -56,14 +61,15 @@ uint32_t Reader::count() const {
   return std::min(count, command_.max_count);
 }
 
-// If so, the rest of the command does not matter: a shader that drops a dispatch may write only
-// zeros.
+// If so, the rest of the command does not matter: a shader that drops it may write only zeros.
 bool Reader::launches_nothing(uint32_t index) const {
-  const uint8_t* source = arguments(index) + layout_.dispatch_offset;
-  if (layout_.dispatch_rays) source += offsetof(rtapi::DispatchRaysDesc, Width);
+  const uint8_t* source = arguments(index) + layout_.work_offset;
+  if (layout_.work == IndirectWork::kDispatchRays) {
+    source += offsetof(rtapi::DispatchRaysDesc, Width);
+  }
   uint32_t size[3];
   std::memcpy(size, source, sizeof(size));
-  return size[0] == 0 || size[1] == 0 || size[2] == 0;
+  return size[0] == 0 || size[1] == 0 || (!draws() && size[2] == 0);
 }
 
 rtapi::Result<RootBindings> Reader::state(uint32_t index) const {
@@ -92,10 +98,10 @@ rtapi::Result<RootBindings> Reader::state(uint32_t index) const {
 rtapi::Result<Command> Reader::dispatch(uint32_t index) const {
   auto given = state(index);
   if (!given) return given.error();
-  const uint8_t* source = arguments(index) + layout_.dispatch_offset;
+  const uint8_t* source = arguments(index) + layout_.work_offset;
   DispatchProblem found;
   Command out;
-  if (layout_.dispatch_rays) {
+  if (layout_.work == IndirectWork::kDispatchRays) {
     DispatchRaysCommand rays;
     rays.pipeline = command_.pipeline;
     rays.state = std::move(*given);
@@ -117,6 +123,73 @@ rtapi::Result<Command> Reader::dispatch(uint32_t index) const {
   return out;
 }
 
+// [RAS-148]
+rtapi::Status Reader::take_views(uint32_t index, DrawState& state) const {
+  for (const IndirectBufferView& view : layout_.buffer_views) {
+    const uint8_t* source = arguments(index) + view.source_offset;
+    rtapi::VertexBufferView vertices;
+    rtapi::IndexBufferView indices;
+    std::memcpy(&vertices, source, sizeof(vertices));
+    std::memcpy(&indices, source, sizeof(indices));
+    const std::string name =
+        view.of_indices ? "the index buffer" : "vertex buffer " + std::to_string(view.slot);
+    const uint64_t address = vertices.BufferLocation;
+    if (address != 0 &&
+        !addresses_.contains(address, std::max<uint64_t>(vertices.SizeInBytes, 1))) {
+      return problem(index, name + " is " + std::to_string(vertices.SizeInBytes) + " bytes at " +
+                                describe_address(addresses_, address) +
+                                "; they must be inside one live buffer");
+    }
+    if (!view.of_indices) {
+      constexpr uint32_t kMaxStride = 2048;
+      if (vertices.StrideInBytes > kMaxStride) {
+        return problem(index, name + " has a stride of " + std::to_string(vertices.StrideInBytes) +
+                                  " bytes; it may be 0 to 2048");
+      }
+      state.vertex_buffers[view.slot] = vertices;
+      continue;
+    }
+    const bool small = indices.Format == rtapi::Format::kR16Uint;
+    if (address != 0 &&
+        ((!small && indices.Format != rtapi::Format::kR32Uint) || address % (small ? 2 : 4) != 0)) {
+      return problem(index, name + " has DXGI format " +
+                                std::to_string(static_cast<uint32_t>(indices.Format)) +
+                                " and is at " + describe_address(addresses_, address) +
+                                "; it must be R16_UINT or R32_UINT, aligned to its size");
+    }
+    state.index_buffer = indices;
+  }
+  return {};
+}
+
+rtapi::Result<Command> Reader::draw(uint32_t index) const {
+  auto given = state(index);
+  if (!given) return given.error();
+  DrawCommand draw;
+  draw.pipeline = command_.pipeline;
+  draw.linked = command_.linked_graphics;
+  draw.bindings = std::move(*given);
+  draw.state = command_.draw_state;
+  if (!layout_.buffer_views.empty()) {
+    auto state = std::make_shared<DrawState>(*command_.draw_state);
+    if (auto s = take_views(index, *state); !s) return s.error();
+    draw.state = std::move(state);
+  }
+  draw.indexed = layout_.work == IndirectWork::kDrawIndexed;
+  const uint8_t* source = arguments(index) + layout_.work_offset;
+  if (draw.indexed) {
+    std::memcpy(&draw.arguments, source, sizeof(draw.arguments));
+  } else {
+    rtapi::DrawArguments plain;
+    std::memcpy(&plain, source, sizeof(plain));
+    draw.arguments = {plain.VertexCountPerInstance, plain.InstanceCount, plain.StartVertexLocation,
+                      0, plain.StartInstanceLocation};
+  }
+  Command out;
+  out.emplace<DrawCommand>(std::move(draw));
+  return out;
+}
+
 rtapi::Status Reader::run(const RunIndirect& run) {
   if (command_.arguments->host() == nullptr ||
       (command_.count != nullptr && command_.count->host() == nullptr)) {
@@ -125,7 +198,7 @@ rtapi::Status Reader::run(const RunIndirect& run) {
   const uint32_t commands = count();
   for (uint32_t i = 0; i < commands; ++i) {
     if (launches_nothing(i)) continue;
-    auto each = dispatch(i);
+    auto each = draws() ? draw(i) : dispatch(i);
     if (!each) return each.error();
     if (auto s = run(*each, i); !s) return s;
   }

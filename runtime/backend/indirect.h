@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Turns ExecuteIndirect into plain dispatches: reads and checks the arguments, the same way for
-// every backend. [DXR: D3D12_INDIRECT_ARGUMENT_TYPE]
+// Turns ExecuteIndirect into plain dispatches and draws: reads and checks the arguments, the same
+// way for every backend. [DXR: D3D12_INDIRECT_ARGUMENT_TYPE]
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,11 @@
 
 namespace kaamos::runtime {
 
-// Runs a DispatchRaysCommand or DispatchCommand; `index` counts within the ExecuteIndirect.
+// Runs a DispatchRaysCommand, DispatchCommand or DrawCommand; `index` counts within the
+// ExecuteIndirect.
 using RunIndirect = std::function<rtapi::Status(const Command& dispatch, uint32_t index)>;
 
-// Runs the commands in order, skipping those with a zero dimension. Everything that may write the
+// Runs the commands in order, skipping those with a count of zero. Everything that may write the
 // buffers must be done. Error KA0898, which removes the device: arguments that break a rule.
 // `label` names the command.
 rtapi::Status execute_indirect(const AddressMap& addresses, const ExecuteIndirectCommand& command,

@@ -38,8 +38,8 @@ class Indirect : public ::testing::Test {
       addresses_.insert(allocation);
     }
     layout_.root_arguments = {{0, 8, 4, 0, 0}, {4, 16, 8, 1, 256}};
-    layout_.dispatch_rays = true;
-    layout_.dispatch_offset = 12;
+    layout_.work = IndirectWork::kDispatchRays;
+    layout_.work_offset = 12;
     layout_.packed_bytes = 116;
     layout_.stride_bytes = 120;
     command_.max_count = 3;
@@ -188,6 +188,85 @@ TEST_F(Indirect, MemoryThatTheHostCannotSee) {
   const rtapi::Status status = run();
   ASSERT_FALSE(status.ok());
   EXPECT_TRUE(says(status.error().message, "upload heap"));
+}
+
+// Two draws of 20 bytes of arguments, each behind a vertex and an index buffer view.
+class IndirectDraws : public Indirect {
+ protected:
+  IndirectDraws() {
+    layout_ = {};
+    layout_.buffer_views = {{0, false, 5}, {16, true, 0}};
+    layout_.work = IndirectWork::kDrawIndexed;
+    layout_.work_offset = 32;
+    layout_.packed_bytes = layout_.stride_bytes = 52;
+    command_.max_count = 2;
+    auto state = std::make_shared<DrawState>();
+    state->topology = rtapi::PrimitiveTopology::kTriangleList;
+    state->vertex_buffers[5] = {1, 2, 3};
+    state->vertex_buffers[6] = {4, 5, 6};
+    command_.draw_state = std::move(state);
+    command_.state.root_arguments = std::make_shared<RootArguments>();
+    put(0, {kTable, 96, 12}, {kTable + 2, 6, rtapi::Format::kR16Uint}, {3, 1, 2, -4, 5});
+    put(1, {}, {}, {6, 2, 0, 0, 0});
+  }
+  void put(uint32_t index, rtapi::VertexBufferView vertices, rtapi::IndexBufferView indices,
+           rtapi::DrawIndexedArguments arguments) {
+    uint8_t* at = arguments_->bytes.data() + 4 + 52 * index;
+    std::memcpy(at, &vertices, 16);
+    std::memcpy(at + 16, &indices, 16);
+    std::memcpy(at + 32, &arguments, 20);
+  }
+  const DrawCommand& draw(size_t i) { return std::get<DrawCommand>(ran_.at(i)); }
+};
+
+TEST_F(IndirectDraws, RAS_145_EachIsADrawOfItsOwn) {
+  ASSERT_TRUE(run().ok());
+  ASSERT_EQ(ran_.size(), 2u);
+  EXPECT_TRUE(draw(0).indexed);
+  EXPECT_EQ(draw(0).arguments.StartIndexLocation, 2u);
+  EXPECT_EQ(draw(0).arguments.BaseVertexLocation, -4);
+  EXPECT_EQ(draw(0).state->vertex_buffers[5].StrideInBytes, 12u);
+  EXPECT_EQ(draw(0).state->vertex_buffers[6].StrideInBytes, 6u);
+  EXPECT_EQ(draw(0).state->index_buffer.SizeInBytes, 6u);
+  EXPECT_EQ(draw(1).arguments.InstanceCount, 2u);
+  EXPECT_EQ(draw(1).state->vertex_buffers[5].BufferLocation, 0u);
+  EXPECT_EQ(draw(1).state->index_buffer.BufferLocation, 0u);
+}
+
+TEST_F(IndirectDraws, RAS_144_CountsOfZeroAreSkipped) {
+  put(0, {}, {}, {0, 1, 0, 0, 0});
+  put(1, {}, {}, {3, 0, 0, 0, 0});
+  ASSERT_TRUE(run().ok());
+  EXPECT_TRUE(ran_.empty());
+}
+
+TEST_F(IndirectDraws, RAS_148_BuffersMustBeAlive) {
+  const auto error = [&] { return run().error().message; };
+  put(0, {kTable, 4097, 12}, {}, {3, 1, 0, 0, 0});
+  EXPECT_NE(error().find("vertex buffer 5 is 4097 bytes"), std::string::npos) << error();
+  EXPECT_NE(error().find("KA0898"), std::string::npos);
+  put(0, {kTable, 96, 4000}, {}, {3, 1, 0, 0, 0});
+  EXPECT_NE(error().find("stride of 4000"), std::string::npos) << error();
+  put(0, {}, {kTable + 2, 6, rtapi::Format::kR32Uint}, {3, 1, 0, 0, 0});
+  EXPECT_NE(error().find("the index buffer"), std::string::npos) << error();
+  put(0, {}, {12, 6, rtapi::Format::kR32Uint}, {3, 1, 0, 0, 0});
+  EXPECT_NE(error().find("live buffer"), std::string::npos) << error();
+}
+
+TEST_F(IndirectDraws, PlainDrawsHaveFourArguments) {
+  layout_.buffer_views.clear();
+  layout_.work = IndirectWork::kDraw;
+  layout_.work_offset = 0;
+  layout_.packed_bytes = layout_.stride_bytes = 16;
+  command_.max_count = 1;
+  const rtapi::DrawArguments plain = {3, 4, 5, 6};
+  std::memcpy(arguments_->bytes.data() + 4, &plain, sizeof plain);
+  ASSERT_TRUE(run().ok());
+  EXPECT_FALSE(draw(0).indexed);
+  EXPECT_EQ(draw(0).arguments.StartIndexLocation, 5u);
+  EXPECT_EQ(draw(0).arguments.BaseVertexLocation, 0);
+  EXPECT_EQ(draw(0).arguments.StartInstanceLocation, 6u);
+  EXPECT_EQ(draw(0).state, command_.draw_state);
 }
 
 }  // namespace

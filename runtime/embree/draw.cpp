@@ -52,28 +52,26 @@ raster::Surface surface_of(const runtime::TargetView& view) {
 
 CountedOutcome DrawPass::draw(const runtime::DrawCommand& command, const std::string& label) {
   CountedOutcome outcome;
-  const runtime::DrawTargets& targets = command.state->targets;
-  if (targets_ != nullptr && (running_.size() == kMostDraws || *targets_ != targets)) {
+  if (!running_.empty() && (running_.size() == kMostDraws ||
+                            running_.front().command.state->targets != command.state->targets)) {
     outcome = flush();
     if (!outcome.status) return outcome;
   }
-  targets_ = &targets;
   RunningDraw& running = running_.emplace_back();
-  running.pipeline = static_cast<const GraphicsPipeline*>(command.pipeline.get());
+  running.command = command;
   running.label = label;
-  begin_draw(environment_, command.bindings, running);
-  draws_.push_back(resolve(command));
+  begin_draw(environment_, running);
+  draws_.push_back(resolve(running.command));
   return outcome;
 }
 
 CountedOutcome DrawPass::flush() {
   CountedOutcome outcome;
-  if (targets_ == nullptr) return outcome;
+  if (running_.empty()) return outcome;
+  const runtime::DrawTargets& views = running_.front().command.state->targets;
   raster::Targets targets;
-  for (uint32_t i = 0; i < targets_->color_count; ++i) {
-    targets.color[i] = surface_of(targets_->color[i]);
-  }
-  targets.depth = surface_of(targets_->depth);
+  for (uint32_t i = 0; i < views.color_count; ++i) targets.color[i] = surface_of(views.color[i]);
+  targets.depth = surface_of(views.depth);
   DrawWorkers workers(environment_, running_);
   rasterizer_.draw(targets, draws_, workers);
   for (RunningDraw& draw : running_) {
@@ -85,7 +83,6 @@ CountedOutcome DrawPass::flush() {
   }
   running_.clear();
   draws_.clear();
-  targets_ = nullptr;
   return outcome;
 }
 

@@ -18,8 +18,8 @@ class DrawPass {
  public:
   explicit DrawPass(const DispatchEnvironment& environment) : environment_(environment) {}
 
-  // Takes a draw into the pass, after a flush if its targets are others. `command` outlives the
-  // pass. `label` names it in messages.
+  // Takes a draw into the pass, after a flush if its targets are others. `label` names it in
+  // messages.
   CountedOutcome draw(const runtime::DrawCommand& command, const std::string& label);
   // Runs what waits. An error removes the device: KA0892, KA0893, KA0897.
   CountedOutcome flush();
@@ -30,7 +30,6 @@ class DrawPass {
 
   DispatchEnvironment environment_;
   raster::Rasterizer rasterizer_;
-  const runtime::DrawTargets* targets_ = nullptr;  // of the draws that wait
   std::deque<RunningDraw> running_;
   std::vector<raster::Draw> draws_;
 };

@@ -43,16 +43,16 @@ class DrawThread final : public raster::ShaderThread {
 
   void vertices(uint32_t draw, const shader::VertexLanes& lanes) override {
     begin(draw);
-    const runtime::LinkedGraphics& linked = current_->pipeline->linked();
-    worker_.running = &current_->pipeline->vertex();
+    const runtime::LinkedGraphics& linked = current_->pipeline().linked();
+    worker_.running = &current_->pipeline().vertex();
     shader::Invocation invocation = invoke(linked.vertex, current_->vertex_bound);
     linked.vertex_desc().vertex(invocation, lanes);
   }
 
   void pixels(uint32_t draw, shader::PixelLanes& lanes) override {
     begin(draw);
-    const runtime::LinkedGraphics& linked = current_->pipeline->linked();
-    worker_.running = &current_->pipeline->pixel();
+    const runtime::LinkedGraphics& linked = current_->pipeline().linked();
+    worker_.running = &current_->pipeline().pixel();
     shader::Invocation invocation = invoke(linked.pixel, current_->pixel_bound);
     const shader::GraphicsDesc& code = linked.pixel_desc();
     if (code.pixel != nullptr) return code.pixel(invocation, lanes);
@@ -111,11 +111,10 @@ void call_task(void* argument) {
 
 }  // namespace
 
-void begin_draw(const DispatchEnvironment& environment, const runtime::RootBindings& bindings,
-                RunningDraw& draw) {
-  begin_dispatch(environment, bindings, draw.dispatch);
+void begin_draw(const DispatchEnvironment& environment, RunningDraw& draw) {
+  begin_dispatch(environment, draw.command.bindings, draw.dispatch);
   draw.dispatch.label = draw.label.c_str();
-  const runtime::LinkedGraphics& linked = draw.pipeline->linked();
+  const runtime::LinkedGraphics& linked = draw.pipeline().linked();
   bind_shader(linked.vertex, draw.dispatch.abi, draw.vertex_bound);
   bind_shader(linked.pixel, draw.dispatch.abi, draw.pixel_bound);
   draw.dispatch.begun.store(true, std::memory_order_release);

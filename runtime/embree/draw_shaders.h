@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/backend/draw_commands.h"
 #include "runtime/embree/dispatch.h"
 #include "runtime/raster/workers.h"
 
@@ -15,17 +16,20 @@ namespace kaamos::embree {
 
 // A draw of the pass, as its shaders see it.
 struct RunningDraw {
-  RunningDispatch dispatch;  // what a draw shares with a dispatch: arguments, heaps, what went wrong
-  const GraphicsPipeline* pipeline = nullptr;
-  std::string label;  // "DrawInstanced, command 3"
+  RunningDispatch
+      dispatch;  // what a draw shares with a dispatch: arguments, heaps, what went wrong
+  runtime::DrawCommand command;  // keeps what it refers to
+  std::string label;             // "DrawInstanced, command 3"
+  const GraphicsPipeline& pipeline() const {
+    return static_cast<const GraphicsPipeline&>(*command.pipeline);
+  }
   // What the shaders have bound; empty unless they read it.
   std::vector<shader::BoundResource> vertex_bound;
   std::vector<shader::BoundResource> pixel_bound;
 };
 
-// Looks up what the shaders have bound. Everything else of `draw` is set.
-void begin_draw(const DispatchEnvironment& environment, const runtime::RootBindings& bindings,
-                RunningDraw& draw);
+// Looks up what the shaders have bound. `command` and `label` are set.
+void begin_draw(const DispatchEnvironment& environment, RunningDraw& draw);
 
 class DrawWorkers final : public raster::Workers {
  public:

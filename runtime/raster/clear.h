@@ -8,8 +8,8 @@
 
 namespace kaamos::raster {
 
-// Writes the colour, or the depth and stencil that the command names, to every slice of the surface:
-// everywhere or in the command's rectangles.
+// Writes the colour, or the depth and stencil that the command names, to every slice of the
+// surface: everywhere or in the command's rectangles.
 void clear(const Surface& surface, const runtime::ClearTargetCommand& command);
 
 }  // namespace kaamos::raster

@@ -262,17 +262,17 @@ class CommandList {
                             uint32_t start_index_location, int32_t base_vertex_location,
                             uint32_t start_instance_location);
 
-  /// Up to `max_command_count` dispatches whose arguments stand in `argument_buffer` when the list
-  /// executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples of 4, and
-  /// the arguments of max_command_count commands lie inside the buffer. The pipeline and all other
-  /// root arguments are those of the list; what the signature sets is 0 afterwards. Commands of a
-  /// zero dimension are skipped whatever else they hold.
-  /// [D3D12: ExecuteIndirect; DXR: ExecuteIndirect, D3D12_INDIRECT_ARGUMENT_TYPE]
-  /// @errors KA0800; KA0811, KA0812 as of DispatchRays or Dispatch; KA0816 an offset, a range
-  /// outside of a buffer, or another root signature than the command signature's; KA0903 an object
-  /// of another device; KA0904 an empty signature or argument buffer. When it executes: KA0898
-  /// arguments that break a rule (a table outside every buffer, more than 2^30 threads), and those
-  /// of the dispatches.
+  /// Up to `max_command_count` dispatches or draws whose arguments stand in `argument_buffer` when
+  /// the list executes; fewer if the uint32_t in `count_buffer` is smaller. Offsets are multiples
+  /// of 4, and the arguments of max_command_count commands lie inside the buffer. The pipeline and
+  /// all other root arguments are those of the list; what the signature sets is 0 afterwards.
+  /// Commands of a count of zero are skipped whatever else they hold. [D3D12: ExecuteIndirect; DXR:
+  /// ExecuteIndirect, D3D12_INDIRECT_ARGUMENT_TYPE]
+  /// @errors KA0800; KA0740, KA0811, KA0812 as of DispatchRays, Dispatch or draws; KA0816 an
+  /// offset, a range outside of a buffer, or another root signature than the command signature's;
+  /// KA0903 an object of another device; KA0904 an empty signature or argument buffer. When it
+  /// executes: KA0898 arguments that break a rule (a table outside every buffer, more than 2^30
+  /// threads), and those of the dispatches.
   void ExecuteIndirect(const CommandSignature& signature, uint32_t max_command_count,
                        const Buffer& argument_buffer, uint64_t argument_buffer_offset_bytes,
                        const Buffer& count_buffer = {}, uint64_t count_buffer_offset_bytes = 0);

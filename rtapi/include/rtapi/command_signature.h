@@ -29,25 +29,24 @@ namespace detail {
 struct CommandSignatureImpl;
 }
 
-/// What an argument is. Those of drawing have their numbers here and are refused (KA0540).
-/// [D3D12: D3D12_INDIRECT_ARGUMENT_TYPE]
+/// What an argument is. [D3D12: D3D12_INDIRECT_ARGUMENT_TYPE]
 enum class IndirectArgumentType : uint32_t {
-  kDraw = 0,
-  kDrawIndexed = 1,
-  kDispatch = 2,  ///< DispatchArguments, 12 bytes
-  kVertexBufferView = 3,
-  kIndexBufferView = 4,
+  kDraw = 0,                 ///< DrawArguments, 16 bytes
+  kDrawIndexed = 1,          ///< DrawIndexedArguments, 20 bytes
+  kDispatch = 2,             ///< DispatchArguments, 12 bytes
+  kVertexBufferView = 3,     ///< VertexBufferView, 16 bytes; for draws
+  kIndexBufferView = 4,      ///< IndexBufferView, 16 bytes; for draws
   kConstant = 5,             ///< 4 bytes each
   kConstantBufferView = 6,   ///< an address, 8 bytes
   kShaderResourceView = 7,   ///< an address, 8 bytes
   kUnorderedAccessView = 8,  ///< an address, 8 bytes
   kDispatchRays = 9,         ///< DispatchRaysDesc, 104 bytes; needs tier 1.1 (KA0541)
-  kDispatchMesh = 10,
+  kDispatchMesh = 10,        ///< refused (KA0540)
 };
 
-/// The argument of kVertexBufferView, which is refused; here for its layout.
+/// A vertex buffer that the argument buffer sets: a VertexBufferView.
 struct IndirectVertexBuffer {
-  uint32_t Slot;  ///< input slot
+  uint32_t Slot;  ///< 0 to 31
 };
 /// Root constants that the argument buffer sets: 4 * Num32BitValuesToSet bytes.
 struct IndirectConstant {
@@ -62,7 +61,7 @@ struct IndirectRootView {
 
 /// One argument of a command. [D3D12: D3D12_INDIRECT_ARGUMENT_DESC]
 struct IndirectArgumentDesc {
-  /// Which member of the union counts; the dispatches have none.
+  /// Which member of the union counts; draws, dispatches and the index buffer have none.
   IndirectArgumentType Type = IndirectArgumentType::kDispatchRays;
   union {
     IndirectConstant Constant = {0, 0, 0};  ///< kConstant
@@ -88,8 +87,9 @@ struct DispatchArguments {
 /// [D3D12: D3D12_COMMAND_SIGNATURE_DESC]
 struct CommandSignatureDesc {
   uint32_t ByteStride = 0;  ///< bytes: a multiple of 4, at least what the arguments take
-  /// Root arguments in ascending order of parameter (constants: and of offset), none set twice;
-  /// then one dispatch, the last. [DXR: D3D12_COMMAND_SIGNATURE_DESC]
+  /// Root arguments in ascending order of parameter (constants: and of offset), and for draws
+  /// vertex and index buffers, none set twice; then one draw or dispatch, the last. [DXR:
+  /// D3D12_COMMAND_SIGNATURE_DESC]
   std::vector<IndirectArgumentDesc> ArgumentDescs = {};
   uint32_t NodeMask = 0;  ///< ignored: there is one node
   std::string Name = {};  ///< for messages
