@@ -57,13 +57,26 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
   node.mask = desc.InstanceMask;
   node.procedural = level.procedural();
   node.scene = level.scene();
+  node.exact = level.exact();
   has_procedurals_ |= node.procedural;
+  has_exact_ |= node.exact;
   bottom_levels_.push_back(instance.bottom_level);
 }
 
-// Computes world bounds in double, then makes them relative to a frame around all of them.
-void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
-                                   std::vector<RTCBounds>& bounds) {
+void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances) {
+  exact_instances_.resize(instances.size());
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (!nodes_[i].exact) continue;
+    invert_in_double(&instances[i].desc.Transform[0][0], exact_instances_[i].world_to_object);
+    exact_instances_[i].frame =
+        &static_cast<const BottomLevel&>(*instances[i].bottom_level).exact_frame();
+  }
+}
+
+// Makes bounds relative to a frame around all of them. Those of exact instances are computed anew,
+// in double; the others are traced in float, and widened for it.
+void TopLevel::move_to_frame(std::span<const runtime::Instance> instances,
+                             std::vector<RTCBounds>& bounds) {
   struct Box {
     double lower[3];
     double upper[3];
@@ -71,33 +84,26 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Box all = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   std::vector<Box> boxes(instances.size());
-  exact_instances_.resize(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level == nullptr) continue;
-    const auto& level = static_cast<const BottomLevel&>(*instances[i].bottom_level);
+    const runtime::Bounds object =
+        static_cast<const BottomLevel&>(*instances[i].bottom_level).object_bounds();
     const float* matrix = &instances[i].desc.Transform[0][0];
-    invert_in_double(matrix, exact_instances_[i].world_to_object);
-    exact_instances_[i].frame = level.exact() ? &level.exact_frame() : nullptr;
-    const runtime::Bounds object = level.object_bounds();
     for (int row = 0; row < 3; ++row) {
-      double& low = boxes[i].lower[row];
-      double& high = boxes[i].upper[row];
-      low = high = matrix[4 * row + 3];
+      double low = matrix[4 * row + 3];
+      double high = low;
       for (int column = 0; column < 3; ++column) {
         const double a = static_cast<double>(matrix[4 * row + column]) * object.lower[column];
         const double b = static_cast<double>(matrix[4 * row + column]) * object.upper[column];
         low += std::min(a, b);
         high += std::max(a, b);
       }
-      if (!level.exact()) {  // traced in float, and widened for it
-        low = instances[i].bounds.lower[row];
-        high = instances[i].bounds.upper[row];
-      }
-      all.lower[row] = std::min(all.lower[row], low);
-      all.upper[row] = std::max(all.upper[row], high);
+      boxes[i].lower[row] = nodes_[i].exact ? low : instances[i].bounds.lower[row];
+      boxes[i].upper[row] = nodes_[i].exact ? high : instances[i].bounds.upper[row];
+      all.lower[row] = std::min(all.lower[row], boxes[i].lower[row]);
+      all.upper[row] = std::max(all.upper[row], boxes[i].upper[row]);
     }
   }
-  exact_ = true;
   frame_ = ExactFrame::of(all.lower, all.upper);
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level != nullptr) {
@@ -122,14 +128,13 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
   level->pack_filter_ = context.pack_filter;
-  const bool exact = std::any_of(kept.begin(), kept.end(), [](const auto& bottom_level) {
-    return static_cast<const BottomLevel&>(*bottom_level).exact();
-  });
-  if (exact) level->add_exact_instances(instances, bounds);
+  const bool exact = level->has_exact_;
+  if (exact) level->add_exact_instances(instances);
   if (bounds.size() <= kMostInstanceBoxes) {
     level->boxes_.set(bounds);
     return level;
   }
+  if (exact) level->move_to_frame(instances, bounds);
 
   rtcGetDeviceError(context.device);  // clears an earlier build's error
   level->scene_ = rtcNewScene(context.device);

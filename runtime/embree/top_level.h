@@ -44,21 +44,22 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // Where Embree's coordinates have their origin; null if no bottom level is exact.
-  const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
+  bool has_exact() const { return has_exact_; }
+  // Of a tree with exact bottom levels: where Embree's coordinates have their origin.
+  const ExactFrame& frame() const { return frame_; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }
 
  private:
   TopLevel() = default;
-  void add_exact_instances(std::span<const runtime::Instance> instances,
-                           std::vector<RTCBounds>& bounds);
+  void add_exact_instances(std::span<const runtime::Instance> instances);
+  void move_to_frame(std::span<const runtime::Instance> instances, std::vector<RTCBounds>& bounds);
   void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
 
   RTCScene scene_ = nullptr;
   InstanceBoxes boxes_;
   bool has_procedurals_ = false;
-  bool exact_ = false;
+  bool has_exact_ = false;
   ExactFrame frame_;
   PackFilter pack_filter_ = nullptr;
   std::vector<ExactInstance> exact_instances_;
@@ -75,7 +76,7 @@ struct RayState;
 // [traverse.cpp]
 void intersect(RayState& state, RTCRayHit& ray_hit);
 void occlude(RayState& state, RTCRay& ray);
-// The same for a list of boxes, in robust or fast precision, when it is known which boxes the ray
+// The same for a list of boxes without exact bottom levels, when it is known which boxes the ray
 // enters.
 void intersect(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane);
 void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);
