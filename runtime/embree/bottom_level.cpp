@@ -299,6 +299,18 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
   return embree_status(context.device, "boxes");
 }
 
+// Embree tests the boxes of nodes. Only trees that are built once, in full quality, have a leaf for
+// each primitive, and a tree of a single leaf has no node.
+bool BottomLevel::tests_each_box() const {
+  if (scene_quality(flags_) != RTC_BUILD_QUALITY_MEDIUM) return false;
+  size_t active = 0;
+  for (const auto& info : geometries_) {
+    active += static_cast<size_t>(std::count_if(info->padded.begin(), info->padded.end(),
+                                                [](const PaddedBox& box) { return box.active(); }));
+  }
+  return active > 1;
+}
+
 rtapi::Status BottomLevel::commit(const BuildContext& context) {
   const bool own_bounds = exact();
   if (own_bounds) {
@@ -312,6 +324,10 @@ rtapi::Status BottomLevel::commit(const BuildContext& context) {
   }
   if (auto s = embree_status(context.device, "commit"); !s) return s;
   if (own_bounds) return {};
+  if (procedural_) {
+    const bool tested = tests_each_box();
+    for (const auto& info : geometries_) info->tested_by_embree = tested;
+  }
   rtcGetSceneBounds(scene_, &bounds_);
   empty_ = !(bounds_.lower_x <= bounds_.upper_x && bounds_.lower_y <= bounds_.upper_y &&
              bounds_.lower_z <= bounds_.upper_z);

@@ -33,6 +33,7 @@ struct BuildContext {
 struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
   std::vector<PaddedBox> padded;             // the same as rays meet them
+  bool tested_by_embree = false;             // each box, before its callback
   std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
 };
 
@@ -86,6 +87,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
                                std::span<const rtapi::RaytracingGeometryDesc> geometries,
                                const BottomLevel* indices_of);
   rtapi::Status commit(const BuildContext& context);
+  bool tests_each_box() const;
   rtapi::Status pack_exact_triangles(const BuildContext& context);
   rtapi::Status attach_packs(const BuildContext& context, GeometryInfo& info);
 
