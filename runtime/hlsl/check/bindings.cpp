@@ -105,7 +105,7 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
     info->name = variable->name;
     info->type = types_.error();
     info->is_const = true;
-    if (find_local(scope, variable->name)) {
+    if (find_taken(scope, variable->name)) {
       report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
       continue;
     }

@@ -236,7 +236,7 @@ void Lowerer::lower_local(const VariableDecl* decl) {
   info->type = types_.error();
   info->is_const = checker_.is_const_type(decl->type);
   const bool valid = checker_.check_variable_type(type, decl->location, decl->name);
-  if (const Symbol* before = checker_.find_local(scope_, decl->name)) {
+  if (const Symbol* before = checker_.find_taken(scope_, decl->name)) {
     // [HLSL 2018: the variables of a loop belong to the scope around it]
     const bool hides = before->kind == SymbolKind::kVariable && before->variable->is_loop_variable;
     report(hides ? CheckId::kLoopVariableAgain : CheckId::kRedefinition, decl->location,

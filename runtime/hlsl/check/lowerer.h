@@ -170,6 +170,8 @@ class Lowerer {
                           SourceLocation location);
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
                          SourceLocation location);
+  // Where a component of a numeric place in memory is, counted from the place.
+  static uint32_t component_bytes(const Value& target, uint32_t component);
   Value emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
                     std::span<Value> arguments, SourceLocation location);
   Value call_trace_ray(std::vector<Value>& arguments, SourceLocation location);
@@ -199,6 +201,10 @@ class Lowerer {
                                            std::vector<Value>& arguments, SourceLocation location);
   Value call_sample(const Value& object, const SampleRule& rule, std::vector<Value>& arguments,
                     SourceLocation location);
+  Value gather_four(const Value& object, const SampleRule& rule, std::vector<Value>& arguments,
+                    size_t fixed, SourceLocation location);
+  // The result of a load or sample, whose last argument takes the status.
+  Value with_status(const Value& result, Value& status);
   Value call_load(const Value& object, std::vector<Value>& arguments, SourceLocation location);
   Value call_dimensions(const Value& object, std::vector<Value>& arguments,
                         SourceLocation location);

@@ -166,6 +166,7 @@ const Type* Checker::resolve_named(const TypeSyntax* syntax, Scope* scope) {
     resolve_name(name, scope, false);
     return types_.error();
   }
+  if (symbol->hidden) symbol = symbol->hidden;
   switch (symbol->kind) {
     case SymbolKind::kType:
       if (StructTemplate* own = template_of(symbol, name.last())) {

@@ -77,8 +77,20 @@ Symbol* Checker::add_symbol(Scope* scope, SymbolKind kind, std::string_view name
   symbol->location = location;
   const bool ordered = scope->kind == ScopeKind::kGlobal || scope->kind == ScopeKind::kNamespace;
   symbol->sequence = ordered && location.is_valid() ? ++sequence_ : 0;
-  if (!name.empty()) scope->symbols[name] = symbol;
+  if (name.empty()) return symbol;
+  Symbol*& entry = scope->symbols[name];
+  if (entry && is_tag(*entry) && kind != SymbolKind::kType) symbol->hidden = entry;
+  entry = symbol;
   return symbol;
+}
+
+bool Checker::is_tag(const Symbol& symbol) {
+  return symbol.kind == SymbolKind::kType && symbol.scope;
+}
+
+Symbol* Checker::find_taken(Scope* scope, std::string_view name) {
+  Symbol* symbol = find_local(scope, name);
+  return symbol && is_tag(*symbol) ? nullptr : symbol;
 }
 
 Symbol* Checker::find_local(Scope* scope, std::string_view name) {
@@ -89,6 +101,7 @@ Symbol* Checker::find_local(Scope* scope, std::string_view name) {
 Symbol* Checker::find_in_scope(Scope* scope, std::string_view name, bool check_order) {
   Symbol* symbol = find_local(scope, name);
   if (symbol && (!check_order || symbol->sequence <= visible_)) return symbol;
+  if (symbol && symbol->hidden && symbol->hidden->sequence <= visible_) return symbol->hidden;
   if (scope->structure && scope->structure->base) {
     if (Symbol* inherited = find_member(scope->structure->base, name)) return inherited;
   }
@@ -130,7 +143,7 @@ Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope
       return info ? info->scope : nullptr;
     }
     default:
-      return nullptr;
+      return symbol->hidden ? scope_of_part(part, symbol->hidden, scope) : nullptr;
   }
 }
 

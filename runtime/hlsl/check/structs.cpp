@@ -190,7 +190,7 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
     report(CheckId::kRayQueryPlace, variable->location, {to_string(type), "a member of a struct"});
     type = types_.error();
   }
-  if (!variable->name.empty() && find_local(info->scope, variable->name)) {
+  if (!variable->name.empty() && find_taken(info->scope, variable->name)) {
     report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
     return;
   }

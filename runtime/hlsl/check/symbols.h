@@ -182,6 +182,7 @@ struct Symbol {
   const TypeAliasDecl* alias = nullptr;
   const ir::Expr* value = nullptr;  // kConstant
   uint32_t field = 0;               // kField: position in StructInfo::fields
+  Symbol* hidden = nullptr;  // the struct or enum of the same name and scope [C++: class.name]
 };
 
 enum class ScopeKind : uint8_t { kGlobal, kNamespace, kStruct, kEnum, kTemplate, kBlock };
@@ -215,7 +216,8 @@ struct Value {
   bool is_place = false;
   bool is_const = false;
   const ir::Expr* expr = nullptr;
-  const ir::Expr* element = nullptr;  // kMemory: structured buffers' element index
+  // kMemory: structured buffers' element index. kTyped: a component known at run time only.
+  const ir::Expr* element = nullptr;
   const ir::Expr* offset = nullptr;
   const ir::Expr* coordinates = nullptr;
   const ir::Expr* mip = nullptr;
