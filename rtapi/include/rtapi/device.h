@@ -151,16 +151,19 @@ class Device {
   Result<Buffer> CreateBuffer(const BufferDesc& desc) const;
   /// Makes a texture of zeros on the default heap. [D3D12: CreateCommittedResource]
   /// @errors KA0904 empty handle; KA0907 a state for buffers; KA0908 dimension, size or mip levels;
-  /// KA0909 format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures;
-  /// the reason if the device is removed.
+  /// KA0570 and KA0571 unordered access to, or one dimension of, a block-compressed format; KA0909
+  /// format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures; the
+  /// reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
   /// Where `count` subresources of such a texture, from `first_subresource` on, lie in a buffer
   /// that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`, rounded up
   /// to 512, the others behind it. Appends to each vector that is not null one element for each
-  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Returns
+  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Of a
+  /// block-compressed format rows are rows of blocks, and footprints whole blocks large. Returns
   /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
   /// [D3D12: GetCopyableFootprints]
-  /// @errors KA0817 more subresources than there are; KA0907-0909 as of CreateTexture.
+  /// @errors KA0817 more subresources than there are; KA0570, KA0571, KA0907-0909 as of
+  /// CreateTexture.
   Result<uint64_t> GetCopyableFootprints(const TextureDesc& desc, uint32_t first_subresource,
                                          uint32_t count, uint64_t base_offset_bytes,
                                          std::vector<PlacedSubresourceFootprint>* layouts,
@@ -197,8 +200,9 @@ class Device {
   /// [D3D12: CreateUnorderedAccessView]
   /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
   /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride, offset or counter;
-  /// KA0626 format; KA0627 the resource was created without kAllowUnorderedAccess; KA0630 mips or
-  /// slices; on Vulkan KA0956 too many views, KA0961 no such view.
+  /// KA0626 format; KA0570 a block-compressed texture; KA0627 the resource was created without
+  /// kAllowUnorderedAccess; KA0630 mips or slices; on Vulkan KA0956 too many views, KA0961 no such
+  /// view.
   Status CreateUnorderedAccessView(const Resource& resource, const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
   /// The same of a structured buffer with a counter, for HLSL's IncrementCounter, Append and
@@ -209,7 +213,7 @@ class Device {
                                    const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
   /// A view of mip 0 of the whole texture, with its own format and dimension.
-  /// @errors as of the overload with a desc: KA0622, KA0626, KA0627, KA0903, KA0904.
+  /// @errors as of the overload with a desc: KA0570, KA0622, KA0626, KA0627, KA0903, KA0904.
   Status CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const;
   /// Writes a view of a constant buffer, or a null view for address 0, into slot `dest` of a living
   /// CBV/SRV/UAV heap. [D3D12: CreateConstantBufferView]
