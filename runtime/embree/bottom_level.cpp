@@ -374,8 +374,31 @@ runtime::GeometryContents BottomLevel::geometry_contents(uint32_t geometry) cons
   return contents;
 }
 
+std::shared_ptr<const BottomLevel> BottomLevel::exact_twin(const BuildContext& context) const {
+  const std::lock_guard lock(twin_mutex_);
+  if (twin_ != nullptr) return twin_;
+  std::shared_ptr<BottomLevel> twin(new BottomLevel);
+  twin->exact_ = true;
+  twin->flags_ = flags_ & ~BuildFlags::kAllowUpdate;
+  if (!twin->create_scene(context)) return nullptr;
+  for (uint32_t i = 0; i < geometries_.size(); ++i) {
+    GeometryInfo& info = *twin->geometries_.emplace_back(std::make_unique<GeometryInfo>());
+    static_cast<runtime::GeometryShape&>(info) = *geometries_[i];
+    const runtime::GeometryContents contents = geometry_contents(i);
+    if (contents.indices.empty()) continue;
+    info.exact = std::make_unique<ExactTriangles>();
+    info.exact->frame = &twin->exact_frame_;
+    info.exact->vertices.assign(contents.xyz.begin(), contents.xyz.end());
+    info.exact->indices.assign(contents.indices.begin(), contents.indices.end());
+  }
+  if (!twin->commit(context)) return nullptr;
+  twin_ = std::move(twin);
+  return twin_;
+}
+
 rtapi::Status BottomLevel::update(const BuildContext& context,
                                   std::span<const RaytracingGeometryDesc> geometries) {
+  twin_ = nullptr;
   rtcGetDeviceError(context.device);
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     GeometryInfo& info = *geometries_[i];

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -63,6 +64,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
   bool procedural() const { return procedural_; }
   bool exact() const { return exact_ && !procedural_; }
   const ExactFrame& exact_frame() const { return exact_frame_; }
+  // An exact level of the same triangles, for rays and instances that make them non-opaque. Made
+  // when it is first asked for; null if Embree has no memory for it.
+  std::shared_ptr<const BottomLevel> exact_twin(const BuildContext& context) const;
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
   std::vector<runtime::GeometryShape> geometry_shapes() const override;
@@ -100,6 +104,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   ExactFrame exact_frame_;
   uint64_t out_of_range_triangles_ = 0;
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
+  mutable std::mutex twin_mutex_;
+  mutable std::shared_ptr<const BottomLevel> twin_;
 };
 
 // Callbacks of the traversal, which a build gives to its geometries. [any_hit.cpp,

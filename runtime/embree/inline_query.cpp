@@ -204,6 +204,9 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
                  const shader::RayQueryArguments& arguments, const shader::RayDesc& ray) {
   Worker& worker = worker_of(caller);
   const TopLevel* scene = find_top_level(worker, arguments.acceleration_structure);
+  if (scene != nullptr && makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+    scene = &scene->for_non_opaque();
+  }
   query.ray = ray;
   query.ray_flags = arguments.ray_flags & kAllRayFlags;
   query.inclusion_mask = arguments.instance_inclusion_mask;

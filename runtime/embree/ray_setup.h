@@ -43,6 +43,10 @@ inline bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
   return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
 }
 
+inline bool makes_non_opaque(uint32_t flags) {
+  return (flags & (kRayForceOpaque | kRayForceNonOpaque)) == kRayForceNonOpaque;
+}
+
 // Out of line, because only a ray against a different structure than the last one gets here.
 [[gnu::noinline]] inline const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
   worker.cached_top_level = worker.dispatch->memory->find_top_level(address);

@@ -204,6 +204,9 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   if (top_level == nullptr || top_level->empty() || !is_valid(world, t_min, t_max)) [[unlikely]] {
     return run_miss(worker, caller, arguments, state);
   }
+  if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+    top_level = &top_level->for_non_opaque();
+  }
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
   if (top_level->has_exact()) [[unlikely]] {
@@ -225,6 +228,9 @@ void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, 
     // releasing it; that is why it works at one depth only.
     if (worker.shared_top_level.get() != top_level) {
       worker.shared_top_level = worker.cached_top_level;
+    }
+    if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+      top_level = &top_level->for_non_opaque();
     }
     const auto trace = top_level->has_exact() ? trace_together<true> : trace_together<false>;
     return trace(worker, caller, arguments, payloads, rays, lanes, *top_level);

@@ -39,9 +39,9 @@ struct DeviceInfo {
 /// specification]
 enum class TraversalPrecision : uint32_t {
   kFast,  ///< Embree's default; a rare ray slips through an edge that two triangles share
-  /// No gaps between triangles in practice. Bottom levels whose triangles are not all opaque keep
-  /// the rules of kExact, so that any-hit shaders and RayQuery see one triangle at a shared edge;
-  /// what only an instance or a ray forces to be non-opaque does not.
+  /// No gaps between triangles in practice. What any-hit shaders and the candidates of RayQuery see
+  /// keeps the rules of kExact, one triangle at a shared edge: in bottom levels that are not all
+  /// opaque, and in others where an instance or a ray has FORCE_NON_OPAQUE.
   kRobust,
   kExact  ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
 };

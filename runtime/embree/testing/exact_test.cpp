@@ -417,29 +417,64 @@ TEST(Robust, MixedTopLevelsSeeWhatExactOnesSee) {
   EXPECT_GT(hits, 10000u);
 }
 
-// The edges of a quad and of a closed surface, where the default precision runs any-hit shaders.
-TEST(Robust, SharedEdgesAreHitOnceWhereTheyAreNotOpaque) {
+// The edges of a quad, where the default precision runs any-hit shaders: because the geometry, the
+// instance or the ray says so.
+TEST(Robust, SharedEdgesAreHitOnceByAnyHitShaders) {
   Harness h(1, TraversalPrecision::kRobust);
   h.use_standard_pipeline(any_hit_ignore);
   GeometryInput quad;
   quad.vertices = {{-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}};
   quad.indices = {0, 2, 1, 0, 3, 2};
   quad.flags = kNonOpaque;
-  const uint64_t scene = h.scene({quad});
-  std::vector<Ray> rays;
-  for (int i = -200; i <= 200; ++i) {
-    const float at = 0.8f * static_cast<float>(i) / 200;
-    for (const float start : {0.0f, 0.37f, -2.1f}) {
-      Ray ray = ray_along_z(scene, start, -0.5f * start);
-      ray.ray.direction[0] = at - start;
-      ray.ray.direction[1] = at + 0.5f * start;
-      ray.ray.direction[2] = 5;
-      rays.push_back(ray);
+  GeometryInput opaque = quad;
+  opaque.flags = kOpaque;
+  const uint64_t level = h.bottom_level({opaque});
+  std::vector<rtapi::RaytracingInstanceDesc> many(50, instance_of(level));
+  for (size_t i = 1; i < many.size(); ++i) many[i].Transform[0][3] = 10 * static_cast<float>(i);
+  constexpr uint32_t kForceNonOpaque = 8;
+  struct Case {
+    uint64_t scene;
+    uint32_t ray_flags;
+  };
+  for (const Case& each : {Case{h.scene({quad}), 0}, Case{h.scene({opaque}, kForceNonOpaque), 0},
+                           Case{h.scene({opaque}), 0x2}, Case{h.top_level(many), 0x2}}) {
+    std::vector<Ray> rays;
+    for (int i = -200; i <= 200; ++i) {
+      const float at = 0.8f * static_cast<float>(i) / 200;
+      for (const float start : {0.0f, 0.37f, -2.1f}) {
+        Ray ray = ray_along_z(each.scene, start, -0.5f * start);
+        ray.ray.direction[0] = at - start;
+        ray.ray.direction[1] = at + 0.5f * start;
+        ray.ray.direction[2] = 5;
+        ray.ray_flags = each.ray_flags;
+        rays.push_back(ray);
+      }
     }
+    uint32_t wrong = 0;
+    for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 1 ? 0 : 1;
+    EXPECT_EQ(wrong, 0u) << each.ray_flags;
   }
-  uint32_t wrong = 0;
-  for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 1 ? 0 : 1;
-  EXPECT_EQ(wrong, 0u);
+}
+
+// The exact levels that rays ask for are made once, by whichever thread comes first.
+TEST(Robust, ManyThreadsMayAskForNonOpaqueTriangles) {
+  Harness h(6, TraversalPrecision::kRobust);
+  h.use_standard_pipeline(any_hit_ignore);
+  const std::vector<Triangle> mesh = closed_mesh(12, 1);
+  const uint64_t level = h.bottom_level({geometry_of(mesh, kOpaque)});
+  for (int run = 0; run < 8; ++run) {
+    const uint64_t scene = h.top_level({instance_of(level), instance_of(level)});
+    std::mt19937 random(6);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 5000; ++i) {
+      const Point target = aimed_at(mesh[random() % mesh.size()], static_cast<Aim>(i % 3), random);
+      rays.push_back(ray_to(scene, {0.1f, 0.05f, 0}, target));
+      rays.back().ray_flags = 0x2;
+    }
+    uint32_t wrong = 0;
+    for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 2 ? 0 : 1;
+    EXPECT_EQ(wrong, 0u);
+  }
 }
 
 }  // namespace
