@@ -258,8 +258,10 @@ class Device {
   /// @errors KA0904 an empty handle, KA0903 an object of another device. Subobjects: KA0500-0502,
   /// KA0519-0521, KA0536, KA0538, KA0539. Exports: KA0503-0506. Associations: KA0507-0510, KA0515.
   /// Configs: KA0511-0514. Hit groups: KA0516-0518, KA0524. Sizes: KA0522, KA0523. Collections:
-  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. On Vulkan: KA0952, KA0954
-  /// a library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
+  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. Functions without a body:
+  /// KA0560 none defines it, KA0561 another signature, KA0562 a collection's flags, KA0563 no
+  /// source, KA0564 what the compiler says of the libraries together. On Vulkan: KA0952, KA0954 a
+  /// library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
   /// device is removed.
   Result<StateObject> CreateStateObject(const StateObjectDesc& desc) const;
   /// Makes a pipeline of a parent and more exports. The addition is a pipeline that is valid by

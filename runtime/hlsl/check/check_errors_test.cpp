@@ -157,7 +157,10 @@ const std::vector<Case>& cases() {
       {"NoSuchMethod", Id::kNoSuchMethod, kernel("S s;\ns.@go();", "struct S { int a; };")},
       {"NoSuchBufferMethod", Id::kNoSuchMethod, kernel("results.@Sample(1);")},
       {"StoreToReadOnly", Id::kNoSuchMethod, kernel("b.@Store(0, 1);", "ByteAddressBuffer b;")},
-      {"NoBody", Id::kNoBody, kernel("@f();", "void f();")},
+      {"NoBodyOfStatic", Id::kNoBody, kernel("@f();", "static void f();")},
+      {"NoBodyOfMethod", Id::kNoBody, kernel("S s;\ns.@f();", "struct S { int a; void f(); };")},
+      {"NoBodyOfTemplate", Id::kNoBody, kernel("@f(1);", "template<typename T> void f(T t);")},
+      {"NoBodyOutsideLibraries", Id::kNoBody, kernel("@f();", "void f();"), target("cs_6_6")},
       {"Recursion", Id::kRecursion,
        "RWByteAddressBuffer r;\nint f(int n) { return n < 1 ? 0 : @f(n - 1); }\n"
        "[shader(\"compute\")][numthreads(1,1,1)]\nvoid main() { r.Store(0, f(3)); }\n"},

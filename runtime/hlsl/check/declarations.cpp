@@ -296,6 +296,7 @@ void Checker::initialise(VariableInfo* variable) {
       }
     }
   }
+  check_initialiser_imports(*variable);
   variable->state = VariableInfo::State::kDone;
 }
 

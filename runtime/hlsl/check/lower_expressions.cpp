@@ -54,7 +54,7 @@ Value Lowerer::lower_inner(const Expr* expression) {
       if (literal->suffix == LiteralSuffix::kF) scalar = Scalar::kFloat32;
       if (literal->suffix == LiteralSuffix::kL) scalar = Scalar::kFloat64;
       if (literal->suffix == LiteralSuffix::kH) {
-        scalar = checker_.options_.native_16bit ? Scalar::kFloat16 : Scalar::kHalf;
+        scalar = checker_.options_->native_16bit ? Scalar::kFloat16 : Scalar::kHalf;
       }
       const Type* type = types_.scalar(scalar);
       return rvalue(

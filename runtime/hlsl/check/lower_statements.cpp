@@ -156,7 +156,7 @@ void Lowerer::lower_statement(const Stmt* statement) {
       break;
     case StmtKind::kFor: {
       const auto* loop = static_cast<const ForStmt*>(statement);
-      if (checker_.options_.hlsl_version < 2021) {
+      if (checker_.options_->hlsl_version < 2021) {
         lower_loop_head(loop->init);
         lower_loop(loop->condition, loop->step, loop->body, false, *loop);
         break;

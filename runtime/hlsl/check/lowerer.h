@@ -145,6 +145,7 @@ class Lowerer {
   std::string describe(const std::vector<Value>& arguments);
   void lower_function(FunctionInfo* function, SourceLocation use);
   FunctionInfo* bind_unbounded_arrays(FunctionInfo* function, const std::vector<Value>& arguments);
+  void warn_passed_payload(const FunctionInfo& import, const std::vector<Value>& arguments);
   ir::Function* make_ir_function(FunctionInfo* function);
 
   // -- Intrinsics (lower_intrinsics.cpp, lower_atomics.cpp, lower_waves.cpp,

@@ -47,6 +47,7 @@ Scope* Checker::make_scope(ScopeKind kind, Scope* parent, std::string_view name)
   Scope* scope = &scopes_.emplace_back();
   scope->kind = kind;
   scope->parent = parent;
+  if (parent) scope->unit = parent->unit;
   if (kind == ScopeKind::kBlock) return scope;
   scope->name = name.empty() && parent ? parent->name
                 : parent               ? qualify(parent, name)
@@ -148,7 +149,8 @@ Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope
 }
 
 Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quiet) {
-  Scope* in = name.is_global ? global_ : nullptr;
+  Scope* const global = unit_scopes_[scope->unit];
+  Scope* in = name.is_global ? global : nullptr;
   Symbol* symbol = nullptr;
   for (const NamePart& part : name.parts) {
     symbol = in ? find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
@@ -157,7 +159,7 @@ Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quie
       if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
         report(CheckId::kNeedsShaderModel, name.parts[0].location, {spell(name), "6.9"});
       } else if (!quiet) {
-        const std::string where = in && in != global_ ? " in '" + in->name + "'" : "";
+        const std::string where = in && in != global ? " in '" + in->name + "'" : "";
         report_unknown(CheckId::kUndeclared, part.location, {std::string(part.identifier), where},
                        part.identifier, in ? in : scope, in == nullptr);
       }

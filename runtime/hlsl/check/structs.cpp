@@ -101,6 +101,7 @@ void Checker::complete_struct(StructInfo* info) {
   for (const Decl* member : decl->members) declare_member(info, member);
   check_interfaces(info);
   info->complete = true;
+  reuse_struct(info);
   check_payload_struct(info);
 }
 
@@ -110,9 +111,9 @@ void Checker::declare_bit_field(StructInfo* info, const VariableDecl* decl, cons
   const std::string name(decl->name.empty() ? "(unnamed)" : decl->name);
   const auto width = constant_integer(decl->bit_width, info->scope, "the width of a bit field");
   if (type->is_error() || !width) return;
-  if (options_.hlsl_version < 2021) {
+  if (options_->hlsl_version < 2021) {
     report(CheckId::kBitFieldVersion, decl->bit_width->location,
-           {name, std::to_string(options_.hlsl_version)});
+           {name, std::to_string(options_->hlsl_version)});
     return;
   }
   if (!(type->is_enum() || (type->is_scalar() && !is_floating(type->scalar)))) {

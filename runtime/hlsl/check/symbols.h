@@ -30,6 +30,8 @@ struct BindingInfo {
   uint32_t space = 0;
   uint32_t size_bytes = 0;
   SourceLocation location;
+  uint32_t unit = 0;  // as Scope::unit
+  bool is_automatic = false;
   bool reachable = false;
   uint32_t index = 0;  // in Module::bindings, once known
   std::vector<ir::Expr*> uses;
@@ -138,6 +140,10 @@ struct FunctionInfo {
   std::vector<ir::Stmt*> waves;  // kWave
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;
+  // Without a body: its definition in another library, or its index in Module::imports.
+  FunctionInfo* linked = nullptr;
+  bool is_import = false;
+  uint32_t import_index = 0;
   uint32_t visit_mark = 0;
   uint32_t stages = 0;  // of the entry points that reach it
 };
@@ -190,7 +196,8 @@ enum class ScopeKind : uint8_t { kGlobal, kNamespace, kStruct, kEnum, kTemplate,
 struct Scope {
   ScopeKind kind = ScopeKind::kBlock;
   Scope* parent = nullptr;
-  std::string name;  // qualified, without a trailing ::
+  uint32_t unit = 0;  // which of the libraries that are linked
+  std::string name;   // qualified, without a trailing ::
   StructInfo* structure = nullptr;
   std::unordered_map<std::string_view, Symbol*> symbols;
   std::vector<Scope*> used;  // using namespace
