@@ -66,20 +66,24 @@ function(kaamos_compile_lightly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [MANY_PIPELINES])
+# kaamos_add_test(NAME SOURCES a.cpp ... LIBRARIES x ... LABELS unit [TIMEOUT s] [SHARE tests]
+#   [MANY_PIPELINES])
 # Adds one executable; every TEST in it becomes one ctest test in a process of its own, with the
-# given labels. Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
+# given labels. Under scripts/test, SHARE tests share a process (tests/vulkan/shared_runs.h). Tests start through kaamos-isolate, which repeats a test on Vulkan that the driver
 # crashed. A test counts as one on Vulkan if it or its executable has "vulkan" in its name; it then
 # gets the label vulkan too. MANY_PIPELINES is for Vulkan tests that make many pipelines and trace
 # few rays: lavapipe does not optimise those pipelines, which takes it less than half the time. All
 # other tests run what users run.
 function(kaamos_add_test name)
-  cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "MANY_PIPELINES" "TIMEOUT;SHARE" "SOURCES;LIBRARIES;LABELS" ${ARGN})
   if(NOT KAAMOS_BUILD_TESTS)
     return()
   endif()
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
+  endif()
+  if(NOT arg_SHARE)
+    set(arg_SHARE 1)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE kaamos_build_flags ${arg_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
@@ -88,7 +92,7 @@ function(kaamos_add_test name)
     KAAMOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KAAMOS_BINARY_DIR="${PROJECT_BINARY_DIR}")
   # CMake calls the program that starts a test its emulator.
   set_target_properties(${name} PROPERTIES
-    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT}")
+    CROSSCOMPILING_EMULATOR "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/kaamos-isolate;--limit;${arg_TIMEOUT};--share;${arg_SHARE}")
   add_dependencies(${name} kaamos-isolate)
   math(EXPR timeout "2 * ${arg_TIMEOUT} + 30")  # kaamos-isolate ends it before this
   include(GoogleTest)

@@ -9,12 +9,9 @@
 #include <utility>
 
 #include "rtapi/src/checked_library.h"
+#include "rtapi/src/module_library.h"
 #include "rtapi/src/shader_library_impl.h"
-#include "runtime/hlsl/driver/build_library.h"
 #include "runtime/hlsl/driver/embedded_source.h"
-#include "runtime/hlsl/driver/host_compiler.h"
-#include "runtime/hlsl/glsl/spirv.h"
-#include "runtime/hlsl/interpret/interpret.h"
 
 namespace rtapi::detail {
 namespace {
@@ -43,40 +40,6 @@ std::shared_ptr<const hlsl::ir::Module> checked_module(const shader::LibraryDesc
   return module;
 }
 
-ShaderLibrary interpret(std::shared_ptr<const hlsl::ir::Module> module, bool spirv,
-                        std::string& error) {
-  hlsl::InterpretOptions options;
-  if (spirv) {
-    hlsl::SpirvLibrary compiled = hlsl::compile_spirv(*module);
-    error = compiled.error.message();
-    if (!error.empty()) return {};
-    options.spirv = std::move(compiled.modules);
-  }
-  const auto interpreted = hlsl::InterpretedLibrary::create(std::move(module), options, error);
-  if (interpreted == nullptr) return {};
-  const auto library = LoadShaderLibrary(&interpreted->desc(), interpreted);
-  if (library.ok()) return *library;
-  error = library.error().message;
-  return {};
-}
-
-ShaderLibrary build(const hlsl::HostCompiler& compiler, const hlsl::ir::Module& module, bool spirv,
-                    bool debug, std::string& error) {
-  hlsl::BuildOptions options;
-  options.spirv = spirv;
-  // A Vulkan device runs the SPIR-V; the native code next to it only has to exist.
-  options.optimisation = debug   ? hlsl::Optimisation::kDebug
-                         : spirv ? hlsl::Optimisation::kNone
-                                 : hlsl::Optimisation::kFull;
-  const hlsl::SharedObject object = hlsl::build_library(compiler, module, options);
-  error = object.error.message();
-  if (!error.empty()) return {};
-  const auto library = LoadShaderLibraryFromFile(object.path.string());
-  if (library.ok()) return *library;
-  error = library.error().message;
-  return {};
-}
-
 CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
   const shader::LibraryDesc& desc = *library.impl()->desc;
   std::string error;
@@ -86,21 +49,13 @@ CheckedLibrary make(const ShaderLibrary& library, bool spirv) {
   }
   CheckedLibrary out;
   out.checked = true;
-  const bool interpreted = (desc.flags & shader::kLibraryInterpreted) != 0;
-  const bool debug = (desc.flags & shader::kLibraryDebug) != 0;
-  std::string missing;
-  if (!interpreted) {
-    if (const auto compiler = hlsl::find_host_compiler(missing)) {
-      out.library = build(*compiler, *module, spirv, debug, missing);
-    }
+  ModuleLibrary built = library_of(module, desc.flags, spirv);
+  out.library = std::move(built.library);
+  if (!built.slow.empty()) {
+    out.note =
+        "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + built.slow;
   }
-  if (!out.library) {
-    out.library = interpret(module, spirv, error);
-    if (!interpreted && !spirv) {
-      out.note =
-          "\"" + library.name() + "\" is interpreted, about a hundred times slower: " + missing;
-    }
-  }
+  error = std::move(built.error);
   if (!out.library) {
     return {library, "\"" + library.name() + "\" runs without checks of its code: " + error, false};
   }

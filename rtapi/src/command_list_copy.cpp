@@ -61,6 +61,10 @@ struct CopySide {
   uint32_t size[3] = {0, 0, 0};  // texels of the subresource or footprint
   Format format = Format::kUnknown;
   std::string name;
+
+  // Texels to an element along an axis: more than one in blocks.
+  uint32_t step(int axis) const { return axis < 2 ? GetFormatInfo(format).block_side : 1u; }
+  uint32_t elements(int axis) const { return (size[axis] + step(axis) - 1) / step(axis); }
 };
 
 Result<CopySide> ResolveTextureSide(const TextureCopyLocation& location, const char* which) {
@@ -89,26 +93,34 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
   CopySide side;
   side.name = Text(which, " ", Named("buffer", buffer.name()));
   const uint64_t offset = location.PlacedFootprint.Offset;
-  const uint64_t texel = GetFormatInfo(f.Format).bytes;
-  if (texel == 0 || f.Width == 0 || f.Height == 0 || f.Depth == 0) {
+  const FormatInfo format = GetFormatInfo(f.Format);
+  const uint64_t element = format.bytes;
+  if (element == 0 || f.Width == 0 || f.Height == 0 || f.Depth == 0) {
     return MakeError(Id::kCopyFootprint, side.name, ": the footprint has ", f.Width, "x", f.Height,
                      "x", f.Depth, " texels of format ", static_cast<uint32_t>(f.Format),
-                     texel == 0 ? ", which cannot be copied" : "; no size may be 0");
+                     element == 0 ? ", which cannot be copied" : "; no size may be 0");
   }
+  if (f.Width % format.block_side != 0 || f.Height % format.block_side != 0) {
+    return MakeError(Id::kCopyBlocks, side.name, ": the footprint has ", f.Width, "x", f.Height,
+                     " texels of block-compressed format ", static_cast<uint32_t>(f.Format),
+                     "; both must be multiples of ", int{format.block_side});
+  }
+  const uint64_t row_bytes = f.Width / format.block_side * element;
   if (offset % kTextureDataPlacementAlignment != 0 ||
-      f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < f.Width * texel) {
+      f.RowPitch % kTextureDataPitchAlignment != 0 || f.RowPitch < row_bytes) {
     return MakeError(
         Id::kCopyFootprint, side.name, ": offset ", offset, " and row pitch ", f.RowPitch,
-        " for rows of ", f.Width * texel,
+        " for rows of ", row_bytes,
         " bytes; the offset must be a multiple of 512, the pitch a multiple of 256 and "
         "at least ",
-        f.Width * texel);
+        row_bytes);
   }
   // Each factor is checked by itself, so that the product cannot overflow.
-  const uint64_t rows = uint64_t{f.Height} * f.Depth;
+  const uint32_t slice_rows = f.Height / format.block_side;
+  const uint64_t rows = uint64_t{slice_rows} * f.Depth;
   const uint64_t size = buffer.size();
   const bool fits = offset <= size && rows - 1 <= size / f.RowPitch &&
-                    (rows - 1) * f.RowPitch + f.Width * texel <= size - offset;
+                    (rows - 1) * f.RowPitch + row_bytes <= size - offset;
   if (!fits) {
     return MakeError(Id::kCopyRange, side.name, ": a footprint of ", rows, " rows of ", f.RowPitch,
                      " bytes from byte ", offset, " does not fit its ", size, " bytes");
@@ -116,7 +128,7 @@ Result<CopySide> ResolveBufferSide(const TextureCopyLocation& location, const ch
   side.place.buffer = buffer.impl()->memory;
   side.place.offset = offset;
   side.place.row_pitch = f.RowPitch;
-  side.place.slice_pitch = uint64_t{f.RowPitch} * f.Height;
+  side.place.slice_pitch = uint64_t{f.RowPitch} * slice_rows;
   side.size[0] = f.Width;
   side.size[1] = f.Height;
   side.size[2] = f.Depth;
@@ -133,6 +145,38 @@ Result<CopySide> ResolveSide(const std::shared_ptr<DeviceImpl>& device,
                      ", its Type says otherwise");
   }
   return texture ? ResolveTextureSide(location, which) : ResolveBufferSide(location, which);
+}
+
+// Formats of one family; or one of blocks and one of integers with as many bytes in an element.
+// [D3D11.3 5.6: format conversion by copies]
+bool CanCopy(Format a, Format b) {
+  if (FormatFamily(a) == FormatFamily(b)) return true;
+  const FormatInfo one = GetFormatInfo(a), other = GetFormatInfo(b);
+  if (one.bytes != other.bytes || (one.block_side == 1) == (other.block_side == 1)) return false;
+  const FormatClass plain = one.block_side == 1 ? one.type : other.type;
+  return plain == FormatClass::kUint || plain == FormatClass::kSint ||
+         plain == FormatClass::kTypeless;
+}
+
+Status CheckCopyFormats(const CopySide& to, const CopySide& from) {
+  if (CanCopy(to.format, from.format)) return {};
+  const FormatInfo a = GetFormatInfo(to.format), b = GetFormatInfo(from.format);
+  return MakeError(
+      Id::kCopyFormat, "CopyTextureRegion: ", from.name, " has format ",
+      static_cast<uint32_t>(from.format), " and ", to.name, " has format ",
+      static_cast<uint32_t>(to.format), "; both must belong to one format family",
+      a.block_side == b.block_side ? "" : ", or blocks go with integers of the same bytes");
+}
+
+// Whether an edge of a box, or the place that it goes to, lies between blocks. The far edge may
+// also be that of the subresource.
+Status CheckBlockEdges(const CopySide& side, int axis, uint32_t first, uint32_t last) {
+  const uint32_t step = side.step(axis);
+  if (first % step == 0 && (last % step == 0 || last == side.size[axis])) return {};
+  return MakeError(Id::kCopyBlocks, "CopyTextureRegion: on axis ", axis, ", texels ", first, "..",
+                   last, " of ", side.name, " (format ", static_cast<uint32_t>(side.format),
+                   ", size ", side.size[axis], ") are not whole blocks; both must be multiples of ",
+                   step, ", or the second the size");
 }
 
 Status CheckCopyHeaps(const Buffer& dest, const Buffer& source) {
@@ -233,12 +277,7 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
                                  "CopyTextureRegion: both sides are buffers; use "
                                  "CopyBufferRegion"));
   }
-  if (FormatFamily(to->format) != FormatFamily(from->format)) {
-    return impl_->Fail(MakeError(Id::kCopyFormat, "CopyTextureRegion: ", from->name, " has format ",
-                                 static_cast<uint32_t>(from->format), " and ", to->name,
-                                 " has format ", static_cast<uint32_t>(to->format),
-                                 "; both must belong to one format family"));
-  }
+  if (Status s = CheckCopyFormats(*to, *from); !s.ok()) return impl_->Fail(s.error());
   const Box whole = {0, 0, 0, from->size[0], from->size[1], from->size[2]};
   const Box& b = box ? *box : whole;
   const uint32_t first[3] = {b.left, b.top, b.front};
@@ -247,16 +286,24 @@ void CommandList::CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x,
   runtime::CopyTextureCommand command;
   for (int i = 0; i < 3; ++i) {
     if (last[i] <= first[i]) return;  // empty boxes copy nothing [D3D12: CopyTextureRegion]
-    command.extent[i] = last[i] - first[i];
-    if (last[i] > from->size[i] || target[i] > to->size[i] ||
-        command.extent[i] > to->size[i] - target[i]) {
+    if (Status s = CheckBlockEdges(*from, i, first[i], last[i]); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    if (Status s = CheckBlockEdges(*to, i, target[i], to->size[i]); !s.ok()) {
+      return impl_->Fail(s.error());
+    }
+    // From here on in elements.
+    const uint32_t end = (last[i] - 1) / from->step(i) + 1;
+    from->place.origin[i] = first[i] / from->step(i);
+    to->place.origin[i] = target[i] / to->step(i);
+    command.extent[i] = end - from->place.origin[i];
+    if (end > from->elements(i) || to->place.origin[i] > to->elements(i) ||
+        command.extent[i] > to->elements(i) - to->place.origin[i]) {
       return impl_->Fail(MakeError(Id::kCopyRange, "CopyTextureRegion: on axis ", i, ", texels ",
                                    first[i], "..", last[i], " of ", from->name, " (size ",
                                    from->size[i], ") do not fit at ", target[i], " of ", to->name,
                                    " (size ", to->size[i], ")"));
     }
-    from->place.origin[i] = first[i];
-    to->place.origin[i] = target[i];
   }
   if (to->place.texture && to->place.texture == from->place.texture &&
       to->place.mip == from->place.mip && to->place.array_element == from->place.array_element) {
@@ -292,8 +339,14 @@ void CommandList::CopyResource(const Resource& dest, const Resource& source) {
   }
   const TextureDesc& a = std::get<Texture>(dest).GetDesc();
   const TextureDesc& b = std::get<Texture>(source).GetDesc();
-  if (a.Dimension != b.Dimension || a.Width != b.Width || a.Height != b.Height ||
-      a.DepthOrArraySize != b.DepthOrArraySize || a.MipLevels != b.MipLevels) {
+  bool same_size = a.MipLevels == b.MipLevels && a.DepthOrArraySize == b.DepthOrArraySize;
+  // Blocks may go to texels: the other texture then has a quarter of the size.
+  const bool same_blocks = GetFormatInfo(a.Format).block_side == GetFormatInfo(b.Format).block_side;
+  for (uint32_t mip = 0; same_size && mip < a.MipLevels; ++mip) {
+    same_size = same_blocks ? GetMipExtent(a, mip) == GetMipExtent(b, mip)
+                            : GetMipElements(a, mip) == GetMipElements(b, mip);
+  }
+  if (a.Dimension != b.Dimension || !same_size) {
     return impl_->Fail(MakeError(Id::kCopyFormat, "CopyResource: ", Name(dest), " and ",
                                  Name(source), " differ in dimension, size or mip levels"));
   }

@@ -139,6 +139,110 @@ TEST_F(TextureCopyTest, Errors) {
   EXPECT_ERROR(whole(texture, buffer), "KA0819");
 }
 
+class BlockCopyTest : public TextureCopyTest {
+ protected:
+  // 10 x 6 texels: 3 x 2 blocks, of which those at the far edges reach out.
+  Texture MakeBlocks(Format format = Format::kBC1Unorm) {
+    return device_
+        .CreateTexture({.Width = 10, .Height = 6, .MipLevels = 4, .Format = format, .Name = "bc"})
+        .value();
+  }
+  static PlacedSubresourceFootprint Blocks(uint32_t width, uint32_t height,
+                                           Format format = Format::kBC1Unorm) {
+    return {0, {format, width, height, 1, 256}};
+  }
+  const runtime::CopyTextureCommand& Copied(const TextureCopyLocation& dest, uint32_t x, uint32_t y,
+                                            const TextureCopyLocation& source, const Box* box) {
+    CommandList list = device_.CreateCommandList().value();
+    list.CopyTextureRegion(dest, x, y, 0, source, box);
+    const Status status = queue_.ExecuteAndWait(list);
+    EXPECT_TRUE(status.ok()) << MessageOf(status);
+    return std::get<runtime::CopyTextureCommand>(null_log().executed.back());
+  }
+};
+
+TEST_F(BlockCopyTest, CommandsCountInBlocks) {
+  auto buffer = MakeBuffer(2048, HeapType::kUpload);
+  auto texture = MakeBlocks();
+  const Box box = {4, 4, 0, 10, 6, 1};  // up to the edges
+  const auto& c = Copied({MakeBlocks(), 0}, 4, 4, {texture, 0}, &box);
+  EXPECT_EQ(c.extent[0], 2u);
+  EXPECT_EQ(c.extent[1], 1u);
+  EXPECT_EQ(c.extent[2], 1u);
+  EXPECT_EQ(c.source.origin[0], 1u);
+  EXPECT_EQ(c.source.origin[1], 1u);
+  EXPECT_EQ(c.dest.origin[0], 1u);
+  const Box padded = {0, 0, 0, 12, 8, 1};  // whole blocks
+  EXPECT_EQ(Copied({MakeBlocks(), 0}, 0, 0, {texture, 0}, &padded).extent[0], 3u);
+  const auto& up = Copied({texture, 0}, 0, 0, {buffer, Blocks(12, 8)}, nullptr);
+  EXPECT_EQ(up.extent[0], 3u);
+  EXPECT_EQ(up.extent[1], 2u);
+  EXPECT_EQ(up.source.slice_pitch, 512u);
+  // Mip 3 is 1 x 1 texel in one block.
+  EXPECT_EQ(Copied({texture, 3}, 0, 0, {buffer, Blocks(4, 4)}, nullptr).extent[0], 1u);
+}
+
+TEST_F(BlockCopyTest, BlocksGoToIntegersOfAsManyBytes) {
+  const auto plain = [&](Format format, uint32_t width, uint32_t height) {
+    return device_.CreateTexture({.Width = width, .Height = height, .Format = format}).value();
+  };
+  const auto& c = Copied({plain(Format::kR32G32Uint, 3, 2), 0}, 0, 0, {MakeBlocks(), 0}, nullptr);
+  EXPECT_EQ(c.extent[0], 3u);
+  EXPECT_EQ(c.extent[1], 2u);
+  const Box texels = {1, 0, 0, 3, 1, 1};
+  const auto& back = Copied({MakeBlocks(Format::kBC6HUf16), 0}, 4, 4,
+                            {plain(Format::kR32G32B32A32Sint, 3, 2), 0}, &texels);
+  EXPECT_EQ(back.extent[0], 2u);
+  EXPECT_EQ(back.source.origin[0], 1u);
+  EXPECT_EQ(back.dest.origin[0], 1u);
+  EXPECT_EQ(back.dest.origin[1], 1u);
+  EXPECT_OK(Copy({plain(Format::kR16G16B16A16Typeless, 3, 2), 0}, 0, 0,
+                 {MakeBlocks(Format::kBC4Snorm), 0}));
+  EXPECT_OK(
+      Copy({MakeBlocks(Format::kBC3Typeless), 0}, 0, 0, {MakeBlocks(Format::kBC3UnormSrgb), 0}));
+  EXPECT_ERROR(Copy({plain(Format::kR32G32Float, 3, 2), 0}, 0, 0, {MakeBlocks(), 0}), "KA0819",
+               "integers of the same bytes");
+  EXPECT_ERROR(Copy({plain(Format::kR32G32B32A32Uint, 3, 2), 0}, 0, 0, {MakeBlocks(), 0}),
+               "KA0819");
+  EXPECT_ERROR(Copy({MakeBlocks(Format::kBC4Unorm), 0}, 0, 0, {MakeBlocks(), 0}), "KA0819",
+               "family");
+  const auto whole = [&](const Resource& d, const Resource& s) {
+    return Record([&](CommandList& l) { l.CopyResource(d, s); });
+  };
+  const auto quarter =
+      device_
+          .CreateTexture({.Width = 2, .Height = 4, .MipLevels = 2, .Format = Format::kR32G32Uint})
+          .value();
+  const TextureDesc blocks = {
+      .Width = 8, .Height = 16, .MipLevels = 2, .Format = Format::kBC1Unorm};
+  EXPECT_OK(whole(quarter, device_.CreateTexture(blocks).value()));
+  EXPECT_ERROR(whole(quarter, MakeBlocks()), "KA0819", "size");
+}
+
+TEST_F(BlockCopyTest, PartsOfBlocksAreErrors) {
+  auto buffer = MakeBuffer(2048, HeapType::kUpload, "blocks");
+  auto texture = MakeBlocks(), other = MakeBlocks();
+  const auto box = [&](uint32_t left, uint32_t top, uint32_t right, uint32_t bottom) {
+    const Box b = {left, top, 0, right, bottom, 1};
+    return Copy({other, 0}, 0, 0, {texture, 0}, &b);
+  };
+  EXPECT_OK(box(4, 0, 8, 4));
+  EXPECT_ERROR(box(2, 0, 8, 4), "KA0572", "axis 0", "2..8", "multiples of 4");
+  EXPECT_ERROR(box(4, 0, 9, 4), "KA0572", "4..9");
+  EXPECT_ERROR(box(4, 0, 11, 4), "KA0572");
+  EXPECT_ERROR(box(4, 1, 8, 4), "KA0572", "axis 1");
+  EXPECT_ERROR(box(4, 0, 8, 5), "KA0572", "0..5");
+  EXPECT_ERROR(box(4, 0, 16, 4), "KA0817");
+  EXPECT_ERROR(Copy({other, 0}, 2, 0, {texture, 3}), "KA0572", "dest");
+  EXPECT_ERROR(Copy({other, 0}, 0, 3, {texture, 3}), "KA0572", "axis 1");
+  EXPECT_ERROR(Copy({other, 0}, 12, 0, {texture, 3}), "KA0817");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Blocks(10, 8)}), "KA0572", "10x8");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Blocks(12, 6)}), "KA0572", "\"blocks\"");
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Blocks(16, 8)}), "KA0817");
+  // 256 bytes hold 32 blocks of 8 bytes.
+  EXPECT_ERROR(Copy({texture, 0}, 0, 0, {buffer, Blocks(132, 4)}), "KA0820", "264");
+}
+
 TEST_F(CommandListTest, ClearsNeedTheSameViewTwice) {
   auto buffer = MakeBuffer(64, HeapType::kDefault, "buf", ResourceFlags::kAllowUnorderedAccess);
   auto other = MakeBuffer(64, HeapType::kDefault, "other", ResourceFlags::kAllowUnorderedAccess);

@@ -272,6 +272,20 @@ TEST_F(DescriptorTest, TextureViewErrors) {
   EXPECT_ERROR(srv({.ViewDimension = SrvDimension::kTexture2D, .Shader4ComponentMapping = 0x1687}),
                "KA0626", "component 7");
   EXPECT_ERROR(device_.CreateUnorderedAccessView(texture, slot_), "KA0627");
+  const auto blocks = [&](Format own) {
+    return device_.CreateTexture({.Width = 8, .Height = 8, .Format = own, .Name = "bc"}).value();
+  };
+  EXPECT_ERROR(device_.CreateUnorderedAccessView(blocks(Format::kBC7Unorm), slot_), "KA0570",
+               "\"bc\"", "98");
+  const auto cast = [&](Format own, Format seen) {
+    return device_.CreateShaderResourceView(
+        blocks(own), {.Format = seen, .ViewDimension = SrvDimension::kTexture2D}, slot_);
+  };
+  EXPECT_OK(cast(Format::kBC4Typeless, Format::kBC4Snorm));
+  EXPECT_OK(cast(Format::kBC7Typeless, Format::kBC7UnormSrgb));
+  EXPECT_ERROR(cast(Format::kBC7Unorm, Format::kBC7UnormSrgb), "KA0626", "99", "98");
+  EXPECT_ERROR(cast(Format::kBC7Typeless, Format::kBC3Unorm), "KA0626");
+  EXPECT_ERROR(cast(Format::kBC1Typeless, Format::kR32G32Uint), "KA0626");
   EXPECT_OK(device_.CreateShaderResourceView(texture, slot_));
   EXPECT_EQ(null_log().texture_views.back().dimension, SrvDimension::kTexture2DArray);
 }

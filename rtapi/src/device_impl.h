@@ -129,8 +129,11 @@ inline uint64_t AlignUp(uint64_t value, uint64_t alignment) {
 // Size of a mip level in texels.
 struct MipExtent {
   uint32_t width, height, depth;
+  bool operator==(const MipExtent&) const = default;
 };
 MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip);
+// The same in elements of the format: in whole blocks, if it is block-compressed.
+MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip);
 uint32_t FullMipCount(const TextureDesc& desc);
 uint32_t ArraySize(const TextureDesc& desc);  // 1 for 3-D textures
 

@@ -161,7 +161,7 @@ TEST_F(ResourceTest, TextureSizesAndFormats) {
   EXPECT_ERROR(make(ResourceDimension::kTexture3D, 2049, 1, 1, 1), "KA0908");
   EXPECT_ERROR(make(ResourceDimension::kBuffer, 4, 4, 1, 1), "KA0908");
   EXPECT_ERROR(make(d2, 4, 4, 1, 4), "KA0908", "at most 3");
-  EXPECT_ERROR(make(d2, 4, 4, 1, 1, Format::kBC1Unorm), "KA0909", "71");
+  EXPECT_ERROR(make(d2, 4, 4, 1, 1, Format::kD32Float), "KA0909", "40");
   EXPECT_ERROR(make(d2, 4, 4, 1, 1, Format::kUnknown), "KA0909");
   EXPECT_EQ(make(d2, 5, 3, 1, 0)->GetDesc().MipLevels, 3u);
   EXPECT_EQ(make(ResourceDimension::kTexture3D, 2, 2, 16, 0)->GetDesc().MipLevels, 5u);
@@ -191,6 +191,55 @@ TEST_F(ResourceTest, FootprintsAsD3D12LaysThemOut) {
   EXPECT_EQ(layouts[3].Offset, 2560u);
   EXPECT_EQ(*total, 2592u);
   EXPECT_ERROR(device_.GetCopyableFootprints(desc, 3, 2, 0, nullptr), "KA0817", "4");
+}
+
+// 20 x 10 texels of 16-byte blocks: 5 x 3 blocks, then 10 x 5 texels, 5 x 2, 2 x 1 and 1 x 1.
+TEST_F(ResourceTest, FootprintsOfBlocksAreWholeBlocks) {
+  const TextureDesc desc = {.Width = 20,
+                            .Height = 10,
+                            .DepthOrArraySize = 2,
+                            .MipLevels = 0,
+                            .Format = Format::kBC7Unorm};
+  std::vector<PlacedSubresourceFootprint> layouts;
+  std::vector<uint32_t> rows;
+  std::vector<uint64_t> row_bytes;
+  auto total = device_.GetCopyableFootprints(desc, 0, 6, 0, &layouts, &rows, &row_bytes);
+  ASSERT_TRUE(total.ok()) << MessageOf(total);
+  constexpr uint32_t kWidths[6] = {20, 12, 8, 4, 4, 20}, kHeights[6] = {12, 8, 4, 4, 4, 12};
+  constexpr uint64_t kOffsets[6] = {0, 1024, 1536, 2048, 2560, 3072};
+  for (size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(layouts[i].Offset, kOffsets[i]) << i;
+    EXPECT_EQ(layouts[i].Footprint.Width, kWidths[i]) << i;
+    EXPECT_EQ(layouts[i].Footprint.Height, kHeights[i]) << i;
+    EXPECT_EQ(layouts[i].Footprint.RowPitch, 256u) << i;
+    EXPECT_EQ(rows[i], kHeights[i] / 4) << i;
+    EXPECT_EQ(row_bytes[i], kWidths[i] / 4 * 16) << i;
+  }
+  EXPECT_EQ(*total, 3072u + 2 * 256 + 5 * 16);
+}
+
+TEST_F(ResourceTest, BlocksHaveTwoOrThreeDimensionsAndNoUnorderedAccess) {
+  int count = 0;
+  for (uint32_t i = 0; i < 120; ++i) {
+    const auto format = static_cast<Format>(i);
+    const FormatInfo info = GetFormatInfo(format);
+    if (info.block_side == 1) continue;
+    ++count;
+    EXPECT_EQ(info.block_side, 4);
+    // BC1 and BC4.
+    EXPECT_EQ(info.bytes, (i >= 70 && i <= 72) || (i >= 79 && i <= 81) ? 8 : 16) << i;
+    TextureDesc desc = {.Width = 6, .Height = 3, .MipLevels = 0, .Format = format, .Name = "bc"};
+    EXPECT_OK(device_.CreateTexture(desc));
+    desc.Flags = ResourceFlags::kAllowUnorderedAccess;
+    EXPECT_ERROR(device_.CreateTexture(desc), "KA0570", "\"bc\"", std::to_string(i));
+    desc.Flags = ResourceFlags::kNone;
+    desc.Dimension = ResourceDimension::kTexture3D;
+    EXPECT_OK(device_.CreateTexture(desc));
+    desc.Dimension = ResourceDimension::kTexture1D;
+    desc.Height = 1;
+    EXPECT_ERROR(device_.CreateTexture(desc), "KA0571", "kTexture1D");
+  }
+  EXPECT_EQ(count, 21);
 }
 
 TEST_F(ResourceTest, ForeignAndDeadAddressesAreNamed) {

@@ -11,6 +11,7 @@
 
 #include "kaamos/shader/texture_view.h"
 #include "rtapi/src/device_impl.h"
+#include "runtime/shader/texture/block_format.h"
 
 namespace rtapi::detail {
 
@@ -28,16 +29,25 @@ class HostTextures {
     uint64_t row_pitch = 0;
     uint64_t slice_pitch = 0;
   };
-  struct Copy {
-    std::shared_ptr<runtime::BackendBuffer> memory;
+  // Texels, or blocks, in memory.
+  struct Layout {
     uint64_t element_bytes = 0;     // one array element with all its mips
     std::vector<Subresource> mips;  // of one array element
-    TextureDesc desc;
   };
-  const Copy* Find(const std::shared_ptr<runtime::BackendTexture>& texture,
-                   const TextureDesc& desc);
-  static void Fill(const Copy& copy, const runtime::TextureViewDesc& desc,
-                   shader::TextureView& view);
+  struct Decoded {
+    Layout layout;
+    std::vector<uint8_t> memory;
+  };
+  struct Copy {
+    TextureDesc desc;
+    Layout layout;
+    std::shared_ptr<runtime::BackendBuffer> memory;
+    std::map<const shader::BlockCodec*, Decoded> decoded;  // of a block-compressed texture
+  };
+  static Layout LayOut(const TextureDesc& desc, uint32_t bytes, bool blocks);
+  Copy* Find(const std::shared_ptr<runtime::BackendTexture>& texture, const TextureDesc& desc);
+  static Decoded& Decode(Copy& copy, const shader::BlockCodec& codec);
+  static void Fill(Copy& copy, const runtime::TextureViewDesc& desc, shader::TextureView& view);
 
   DeviceImpl& device_;
   std::map<std::pair<uint64_t, bool>, std::unique_ptr<shader::TextureView>> views_;

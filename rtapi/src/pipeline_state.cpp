@@ -29,6 +29,11 @@ Result<const shader::ExportDesc*> FindKernel(const ComputePipelineStateDesc& des
     }
     found = &e;
   }
+  if (found && found->import_count != 0) {
+    return MakeError(Id::kComputeUnlinked, Quoted(found->name), " of ", Quoted(desc.CS.name()),
+                     " calls ", Quoted(table.imports[found->imports[0]].signature),
+                     ", which has no body there");
+  }
   if (found) return found;
   return MakeError(Id::kComputeEntryPoint, Quoted(desc.CS.name()), " has no compute shader ",
                    Quoted(desc.EntryPoint), "; it has ", known.empty() ? "none" : known);

@@ -111,6 +111,22 @@ Status CheckTargetSupport(const DeviceImpl& device, const TextureDesc& desc) {
                    static_cast<uint32_t>(desc.Format), ", which this backend cannot draw to");
 }
 
+// Sides need not be multiples of 4: as with UnalignedBlockTexturesSupported.
+Status CheckBlockTexture(const TextureDesc& desc, const std::string& name) {
+  if (GetFormatInfo(desc.Format).block_side == 1) return {};
+  if (HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
+    return MakeError(Id::kBlockAccess, name, " has block-compressed DXGI format ",
+                     static_cast<uint32_t>(desc.Format),
+                     " and kAllowUnorderedAccess; it must have no flags");
+  }
+  if (desc.Dimension == ResourceDimension::kTexture1D) {
+    return MakeError(Id::kBlockDimension, name,
+                     " is kTexture1D and has block-compressed DXGI format ",
+                     static_cast<uint32_t>(desc.Format), "; it must be kTexture2D or kTexture3D");
+  }
+  return {};
+}
+
 Status CheckTexture(const TextureDesc& desc) {
   const std::string name = Named("texture", desc.Name);
   const auto d = desc.Dimension;
@@ -136,8 +152,9 @@ Status CheckTexture(const TextureDesc& desc) {
   if (GetFormatInfo(desc.Format).type == FormatClass::kUnsupported) {
     return MakeError(Id::kTextureFormat, name, " has DXGI format ",
                      static_cast<uint32_t>(desc.Format),
-                     "; only the uncompressed colour formats of rtapi/format.h are supported");
+                     "; only the colour formats of rtapi/format.h are supported");
   }
+  if (Status s = CheckBlockTexture(desc, name); !s.ok()) return s;
   if (Status s = CheckTextureFlags(desc, name); !s.ok()) return s;
   if (HasAny(desc.InitialState, ResourceStates::kRaytracingAccelerationStructure)) {
     return MakeError(Id::kAccelerationStructureBuffer, name,
@@ -152,6 +169,12 @@ MipExtent GetMipExtent(const TextureDesc& desc, uint32_t mip) {
   auto at = [mip](uint32_t size) { return std::max(1u, mip < 32 ? size >> mip : 0u); };
   const bool volume = desc.Dimension == ResourceDimension::kTexture3D;
   return {at(desc.Width), at(desc.Height), volume ? at(desc.DepthOrArraySize) : 1};
+}
+
+MipExtent GetMipElements(const TextureDesc& desc, uint32_t mip) {
+  const uint32_t side = GetFormatInfo(desc.Format).block_side;
+  const MipExtent texels = GetMipExtent(desc, mip);
+  return {(texels.width + side - 1) / side, (texels.height + side - 1) / side, texels.depth};
 }
 
 uint32_t FullMipCount(const TextureDesc& desc) {
@@ -173,7 +196,8 @@ uint32_t FormatFamily(Format format) {
   // First and last number of each DXGI format family, including its typeless member.
   static constexpr uint32_t kFamilies[][2] = {{1, 4},   {5, 8},   {9, 14},  {15, 18}, {19, 22},
                                               {23, 25}, {27, 32}, {33, 38}, {39, 43}, {44, 47},
-                                              {48, 52}, {53, 59}, {60, 64}};
+                                              {48, 52}, {53, 59}, {60, 64}, {70, 72}, {73, 75},
+                                              {76, 78}, {79, 81}, {82, 84}, {94, 96}, {97, 99}};
   for (const auto& family : kFamilies) {
     if (f >= family[0] && f <= family[1]) return family[0];
   }
@@ -287,18 +311,19 @@ Result<uint64_t> Device::GetCopyableFootprints(const TextureDesc& desc, uint32_t
     return MakeError(Id::kCopyRange, "subresources ", first, "..", uint64_t{first} + count,
                      " do not exist in ", Named("texture", desc.Name), ", which has ", total);
   }
-  const uint64_t texel = GetFormatInfo(desc.Format).bytes;
+  const FormatInfo format = GetFormatInfo(desc.Format);
   uint64_t offset = base_offset;
   uint64_t end = base_offset;
   for (uint32_t i = first; i < first + count; ++i) {
-    const MipExtent extent = GetMipExtent(desc, i % mips);
-    const uint64_t row = extent.width * texel;
+    const MipExtent extent = GetMipElements(desc, i % mips);
+    const uint64_t row = uint64_t{extent.width} * format.bytes;
     const uint64_t pitch = AlignUp(row, kTextureDataPitchAlignment);
     offset = AlignUp(offset, kTextureDataPlacementAlignment);
     if (layouts) {
       layouts->push_back(
           {offset,
-           {desc.Format, extent.width, extent.height, extent.depth, static_cast<uint32_t>(pitch)}});
+           {desc.Format, extent.width * format.block_side, extent.height * format.block_side,
+            extent.depth, static_cast<uint32_t>(pitch)}});
     }
     if (row_counts) row_counts->push_back(extent.height);
     if (row_bytes) row_bytes->push_back(row);

@@ -33,6 +33,13 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
   if (desc.subobject_count && !desc.subobjects) {
     return broken("its table of subobjects is missing");
   }
+  if (desc.import_count && !desc.imports) return broken("its table of imports is missing");
+  for (uint32_t i = 0; i < desc.import_count; ++i) {
+    const auto& import = desc.imports[i];
+    if (!import.name || !import.mangled_name || !import.signature) {
+      return broken("import ", i, " has no name or signature");
+    }
+  }
   for (uint32_t i = 0; i < desc.binding_count; ++i) {
     const auto& binding = desc.bindings[i];
     if (!binding.name || binding.count == 0 || static_cast<uint32_t>(binding.register_class) > 3 ||
@@ -46,10 +53,11 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
       return broken("export ", i, " has no name or an invalid stage");
     }
     const bool draws = e.stage == shader::Stage::kVertex || e.stage == shader::Stage::kPixel;
-    const bool needs_entry =
-        e.stage != shader::Stage::kLibrary && e.stage != shader::Stage::kCompute && !draws;
+    // Linking gives code to an export that calls other libraries.
+    const bool needs_entry = e.import_count == 0 && e.stage != shader::Stage::kLibrary &&
+                             e.stage != shader::Stage::kCompute && !draws;
     if (needs_entry && !e.entry) return broken("export ", Quoted(e.name), " has no code");
-    if (e.stage == shader::Stage::kCompute &&
+    if (e.stage == shader::Stage::kCompute && e.import_count == 0 &&
         (!e.compute || (!e.compute->group && !e.compute->thread && !e.compute->lanes))) {
       return broken("compute export ", Quoted(e.name), " has no code");
     }
@@ -61,6 +69,15 @@ Status CheckTable(const shader::LibraryDesc& desc, const std::string& name) {
     }
     if (e.binding_count && !e.bindings) {
       return broken("export ", Quoted(e.name), " has no list of its bindings");
+    }
+    if (e.import_count && !e.imports) {
+      return broken("export ", Quoted(e.name), " has no list of its imports");
+    }
+    for (uint32_t k = 0; k < e.import_count; ++k) {
+      if (e.imports[k] >= desc.import_count) {
+        return broken("export ", Quoted(e.name), " uses import ", e.imports[k],
+                      ", but the library has only ", desc.import_count);
+      }
     }
     for (uint32_t b = 0; b < e.binding_count; ++b) {
       if (e.bindings[b] >= desc.binding_count) {

@@ -74,6 +74,7 @@ Result<std::shared_ptr<StateObjectImpl>> Make(const std::shared_ptr<DeviceImpl>&
   if (Status s = device->removed(); !s.ok()) return s.error();
   auto parts = GatherParts(device, desc);
   if (!parts.ok()) return parts.error();
+  if (Status s = LinkFunctions(*parts); !s.ok()) return s.error();
   if (Status s = AssociateAll(*parts); !s.ok()) return s.error();
   return LinkStateObject(std::move(*parts), for_backend);
 }

@@ -2,7 +2,8 @@
 //
 // State objects while they are linked, and what is kept of them.
 //
-// Stages: state_object_parts.cpp gathers a description into Parts; associations.cpp gives every
+// Stages: state_object_parts.cpp gathers a description into Parts; link_functions.cpp links the
+// libraries that call each other; associations.cpp gives every
 // Subject its configs and root signatures; state_object_link.cpp resolves hit groups and bindings
 // and makes records.
 #pragma once
@@ -62,6 +63,11 @@ struct Subject {
   bool hidden = false;        // in a collection that does not export it
   bool referable = true;      // hit groups outside its collection may import it
   Associations associations;
+  // What the library itself says of a shader whose code comes from several libraries, and the
+  // functions of others that it can reach.
+  const shader::ExportDesc* written = nullptr;
+  ShaderLibrary written_library;
+  std::vector<std::shared_ptr<Subject>> linked_functions;
   // Set by the collection or parent that resolved it already.
   std::optional<ShaderIdentifier> identifier;
 
@@ -131,6 +137,8 @@ struct StateObjectImpl {
 };
 
 Result<Parts> GatherParts(const std::shared_ptr<DeviceImpl>& device, const StateObjectDesc& desc);
+// Finds the functions that shaders call in other libraries.
+Status LinkFunctions(Parts& parts);
 Status AssociateAll(Parts& parts);
 // Without `for_backend` nothing goes to the backend, as for collections and checks of additions.
 Result<std::shared_ptr<StateObjectImpl>> LinkStateObject(Parts&& parts, bool for_backend);

@@ -63,7 +63,7 @@ class Linker {
   bool Tolerates(const Error& error) const {
     if (!parts_.may_stay_unresolved()) return false;
     for (Id id : {Id::kHitGroupUnresolved, Id::kShaderConfigMissing, Id::kPipelineConfigMissing,
-                  Id::kBindingMissing, Id::kDefaultAmbiguous}) {
+                  Id::kBindingMissing, Id::kDefaultAmbiguous, Id::kFunctionUnresolved}) {
       if (error.id == PublicId(id)) return true;
     }
     return false;
@@ -313,14 +313,21 @@ class Linker {
   // the shaders that call it. Defaults do not apply to functions.
   Status CheckCallGraph(const Subject& s, const Effective& effective,
                         const std::string& where) const {
-    const shader::LibraryDesc* library = s.library.impl()->desc;
-    const auto index = static_cast<uint32_t>(s.code - library->exports);
-    for (const SubjectPtr& f : parts_.subjects) {
-      if (f->is_group() || f->code->stage != Stage::kLibrary) continue;
-      if (f->library.impl()->desc != library) continue;
+    const shader::LibraryDesc* library = (s.written ? s.written_library : s.library).impl()->desc;
+    const auto index = static_cast<uint32_t>((s.written ? s.written : s.code) - library->exports);
+    const auto calls = [&](const SubjectPtr& f) {
+      if (f->is_group() || f->code->stage != Stage::kLibrary) return false;
+      const auto& linked = s.linked_functions;
+      const bool is_linked = std::any_of(linked.begin(), linked.end(), [&](const SubjectPtr& one) {
+        return one->code == f->code && one->name == f->name;
+      });
+      if (is_linked || f->library.impl()->desc != library) return is_linked;
       const uint32_t* callers = f->code->callable_indices;
       const uint32_t* end = callers + f->code->callable_index_count;
-      if (std::find(callers, end, index) == end) continue;
+      return std::find(callers, end, index) != end;
+    };
+    for (const SubjectPtr& f : parts_.subjects) {
+      if (!calls(f)) continue;
       for (Category c : {Category::kLocalRootSignature, Category::kGlobalRootSignature}) {
         const Associated& own = f->associations[static_cast<size_t>(c)];
         if (own.strength != Strength::kExplicit || !own.definition) continue;
@@ -337,6 +344,11 @@ class Linker {
 
   Result<const LinkedShader*> LinkShader(const Subject& s, const Effective& effective,
                                          const std::string& where) {
+    if (s.code->import_count != 0) {
+      return MakeError(Id::kFunctionUnresolved, where, " calls ",
+                       Quoted(s.library.impl()->desc->imports[s.code->imports[0]].signature),
+                       ", which has no body");
+    }
     if (Status st = CheckSizes(s, effective, where); !st.ok()) return st.error();
     if (Status st = CheckCallGraph(s, effective, where); !st.ok()) return st.error();
     const RootSignature global = SignatureOf(effective, Category::kGlobalRootSignature);

@@ -12,10 +12,11 @@ using namespace detail;
 
 namespace {
 
-// A staging buffer, and where the subresource's rows lie in it.
+// A staging buffer, and where the subresource's rows (of texels or blocks) lie in it.
 struct Staging {
   Buffer buffer;
   PlacedSubresourceFootprint layout;
+  uint64_t rows = 0;
   uint64_t row_bytes = 0;
 };
 
@@ -23,18 +24,16 @@ Result<Staging> MakeStaging(const Device& device, const Texture& texture, uint32
                             HeapType heap) {
   if (!texture) return MakeError(Id::kNullHandle, "the texture is an empty handle");
   std::vector<PlacedSubresourceFootprint> layouts;
+  std::vector<uint32_t> rows;
   std::vector<uint64_t> row_bytes;
-  auto total = device.GetCopyableFootprints(texture.GetDesc(), subresource, 1, 0, &layouts, nullptr,
+  auto total = device.GetCopyableFootprints(texture.GetDesc(), subresource, 1, 0, &layouts, &rows,
                                             &row_bytes);
   if (!total.ok()) return total.error();
   auto buffer = device.CreateBuffer(
       {.SizeInBytes = *total, .Heap = heap, .Name = texture.name() + " staging"});
   if (!buffer.ok()) return buffer.error();
-  return Staging{std::move(*buffer), layouts.front(), row_bytes.front()};
-}
-
-uint64_t RowCount(const Staging& s) {
-  return uint64_t{s.layout.Footprint.Height} * s.layout.Footprint.Depth;
+  return Staging{std::move(*buffer), layouts.front(),
+                 uint64_t{rows.front()} * layouts.front().Footprint.Depth, row_bytes.front()};
 }
 
 Status CheckQueue(const Device& device, const CommandQueue& queue) {
@@ -103,14 +102,14 @@ Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& t
   auto staging = MakeStaging(device, texture, subresource, HeapType::kUpload);
   if (!staging.ok()) return staging.error();
   const uint64_t pitch = row_pitch ? row_pitch : staging->row_bytes;
-  const uint64_t needed = (RowCount(*staging) - 1) * pitch + staging->row_bytes;
+  const uint64_t needed = (staging->rows - 1) * pitch + staging->row_bytes;
   if (pitch < staging->row_bytes || texels.size() < needed) {
     return MakeError(Id::kCopyRange, "UploadTexture: ", texels.size(), " bytes in rows of ", pitch,
                      " for subresource ", subresource, " of ", Named("texture", texture.name()),
-                     ", which has ", RowCount(*staging), " rows of ", staging->row_bytes, " bytes");
+                     ", which has ", staging->rows, " rows of ", staging->row_bytes, " bytes");
   }
   std::byte* out = staging->buffer.data<std::byte>().data();
-  for (uint64_t row = 0; row < RowCount(*staging); ++row) {
+  for (uint64_t row = 0; row < staging->rows; ++row) {
     std::memcpy(out + row * staging->layout.Footprint.RowPitch, texels.data() + row * pitch,
                 staging->row_bytes);
   }
@@ -131,9 +130,9 @@ Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueu
   list->CopyTextureRegion({staging->buffer, staging->layout}, 0, 0, 0, {texture, subresource});
   MarkAsHelper(*list);
   if (Status s = queue.ExecuteAndWait(*list); !s.ok()) return s.error();
-  std::vector<std::byte> texels(RowCount(*staging) * staging->row_bytes);
+  std::vector<std::byte> texels(staging->rows * staging->row_bytes);
   const std::byte* in = staging->buffer.data<std::byte>().data();
-  for (uint64_t row = 0; row < RowCount(*staging); ++row) {
+  for (uint64_t row = 0; row < staging->rows; ++row) {
     std::memcpy(texels.data() + row * staging->row_bytes,
                 in + row * staging->layout.Footprint.RowPitch, staging->row_bytes);
   }

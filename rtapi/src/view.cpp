@@ -75,8 +75,8 @@ Result<uint32_t> CheckElement(const DeviceImpl& device, const BufferView& view,
   const bool of_depth = IsDepthFormat(view.format) ||
                         family == static_cast<uint32_t>(Format::kR32G8X24Typeless) ||
                         family == static_cast<uint32_t>(Format::kR24G8Typeless);
-  const bool typed =
-      info.type != FormatClass::kUnsupported && info.type != FormatClass::kTypeless && !of_depth;
+  const bool typed = info.type != FormatClass::kUnsupported &&
+                     info.type != FormatClass::kTypeless && info.block_side == 1 && !of_depth;
   if (!typed || !device.backend->supports_format(view.format, uav)) {
     return MakeError(Id::kViewFormat, "typed view of ", name, " has format ",
                      static_cast<uint32_t>(view.format),
@@ -254,6 +254,10 @@ Status WriteTextureView(const std::shared_ptr<DeviceImpl>& device, const Texture
     return MakeError(Id::kViewResource, "view dimension ", static_cast<uint32_t>(view.dimension),
                      " does not fit ", Named("texture", desc.Name), ", whose dimension is ",
                      static_cast<uint32_t>(desc.Dimension));
+  }
+  if (view.uav && GetFormatInfo(desc.Format).block_side != 1) {
+    return MakeError(Id::kBlockAccess, Named("texture", desc.Name), " has DXGI format ",
+                     static_cast<uint32_t>(desc.Format), "; only shader resource views read it");
   }
   if (view.uav && !HasAny(desc.Flags, ResourceFlags::kAllowUnorderedAccess)) {
     return MakeError(Id::kViewAccess, Named("texture", desc.Name),

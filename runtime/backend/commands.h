@@ -131,11 +131,12 @@ struct TextureCopyPlace {
   uint64_t offset = 0;             // bytes up to texel (0,0,0) of the footprint
   uint32_t row_pitch = 0;          // bytes
   uint64_t slice_pitch = 0;        // bytes
-  uint32_t origin[3] = {0, 0, 0};  // in texels: where the copy begins
+  uint32_t origin[3] = {0, 0, 0};  // in elements: where the copy begins
 };
 
-// Copies `extent` texels from one place to another; at most one of them is a buffer. Checked: the
-// copy is inside both, and the formats have texels of equal size.
+// Copies `extent` elements from one place to another; at most one of them is a buffer. An element is
+// a texel, or a block of a block-compressed texture. Checked: the copy is inside both, and the
+// formats have elements of equal size.
 struct CopyTextureCommand {
   TextureCopyPlace dest;
   TextureCopyPlace source;

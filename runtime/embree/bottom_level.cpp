@@ -299,6 +299,18 @@ rtapi::Status BottomLevel::add_boxes(const BuildContext& context,
   return embree_status(context.device, "boxes");
 }
 
+// Embree tests the boxes of nodes. Only trees that are built once, in full quality, have a leaf for
+// each primitive, and a tree of a single leaf has no node.
+bool BottomLevel::tests_each_box() const {
+  if (scene_quality(flags_) != RTC_BUILD_QUALITY_MEDIUM) return false;
+  size_t active = 0;
+  for (const auto& info : geometries_) {
+    active += static_cast<size_t>(std::count_if(info->padded.begin(), info->padded.end(),
+                                                [](const PaddedBox& box) { return box.active(); }));
+  }
+  return active > 1;
+}
+
 rtapi::Status BottomLevel::commit(const BuildContext& context) {
   const bool own_bounds = exact();
   if (own_bounds) {
@@ -312,6 +324,10 @@ rtapi::Status BottomLevel::commit(const BuildContext& context) {
   }
   if (auto s = embree_status(context.device, "commit"); !s) return s;
   if (own_bounds) return {};
+  if (procedural_) {
+    const bool tested = tests_each_box();
+    for (const auto& info : geometries_) info->tested_by_embree = tested;
+  }
   rtcGetSceneBounds(scene_, &bounds_);
   empty_ = !(bounds_.lower_x <= bounds_.upper_x && bounds_.lower_y <= bounds_.upper_y &&
              bounds_.lower_z <= bounds_.upper_z);
@@ -358,8 +374,31 @@ runtime::GeometryContents BottomLevel::geometry_contents(uint32_t geometry) cons
   return contents;
 }
 
+std::shared_ptr<const BottomLevel> BottomLevel::exact_twin(const BuildContext& context) const {
+  const std::lock_guard lock(twin_mutex_);
+  if (twin_ != nullptr) return twin_;
+  std::shared_ptr<BottomLevel> twin(new BottomLevel);
+  twin->exact_ = true;
+  twin->flags_ = flags_ & ~BuildFlags::kAllowUpdate;
+  if (!twin->create_scene(context)) return nullptr;
+  for (uint32_t i = 0; i < geometries_.size(); ++i) {
+    GeometryInfo& info = *twin->geometries_.emplace_back(std::make_unique<GeometryInfo>());
+    static_cast<runtime::GeometryShape&>(info) = *geometries_[i];
+    const runtime::GeometryContents contents = geometry_contents(i);
+    if (contents.indices.empty()) continue;
+    info.exact = std::make_unique<ExactTriangles>();
+    info.exact->frame = &twin->exact_frame_;
+    info.exact->vertices.assign(contents.xyz.begin(), contents.xyz.end());
+    info.exact->indices.assign(contents.indices.begin(), contents.indices.end());
+  }
+  if (!twin->commit(context)) return nullptr;
+  twin_ = std::move(twin);
+  return twin_;
+}
+
 rtapi::Status BottomLevel::update(const BuildContext& context,
                                   std::span<const RaytracingGeometryDesc> geometries) {
+  twin_ = nullptr;
   rtcGetDeviceError(context.device);
   for (uint32_t i = 0; i < geometries.size(); ++i) {
     GeometryInfo& info = *geometries_[i];

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct BuildContext {
 struct GeometryInfo : runtime::GeometryShape {
   std::vector<rtapi::RaytracingAabb> boxes;  // procedural: own copy
   std::vector<PaddedBox> padded;             // the same as rays meet them
+  bool tested_by_embree = false;             // each box, before its callback
   std::unique_ptr<ExactTriangles> exact;     // triangles in exact precision: own copy
 };
 
@@ -62,6 +64,9 @@ class BottomLevel final : public runtime::BottomLevelBase {
   bool procedural() const { return procedural_; }
   bool exact() const { return exact_ && !procedural_; }
   const ExactFrame& exact_frame() const { return exact_frame_; }
+  // An exact level of the same triangles, for rays and instances that make them non-opaque. Made
+  // when it is first asked for; null if Embree has no memory for it.
+  std::shared_ptr<const BottomLevel> exact_twin(const BuildContext& context) const;
   bool empty() const override { return empty_; }
   runtime::Bounds object_bounds() const override;
   std::vector<runtime::GeometryShape> geometry_shapes() const override;
@@ -86,6 +91,7 @@ class BottomLevel final : public runtime::BottomLevelBase {
                                std::span<const rtapi::RaytracingGeometryDesc> geometries,
                                const BottomLevel* indices_of);
   rtapi::Status commit(const BuildContext& context);
+  bool tests_each_box() const;
   rtapi::Status pack_exact_triangles(const BuildContext& context);
   rtapi::Status attach_packs(const BuildContext& context, GeometryInfo& info);
 
@@ -98,6 +104,8 @@ class BottomLevel final : public runtime::BottomLevelBase {
   ExactFrame exact_frame_;
   uint64_t out_of_range_triangles_ = 0;
   std::vector<std::unique_ptr<GeometryInfo>> geometries_;
+  mutable std::mutex twin_mutex_;
+  mutable std::shared_ptr<const BottomLevel> twin_;
 };
 
 // Callbacks of the traversal, which a build gives to its geometries. [any_hit.cpp,

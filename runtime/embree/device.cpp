@@ -156,16 +156,23 @@ rtapi::Result<std::shared_ptr<runtime::BackendTexture>> Device::create_texture(
     const rtapi::TextureDesc& desc) {
   std::shared_ptr<Texture> texture = Texture::create(desc, views_);
   if (texture == nullptr) {
+    const rtapi::FormatInfo format = rtapi::GetFormatInfo(desc.Format);
     return out_of_memory("texture \"" + desc.Name + "\"",
-                         uint64_t{desc.Width} * desc.Height * desc.DepthOrArraySize *
-                             rtapi::GetFormatInfo(desc.Format).bytes);
+                         uint64_t{desc.Width} * desc.Height * desc.DepthOrArraySize * format.bytes /
+                             (format.block_side * format.block_side));
   }
   return std::shared_ptr<runtime::BackendTexture>(std::move(texture));
 }
 
 rtapi::Result<uint64_t> Device::create_texture_view(runtime::BackendTexture& texture,
                                                     const runtime::TextureViewDesc& desc) {
-  return reinterpret_cast<uint64_t>(static_cast<Texture&>(texture).view(desc));
+  auto& viewed = static_cast<Texture&>(texture);
+  const shader::TextureView* view = viewed.view(desc, arena_);
+  if (view == nullptr) {
+    return out_of_memory("the decoded copy of a block-compressed texture",
+                         viewed.stored().size_bytes());
+  }
+  return reinterpret_cast<uint64_t>(view);
 }
 
 rtapi::Result<uint64_t> Device::create_sampler(const rtapi::SamplerDesc& desc) {
@@ -174,6 +181,7 @@ rtapi::Result<uint64_t> Device::create_sampler(const rtapi::SamplerDesc& desc) {
 
 bool Device::supports_format(rtapi::Format format, bool unordered_access) const {
   const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
+  if (rtapi::GetFormatInfo(format).block_side != 1) return !unordered_access;
   return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
 }
 

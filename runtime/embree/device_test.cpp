@@ -39,7 +39,9 @@ TEST(Device, FormatsAreThoseOfTheTextureLibrary) {
   EXPECT_TRUE((*device)->supports_format(rtapi::Format::kR32G32B32A32Float, true));
   EXPECT_TRUE((*device)->supports_format(rtapi::Format::kR8G8B8A8UnormSrgb, false));
   EXPECT_FALSE((*device)->supports_format(rtapi::Format::kR8G8B8A8UnormSrgb, true));
-  EXPECT_FALSE((*device)->supports_format(rtapi::Format::kBC7Unorm, false));
+  EXPECT_TRUE((*device)->supports_format(rtapi::Format::kBC7Unorm, false));
+  EXPECT_FALSE((*device)->supports_format(rtapi::Format::kBC7Unorm, true));
+  EXPECT_FALSE((*device)->supports_format(rtapi::Format::kD32Float, false));
 }
 
 TEST(Device, ABufferIsZeroAndAligned) {

@@ -81,8 +81,7 @@ struct EmbreeRay {
 
 // The part of a ray's state that only exact traversals use.
 struct ExactState {
-  RayInDouble world;
-  EmbreeRay in_top_level;
+  EmbreeRay in_top_level;  // only if that is a tree
   EmbreeRay in_bottom_level;
   PackFilter filter;
   ExactRay object;  // in the instance being traversed, from the start nearer to it
@@ -95,11 +94,16 @@ struct ExactState {
   bool hit_opaque;  // no any-hit shader had to decide
 };
 
+struct LaneSearches;
 struct RayState;
 
-// Traverses a top level that is a list of boxes. [exact_traverse.cpp]
+// Traverse a top level that is a list of boxes, some of them with exact bottom levels.
+// [exact_traverse.cpp]
 void intersect_exactly(RayState& state, RTCRayHit& ray_hit);
 void occlude_exactly(RayState& state, RTCRay& ray);
+// The same when it is known which boxes the ray enters.
+void intersect_exactly(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane);
+void occlude_exactly(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);
 
 // Callbacks for Embree.
 void bounds_of_exact_pack(const RTCBoundsFunctionArguments* arguments);

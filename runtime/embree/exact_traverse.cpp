@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Traversal in TraversalPrecision::kExact: the callbacks for instances and triangles. The tests
-// come in DXR's order, as in any_hit.cpp.
+// Traversal of top levels some or all of whose bottom levels are exact: what a ray does at an
+// instance, and the callback for triangles, whose tests come in DXR's order, as in any_hit.cpp.
 #include <algorithm>
 #include <bit>
 #include <tuple>
@@ -10,6 +10,7 @@
 #include "runtime/embree/exact.h"
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
+#include "runtime/embree/lane_rays.h"
 #include "runtime/embree/parallel.h"
 
 namespace kaamos::embree {
@@ -129,10 +130,11 @@ struct PackOffer {
   }
 };
 
-// Gives Embree the ray for the bottom level. False: it cannot hit anything there.
-bool enter_triangles(RayState& state, const ExactInstance& instance, RTCRay& ray) {
+// The following give Embree the ray for a bottom level. False: it cannot hit anything there.
+bool enter_exact(RayState& state, uint32_t index, RTCRay& ray) {
   ExactState& exact = *state.exact;
-  RayInDouble object = to_object_space(instance, exact.world);
+  const ExactInstance& instance = state.top_level->exact_instance(index);
+  RayInDouble object = to_object_space(instance, in_double(state.values.ray));
   EmbreeRay& local = exact.in_bottom_level;
   if (!local.set(object, *instance.frame)) return false;
   if (local.start_t != 0) {
@@ -161,7 +163,7 @@ bool enter_boxes(RayState& state, const InstanceNode& node, bool committed, RTCR
   return true;
 }
 
-// Nor have the triangles of a bottom level that is not exact.
+// Those of the other bottom levels are Embree's.
 bool enter_robust(RayState& state, const InstanceNode& node, RTCRay& ray) {
   const ObjectRay object =
       to_object_space(node, without_fourth_lane(_mm_load_ps(state.values.ray.origin)),
@@ -178,6 +180,15 @@ bool is_limit(const RayState& state) {
   return state.search != nullptr && !state.search->first;
 }
 
+// Where the ray ends for the boxes of a list. Coincident triangles must all be found, so it is a
+// little behind the hit.
+float end_among_boxes(float committed_t) {
+  return committed_t * (1 + 8 * FLT_EPSILON);
+}
+
+// `in_tree`: the top level is an Embree scene, in whose coordinates the ray is between visits;
+// otherwise it is in the world's.
+template <bool in_tree>
 struct Visit {
   template <typename HitHere, typename Trace>
   void operator()(RayState& state, uint32_t index, uint32_t classes, RTCRay& ray, bool committed,
@@ -186,18 +197,16 @@ struct Visit {
     const __m128 origin = _mm_load_ps(&ray.org_x);     // w: tnear
     const __m128 direction = _mm_load_ps(&ray.dir_x);  // w: time
     const float t_far = ray.tfar;
-    const ExactInstance& instance = state.top_level->exact_instance(index);
-    const bool robust = !node.procedural && instance.frame == nullptr;
-    const bool entered = node.procedural ? enter_boxes(state, node, committed, ray)
-                         : robust        ? enter_robust(state, node, ray)
-                                         : enter_triangles(state, instance, ray);
+    const bool robust = !node.exact && !node.procedural;
+    const bool entered = robust       ? enter_robust(state, node, ray)
+                         : node.exact ? enter_exact(state, index, ray)
+                                      : enter_boxes(state, node, committed, ray);
     if (entered) {
       ray.mask = classes;
       state.instance = &node;
       shim::set_instance(state.query, index);
       if (robust) select_filter(state, node);
       trace(node.scene);
-      if (robust) shim::set_all_hits_filter(state.query, nullptr);
       ray.mask = kAllClasses;
       shim::set_instance(state.query, RTC_INVALID_GEOMETRY_ID);
     }
@@ -209,12 +218,14 @@ struct Visit {
       return;
     }
     if (robust) state.committed_t = ray.tfar;
-    if (robust || node.procedural) state.exact->hit_opaque = false;
-    ray.tfar = state.exact->in_top_level.far_of(state.committed_t);
+    if (!node.exact) state.exact->hit_opaque = false;
+    ray.tfar = in_tree ? state.exact->in_top_level.far_of(state.committed_t)
+                       : end_among_boxes(state.committed_t);
   }
 };
 
-using Instances = InstanceLevel<Visit>;
+using ListedInstances = InstanceLevel<Visit<false>>;
+using TreeInstances = InstanceLevel<Visit<true>>;
 
 }  // namespace
 
@@ -262,19 +273,27 @@ void occlude_exact_pack(const RTCOccludedFunctionNArguments* arguments) {
 }
 
 void intersect_exact_instance(const RTCIntersectFunctionNArguments* arguments) {
-  Instances::intersect(arguments);
+  TreeInstances::intersect(arguments);
 }
 
 void occlude_exact_instance(const RTCOccludedFunctionNArguments* arguments) {
-  Instances::occlude(arguments);
+  TreeInstances::occlude(arguments);
 }
 
 void intersect_exactly(RayState& state, RTCRayHit& ray_hit) {
-  Instances::intersect(state, ray_hit);
+  ListedInstances::intersect(state, ray_hit);
 }
 
 void occlude_exactly(RayState& state, RTCRay& ray) {
-  Instances::occlude(state, ray);
+  ListedInstances::occlude(state, ray);
+}
+
+void intersect_exactly(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane) {
+  ListedInstances::intersect(state, ray_hit, lanes.entered[lane], lanes.entries_of(lane));
+}
+
+void occlude_exactly(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane) {
+  ListedInstances::occlude(state, ray, lanes.entered[lane], lanes.entries_of(lane));
 }
 
 }  // namespace kaamos::embree

@@ -3,6 +3,7 @@
 // What the Embree backend does for each command of a list.
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -97,34 +98,42 @@ struct Rows {
   uint64_t slice_pitch = 0;
 };
 
-uint32_t texel_bytes_of(const runtime::TextureCopyPlace& place) {
-  return place.texture ? static_cast<const Texture&>(*place.texture).texel_bytes() : 0;
+uint32_t element_bytes_of(const runtime::TextureCopyPlace& place) {
+  return place.texture ? static_cast<const Texture&>(*place.texture).stored().element_bytes() : 0;
 }
 
-Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t texel_bytes) {
+Rows rows_of(const runtime::TextureCopyPlace& place, uint32_t element_bytes) {
   if (place.texture != nullptr) {
-    const auto s =
-        static_cast<const Texture&>(*place.texture).subresource(place.mip, place.array_element);
-    return {s.at(place.origin, texel_bytes), s.row_pitch, s.slice_pitch};
+    const auto s = static_cast<const Texture&>(*place.texture)
+                       .stored()
+                       .subresource(place.mip, place.array_element);
+    return {s.at(place.origin, element_bytes), s.row_pitch, s.slice_pitch};
   }
   uint8_t* first = place.buffer->host() + place.offset + place.origin[2] * place.slice_pitch +
                    uint64_t{place.origin[1]} * place.row_pitch +
-                   uint64_t{place.origin[0]} * texel_bytes;
+                   uint64_t{place.origin[0]} * element_bytes;
   return {first, place.row_pitch, place.slice_pitch};
 }
 
 rtapi::Status Target::copy_texture(const runtime::CopyTextureCommand& command) {
   if (auto s = finish(); !s) return s;
-  const uint32_t texel_bytes =
-      std::max(texel_bytes_of(command.dest), texel_bytes_of(command.source));
-  const Rows dest = rows_of(command.dest, texel_bytes);
-  const Rows source = rows_of(command.source, texel_bytes);
+  const uint32_t element_bytes =
+      std::max(element_bytes_of(command.dest), element_bytes_of(command.source));
+  const Rows dest = rows_of(command.dest, element_bytes);
+  const Rows source = rows_of(command.source, element_bytes);
+  auto* texture = static_cast<Texture*>(command.dest.texture.get());
+  std::unique_lock<std::mutex> lock;
+  if (texture != nullptr) lock = texture->lock();
   for (uint32_t z = 0; z < command.extent[2]; ++z) {
     for (uint32_t y = 0; y < command.extent[1]; ++y) {
       std::memmove(dest.first + z * dest.slice_pitch + y * dest.row_pitch,
                    source.first + z * source.slice_pitch + y * source.row_pitch,
-                   uint64_t{command.extent[0]} * texel_bytes);
+                   uint64_t{command.extent[0]} * element_bytes);
     }
+  }
+  if (texture != nullptr) {
+    texture->written(command.dest.mip, command.dest.array_element, command.dest.origin,
+                     command.extent, device_.arena());
   }
   return {};
 }

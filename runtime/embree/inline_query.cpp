@@ -75,8 +75,7 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
   const uint32_t index = ray_hit.hit.instID[0];
   const InstanceNode& instance = state.top_level->nodes()[index];
-  const bool any_exact = state.top_level->exact_frame() != nullptr;
-  if (any_exact && state.top_level->exact_instance(index).frame != nullptr) {
+  if (instance.exact) {
     search.opaque = triangle_of(ray_hit.hit, state.committed_t, index, ray_hit.hit.geomID,
                                 state.exact->hit_kind == kHitKindTriangleFrontFace);
     search.has_opaque = true;
@@ -86,7 +85,7 @@ void take_embree_hit(RayState& state, const RTCRayHit& ray_hit, QuerySearch& sea
   _mm_store_ps(direction, to_object_vector(instance, _mm_load_ps(&ray_hit.ray.dir_x)));
   const bool front =
       triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction) == kHitKindTriangleFrontFace;
-  const float t = any_exact ? state.committed_t : ray_hit.ray.tfar;
+  const float t = state.top_level->has_exact() ? state.committed_t : ray_hit.ray.tfar;
   search.opaque = triangle_of(ray_hit.hit, t, index, ray_hit.hit.geomID, front);
   search.has_opaque = true;
 }
@@ -118,9 +117,9 @@ void search(Worker& worker, RayQuery& query) {
                            without_fourth_lane(_mm_load_ps(state.values.ray.direction))};
   RTCRayHit ray_hit;
   ExactState exact;
-  if (scene.exact_frame() == nullptr) {
+  if (!scene.has_exact()) {
     begin_embree_ray(state, world, ray_hit.ray);
-  } else if (!begin_exact_ray(state, exact, ray_hit.ray)) {
+  } else if (!begin_exact_ray(state, exact, world, ray_hit.ray)) {
     return;
   }
   if (search.any) {
@@ -205,6 +204,9 @@ void begin_query(shader::Invocation& caller, RayQuery& query,
                  const shader::RayQueryArguments& arguments, const shader::RayDesc& ray) {
   Worker& worker = worker_of(caller);
   const TopLevel* scene = find_top_level(worker, arguments.acceleration_structure);
+  if (scene != nullptr && makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+    scene = &scene->for_non_opaque();
+  }
   query.ray = ray;
   query.ray_flags = arguments.ray_flags & kAllRayFlags;
   query.inclusion_mask = arguments.instance_inclusion_mask;

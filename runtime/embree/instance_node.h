@@ -38,6 +38,7 @@ struct alignas(64) InstanceNode {
   uint32_t flags : 4;                   // kTracedInstanceFlags of InstanceFlags
   OpacityOverride opacity : 2;          // from the flags
   bool procedural : 1;
+  bool exact : 1;  // its bottom level is exact
   float object_to_world[12];
 };
 static_assert(sizeof(InstanceNode) == 128);

@@ -42,7 +42,8 @@ struct IntersectionInvocation : shader::Invocation {
 
 void run_intersection(RayState& state, const GeometryInfo& geometry, uint32_t primitive,
                       RTCRay& ray, RTCHit* hit) {
-  if (state.ended || !geometry.padded[primitive].meets(ray)) return;
+  if (state.ended) return;
+  if (!geometry.tested_by_embree && !geometry.padded[primitive].meets(ray)) return;
   if (state.search != nullptr) return state.search->take_box(state, geometry, primitive, ray);
   const ShaderRecord record = hit_record(state, *state.instance, geometry.index);
   if (!record.target->intersection.runs()) return;  // NULL record: nothing is reported

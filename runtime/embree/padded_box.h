@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The box of a procedural primitive as the traversal sees it. Embree tests the box of a leaf, which
-// may hold several primitives, so each is tested again before its shader runs.
+// The box of a procedural primitive as the traversal sees it. Embree tests the box of a leaf. In
+// trees that can be updated or are built fast a leaf may hold several primitives, so each is tested
+// again before its shader runs. Where each has a leaf of its own it is not: that would take 0.94 of
+// the speed (README.md).
 #pragma once
 
 #include <immintrin.h>
@@ -25,6 +27,8 @@ struct PaddedBox {
     return {_mm_setr_ps(bounds.lower[0], bounds.lower[1], bounds.lower[2], 0),
             _mm_setr_ps(bounds.upper[0], bounds.upper[1], bounds.upper[2], 0)};
   }
+
+  bool active() const { return _mm_comile_ss(lower, upper) != 0; }
 
   // Whether the ray passes the box between its tnear and tfar, both included. Never false for one
   // that does: the relative error of each t is at most 3 half ulps, since differences of floats and

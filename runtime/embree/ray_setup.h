@@ -43,6 +43,10 @@ inline bool is_valid(const ObjectRay& spatial, float t_min, float t_max) {
   return is_traceable(spatial) && t_min <= t_max && t_min <= FLT_MAX;
 }
 
+inline bool makes_non_opaque(uint32_t flags) {
+  return (flags & (kRayForceOpaque | kRayForceNonOpaque)) == kRayForceNonOpaque;
+}
+
 // Out of line, because only a ray against a different structure than the last one gets here.
 [[gnu::noinline]] inline const TopLevel* look_up_top_level(Worker& worker, uint64_t address) {
   worker.cached_top_level = worker.dispatch->memory->find_top_level(address);
@@ -91,8 +95,9 @@ inline void begin_search(RayState& state, uint32_t flags, uint32_t inclusion_mas
   begin_search(state, t_min, t_max, next_above(t_min > 0 ? t_min : 0.0f), next_below(t_max));
 }
 
-inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {
-  const bool closed = state.top_level->has_procedurals();
+// `closed`: with the closed interval, which boxes have, instead of the open one of triangles.
+inline void begin_embree_ray(const RayState& state, const ObjectRay& world, bool closed,
+                             RTCRay& ray) {
   _mm_store_ps(&ray.org_x, with_fourth_lane(world.origin, closed ? state.t_min : state.t_near));
   _mm_store_ps(&ray.dir_x, world.direction);  // time 0
   ray.tfar = closed ? state.t_max : state.t_far;
@@ -101,25 +106,25 @@ inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCR
   ray.flags = 0;
 }
 
-// False: the ray passes all instances at a distance.
-inline bool begin_exact_ray(RayState& state, ExactState& exact, RTCRay& ray) {
+inline void begin_embree_ray(const RayState& state, const ObjectRay& world, RTCRay& ray) {
+  begin_embree_ray(state, world, state.top_level->has_procedurals(), ray);
+}
+
+// For a top level with exact bottom levels. False: the ray passes all instances at a distance.
+inline bool begin_exact_ray(RayState& state, ExactState& exact, const ObjectRay& world,
+                            RTCRay& ray) {
   state.exact = &exact;
-  for (int i = 0; i < 3; ++i) {
-    exact.world.origin[i] = state.values.ray.origin[i];
-    exact.world.direction[i] = state.values.ray.direction[i];
-  }
-  EmbreeRay& local = exact.in_top_level;
-  if (!local.set(exact.world, *state.top_level->exact_frame())) return false;
   exact.filter = state.top_level->pack_filter();
   exact.hit_opaque = false;
+  begin_embree_ray(state, world, true, ray);
+  if (!state.top_level->boxes().empty()) return true;
+  EmbreeRay& local = exact.in_top_level;
+  if (!local.set(in_double(state.values.ray), state.top_level->frame())) return false;
   const float t_near = local.near_of(state.t_min);
   _mm_store_ps(&ray.org_x, _mm_setr_ps(local.origin[0], local.origin[1], local.origin[2], t_near));
   _mm_store_ps(&ray.dir_x,
                _mm_setr_ps(local.direction[0], local.direction[1], local.direction[2], 0));
   ray.tfar = local.far_of(state.t_max);
-  ray.mask = kAllClasses;
-  ray.id = 0;
-  ray.flags = 0;
   return true;
 }
 

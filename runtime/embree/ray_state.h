@@ -64,11 +64,16 @@ struct RayState {
   // itself. A triangle at the same t is outside the open interval. [DXR: Ray extents]
   float committed_t;
 
-  ExactState* exact;  // in exact precision only
+  ExactState* exact;  // only if a bottom level of the top level is exact
 
   uint32_t procedural_hit_kind;
   alignas(16) uint8_t procedural_attributes[kMaxAttributeBytes];
 };
+
+inline RayInDouble in_double(const shader::RayDesc& ray) {
+  return {{ray.origin[0], ray.origin[1], ray.origin[2]},
+          {ray.direction[0], ray.direction[1], ray.direction[2]}};
+}
 
 inline RayState& ray_state_of(void* context) {
   return *reinterpret_cast<RayState*>(context);

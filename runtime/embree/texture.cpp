@@ -6,21 +6,14 @@
 #include <vector>
 
 #include "runtime/backend/clear_view.h"
-#include "runtime/embree/memory.h"
+#include "runtime/embree/parallel.h"
 #include "runtime/shader/texture/texel_access.h"
 
 namespace kaamos::embree {
 namespace {
 
-constexpr size_t kKeptAfterEnd = 4096;  // views, of about 650 bytes each
-
-// Long rows are an odd number of cache lines apart; otherwise texels above each other would share a
-// few cache sets, all of them the same one if a row is a power of two long.
-uint64_t row_pitch_of(uint64_t row_bytes) {
-  constexpr uint64_t kLine = 64, kLong = 1024;
-  if (row_bytes < kLong) return row_bytes;
-  return ((row_bytes + kLine - 1) / kLine | 1) * kLine;
-}
+constexpr size_t kKeptAfterEnd = 4096;   // views, of about 650 bytes each
+constexpr uint64_t kBlocksAtOnce = 256;  // fewer blocks are not worth a second thread
 
 void clear_texture(const shader::TextureView& view, const shader::Texel& value) {
   const shader::FormatCodec& codec = shader::format_codec(view.format);
@@ -67,70 +60,98 @@ const shader::SamplerState* ViewPool::sampler(const shader::SamplerState& state)
 }
 
 Texture::Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool)
-    : desc_(desc), pool_(std::move(pool)), texel_bytes_(rtapi::GetFormatInfo(desc.Format).bytes) {
-  array_size_ = is_volume() ? 1 : desc.DepthOrArraySize;
-  for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
-    mip_offsets_.push_back(element_bytes_);
-    const uint64_t width = std::max(desc.Width >> mip, 1u);
-    const uint64_t height = std::max(desc.Height >> mip, 1u);
-    const uint64_t depth = is_volume() ? std::max(desc.DepthOrArraySize >> mip, 1) : 1;
-    element_bytes_ += (row_pitch_of(width * texel_bytes_) * height * depth + 63) / 64 * 64;
-  }
-}
+    : desc_(desc),
+      pool_(std::move(pool)),
+      stored_(desc, rtapi::GetFormatInfo(desc.Format).bytes,
+              rtapi::GetFormatInfo(desc.Format).block_side) {}
 
 std::shared_ptr<Texture> Texture::create(const rtapi::TextureDesc& desc,
                                          std::shared_ptr<ViewPool> pool) {
   std::shared_ptr<Texture> texture(new Texture(desc, std::move(pool)));
-  texture->memory_ = Memory::allocate(texture->element_bytes_ * texture->array_size_);
-  return texture->memory_ != nullptr ? texture : nullptr;
+  return texture->stored_.allocate() ? texture : nullptr;
 }
 
 Texture::~Texture() {
   for (const auto& [desc, view] : views_) pool_->end(view);
-  if (memory_ != nullptr) Memory::release(memory_, element_bytes_ * array_size_);
 }
 
-Texture::Subresource Texture::subresource(uint32_t mip, uint32_t array_element) const {
-  Subresource result;
-  result.texels = memory_ + array_element * element_bytes_ + mip_offsets_[mip];
-  result.extent[0] = std::max(desc_.Width >> mip, 1u);
-  result.extent[1] = std::max(desc_.Height >> mip, 1u);
-  result.extent[2] = is_volume() ? std::max<uint32_t>(desc_.DepthOrArraySize >> mip, 1u) : 1;
-  result.row_pitch = row_pitch_of(uint64_t{result.extent[0]} * texel_bytes_);
-  result.slice_pitch = result.row_pitch * result.extent[1];
-  return result;
-}
-
-const shader::TextureView* Texture::view(const runtime::TextureViewDesc& desc) {
+const shader::TextureView* Texture::view(const runtime::TextureViewDesc& desc,
+                                         tbb::task_arena& arena) {
   const std::lock_guard lock(mutex_);
   for (const auto& [known, view] : views_) {
     if (known == desc) return view;
   }
+  const shader::BlockFormat blocks = shader::block_format(static_cast<uint32_t>(desc.format));
+  const TextureMemory* memory = blocks.codec != nullptr ? decoded(*blocks.codec, arena) : &stored_;
+  if (memory == nullptr) return nullptr;
   shader::TextureView* view = pool_->create();
-  fill(desc, *view);
+  fill(desc, *memory, *view);
   views_.emplace_back(desc, view);
   return view;
 }
 
-void Texture::fill(const runtime::TextureViewDesc& desc, shader::TextureView& view) const {
+void Texture::written(uint32_t mip, uint32_t array_element, const uint32_t origin[3],
+                      const uint32_t extent[3], tbb::task_arena& arena) {
+  for (const Decoded& copy : decoded_) decode(copy, mip, array_element, origin, extent, arena);
+}
+
+const TextureMemory* Texture::decoded(const shader::BlockCodec& codec, tbb::task_arena& arena) {
+  for (const Decoded& known : decoded_) {
+    if (known.codec == &codec) return known.texels.get();
+  }
+  Decoded made{&codec, std::make_unique<TextureMemory>(desc_, codec.texel_bytes, 1)};
+  if (!made.texels->allocate()) return nullptr;
+  const uint32_t array_size = is_volume() ? 1u : desc_.DepthOrArraySize;
+  for (uint32_t element = 0; element < array_size; ++element) {
+    for (uint32_t mip = 0; mip < desc_.MipLevels; ++mip) {
+      const uint32_t first[3] = {0, 0, 0};
+      decode(made, mip, element, first, stored_.subresource(mip, element).extent, arena);
+    }
+  }
+  return decoded_.emplace_back(std::move(made)).texels.get();
+}
+
+void Texture::decode(const Decoded& copy, uint32_t mip, uint32_t array_element,
+                     const uint32_t origin[3], const uint32_t extent[3],
+                     tbb::task_arena& arena) const {
+  const TextureMemory::Subresource from = stored_.subresource(mip, array_element);
+  const TextureMemory::Subresource to = copy.texels->subresource(mip, array_element);
+  const auto rows = [&](uint64_t begin, uint64_t end) {
+    for (uint64_t row = begin; row < end; ++row) {
+      const uint64_t z = origin[2] + row / extent[1];
+      const uint32_t first[2] = {origin[0], origin[1] + static_cast<uint32_t>(row % extent[1])};
+      const uint32_t count[2] = {extent[0], 1};
+      shader::decode_blocks(*copy.codec, {from.first + z * from.slice_pitch, from.row_pitch},
+                            {to.first + z * to.slice_pitch, to.row_pitch}, to.extent, first, count);
+    }
+  };
+  const uint64_t row_count = uint64_t{extent[1]} * extent[2];
+  if (row_count * extent[0] < kBlocksAtOnce) return rows(0, row_count);
+  parallel_ranges(arena, row_count, rows);
+}
+
+void Texture::fill(const runtime::TextureViewDesc& desc, const TextureMemory& memory,
+                   shader::TextureView& view) const {
   view = {};
   view.format = static_cast<uint32_t>(desc.format);
   view.dimension = static_cast<shader::TextureDimension>(desc.dimension);
   view.unordered_access = desc.unordered_access;
   std::memcpy(view.swizzle, desc.swizzle, sizeof(view.swizzle));
+  shader::show_decoded(view);
   view.min_lod = desc.min_lod;
   view.slice_count = is_volume() ? 1 : desc.slice_count;
   const uint32_t mips = std::min(
       {desc.mip_count, uint32_t{desc_.MipLevels} - desc.first_mip, shader::kMaxTextureMips});
   for (uint32_t mip = 0; mip < mips; ++mip) {
-    const Subresource s = subresource(desc.first_mip + mip, is_volume() ? 0 : desc.first_slice);
+    const TextureMemory::Subresource s =
+        memory.subresource(desc.first_mip + mip, is_volume() ? 0 : desc.first_slice);
     shader::TextureMip& m = view.mips[mip];
-    m.texels = s.texels;
+    m.texels = s.first;
     m.width = s.extent[0];
     m.height = s.extent[1];
     m.depth = s.extent[2];
     m.row_pitch = static_cast<uint32_t>(s.row_pitch);
-    m.slice_pitch = is_volume() ? s.slice_pitch : element_bytes_;
+    m.slice_pitch = is_volume() ? s.slice_pitch : memory.array_pitch();
     if (is_volume() && desc.unordered_access) {
       m.texels += desc.first_slice * s.slice_pitch;
       m.depth = std::min(desc.slice_count, m.depth - std::min(desc.first_slice, m.depth));

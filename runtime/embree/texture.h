@@ -3,6 +3,8 @@
 // Textures in host memory, and the view and sampler objects that descriptors point to.
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -12,6 +14,8 @@
 
 #include "kaamos/shader/texture_view.h"
 #include "runtime/backend/backend.h"
+#include "runtime/embree/texture_memory.h"
+#include "runtime/shader/texture/block_format.h"
 
 namespace kaamos::embree {
 
@@ -31,6 +35,8 @@ class ViewPool {
   std::deque<shader::SamplerState> samplers_;
 };
 
+// A block-compressed texture also keeps its decoded texels for each way to decode them that a view
+// asks for.
 class Texture final : public runtime::BackendTexture {
  public:
   // Null if out of memory.
@@ -38,35 +44,36 @@ class Texture final : public runtime::BackendTexture {
                                          std::shared_ptr<ViewPool> pool);
   ~Texture() override;
 
-  struct Subresource {
-    uint8_t* texels = nullptr;
-    uint32_t extent[3] = {0, 0, 0};  // width, height, depth
-    uint64_t row_pitch = 0;          // bytes
-    uint64_t slice_pitch = 0;
-    uint8_t* at(const uint32_t position[3], uint32_t texel_bytes) const {
-      return texels + position[2] * slice_pitch + position[1] * row_pitch +
-             uint64_t{position[0]} * texel_bytes;
-    }
-  };
+  // The texels, or the blocks.
+  const TextureMemory& stored() const { return stored_; }
+  // What goes into Descriptor::address; equal descs share one view. The arena decodes blocks. Null
+  // if out of memory.
+  const shader::TextureView* view(const runtime::TextureViewDesc& desc, tbb::task_arena& arena);
 
-  uint32_t texel_bytes() const { return texel_bytes_; }
-  Subresource subresource(uint32_t mip, uint32_t array_element) const;
-  // What goes into Descriptor::address; equal descs share one view.
-  const shader::TextureView* view(const runtime::TextureViewDesc& desc);
+  // Held while elements are written: no view is made meanwhile.
+  std::unique_lock<std::mutex> lock() { return std::unique_lock(mutex_); }
+  // Must be called under the lock after these elements were written.
+  void written(uint32_t mip, uint32_t array_element, const uint32_t origin[3],
+               const uint32_t extent[3], tbb::task_arena& arena);
 
  private:
+  struct Decoded {
+    const shader::BlockCodec* codec;
+    std::unique_ptr<TextureMemory> texels;
+  };
   Texture(const rtapi::TextureDesc& desc, std::shared_ptr<ViewPool> pool);
   bool is_volume() const { return desc_.Dimension == rtapi::ResourceDimension::kTexture3D; }
-  void fill(const runtime::TextureViewDesc& desc, shader::TextureView& view) const;
+  void fill(const runtime::TextureViewDesc& desc, const TextureMemory& memory,
+            shader::TextureView& view) const;
+  const TextureMemory* decoded(const shader::BlockCodec& codec, tbb::task_arena& arena);
+  void decode(const Decoded& decoded, uint32_t mip, uint32_t array_element,
+              const uint32_t origin[3], const uint32_t extent[3], tbb::task_arena& arena) const;
 
   rtapi::TextureDesc desc_;
   std::shared_ptr<ViewPool> pool_;
-  uint32_t texel_bytes_ = 0;
-  uint32_t array_size_ = 1;
-  uint64_t element_bytes_ = 0;  // one array element with all its mips
-  uint8_t* memory_ = nullptr;
-  std::vector<uint64_t> mip_offsets_;
+  TextureMemory stored_;
   std::mutex mutex_;
+  std::vector<Decoded> decoded_;
   std::vector<std::pair<runtime::TextureViewDesc, shader::TextureView*>> views_;
 };
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <system_error>
+#include <thread>
+#include <unordered_map>
 
 #include "runtime/backend/errors.h"
 #include "runtime/embree/parallel.h"
@@ -53,17 +56,31 @@ void TopLevel::add_instance(const runtime::Instance& instance, std::vector<RTCBo
       node.world_to_object_columns[column][row] = world_to_object[4 * row + column];
     }
   }
-  const auto& level = static_cast<const BottomLevel&>(*instance.bottom_level);
+  const BottomLevel& level = traced_level(instance);
   node.mask = desc.InstanceMask;
   node.procedural = level.procedural();
   node.scene = level.scene();
+  node.exact = level.exact();
   has_procedurals_ |= node.procedural;
+  has_exact_ |= node.exact;
+  has_robust_ |=
+      !node.exact && !node.procedural && context_.exact == BuildContext::Exact::kNonOpaque;
   bottom_levels_.push_back(instance.bottom_level);
 }
 
-// Computes world bounds in double, then makes them relative to a frame around all of them.
-void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
-                                   std::vector<RTCBounds>& bounds) {
+void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances) {
+  exact_instances_.resize(instances.size());
+  for (size_t i = 0; i < instances.size(); ++i) {
+    if (!nodes_[i].exact) continue;
+    invert_in_double(&instances[i].desc.Transform[0][0], exact_instances_[i].world_to_object);
+    exact_instances_[i].frame = &traced_level(instances[i]).exact_frame();
+  }
+}
+
+// Makes bounds relative to a frame around all of them. Those of exact instances are computed anew,
+// in double; the others are traced in float, and widened for it.
+void TopLevel::move_to_frame(std::span<const runtime::Instance> instances,
+                             std::vector<RTCBounds>& bounds) {
   struct Box {
     double lower[3];
     double upper[3];
@@ -71,33 +88,26 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Box all = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   std::vector<Box> boxes(instances.size());
-  exact_instances_.resize(instances.size());
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level == nullptr) continue;
-    const auto& level = static_cast<const BottomLevel&>(*instances[i].bottom_level);
+    const runtime::Bounds object =
+        static_cast<const BottomLevel&>(*instances[i].bottom_level).object_bounds();
     const float* matrix = &instances[i].desc.Transform[0][0];
-    invert_in_double(matrix, exact_instances_[i].world_to_object);
-    exact_instances_[i].frame = level.exact() ? &level.exact_frame() : nullptr;
-    const runtime::Bounds object = level.object_bounds();
     for (int row = 0; row < 3; ++row) {
-      double& low = boxes[i].lower[row];
-      double& high = boxes[i].upper[row];
-      low = high = matrix[4 * row + 3];
+      double low = matrix[4 * row + 3];
+      double high = low;
       for (int column = 0; column < 3; ++column) {
         const double a = static_cast<double>(matrix[4 * row + column]) * object.lower[column];
         const double b = static_cast<double>(matrix[4 * row + column]) * object.upper[column];
         low += std::min(a, b);
         high += std::max(a, b);
       }
-      if (!level.exact()) {  // traced in float, and widened for it
-        low = instances[i].bounds.lower[row];
-        high = instances[i].bounds.upper[row];
-      }
-      all.lower[row] = std::min(all.lower[row], low);
-      all.upper[row] = std::max(all.upper[row], high);
+      boxes[i].lower[row] = nodes_[i].exact ? low : instances[i].bounds.lower[row];
+      boxes[i].upper[row] = nodes_[i].exact ? high : instances[i].bounds.upper[row];
+      all.lower[row] = std::min(all.lower[row], boxes[i].lower[row]);
+      all.upper[row] = std::max(all.upper[row], boxes[i].upper[row]);
     }
   }
-  exact_ = true;
   frame_ = ExactFrame::of(all.lower, all.upper);
   for (size_t i = 0; i < instances.size(); ++i) {
     if (instances[i].bottom_level != nullptr) {
@@ -106,9 +116,81 @@ void TopLevel::add_exact_instances(std::span<const runtime::Instance> instances,
   }
 }
 
+const BottomLevel& TopLevel::traced_level(const runtime::Instance& instance) const {
+  const auto twin = twins_.find(instance.bottom_level.get());
+  const bool opaque = twin == twins_.end() || twin->second == nullptr;
+  return opaque ? static_cast<const BottomLevel&>(*instance.bottom_level) : *twin->second;
+}
+
+// Triangles that the instance, or else the ray, makes non-opaque are exact, as if they were
+// non-opaque themselves.
+void TopLevel::add_twins(std::span<const runtime::Instance> instances, bool all_non_opaque) {
+  if (context_.exact != BuildContext::Exact::kNonOpaque) return;
+  for (const runtime::Instance& instance : instances) {
+    if (instance.bottom_level == nullptr) continue;
+    const auto& level = static_cast<const BottomLevel&>(*instance.bottom_level);
+    if (level.exact() || level.procedural()) continue;
+    if (!all_non_opaque && opacity_of(instance.desc.Flags) != OpacityOverride::kNonOpaque) continue;
+    auto [at, is_new] = twins_.try_emplace(&level);
+    if (is_new) at->second = level.exact_twin(context_);
+  }
+}
+
+// The instances that this was built from, without those of their flags that rays do not need.
+std::vector<runtime::Instance> TopLevel::instances() const {
+  std::unordered_map<RTCScene, std::shared_ptr<runtime::BottomLevelBase>> by_scene;
+  for (const auto& kept : bottom_levels_) {
+    const auto level = std::const_pointer_cast<runtime::BottomLevelBase>(kept);
+    by_scene[static_cast<const BottomLevel&>(*level).scene()] = level;
+    const auto twin = twins_.find(level.get());
+    if (twin != twins_.end() && twin->second != nullptr) by_scene[twin->second->scene()] = level;
+  }
+  std::vector<runtime::Instance> result(nodes_.size());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const InstanceNode& node = nodes_[i];
+    runtime::Instance& instance = result[i];
+    std::memcpy(instance.desc.Transform, node.object_to_world, sizeof(node.object_to_world));
+    instance.desc.InstanceID = node.id;
+    instance.desc.InstanceMask = node.mask;
+    instance.desc.InstanceContributionToHitGroupIndex = node.contribution;
+    instance.desc.Flags = node.flags;
+    if (node.scene == nullptr) continue;
+    instance.bottom_level = by_scene[node.scene];
+    std::memcpy(instance.world_to_object, world_to_object_[i].rows, sizeof(WorldToObject));
+    runtime::world_bounds(node.object_to_world, instance.bottom_level->object_bounds(),
+                          instance.bounds);
+  }
+  return result;
+}
+
+// On a thread of its own: the caller is deep in a tile, and while Embree builds it would take up
+// other tiles, which wait for this.
+[[gnu::noinline]] const TopLevel& TopLevel::make_non_opaque() const {
+  const std::lock_guard lock(non_opaque_mutex_);
+  if (const TopLevel* made = non_opaque_.load(std::memory_order_relaxed)) return *made;
+  try {
+    std::thread([this] {
+      auto level = build(context_, instances(), true);
+      if (level) non_opaque_owner_ = *level;
+    }).join();
+  } catch (const std::system_error&) {  // no thread can be had: Embree's triangles have to do
+  }
+  const TopLevel* made = non_opaque_owner_ != nullptr ? non_opaque_owner_.get() : this;
+  non_opaque_.store(made, std::memory_order_release);
+  return *made;
+}
+
 rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
     const BuildContext& context, std::span<const runtime::Instance> instances) {
+  return build(context, instances, false);
+}
+
+rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
+    const BuildContext& context, std::span<const runtime::Instance> instances,
+    bool all_non_opaque) {
   std::shared_ptr<TopLevel> level(new TopLevel);
+  level->context_ = context;
+  level->add_twins(instances, all_non_opaque);
   level->nodes_.reserve(instances.size());
   level->world_to_object_.reserve(instances.size());
   std::vector<RTCBounds> bounds;
@@ -122,14 +204,13 @@ rtapi::Result<std::shared_ptr<TopLevel>> TopLevel::build(
   kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   if (!any_active) return level;
   level->pack_filter_ = context.pack_filter;
-  const bool exact = std::any_of(kept.begin(), kept.end(), [](const auto& bottom_level) {
-    return static_cast<const BottomLevel&>(*bottom_level).exact();
-  });
-  if (exact) level->add_exact_instances(instances, bounds);
+  const bool exact = level->has_exact_;
+  if (exact) level->add_exact_instances(instances);
   if (bounds.size() <= kMostInstanceBoxes) {
     level->boxes_.set(bounds);
     return level;
   }
+  if (exact) level->move_to_frame(instances, bounds);
 
   rtcGetDeviceError(context.device);  // clears an earlier build's error
   level->scene_ = rtcNewScene(context.device);

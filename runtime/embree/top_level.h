@@ -7,8 +7,11 @@
 // Numbers: README.md.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -44,21 +47,39 @@ class TopLevel final : public runtime::TopLevelBase {
   uint32_t size() const { return static_cast<uint32_t>(nodes_.size()); }
   const InstanceNode* nodes() const { return nodes_.data(); }
   const float* world_to_object(uint32_t index) const { return world_to_object_[index].rows; }
-  // Where Embree's coordinates have their origin; null if no bottom level is exact.
-  const ExactFrame* exact_frame() const { return exact_ ? &frame_ : nullptr; }
+  bool has_exact() const { return has_exact_; }
+  // What rays see that make all geometry non-opaque, and so may meet any-hit shaders everywhere:
+  // the same instances with all triangles exact. Made when it is first asked for, in robust
+  // precision.
+  const TopLevel& for_non_opaque() const {
+    if (!has_robust_) return *this;
+    const TopLevel* made = non_opaque_.load(std::memory_order_acquire);
+    return made != nullptr ? *made : make_non_opaque();
+  }
+  // Of a tree with exact bottom levels: where Embree's coordinates have their origin.
+  const ExactFrame& frame() const { return frame_; }
   PackFilter pack_filter() const { return pack_filter_; }
   const ExactInstance& exact_instance(uint32_t index) const { return exact_instances_[index]; }
 
  private:
   TopLevel() = default;
-  void add_exact_instances(std::span<const runtime::Instance> instances,
-                           std::vector<RTCBounds>& bounds);
+  static rtapi::Result<std::shared_ptr<TopLevel>> build(
+      const BuildContext& context, std::span<const runtime::Instance> instances,
+      bool all_non_opaque);
+  const TopLevel& make_non_opaque() const;
+  std::vector<runtime::Instance> instances() const;
+  const BottomLevel& traced_level(const runtime::Instance& instance) const;
+  void add_twins(std::span<const runtime::Instance> instances, bool all_non_opaque);
+  void add_exact_instances(std::span<const runtime::Instance> instances);
+  void move_to_frame(std::span<const runtime::Instance> instances, std::vector<RTCBounds>& bounds);
   void add_instance(const runtime::Instance& instance, std::vector<RTCBounds>& bounds);
 
   RTCScene scene_ = nullptr;
   InstanceBoxes boxes_;
   bool has_procedurals_ = false;
-  bool exact_ = false;
+  bool has_exact_ = false;
+  bool has_robust_ = false;  // bottom levels that could be exact, and are not
+  BuildContext context_;
   ExactFrame frame_;
   PackFilter pack_filter_ = nullptr;
   std::vector<ExactInstance> exact_instances_;
@@ -66,6 +87,12 @@ class TopLevel final : public runtime::TopLevelBase {
   std::vector<WorldToObject> world_to_object_;
   std::vector<std::shared_ptr<const runtime::BottomLevelBase>>
       bottom_levels_;  // kept alive; each appears once
+  // Exact ones that take the place of others.
+  std::map<const runtime::BottomLevelBase*, std::shared_ptr<const BottomLevel>> twins_;
+
+  mutable std::mutex non_opaque_mutex_;
+  mutable std::shared_ptr<const TopLevel> non_opaque_owner_;
+  mutable std::atomic<const TopLevel*> non_opaque_ = nullptr;
 };
 
 struct LaneSearches;
@@ -75,7 +102,7 @@ struct RayState;
 // [traverse.cpp]
 void intersect(RayState& state, RTCRayHit& ray_hit);
 void occlude(RayState& state, RTCRay& ray);
-// The same for a list of boxes, in robust or fast precision, when it is known which boxes the ray
+// The same for a list of boxes without exact bottom levels, when it is known which boxes the ray
 // enters.
 void intersect(RayState& state, RTCRayHit& ray_hit, const LaneSearches& lanes, int lane);
 void occlude(RayState& state, RTCRay& ray, const LaneSearches& lanes, int lane);

@@ -26,8 +26,8 @@ uint32_t committed_hit_kind(const InstanceNode& instance, const RTCRayHit& ray_h
   return triangle_hit_kind(instance, &ray_hit.hit.Ng_x, direction);
 }
 
-// `exact`: a bottom level of the top level is exact.
-template <bool exact>
+// `some_exact`: a bottom level of the top level is exact.
+template <bool some_exact>
 void run_closest_hit(Worker& worker, const shader::Invocation& caller,
                      const TraceRayArguments& arguments, RayState& state,
                      const RTCRayHit& ray_hit) {
@@ -42,15 +42,14 @@ void run_closest_hit(Worker& worker, const shader::Invocation& caller,
   ++worker.counters.closest_hit_calls;
 
   // If a search was ended early, Embree's ray no longer has its t.
-  const float t = exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
+  const float t = some_exact || state.ended ? state.committed_t : ray_hit.ray.tfar;
   const void* attributes = state.procedural_attributes;
   uint32_t hit_kind = state.procedural_hit_kind;
   float barycentrics[2];
   if (!instance.procedural) [[likely]] {
     if (shader.reads_hit_kind) {
-      hit_kind = exact && state.top_level->exact_instance(index).frame != nullptr
-                     ? state.exact->hit_kind
-                     : committed_hit_kind(instance, ray_hit);
+      hit_kind = some_exact && instance.exact ? state.exact->hit_kind
+                                              : committed_hit_kind(instance, ray_hit);
     }
     barycentrics[0] = ray_hit.hit.u;
     barycentrics[1] = ray_hit.hit.v;
@@ -83,18 +82,23 @@ struct WholeTraversal {
   void intersect(RayState& state, RTCRayHit& ray_hit) const { embree::intersect(state, ray_hit); }
   void occlude(RayState& state, RTCRay& ray) const { embree::occlude(state, ray); }
 };
+template <bool some_exact>
 struct LaneTraversal {
   void intersect(RayState& state, RTCRayHit& ray_hit) const {
+    if (some_exact) return intersect_exactly(state, ray_hit, lanes, lane);
     embree::intersect(state, ray_hit, lanes, lane);
   }
-  void occlude(RayState& state, RTCRay& ray) const { embree::occlude(state, ray, lanes, lane); }
+  void occlude(RayState& state, RTCRay& ray) const {
+    if (some_exact) return occlude_exactly(state, ray, lanes, lane);
+    embree::occlude(state, ray, lanes, lane);
+  }
 
   const LaneSearches& lanes;
   int lane;
 };
 
 // Traverses, then runs the shader for what was found.
-template <bool exact, typename Traversal>
+template <bool some_exact, typename Traversal>
 void search(Worker& worker, const shader::Invocation& caller, const TraceRayArguments& arguments,
             RayState& state, RTCRayHit& ray_hit, Traversal traversal) {
   if (asks_visibility(state)) {
@@ -110,15 +114,16 @@ void search(Worker& worker, const shader::Invocation& caller, const TraceRayArgu
     return run_miss(worker, caller, arguments, state);
   }
   if ((state.ray_flags & kRaySkipClosestHitShader) != 0) return;
-  run_closest_hit<exact>(worker, caller, arguments, state, ray_hit);
+  run_closest_hit<some_exact>(worker, caller, arguments, state, ray_hit);
 }
 
 // Out of line, because it needs much stack and few scenes get here.
 [[gnu::noinline]] void search_exactly(Worker& worker, const shader::Invocation& caller,
-                                      const TraceRayArguments& arguments, RayState& state) {
+                                      const TraceRayArguments& arguments, RayState& state,
+                                      const ObjectRay& world) {
   RTCRayHit ray_hit;
   ExactState exact;
-  if (!begin_exact_ray(state, exact, ray_hit.ray))
+  if (!begin_exact_ray(state, exact, world, ray_hit.ray))
     return run_miss(worker, caller, arguments, state);
   search<true>(worker, caller, arguments, state, ray_hit, WholeTraversal());
 }
@@ -139,6 +144,7 @@ bool are_three(uint32_t lanes) {
 }
 
 // The rest of trace_rays, for rays that can test the boxes of `top_level` together.
+template <bool some_exact>
 void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayArguments& arguments,
                     void* payloads, const shader::LaneRays& rays, uint32_t lanes,
                     const TopLevel& top_level) {
@@ -146,6 +152,7 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
   LaneSearches searches;
   search_lanes(rays, top_level.boxes(), searches);
   RayState state;
+  [[maybe_unused]] ExactState exact;
   state.worker = &worker;
   state.arguments = &arguments;
   state.caller = &caller;
@@ -164,9 +171,14 @@ void trace_together(Worker& worker, shader::Invocation& caller, const TraceRayAr
         }
         begin_search(state, origin[3], direction[3], searches.t_near[lane], searches.t_far[lane]);
         RTCRayHit ray_hit;
-        begin_embree_ray(state, {without_fourth_lane(origin), without_fourth_lane(direction)},
-                         ray_hit.ray);
-        search<false>(worker, caller, arguments, state, ray_hit, LaneTraversal{searches, lane});
+        const ObjectRay world = {without_fourth_lane(origin), without_fourth_lane(direction)};
+        if constexpr (some_exact) {
+          begin_exact_ray(state, exact, world, ray_hit.ray);
+        } else {
+          begin_embree_ray(state, world, ray_hit.ray);
+        }
+        search<some_exact>(worker, caller, arguments, state, ray_hit,
+                           LaneTraversal<some_exact>{searches, lane});
       });
 }
 
@@ -192,10 +204,13 @@ void trace_ray(shader::Invocation& caller, const TraceRayArguments& arguments, v
   if (top_level == nullptr || top_level->empty() || !is_valid(world, t_min, t_max)) [[unlikely]] {
     return run_miss(worker, caller, arguments, state);
   }
+  if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+    top_level = &top_level->for_non_opaque();
+  }
   begin_search(state, arguments.ray_flags | worker.dispatch->pipeline_flags,
                arguments.instance_inclusion_mask, top_level, t_min, t_max);
-  if (top_level->exact_frame() != nullptr) [[unlikely]] {
-    return search_exactly(worker, caller, arguments, state);
+  if (top_level->has_exact()) [[unlikely]] {
+    return search_exactly(worker, caller, arguments, state, world);
   }
   RTCRayHit ray_hit;
   begin_embree_ray(state, world, ray_hit.ray);
@@ -207,15 +222,18 @@ void trace_rays(shader::Invocation& caller, const TraceRayArguments& arguments, 
   Worker& worker = worker_of(caller);
   const TopLevel* top_level = find_top_level(worker, arguments.acceleration_structure);
   const bool together = caller.depth == 0 && are_three(lanes) && top_level != nullptr &&
-                        !top_level->boxes().empty() && top_level->exact_frame() == nullptr &&
-                        !top_level->has_procedurals();
+                        !top_level->boxes().empty() && !top_level->has_procedurals();
   if (together) {
     // Kept alive in the worker and not on this stack, since a fault would leave the stack without
     // releasing it; that is why it works at one depth only.
     if (worker.shared_top_level.get() != top_level) {
       worker.shared_top_level = worker.cached_top_level;
     }
-    return trace_together(worker, caller, arguments, payloads, rays, lanes, *top_level);
+    if (makes_non_opaque(arguments.ray_flags)) [[unlikely]] {
+      top_level = &top_level->for_non_opaque();
+    }
+    const auto trace = top_level->has_exact() ? trace_together<true> : trace_together<false>;
+    return trace(worker, caller, arguments, payloads, rays, lanes, *top_level);
   }
   trace_each(caller, arguments, payloads, rays, lanes,
              [&](int, void* payload, shader::RayLanes origin, shader::RayLanes direction) {

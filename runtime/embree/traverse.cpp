@@ -2,7 +2,7 @@
 //
 // What a traversal does at an instance, in robust and fast precision: decides by the instance's
 // mask and flags what the ray sees of it, transforms the ray to object space, and traverses the
-// bottom level with it. For exact precision see exact_traverse.cpp.
+// bottom level with it. For top levels with exact bottom levels see exact_traverse.cpp.
 #include "runtime/embree/inline_query.h"
 #include "runtime/embree/instance_level.h"
 #include "runtime/embree/lane_rays.h"
@@ -59,14 +59,14 @@ void occlude_instance(const RTCOccludedFunctionNArguments* arguments) {
 void intersect(RayState& state, RTCRayHit& ray_hit) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::intersect(top_level.scene(), state.query, &ray_hit);
-  if (top_level.exact_frame() != nullptr) return intersect_exactly(state, ray_hit);
+  if (top_level.has_exact()) return intersect_exactly(state, ray_hit);
   Instances::intersect(state, ray_hit);
 }
 
 void occlude(RayState& state, RTCRay& ray) {
   const TopLevel& top_level = *state.top_level;
   if (top_level.boxes().empty()) return shim::occluded(top_level.scene(), state.query, &ray);
-  if (top_level.exact_frame() != nullptr) return occlude_exactly(state, ray);
+  if (top_level.has_exact()) return occlude_exactly(state, ray);
   Instances::occlude(state, ray);
 }
 

@@ -16,9 +16,10 @@ static_assert(static_cast<uint32_t>(BindlessArray::kStorageImages) ==
               shader::spirv::kStorageImageBinding);
 static_assert(static_cast<uint32_t>(BindlessArray::kSamplers) == shader::spirv::kSamplerBinding);
 
-// Plenty for a scene, two for each view; takes a few MiB in drivers that keep the whole array in
-// memory.
-constexpr uint32_t kImages = 131072;
+// Plenty for a scene, two for each view. lavapipe keeps the whole arrays in memory, at 256 bytes
+// for each element, and writes all of them when a device is made.
+constexpr uint32_t kSampledImages = 32768;
+constexpr uint32_t kStorageImages = 8192;
 constexpr uint32_t kSamplers = 4000;  // a D3D12 heap has 2048
 
 constexpr VkDescriptorType kTypes[3] = {
@@ -35,9 +36,9 @@ rtapi::Result<std::shared_ptr<DescriptorSet>> DescriptorSet::create(std::shared_
 
 rtapi::Status DescriptorSet::start() {
   const VkPhysicalDeviceVulkan12Properties& limits = gpu_->properties().vulkan12;
-  arrays_[0].size = std::min({kImages, limits.maxDescriptorSetUpdateAfterBindSampledImages,
+  arrays_[0].size = std::min({kSampledImages, limits.maxDescriptorSetUpdateAfterBindSampledImages,
                               limits.maxPerStageDescriptorUpdateAfterBindSampledImages});
-  arrays_[1].size = std::min({kImages, limits.maxDescriptorSetUpdateAfterBindStorageImages,
+  arrays_[1].size = std::min({kStorageImages, limits.maxDescriptorSetUpdateAfterBindStorageImages,
                               limits.maxPerStageDescriptorUpdateAfterBindStorageImages});
   arrays_[2].size = std::min({kSamplers, limits.maxDescriptorSetUpdateAfterBindSamplers,
                               limits.maxPerStageDescriptorUpdateAfterBindSamplers,

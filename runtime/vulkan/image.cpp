@@ -2,8 +2,10 @@
 #include "runtime/vulkan/image.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "runtime/backend/errors.h"
 #include "runtime/vulkan/texture_format.h"
@@ -202,7 +204,41 @@ rtapi::Status Image::allocate(const VkImageCreateInfo& info) {
   return {};
 }
 
+constexpr uint64_t kZeroBytes = 1 << 20;
+
+// Clears do not take block-compressed images: a few rows of zeros are copied to everywhere.
+void Image::clear_blocks(VkCommandBuffer commands, const GpuBuffer& zeros) const {
+  std::vector<VkBufferImageCopy> regions;
+  for (uint32_t mip = 0; mip < desc_.MipLevels; ++mip) {
+    const VkExtent3D size = extent(mip);
+    const uint64_t row_bytes =
+        uint64_t{(size.width + block_side() - 1) / block_side()} * element_bytes();
+    const auto rows = static_cast<uint32_t>(std::max<uint64_t>(kZeroBytes / row_bytes, 1));
+    for (uint32_t y = 0; y < size.height; y += rows * block_side()) {
+      for (uint32_t slice = 0; slice < array_size() * size.depth; ++slice) {
+        const bool volume = type_ == VK_IMAGE_TYPE_3D;
+        VkBufferImageCopy& region = regions.emplace_back();
+        region = {};
+        region.bufferOffset = (zeros.offset() + 15) / 16 * 16;
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, mip, volume ? 0 : slice, 1};
+        region.imageOffset = {0, static_cast<int32_t>(y), volume ? static_cast<int32_t>(slice) : 0};
+        region.imageExtent = {size.width, std::min(rows * block_side(), size.height - y), 1};
+      }
+    }
+  }
+  gpu_->vk().vkCmdCopyBufferToImage(commands, zeros.handle(), handle_, VK_IMAGE_LAYOUT_GENERAL,
+                                    static_cast<uint32_t>(regions.size()), regions.data());
+}
+
 rtapi::Status Image::fill_with_zeros() {
+  const std::string what = "clear of texture " + describe(desc_);
+  std::unique_ptr<GpuBuffer> zeros;
+  if (block_side() != 1) {
+    // Rows of 16384 texels have 64 KiB.
+    auto made = gpu_->create_buffer(kZeroBytes + 16, what);
+    if (!made) return made.error();
+    zeros = std::move(*made);
+  }
   return gpu_->run(
       [&](VkCommandBuffer commands) {
         VkImageMemoryBarrier barrier = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
@@ -217,11 +253,12 @@ rtapi::Status Image::fill_with_zeros() {
         gpu_->vk().vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
                                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
                                         1, &barrier);
-        const VkClearColorValue zeros = {};
-        gpu_->vk().vkCmdClearColorImage(commands, handle_, VK_IMAGE_LAYOUT_GENERAL, &zeros, 1,
+        if (zeros != nullptr) return clear_blocks(commands, *zeros);
+        const VkClearColorValue black = {};
+        gpu_->vk().vkCmdClearColorImage(commands, handle_, VK_IMAGE_LAYOUT_GENERAL, &black, 1,
                                         &barrier.subresourceRange);
       },
-      "clear of texture " + describe(desc_));
+      what);
 }
 
 rtapi::Result<uint64_t> Image::view(const TextureViewDesc& desc) {

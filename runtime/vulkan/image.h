@@ -27,7 +27,9 @@ class Image final : public runtime::BackendTexture {
   VkImage handle() const { return handle_; }
   VkImageType type() const { return type_; }
   const rtapi::TextureDesc& desc() const { return desc_; }
-  uint32_t texel_bytes() const { return rtapi::GetFormatInfo(desc_.Format).bytes; }
+  // Of a texel, or of a block of block_side() x block_side() texels.
+  uint32_t element_bytes() const { return rtapi::GetFormatInfo(desc_.Format).bytes; }
+  uint32_t block_side() const { return rtapi::GetFormatInfo(desc_.Format).block_side; }
   VkExtent3D extent(uint32_t mip) const;
   uint32_t array_size() const {
     return type_ == VK_IMAGE_TYPE_3D ? 1 : uint32_t{desc_.DepthOrArraySize};
@@ -53,6 +55,7 @@ class Image final : public runtime::BackendTexture {
   rtapi::Status check_support(const VkImageCreateInfo& info) const;
   rtapi::Status allocate(const VkImageCreateInfo& info);
   rtapi::Status fill_with_zeros();
+  void clear_blocks(VkCommandBuffer commands, const GpuBuffer& zeros) const;
   rtapi::Status check_view(const runtime::TextureViewDesc& desc) const;
   rtapi::Result<VkImageView> create_view(const runtime::TextureViewDesc& desc) const;
   rtapi::Result<VkImageView> create_other_form(const runtime::TextureViewDesc& desc) const;

@@ -29,64 +29,89 @@ VkImageSubresourceLayers layers(uint32_t mip, uint32_t first, uint32_t count = 1
 }
 
 VkOffset3D offset_of(const TextureCopyPlace& place) {
-  return {static_cast<int32_t>(place.origin[0]), static_cast<int32_t>(place.origin[1]),
-          static_cast<int32_t>(place.origin[2])};
+  const auto side = static_cast<int32_t>(image_of(place).block_side());
+  return {static_cast<int32_t>(place.origin[0]) * side,
+          static_cast<int32_t>(place.origin[1]) * side, static_cast<int32_t>(place.origin[2])};
 }
 
-VkExtent3D extent_of(const CopyTextureCommand& command) {
-  return {command.extent[0], command.extent[1], command.extent[2]};
+// In texels of that texture: blocks at its edges may reach out of it.
+VkExtent3D extent_of(const CopyTextureCommand& command, const TextureCopyPlace& place) {
+  const Image& image = image_of(place);
+  const VkExtent3D size = image.extent(place.mip);
+  const VkOffset3D offset = offset_of(place);
+  const auto texels = [&](uint32_t elements, uint32_t total, int32_t first) {
+    return std::min(elements * image.block_side(), total - static_cast<uint32_t>(first));
+  };
+  return {texels(command.extent[0], size.width, offset.x),
+          texels(command.extent[1], size.height, offset.y), command.extent[2]};
 }
 
 // The byte of its buffer at which a copy begins.
-uint64_t first_byte(const TextureCopyPlace& place, uint32_t texel_bytes) {
+uint64_t first_byte(const TextureCopyPlace& place, uint32_t element_bytes) {
   return place.offset + place.origin[2] * place.slice_pitch +
-         uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * texel_bytes;
+         uint64_t{place.origin[1]} * place.row_pitch + uint64_t{place.origin[0]} * element_bytes;
 }
 
 // The same, in its VkBuffer.
-uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t texel_bytes) {
-  return gpu_buffer_of(*place.buffer).offset() + first_byte(place, texel_bytes);
+uint64_t buffer_offset(const TextureCopyPlace& place, uint32_t element_bytes) {
+  return gpu_buffer_of(*place.buffer).offset() + first_byte(place, element_bytes);
 }
 
-// Whether Vulkan can describe these rows and slices: everything must be a whole number of texels
+// Whether Vulkan can describe these rows and slices: everything must be a whole number of elements
 // and rows.
-bool expressible(const TextureCopyPlace& place, uint32_t texel_bytes) {
-  return place.row_pitch % texel_bytes == 0 &&
-         buffer_offset(place, texel_bytes) % texel_bytes == 0 &&
+bool expressible(const TextureCopyPlace& place, uint32_t element_bytes) {
+  return place.row_pitch % element_bytes == 0 &&
+         buffer_offset(place, element_bytes) % element_bytes == 0 &&
          place.slice_pitch % place.row_pitch == 0;
 }
 
-// Memory for texels in rows and slices without gaps.
+// Memory for elements in rows and slices without gaps.
 struct Staging {
   std::shared_ptr<GpuBuffer> buffer;
-  uint64_t offset = 0;  // in the VkBuffer; a multiple of the texel size
+  uint64_t offset = 0;  // in the VkBuffer; a multiple of an element
   uint8_t* host = nullptr;
 };
 
-rtapi::Result<Staging> stage(Gpu& gpu, uint64_t texels, uint32_t texel_bytes) {
-  auto made = gpu.create_buffer((texels + 1) * texel_bytes, "staging memory of a texture",
+rtapi::Result<Staging> stage(Gpu& gpu, uint64_t elements, uint32_t element_bytes) {
+  auto made = gpu.create_buffer((elements + 1) * element_bytes, "staging memory of a texture",
                                 InitialContents::kAny);
   if (!made) return made.error();
   Staging result;
   result.buffer = std::move(*made);
   const uint64_t start = result.buffer->offset();
-  result.offset = (start + texel_bytes - 1) / texel_bytes * texel_bytes;
+  result.offset = (start + element_bytes - 1) / element_bytes * element_bytes;
   result.host = result.buffer->host() + (result.offset - start);
   return result;
 }
 
-uint64_t texel_count(const CopyTextureCommand& command) {
+uint64_t element_count(const CopyTextureCommand& command) {
   return uint64_t{command.extent[0]} * command.extent[1] * command.extent[2];
 }
 
-// The region for a copy between a texture and a buffer that begins at `buffer_offset`.
-VkBufferImageCopy region_of(const TextureCopyPlace& texture, uint64_t buffer_offset,
-                            const VkExtent3D& extent) {
+// The region for a copy between a texture and a buffer, where it begins at `buffer_offset` and has
+// no gaps.
+VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopyPlace& texture,
+                            uint64_t buffer_offset) {
+  const uint32_t side = image_of(texture).block_side();
   VkBufferImageCopy region = {};
   region.bufferOffset = buffer_offset;
+  region.bufferRowLength = command.extent[0] * side;
+  region.bufferImageHeight = command.extent[1] * side;
   region.imageSubresource = layers(texture.mip, texture.array_element);
   region.imageOffset = offset_of(texture);
-  region.imageExtent = extent;
+  region.imageExtent = extent_of(command, texture);
+  return region;
+}
+
+// The same, with the buffer's own rows and slices.
+VkBufferImageCopy region_of(const CopyTextureCommand& command, const TextureCopyPlace& texture,
+                            const TextureCopyPlace& buffer) {
+  const Image& image = image_of(texture);
+  VkBufferImageCopy region =
+      region_of(command, texture, buffer_offset(buffer, image.element_bytes()));
+  region.bufferRowLength = buffer.row_pitch / image.element_bytes() * image.block_side();
+  region.bufferImageHeight =
+      static_cast<uint32_t>(buffer.slice_pitch / buffer.row_pitch) * image.block_side();
   return region;
 }
 
@@ -112,6 +137,7 @@ class Textures final : public TextureStore {
   // support is reported by KA0960 and KA0961.
   bool supports_format(rtapi::Format format, bool unordered_access) const override {
     const shader::FormatCodec& codec = shader::format_codec(static_cast<uint32_t>(format));
+    if (rtapi::GetFormatInfo(format).block_side != 1) return !unordered_access;
     return codec.bytes != 0 && (!unordered_access || codec.encode != nullptr);
   }
   rtapi::Status copy(CommandStream& stream, const CopyTextureCommand& command) override;
@@ -142,7 +168,12 @@ rtapi::Status Textures::copy(CommandStream& stream, const CopyTextureCommand& co
 rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& dest = image_of(command.dest);
   const Image& source = image_of(command.source);
-  if (dest.type() != source.type()) return copy_through(stream, command);
+  const VkExtent3D extent = extent_of(command, command.source);
+  const VkExtent3D at_dest = extent_of(command, command.dest);
+  if (dest.type() != source.type() || dest.block_side() != source.block_side() ||
+      extent.width != at_dest.width || extent.height != at_dest.height) {
+    return copy_through(stream, command);
+  }
   stream.everything();
   auto commands = stream.record("CopyTextureRegion");
   if (!commands) return commands.error();
@@ -151,7 +182,7 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
   region.srcOffset = offset_of(command.source);
   region.dstSubresource = layers(command.dest.mip, command.dest.array_element);
   region.dstOffset = offset_of(command.dest);
-  region.extent = extent_of(command);
+  region.extent = extent;
   gpu_->vk().vkCmdCopyImage(*commands, source.handle(), VK_IMAGE_LAYOUT_GENERAL, dest.handle(),
                             VK_IMAGE_LAYOUT_GENERAL, 1, &region);
   stream.keep(command.source.texture);
@@ -159,20 +190,20 @@ rtapi::Status Textures::copy_between(CommandStream& stream, const CopyTextureCom
   return {};
 }
 
-// Copies through a buffer, because Vulkan allows copies between images of different dimensions only
-// in some cases.
+// Copies through a buffer, because Vulkan allows copies between images of different dimensions, and
+// of blocks that reach out of an image, only in some cases.
 rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& dest = image_of(command.dest);
-  auto between = stage(*gpu_, texel_count(command), dest.texel_bytes());
+  auto between = stage(*gpu_, element_count(command), dest.element_bytes());
   if (!between) return between.error();
   stream.everything();
   auto commands = stream.record("CopyTextureRegion");
   if (!commands) return commands.error();
-  const VkBufferImageCopy from = region_of(command.source, between->offset, extent_of(command));
+  const VkBufferImageCopy from = region_of(command, command.source, between->offset);
   gpu_->vk().vkCmdCopyImageToBuffer(*commands, image_of(command.source).handle(),
                                     VK_IMAGE_LAYOUT_GENERAL, between->buffer->handle(), 1, &from);
   stream.everything();
-  const VkBufferImageCopy to = region_of(command.dest, between->offset, extent_of(command));
+  const VkBufferImageCopy to = region_of(command, command.dest, between->offset);
   gpu_->vk().vkCmdCopyBufferToImage(*commands, between->buffer->handle(), dest.handle(),
                                     VK_IMAGE_LAYOUT_GENERAL, 1, &to);
   stream.keep(command.source.texture);
@@ -184,29 +215,27 @@ rtapi::Status Textures::copy_through(CommandStream& stream, const CopyTextureCom
 rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.dest);
   const TextureCopyPlace& source = command.source;
-  const uint32_t texel = image.texel_bytes();
-  VkBufferImageCopy region = region_of(command.dest, 0, extent_of(command));
+  const uint32_t element = image.element_bytes();
+  VkBufferImageCopy region = {};
   VkBuffer buffer = VK_NULL_HANDLE;
-  if (expressible(source, texel)) {
+  if (expressible(source, element)) {
     buffer = gpu_buffer_of(*source.buffer).handle();
-    region.bufferOffset = buffer_offset(source, texel);
-    region.bufferRowLength = source.row_pitch / texel;
-    region.bufferImageHeight = static_cast<uint32_t>(source.slice_pitch / source.row_pitch);
+    region = region_of(command, command.dest, source);
     stream.keep(source.buffer);
   } else {
     if (auto s = stream.flush(); !s) return s;
-    auto rows = stage(*gpu_, texel_count(command), texel);
+    auto rows = stage(*gpu_, element_count(command), element);
     if (!rows) return rows.error();
-    const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
+    const uint64_t row_bytes = uint64_t{command.extent[0]} * element;
     uint8_t* out = rows->host;
-    const uint8_t* in = source.buffer->host() + first_byte(source, texel);
+    const uint8_t* in = source.buffer->host() + first_byte(source, element);
     for (uint32_t z = 0; z < command.extent[2]; ++z) {
       for (uint32_t y = 0; y < command.extent[1]; ++y, out += row_bytes) {
         std::memcpy(out, in + z * source.slice_pitch + uint64_t{y} * source.row_pitch, row_bytes);
       }
     }
     buffer = rows->buffer->handle();
-    region.bufferOffset = rows->offset;
+    region = region_of(command, command.dest, rows->offset);
     stream.keep(rows->buffer);
   }
   stream.everything();
@@ -221,23 +250,21 @@ rtapi::Status Textures::upload(CommandStream& stream, const CopyTextureCommand& 
 rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand& command) {
   const Image& image = image_of(command.source);
   const TextureCopyPlace& dest = command.dest;
-  const uint32_t texel = image.texel_bytes();
-  VkBufferImageCopy region = region_of(command.source, 0, extent_of(command));
-  const bool direct = expressible(dest, texel);
+  const uint32_t element = image.element_bytes();
+  VkBufferImageCopy region = {};
+  const bool direct = expressible(dest, element);
   Staging rows;
   VkBuffer buffer = VK_NULL_HANDLE;
   if (direct) {
     buffer = gpu_buffer_of(*dest.buffer).handle();
-    region.bufferOffset = buffer_offset(dest, texel);
-    region.bufferRowLength = dest.row_pitch / texel;
-    region.bufferImageHeight = static_cast<uint32_t>(dest.slice_pitch / dest.row_pitch);
+    region = region_of(command, command.source, dest);
     stream.keep(dest.buffer);
   } else {
-    auto made = stage(*gpu_, texel_count(command), texel);
+    auto made = stage(*gpu_, element_count(command), element);
     if (!made) return made.error();
     rows = std::move(*made);
     buffer = rows.buffer->handle();
-    region.bufferOffset = rows.offset;
+    region = region_of(command, command.source, rows.offset);
   }
   stream.everything();
   auto commands = stream.record("CopyTextureRegion to a buffer");
@@ -247,9 +274,9 @@ rtapi::Status Textures::download(CommandStream& stream, const CopyTextureCommand
   stream.keep(command.source.texture);
   if (direct) return {};
   if (auto s = stream.flush(); !s) return s;
-  const uint64_t row_bytes = uint64_t{command.extent[0]} * texel;
+  const uint64_t row_bytes = uint64_t{command.extent[0]} * element;
   const uint8_t* in = rows.host;
-  uint8_t* out = dest.buffer->host() + first_byte(dest, texel);
+  uint8_t* out = dest.buffer->host() + first_byte(dest, element);
   for (uint32_t z = 0; z < command.extent[2]; ++z) {
     for (uint32_t y = 0; y < command.extent[1]; ++y, in += row_bytes) {
       std::memcpy(out + z * dest.slice_pitch + uint64_t{y} * dest.row_pitch, in, row_bytes);

@@ -120,6 +120,41 @@ VkFormat vulkan_format(F format) {
     case F::kB8G8R8A8UnormSrgb:
     case F::kB8G8R8X8UnormSrgb:
       return VK_FORMAT_B8G8R8A8_SRGB;
+    case F::kBC1Typeless:
+    case F::kBC1Unorm:
+      return VK_FORMAT_BC1_RGBA_UNORM_BLOCK;
+    case F::kBC1UnormSrgb:
+      return VK_FORMAT_BC1_RGBA_SRGB_BLOCK;
+    case F::kBC2Typeless:
+    case F::kBC2Unorm:
+      return VK_FORMAT_BC2_UNORM_BLOCK;
+    case F::kBC2UnormSrgb:
+      return VK_FORMAT_BC2_SRGB_BLOCK;
+    case F::kBC3Typeless:
+    case F::kBC3Unorm:
+      return VK_FORMAT_BC3_UNORM_BLOCK;
+    case F::kBC3UnormSrgb:
+      return VK_FORMAT_BC3_SRGB_BLOCK;
+    case F::kBC4Typeless:
+    case F::kBC4Unorm:
+      return VK_FORMAT_BC4_UNORM_BLOCK;
+    case F::kBC4Snorm:
+      return VK_FORMAT_BC4_SNORM_BLOCK;
+    case F::kBC5Typeless:
+    case F::kBC5Unorm:
+      return VK_FORMAT_BC5_UNORM_BLOCK;
+    case F::kBC5Snorm:
+      return VK_FORMAT_BC5_SNORM_BLOCK;
+    case F::kBC6HTypeless:
+    case F::kBC6HUf16:
+      return VK_FORMAT_BC6H_UFLOAT_BLOCK;
+    case F::kBC6HSf16:
+      return VK_FORMAT_BC6H_SFLOAT_BLOCK;
+    case F::kBC7Typeless:
+    case F::kBC7Unorm:
+      return VK_FORMAT_BC7_UNORM_BLOCK;
+    case F::kBC7UnormSrgb:
+      return VK_FORMAT_BC7_SRGB_BLOCK;
     default:
       return VK_FORMAT_UNDEFINED;
   }

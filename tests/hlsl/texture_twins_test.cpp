@@ -52,6 +52,32 @@ constexpr SampledFormat kSampledFormats[] = {{"rgba32f", Format::kR32G32B32A32Fl
                                              {"rgba8_srgb", Format::kR8G8B8A8UnormSrgb, 4},
                                              {"r32f", Format::kR32Float, 4},
                                              {"rg16f", Format::kR16G16Float, 4}};
+constexpr SampledFormat kBc1 = {"bc1", Format::kBC1Unorm, 8}, kBc5 = {"bc5", Format::kBC5Unorm, 16},
+                        kBc6h = {"bc6h", Format::kBC6HUf16, 16},
+                        kBc7 = {"bc7", Format::kBC7Unorm, 16};
+
+bool is_blocks(const SampledFormat& format) {
+  return GetFormatInfo(format.format).block_side != 1;
+}
+
+// Makes a block of random bytes one that every implementation decodes to the same texels.
+void adjust_block(Format format, uint8_t* block, std::mt19937& random) {
+  uint64_t halves[2];
+  std::memcpy(halves, block, format == Format::kBC1Unorm ? 8 : 16);
+  if (format == Format::kBC1Unorm) {
+    halves[0] &= 0x55555555FFFFFFFFu;  // no colour between the two that are stored
+    std::memcpy(block, halves, 8);
+    return;
+  }
+  if (format == Format::kBC5Unorm) {
+    for (uint64_t& half : halves) half &= 0x249249249249FFFFu;
+  } else if (format == Format::kBC6HUf16) {
+    halves[0] = 3;  // one subset; six endpoints of 10 bits, below 0.8 as half floats
+    for (uint32_t i = 0; i < 6; ++i) halves[0] |= uint64_t{random() % 480} << (5 + 10 * i);
+    halves[1] &= ~uint64_t{1};
+  }
+  std::memcpy(block, halves, 16);
+}
 
 // The kernel's operations; each gives four floats.
 std::vector<std::string> operations_of(const TextureCase& t) {
@@ -172,12 +198,15 @@ std::vector<float> sample_all(const char* backend, const TextureCase& t,
   for (uint32_t i = 0; i < texture.subresource_count(); ++i) {
     const uint32_t mip = i % kMips;
     const bool volume = t.resource == ResourceDimension::kTexture3D;
-    const uint64_t texels = uint64_t{std::max(1u, static_cast<uint32_t>(desc.Width) >> mip)} *
-                            std::max(1u, desc.Height >> mip) *
-                            (volume ? std::max(1u, kDepth >> mip) : 1);
-    std::vector<uint8_t> data(texels * format.bytes);
+    const uint32_t side = GetFormatInfo(format.format).block_side;
+    const auto elements = [&](uint32_t size) {
+      return (std::max(1u, size >> mip) + side - 1) / side;
+    };
+    std::vector<uint8_t> data(size_t{elements(desc.Width)} * elements(desc.Height) *
+                              (volume ? std::max(1u, kDepth >> mip) : 1) * format.bytes);
     const bool halves = format.format == Format::kR16G16Float;
-    const bool floats = format.format == Format::kR32Float || format.bytes == 16;
+    const bool floats =
+        format.format == Format::kR32Float || format.format == Format::kR32G32B32A32Float;
     for (size_t b = 0; b < data.size(); ++b) data[b] = static_cast<uint8_t>(random());
     for (size_t b = 0; floats && b < data.size(); b += 4) {
       const float value = static_cast<float>(random() % 1024) / 1024;
@@ -185,6 +214,9 @@ std::vector<float> sample_all(const char* backend, const TextureCase& t,
     }
     for (size_t b = 0; halves && b < data.size(); b += 2) {  // 0.5 to 2
       data[b + 1] = static_cast<uint8_t>(0x38 | (data[b + 1] & 7));
+    }
+    for (size_t b = 0; is_blocks(format) && b < data.size(); b += format.bytes) {
+      adjust_block(format.format, &data[b], random);
     }
     UploadTexture(device, twin.queue, texture, i, std::as_bytes(std::span(data))).value();
   }
@@ -296,13 +328,20 @@ TEST_P(VulkanTextureTwins, SampleAlike) {
     }
   }
 }
+std::string name_of(const testing::TestParamInfo<TextureParameter>& p) {
+  return std::string(std::get<0>(p.param).name) + "_" + std::get<1>(p.param).name;
+}
 INSTANTIATE_TEST_SUITE_P(Dimensions, VulkanTextureTwins,
                          testing::Combine(testing::ValuesIn(kTextures),
                                           testing::ValuesIn(kSampledFormats)),
-                         [](const auto& p) {
-                           return std::string(std::get<0>(p.param).name) + "_" +
-                                  std::get<1>(p.param).name;
-                         });
+                         name_of);
+// How blocks are decoded does not depend on the dimension.
+INSTANTIATE_TEST_SUITE_P(
+    Blocks, VulkanTextureTwins,
+    testing::Values(TextureParameter{kTextures[2], kBc1}, TextureParameter{kTextures[2], kBc7},
+                    TextureParameter{kTextures[3], kBc5}, TextureParameter{kTextures[4], kBc7},
+                    TextureParameter{kTextures[5], kBc6h}, TextureParameter{kTextures[6], kBc1}),
+    name_of);
 
 }  // namespace
 }  // namespace kaamos::test

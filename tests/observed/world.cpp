@@ -76,19 +76,26 @@ Buffer World::boxes(const std::vector<RaytracingAabb>& boxes,
   inputs.Flags = flags;
   inputs.NumDescs = 1;
   inputs.pGeometryDescs = &geometry;
-  keep_.push_back(build(inputs, "bottom"));
+  return instance_of(build(inputs, "bottom"));
+}
+
+Buffer World::triangle() {
+  const std::vector<float> corners = {-1, -1, 5, 1, -1, 5, 0, 1, 5};
+  const Buffer input = CreateUploadBuffer(device_, corners, "corners").value();
+  RaytracingGeometryDesc geometry;
+  geometry.Triangles.VertexBuffer = {input.GetGPUVirtualAddress(), 12};
+  geometry.Triangles.VertexCount = 3;
+  geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
+  return instance_of(test::build_bottom_level(device_, queue_, {geometry}));
+}
+
+Buffer World::instance_of(const Buffer& bottom_level) {
+  keep_.push_back(bottom_level);
   RaytracingInstanceDesc instance;
   for (int i = 0; i < 3; ++i) instance.Transform[i][i] = 1;
   instance.InstanceMask = 0xFF;
-  instance.AccelerationStructure = keep_.back().GetGPUVirtualAddress();
-  const Buffer instances =
-      CreateUploadBuffer(device_, std::vector<RaytracingInstanceDesc>{instance}, "instances")
-          .value();
-  inputs = {};
-  inputs.Type = RaytracingAccelerationStructureType::kTopLevel;
-  inputs.NumDescs = 1;
-  inputs.InstanceDescs = instances.GetGPUVirtualAddress();
-  return build(inputs, "scene");
+  instance.AccelerationStructure = bottom_level.GetGPUVirtualAddress();
+  return test::build_top_level(device_, queue_, {instance}, "scene");
 }
 
 void World::bind(CommandList& list) {

@@ -32,6 +32,7 @@ class World : public test::OnBackends {
                       rtapi::RaytracingAccelerationStructureBuildFlags flags =
                           rtapi::RaytracingAccelerationStructureBuildFlags::kNone);
   rtapi::Buffer triangle();
+  rtapi::Buffer instance_of(const rtapi::Buffer& bottom_level);
 
   // Root parameters: UAV(u0), SRV(t0), 4 constants at b0, a table of views, and in space 2 a point
   // sampler.

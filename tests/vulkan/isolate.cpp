@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// kaamos-isolate [--limit SECONDS] PROGRAM [ARGUMENTS]: ctest starts tests that may use Vulkan
-// through this program, one test in each process.
+// kaamos-isolate [--limit SECONDS] [--share TESTS] PROGRAM [ARGUMENTS]: ctest starts tests through
+// this program, one test in each process, or with --share several (shared_runs.h).
 //
 // A test on Vulkan (with "vulkan" in its own name or its program's) that a signal ends, or that is
 // not done within the limit, is run once more, because some of the driver's faults come and go. A
@@ -10,24 +10,22 @@
 // scripts/test fails for more than 1 in 100. Validation layers are on and the driver's shader cache
 // is in the build folder, unless the environment says otherwise.
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <thread>
+
+#include "child_process.h"
+#include "shared_runs.h"
 
 namespace {
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+using namespace kaamos::test;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -49,49 +47,24 @@ void log_run(const std::string& line) {
   close(log);
 }
 
-// Returns waitpid's status, or -1 if the program had to be stopped.
-int run(char** command, double limit_seconds) {
-  const pid_t child = fork();
-  if (child == 0) {
-    execvp(command[0], command);
-    std::perror(command[0]);
-    _exit(127);
-  }
-  const double end = now() + limit_seconds;
-  for (int status = 0;;) {
-    const pid_t ended = waitpid(child, &status, WNOHANG);
-    if (ended == child) return status;
-    if (ended < 0) return 127 << 8;
-    if (now() > end) {
-      kill(child, SIGKILL);
-      waitpid(child, &status, 0);
-      return -1;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
-
-std::string describe(int status, double limit_seconds) {
-  if (status == -1) return "did not end within " + std::to_string(int(limit_seconds)) + " s";
-  return "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
-         strsignal(WTERMSIG(status)) + ")";
-}
-
-bool crashed(int status) {
-  return status == -1 || WIFSIGNALED(status);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   int first = 1;
   double limit_seconds = 120;
-  if (argc > 2 && std::strcmp(argv[1], "--limit") == 0) {
-    limit_seconds = std::atof(argv[2]);
-    first = 3;
+  size_t share = 0;
+  for (; first + 1 < argc; first += 2) {
+    if (std::strcmp(argv[first], "--limit") == 0) {
+      limit_seconds = std::atof(argv[first + 1]);
+    } else if (std::strcmp(argv[first], "--share") == 0) {
+      share = std::strtoul(argv[first + 1], nullptr, 10);
+    } else {
+      break;
+    }
   }
   if (first >= argc) {
-    std::fprintf(stderr, "usage: kaamos-isolate [--limit SECONDS] PROGRAM [ARGUMENTS]\n");
+    std::fprintf(stderr,
+                 "usage: kaamos-isolate [--limit SECONDS] [--share TESTS] PROGRAM [ARGUMENTS]\n");
     return 2;
   }
   std::string name = file_name(argv[first]);
@@ -107,6 +80,20 @@ int main(int argc, char** argv) {
   on_vulkan = on_vulkan || lower(name).find("vulkan") != std::string::npos;
   setenv("MESA_SHADER_CACHE_DIR", KAAMOS_BINARY_DIR "/mesa-cache", 0);
   setenv("KAAMOS_VULKAN_VALIDATION", "1", 0);
+
+  const char* folder = std::getenv("KAAMOS_SHARED_RUNS");
+  if (share > 1 && folder != nullptr) {
+    SharedRuns runs(folder, {argv + first, argv + argc}, share, limit_seconds);
+    const auto result = runs.result_of(name);
+    for (const std::string& crash : runs.crashes()) {
+      if (on_vulkan) log_run("repeated\t" + name + "\t" + crash + "\n");
+    }
+    if (result) {
+      if (on_vulkan) log_run("ran\t" + name + "\n");
+      std::fputs(result->output.c_str(), stdout);
+      return result->passed ? 0 : 1;
+    }
+  }
 
   int status = run(argv + first, limit_seconds);
   if (on_vulkan) {

@@ -46,4 +46,45 @@ check hang_is_repeated 0 2 ran,repeated -- "$work/hanging_once" $filter
 check other_crash_is_not_repeated 1 1 '' -- "$work/crashing_once" --gtest_filter=Shapes.Embree/0
 check listing_is_no_run 0 1 '' -- "$work/good" --gtest_list_tests
 check missing_program 127 0 '' -- "$work/absent"
+
+# Programs that speak like GoogleTest: four tests, of which b fails and d is skipped.
+export KAAMOS_SHARED_RUNS="$work/shared"
+speaking='for word; do case $word in
+  --gtest_list_tests) printf "S.\n  a\n  b\n  c  # GetParam() = 1\n  DISABLED_x\n  d\n"; exit 0 ;;
+  --gtest_filter=*) IFS=:; set -- ${word#--gtest_filter=} ;;
+esac; done
+status=0
+for name; do
+  echo "[ RUN      ] $name"
+  case $name in
+    S.b) echo "wrong"; echo "[  FAILED  ] $name (1 ms)"; status=1 ;;
+    S.d) echo "[  SKIPPED ] $name (1 ms)" ;;
+    *) echo "said by $name"; echo "[       OK ] $name (1 ms)" ;;
+  esac
+done'
+program sharing "$speaking; exit \$status"
+program dying "$speaking; [ \$# = 1 ] && exit \$status; kill -SEGV \$\$"
+program lying "${speaking/FAILED  ]/     OK ]}; exit 1"
+
+# share PROGRAM TEST STATUS TEXT RUNS: its status, a text of its output, and the processes until then,
+# that for the list among them.
+share() {
+  "$isolate" --limit 2 --share 4 "$work/$1" --gtest_filter="$2" >"$work/output" 2>&1
+  local got="$? $(wc -l <"$work/count")"
+  if [[ $got != "$3 $5" ]] || ! grep -qF "$4" "$work/output" || [[ $(grep -c 'RUN  ' "$work/output") != 1 ]]; then
+    printf 'FAILED share %s: status and runs are "%s", output:\n' "$*" "$got"
+    cat "$work/output"
+    failures=$((failures + 1))
+  fi
+}
+rm -rf "$work/shared" "$work/count"
+share sharing S.c 0 'said by S.c' 2
+share sharing S.a 0 'said by S.a' 2
+share sharing S.b 1 'wrong' 2
+share sharing S.d 0 '[  SKIPPED ] S.d' 2
+rm "$work/count"
+share dying S.a 0 'said by S.a' 3  # the list, all four, S.a alone
+share dying S.b 1 'wrong' 4
+rm "$work/count"
+share lying S.a 1 'said by S.a' 3  # a status that no test explains: alone
 exit $((failures > 0))

@@ -5,16 +5,35 @@
 #include <cstring>
 
 #if KAAMOS_HAS_VULKAN
-#include "runtime/vulkan/instance.h"
+#include "runtime/vulkan/gpu.h"
 #endif
 
 namespace kaamos::test {
+namespace {
 
-std::string why_no_vulkan() {
+#if KAAMOS_HAS_VULKAN
+std::string find_vulkan() {
+  // Lives as long as the process, because loading the layers and drivers again takes longer than
+  // most tests.
+  static const auto* const instance = new auto(vulkan::Instance::get());
+  if (!*instance) return instance->error().message;
+  const auto gpu = vulkan::Gpu::create();
+  return gpu ? "" : gpu.error().message;
+}
+#else
+std::string find_vulkan() {
   rtapi::DeviceDesc desc;
   desc.Backend = "vulkan";
   const auto device = rtapi::CreateDevice(desc);
   return device ? "" : device.error().message;
+}
+#endif
+
+}  // namespace
+
+std::string why_no_vulkan() {
+  static const std::string why = find_vulkan();
+  return why;
 }
 
 bool vulkan_is_required() {

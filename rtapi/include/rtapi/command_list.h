@@ -331,11 +331,13 @@ class CommandList {
   /// Copies texels between subresources, or between a subresource and a buffer: those of
   /// `source_box` (null: all) to (x, y, z) of the destination. Formats are of one family; values
   /// are not converted. An empty box copies nothing. The list keeps both sides alive.
-  /// [D3D12: CopyTextureRegion]
-  /// @errors KA0800; KA0817 a subresource that does not exist, texels outside of a side, or a
-  /// footprint outside of its buffer; KA0818 source and destination are one subresource; KA0819
-  /// formats of different families, two buffers, or a Type that is not the resource's; KA0820 the
-  /// footprint; KA0903 a resource of another device; KA0904 an empty handle.
+  /// Block-compressed formats: coordinates are multiples of 4, or for right and bottom the size of
+  /// the subresource. Their blocks can also go to and come from texels of integer or typeless
+  /// formats with as many bytes: BC1 and BC4 of 8, the others of 16. [D3D12: CopyTextureRegion]
+  /// @errors KA0800; KA0572 parts of blocks; KA0817 a subresource that does not exist, texels
+  /// outside of a side, or a footprint outside of its buffer; KA0818 source and destination are one
+  /// subresource; KA0819 formats of different families, two buffers, or a Type that is not the
+  /// resource's; KA0820 the footprint; KA0903 a resource of another device; KA0904 an empty handle.
   void CopyTextureRegion(const TextureCopyLocation& dest, uint32_t x, uint32_t y, uint32_t z,
                          const TextureCopyLocation& source, const Box* source_box = nullptr);
   /// Copies a whole buffer to one of the same size, or every subresource of a texture to one of the

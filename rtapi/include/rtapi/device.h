@@ -39,9 +39,9 @@ struct DeviceInfo {
 /// specification]
 enum class TraversalPrecision : uint32_t {
   kFast,  ///< Embree's default; a rare ray slips through an edge that two triangles share
-  /// No gaps between triangles in practice. Bottom levels whose triangles are not all opaque keep
-  /// the rules of kExact, so that any-hit shaders and RayQuery see one triangle at a shared edge;
-  /// what only an instance or a ray forces to be non-opaque does not.
+  /// No gaps between triangles in practice. What any-hit shaders and the candidates of RayQuery see
+  /// keeps the rules of kExact, one triangle at a shared edge: in bottom levels that are not all
+  /// opaque, and in others where an instance or a ray has FORCE_NON_OPAQUE.
   kRobust,
   kExact  ///< DXR's watertightness rules, one hit per shared edge; not on Vulkan (KA0991)
 };
@@ -151,16 +151,19 @@ class Device {
   Result<Buffer> CreateBuffer(const BufferDesc& desc) const;
   /// Makes a texture of zeros on the default heap. [D3D12: CreateCommittedResource]
   /// @errors KA0904 empty handle; KA0907 a state for buffers; KA0908 dimension, size or mip levels;
-  /// KA0909 format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures;
-  /// the reason if the device is removed.
+  /// KA0570 and KA0571 unordered access to, or one dimension of, a block-compressed format; KA0909
+  /// format or flags; KA0990 no memory; on Vulkan KA0960 the device has no such textures; the
+  /// reason if the device is removed.
   Result<Texture> CreateTexture(const TextureDesc& desc) const;
   /// Where `count` subresources of such a texture, from `first_subresource` on, lie in a buffer
   /// that CopyTextureRegion reads or writes. The first is placed at `base_offset_bytes`, rounded up
   /// to 512, the others behind it. Appends to each vector that is not null one element for each
-  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Returns
+  /// subresource: the footprint, its rows per slice, the bytes of a row without padding. Of a
+  /// block-compressed format rows are rows of blocks, and footprints whole blocks large. Returns
   /// the bytes from `base_offset_bytes` to the end of the last row. Needs no device.
   /// [D3D12: GetCopyableFootprints]
-  /// @errors KA0817 more subresources than there are; KA0907-0909 as of CreateTexture.
+  /// @errors KA0817 more subresources than there are; KA0570, KA0571, KA0907-0909 as of
+  /// CreateTexture.
   Result<uint64_t> GetCopyableFootprints(const TextureDesc& desc, uint32_t first_subresource,
                                          uint32_t count, uint64_t base_offset_bytes,
                                          std::vector<PlacedSubresourceFootprint>* layouts,
@@ -197,8 +200,9 @@ class Device {
   /// [D3D12: CreateUnorderedAccessView]
   /// @errors KA0904 empty device; KA0903 resource of another device; KA0622 `dest` is no such slot;
   /// KA0623 dimension; KA0624 elements outside of the buffer; KA0625 stride, offset or counter;
-  /// KA0626 format; KA0627 the resource was created without kAllowUnorderedAccess; KA0630 mips or
-  /// slices; on Vulkan KA0956 too many views, KA0961 no such view.
+  /// KA0626 format; KA0570 a block-compressed texture; KA0627 the resource was created without
+  /// kAllowUnorderedAccess; KA0630 mips or slices; on Vulkan KA0956 too many views, KA0961 no such
+  /// view.
   Status CreateUnorderedAccessView(const Resource& resource, const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
   /// The same of a structured buffer with a counter, for HLSL's IncrementCounter, Append and
@@ -209,7 +213,7 @@ class Device {
                                    const UnorderedAccessViewDesc& desc,
                                    CpuDescriptorHandle dest) const;
   /// A view of mip 0 of the whole texture, with its own format and dimension.
-  /// @errors as of the overload with a desc: KA0622, KA0626, KA0627, KA0903, KA0904.
+  /// @errors as of the overload with a desc: KA0570, KA0622, KA0626, KA0627, KA0903, KA0904.
   Status CreateUnorderedAccessView(const Texture& texture, CpuDescriptorHandle dest) const;
   /// Writes a view of a constant buffer, or a null view for address 0, into slot `dest` of a living
   /// CBV/SRV/UAV heap. [D3D12: CreateConstantBufferView]
@@ -272,8 +276,10 @@ class Device {
   /// @errors KA0904 an empty handle, KA0903 an object of another device. Subobjects: KA0500-0502,
   /// KA0519-0521, KA0536, KA0538, KA0539. Exports: KA0503-0506. Associations: KA0507-0510, KA0515.
   /// Configs: KA0511-0514. Hit groups: KA0516-0518, KA0524. Sizes: KA0522, KA0523. Collections:
-  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. On Vulkan: KA0952, KA0954
-  /// a library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
+  /// KA0525, KA0526. Root signatures: KA0527-0531, KA0543. Tier: KA0542. Functions without a body:
+  /// KA0560 none defines it, KA0561 another signature, KA0562 a collection's flags, KA0563 no
+  /// source, KA0564 what the compiler says of the libraries together. On Vulkan: KA0952, KA0954 a
+  /// library without SPIR-V, KA0956, KA0963 RayQuery that the device lacks. The reason if the
   /// device is removed.
   Result<StateObject> CreateStateObject(const StateObjectDesc& desc) const;
   /// Makes a pipeline of a parent and more exports. The addition is a pipeline that is valid by

@@ -121,17 +121,20 @@ enum class FormatClass : uint8_t { kUnsupported, kTypeless, kFloat, kUnorm, kSno
 /// What a format looks like in memory. The channel that a name names first lies first, in
 /// B8G8R8A8 and B8G8R8X8 too (blue first).
 struct FormatInfo {
-  FormatClass type = FormatClass::kUnsupported;  ///< kUnsupported: all other members are 0
-  uint8_t bytes = 0;                             ///< of one element
+  FormatClass type = FormatClass::kUnsupported;  ///< kUnsupported: bytes and channels are 0
+  uint8_t bytes = 0;                             ///< of one element: a texel, or a block of texels
   uint8_t channels = 0;                          ///< X counts as one
-  /// Bits of each channel; 0 where channels differ (R10G10B10A2, R11G11B10, R9G9B9E5, B5G6R5, ...).
+  /// Bits of each channel; 0 where channels differ (R10G10B10A2, R11G11B10, R9G9B9E5, B5G6R5, ...)
+  /// and in blocks.
   uint8_t channel_bits = 0;
   bool srgb = false;  ///< red, green and blue are stored by the sRGB curve
+  /// Texels along a side of a block: 4 for BC1 to BC7, which only textures can have; else 1.
+  uint8_t block_side = 1;
 };
 
 /// What a format looks like, for every format that textures, typed buffers and vertices can have.
-/// The type is kUnsupported for all others (block-compressed, video and packed YUV formats,
-/// and numbers that are none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
+/// The type is kUnsupported for all others (video and packed YUV formats, and numbers that are
+/// none); CreateTexture refuses them by KA0909, views by KA0626. [DXGI_FORMAT]
 constexpr FormatInfo GetFormatInfo(Format format) {
   using F = Format;
   using C = FormatClass;
@@ -284,6 +287,44 @@ constexpr FormatInfo GetFormatInfo(Format format) {
       return {C::kUnorm, 4, 4, 8};
     case F::kB8G8R8X8UnormSrgb:
       return {C::kUnorm, 4, 4, 8, true};
+    case F::kBC1Typeless:
+      return {C::kTypeless, 8, 4, 0, false, 4};
+    case F::kBC1Unorm:
+      return {C::kUnorm, 8, 4, 0, false, 4};
+    case F::kBC1UnormSrgb:
+      return {C::kUnorm, 8, 4, 0, true, 4};
+    case F::kBC2Typeless:
+    case F::kBC3Typeless:
+      return {C::kTypeless, 16, 4, 0, false, 4};
+    case F::kBC2Unorm:
+    case F::kBC3Unorm:
+      return {C::kUnorm, 16, 4, 0, false, 4};
+    case F::kBC2UnormSrgb:
+    case F::kBC3UnormSrgb:
+      return {C::kUnorm, 16, 4, 0, true, 4};
+    case F::kBC4Typeless:
+      return {C::kTypeless, 8, 1, 0, false, 4};
+    case F::kBC4Unorm:
+      return {C::kUnorm, 8, 1, 0, false, 4};
+    case F::kBC4Snorm:
+      return {C::kSnorm, 8, 1, 0, false, 4};
+    case F::kBC5Typeless:
+      return {C::kTypeless, 16, 2, 0, false, 4};
+    case F::kBC5Unorm:
+      return {C::kUnorm, 16, 2, 0, false, 4};
+    case F::kBC5Snorm:
+      return {C::kSnorm, 16, 2, 0, false, 4};
+    case F::kBC6HTypeless:
+      return {C::kTypeless, 16, 3, 0, false, 4};
+    case F::kBC6HUf16:
+    case F::kBC6HSf16:
+      return {C::kFloat, 16, 3, 0, false, 4};
+    case F::kBC7Typeless:
+      return {C::kTypeless, 16, 4, 0, false, 4};
+    case F::kBC7Unorm:
+      return {C::kUnorm, 16, 4, 0, false, 4};
+    case F::kBC7UnormSrgb:
+      return {C::kUnorm, 16, 4, 0, true, 4};
     default:
       return {};
   }

@@ -154,7 +154,9 @@ class Buffer {
 /// Describes a texture for Device::CreateTexture. [D3D12: D3D12_RESOURCE_DESC]
 struct TextureDesc {
   ResourceDimension Dimension = ResourceDimension::kTexture2D;  ///< kTexture1D, 2D or 3D
-  uint32_t Width = 1;   ///< texels: 1 to 16384, of a 3-D texture to 2048
+  /// Texels: 1 to 16384, of a 3-D texture to 2048. No multiples of 4 are needed where texels come
+  /// in blocks. [D3D12: UnalignedBlockTexturesSupported]
+  uint32_t Width = 1;
   uint32_t Height = 1;  ///< texels, as Width; 1 for a 1-D texture
   /// Depth of a 3-D texture, else array elements: 1 to 2048; 6 for a cube.
   uint16_t DepthOrArraySize = 1;
@@ -248,7 +250,8 @@ struct ResourceBarrier {
 // Copies between buffers and textures
 
 /// How the texels of one subresource lie in a buffer: rows of RowPitch bytes, Height rows to a
-/// slice, Depth slices. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
+/// slice, Depth slices. In block-compressed formats a row is one of blocks, and Width and Height
+/// are multiples of 4. [D3D12: D3D12_SUBRESOURCE_FOOTPRINT]
 struct SubresourceFootprint {
   rtapi::Format Format = rtapi::Format::kUnknown;  ///< of the family of the texture's format
   uint32_t Width = 0;                              ///< texels, at least 1

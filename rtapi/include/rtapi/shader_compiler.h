@@ -38,11 +38,13 @@ struct ShaderCompileOptions {
   /// -enable-payload-qualifiers, -disable-payload-qualifiers; empty: on from lib_6_7.
   /// [DXR: Availability]
   std::optional<bool> PayloadQualifiers = {};
-  bool Strict = false;              ///< --strict: refuse what DXC refuses
-  bool WarningsAsErrors = false;    ///< -WX
-  bool NoWarnings = false;          ///< -no-warnings: Diagnostics holds errors only
-  bool CheckAccess = false;         ///< -check-access: for devices with DeviceDesc::Checked
-  bool EmbedSource = true;          ///< false is -no-source: checked devices cannot compile it anew
+  bool Strict = false;            ///< --strict: refuse what DXC refuses
+  bool WarningsAsErrors = false;  ///< -WX
+  bool NoWarnings = false;        ///< -no-warnings: Diagnostics holds errors only
+  bool CheckAccess = false;       ///< -check-access: for devices with DeviceDesc::Checked
+  /// False is -no-source: checked devices cannot compile it anew, nor state objects link it with
+  /// another library.
+  bool EmbedSource = true;
   bool WideThreads = true;          ///< false is -no-wide: never eight threads at once
   bool CheckOnly = false;           ///< -check: nothing is made; Library stays empty
   bool Debug = false;               ///< -Od -Zi: for gdb

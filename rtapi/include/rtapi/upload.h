@@ -44,7 +44,7 @@ Result<std::vector<std::byte>> ReadbackBuffer(const Device& device, CommandQueue
 
 /// Fills one subresource of a texture, in whatever state it is: `texels` are its rows from the top,
 /// slice after slice, `row_pitch_bytes` from row to row; 0: rows follow each other without padding.
-/// Texels are in the texture's format.
+/// Texels are in the texture's format; if it is block-compressed, rows are of whole blocks.
 /// @errors KA0904 an empty handle; KA0903 a texture or queue of another device; KA0817 no such
 /// subresource, too few texels, or a pitch shorter than a row; KA0990 no memory; those of
 /// CommandQueue::ExecuteAndWait.
@@ -52,7 +52,7 @@ Status UploadTexture(const Device& device, CommandQueue& queue, const Texture& t
                      uint32_t subresource, std::span<const std::byte> texels,
                      uint32_t row_pitch_bytes = 0);
 /// Reads one subresource of a texture, in whatever state it is: its rows from the top, slice after
-/// slice, without padding, in the texture's format.
+/// slice, without padding, in the texture's format; rows of whole blocks if it is block-compressed.
 /// @errors KA0904 an empty handle; KA0903 a texture or queue of another device; KA0817 no such
 /// subresource; KA0990 no memory; those of CommandQueue::ExecuteAndWait.
 Result<std::vector<std::byte>> ReadbackTexture(const Device& device, CommandQueue& queue,

@@ -347,29 +347,134 @@ TEST(Robust, TopLevelsMixBottomLevelsThatAreExactWithOthers) {
   }
 }
 
-// The edges of a quad and of a closed surface, where the default precision runs any-hit shaders.
-TEST(Robust, SharedEdgesAreHitOnceWhereTheyAreNotOpaque) {
+// Surfaces in and around each other, every other one opaque. With `apart`, more instances stand at
+// a distance, and the top level is a tree instead of a list.
+uint64_t nested_surfaces(Harness& h, bool apart) {
+  std::vector<rtapi::RaytracingInstanceDesc> instances;
+  for (int i = 0; i < 9; ++i) {
+    const auto flags = i % 2 == 0 ? kOpaque : kNonOpaque;
+    const std::vector<Triangle> mesh = closed_mesh(4 + i, 0.4f + 0.15f * static_cast<float>(i % 4));
+    auto instance = instance_of(h.bottom_level({geometry_of(mesh, flags)}));
+    instance.Transform[0][1] = 0.1f * static_cast<float>(i);
+    for (int k = 0; k < 3; ++k) {
+      instance.Transform[k][3] = 0.37f * static_cast<float>((i * (k + 3)) % 5 - 2);
+    }
+    instances.push_back(instance);
+  }
+  for (int i = 0; apart && i < 40; ++i) {
+    instances.push_back(instances[i % 2]);
+    instances.back().Transform[2][3] = 1e4f + static_cast<float>(i);
+  }
+  return h.top_level(instances);
+}
+
+std::vector<Payload> seen_in(TraversalPrecision precision, bool apart, shader::AnyHitFn any_hit,
+                             uint32_t flags) {
+  Harness h(1, precision);
+  h.use_standard_pipeline(any_hit);
+  const uint64_t scene = nested_surfaces(h, apart);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> around(-1.5f, 1.5f);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 3000; ++i) {
+    const Point target = {around(random), around(random), around(random)};
+    const float away = i % 3 == 0 ? 1.0f : 8.0f;
+    rays.push_back(ray_to(scene, {away * around(random), away * around(random), -away}, target));
+    rays.back().ray_flags = flags;
+    if (i % 5 == 0) rays.back().ray.t_max = 0.9f;
+  }
+  return h.trace(rays);
+}
+
+// One hit is the nearest of both kinds, however they are found. What is exact is so to the bit.
+TEST(Robust, MixedTopLevelsSeeWhatExactOnesSee) {
+  constexpr uint32_t kFlags[] = {0, 0x1, 0x4 | 0x8, 0x10, 0x40, 0x80};
+  size_t hits = 0;
+  for (const auto any_hit : {any_hit_accept, any_hit_ignore}) {
+    for (const uint32_t flags : kFlags) {
+      const auto wanted = seen_in(TraversalPrecision::kExact, false, any_hit, flags);
+      const auto listed = seen_in(TraversalPrecision::kRobust, false, any_hit, flags);
+      const auto in_tree = seen_in(TraversalPrecision::kRobust, true, any_hit, flags);
+      for (size_t i = 0; i < wanted.size(); ++i) {
+        const Payload& want = wanted[i];
+        for (const Payload* seen : {&listed[i], &in_tree[i]}) {
+          ASSERT_EQ(seen->end, want.end) << "ray " << i << " flags " << flags;
+          if (want.end != End::kClosestHit) continue;
+          ++hits;
+          ASSERT_EQ(seen->values.instance_index, want.values.instance_index);
+          ASSERT_EQ(seen->values.hit_kind, want.values.hit_kind);
+          ASSERT_NEAR(seen->values.t_current, want.values.t_current, 1e-5f);
+          if (want.values.instance_index % 2 == 0) continue;
+          ASSERT_EQ(seen->values.t_current, want.values.t_current);
+          ASSERT_EQ(seen->values.primitive_index, want.values.primitive_index);
+          ASSERT_EQ(seen->attributes[0], want.attributes[0]);
+          ASSERT_EQ(seen->attributes[1], want.attributes[1]);
+        }
+        ASSERT_EQ(listed[i].values.t_current, in_tree[i].values.t_current);
+      }
+    }
+  }
+  EXPECT_GT(hits, 10000u);
+}
+
+// The edges of a quad, where the default precision runs any-hit shaders: because the geometry, the
+// instance or the ray says so.
+TEST(Robust, SharedEdgesAreHitOnceByAnyHitShaders) {
   Harness h(1, TraversalPrecision::kRobust);
   h.use_standard_pipeline(any_hit_ignore);
   GeometryInput quad;
   quad.vertices = {{-1, -1, 5}, {1, -1, 5}, {1, 1, 5}, {-1, 1, 5}};
   quad.indices = {0, 2, 1, 0, 3, 2};
   quad.flags = kNonOpaque;
-  const uint64_t scene = h.scene({quad});
-  std::vector<Ray> rays;
-  for (int i = -200; i <= 200; ++i) {
-    const float at = 0.8f * static_cast<float>(i) / 200;
-    for (const float start : {0.0f, 0.37f, -2.1f}) {
-      Ray ray = ray_along_z(scene, start, -0.5f * start);
-      ray.ray.direction[0] = at - start;
-      ray.ray.direction[1] = at + 0.5f * start;
-      ray.ray.direction[2] = 5;
-      rays.push_back(ray);
+  GeometryInput opaque = quad;
+  opaque.flags = kOpaque;
+  const uint64_t level = h.bottom_level({opaque});
+  std::vector<rtapi::RaytracingInstanceDesc> many(50, instance_of(level));
+  for (size_t i = 1; i < many.size(); ++i) many[i].Transform[0][3] = 10 * static_cast<float>(i);
+  constexpr uint32_t kForceNonOpaque = 8;
+  struct Case {
+    uint64_t scene;
+    uint32_t ray_flags;
+  };
+  for (const Case& each : {Case{h.scene({quad}), 0}, Case{h.scene({opaque}, kForceNonOpaque), 0},
+                           Case{h.scene({opaque}), 0x2}, Case{h.top_level(many), 0x2}}) {
+    std::vector<Ray> rays;
+    for (int i = -200; i <= 200; ++i) {
+      const float at = 0.8f * static_cast<float>(i) / 200;
+      for (const float start : {0.0f, 0.37f, -2.1f}) {
+        Ray ray = ray_along_z(each.scene, start, -0.5f * start);
+        ray.ray.direction[0] = at - start;
+        ray.ray.direction[1] = at + 0.5f * start;
+        ray.ray.direction[2] = 5;
+        ray.ray_flags = each.ray_flags;
+        rays.push_back(ray);
+      }
     }
+    uint32_t wrong = 0;
+    for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 1 ? 0 : 1;
+    EXPECT_EQ(wrong, 0u) << each.ray_flags;
   }
-  uint32_t wrong = 0;
-  for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 1 ? 0 : 1;
-  EXPECT_EQ(wrong, 0u);
+}
+
+// The exact levels that rays ask for are made once, by whichever thread comes first.
+TEST(Robust, ManyThreadsMayAskForNonOpaqueTriangles) {
+  Harness h(6, TraversalPrecision::kRobust);
+  h.use_standard_pipeline(any_hit_ignore);
+  const std::vector<Triangle> mesh = closed_mesh(12, 1);
+  const uint64_t level = h.bottom_level({geometry_of(mesh, kOpaque)});
+  for (int run = 0; run < 8; ++run) {
+    const uint64_t scene = h.top_level({instance_of(level), instance_of(level)});
+    std::mt19937 random(6);
+    std::vector<Ray> rays;
+    for (int i = 0; i < 5000; ++i) {
+      const Point target = aimed_at(mesh[random() % mesh.size()], static_cast<Aim>(i % 3), random);
+      rays.push_back(ray_to(scene, {0.1f, 0.05f, 0}, target));
+      rays.back().ray_flags = 0x2;
+    }
+    uint32_t wrong = 0;
+    for (const Payload& payload : h.trace(rays)) wrong += payload.any_hits == 2 ? 0 : 1;
+    EXPECT_EQ(wrong, 0u);
+  }
 }
 
 }  // namespace

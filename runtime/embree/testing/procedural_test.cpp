@@ -136,6 +136,32 @@ TEST(Trv16, BoxesOfOneLeafAreTestedOneByOne) {
   }
 }
 
+// The box of an instance in the world is larger than the turned box inside of it.
+TEST(Trv16, ASingleBoxIsTestedToo) {
+  using BuildFlags = rtapi::RaytracingAccelerationStructureBuildFlags;
+  GeometryInput input = box_at(5, kNonOpaque);
+  input.boxes.push_back({std::nanf(""), 0, 0, 1, 1, 1});  // inactive: no leaf
+  for (const auto flags :
+       {BuildFlags::kNone, BuildFlags::kAllowUpdate, BuildFlags::kPreferFastBuild}) {
+    Harness h;
+    h.use_standard_pipeline(any_hit_ignore, report_all);
+    auto command = h.bottom_level_command({input}, flags);
+    ASSERT_TRUE(h.execute(command).ok());
+    auto turned = instance_of(command.dest);  // by 45 degrees around z
+    const float s = std::sqrt(0.5f);
+    turned.Transform[0][0] = turned.Transform[1][1] = s;
+    turned.Transform[0][1] = -s;
+    turned.Transform[1][0] = s;
+    const uint64_t scene = h.top_level({turned});
+    set_reports({{5, 1, {}}});
+    EXPECT_EQ(h.trace(ray_along_z(scene)).any_hits, 1u);
+    EXPECT_EQ(report_log().calls, 1u);
+    set_reports({{5, 1, {}}});
+    EXPECT_EQ(h.trace(ray_along_z(scene, 1.2f, 1.2f)).any_hits, 0u);
+    EXPECT_EQ(report_log().calls, 0u);
+  }
+}
+
 TEST(Trv36And37And38, EachReportIsTestedAgainstTheIntervalOfThen) {
   Harness h;
   h.use_standard_pipeline(nullptr, report_all);

@@ -48,6 +48,7 @@ void Checker::apply_register(BindingInfo* binding, const Annotations& annotation
 VariableInfo* Checker::make_binding(const std::string& name, const Type* type,
                                     SourceLocation location) {
   BindingInfo* binding = &bindings_.emplace_back();
+  binding->unit = global_->unit;
   binding->name = name;
   binding->location = location;
   binding->is_array = type->is_array();
@@ -91,6 +92,7 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
   StructInfo* structure = make_struct(nullptr, scope, std::string(decl->name));
   structure->complete = true;
   BindingInfo* binding = &bindings_.emplace_back();
+  binding->unit = global_->unit;
   binding->name = decl->name;
   binding->location = decl->location;
   binding->register_class = 2;
@@ -109,7 +111,7 @@ void Checker::declare_buffer(const BufferDecl* decl, Scope* scope) {
     info->name = variable->name;
     info->type = types_.error();
     info->is_const = true;
-    if (find_local(scope, variable->name)) {
+    if (find_taken(scope, variable->name)) {
       report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
       continue;
     }
@@ -170,6 +172,8 @@ void Checker::open_globals_buffer(SourceLocation location) {
   structure->complete = true;
   globals_struct_ = structure->ir;
   globals_buffer_ = &bindings_.emplace_back();
+  globals_buffer_->unit = global_->unit;
+  globals_buffers_.push_back(globals_buffer_);
   globals_buffer_->name = "$Globals";
   globals_buffer_->register_class = 2;
   globals_buffer_->location = location;
@@ -223,10 +227,11 @@ const ir::Expr* Checker::binding_value(BindingInfo* binding, const ir::Expr* ind
 // First fit among the registers of the binding's class and space, in the order of declaration;
 // unbounded arrays come after all others. [DXC: resource allocation]
 void Checker::assign_automatic(BindingInfo* binding) {
-  if (!binding->has_space) binding->space = options_.automatic_space;
+  enter_unit(binding->unit);
+  if (!binding->has_space) binding->space = options_->automatic_space;
   std::vector<const BindingInfo*> taken;
   for (const BindingInfo& other : bindings_) {
-    const bool same = other.reachable && other.has_register &&
+    const bool same = other.reachable && other.has_register && other.unit == binding->unit &&
                       other.register_class == binding->register_class &&
                       other.space == binding->space;
     if (same) taken.push_back(&other);
@@ -252,9 +257,10 @@ void Checker::assign_automatic(BindingInfo* binding) {
 void Checker::assign_registers() {
   std::set<const BindingInfo*> automatic;
   // DXC places $Globals before any other constant buffer.
-  if (globals_buffer_ && globals_buffer_->reachable) {
-    assign_automatic(globals_buffer_);
-    automatic.insert(globals_buffer_);
+  for (BindingInfo* buffer : globals_buffers_) {
+    if (!buffer->reachable || buffer->has_register) continue;
+    assign_automatic(buffer);
+    automatic.insert(buffer);
   }
   for (const bool unbounded : {false, true}) {
     for (BindingInfo& binding : bindings_) {
@@ -276,7 +282,7 @@ void Checker::assign_registers() {
     entry.space = binding.space;
     entry.count = static_cast<uint32_t>(binding.count);
     entry.is_array = binding.is_array;
-    entry.automatic = automatic.count(&binding) != 0;
+    entry.automatic = binding.is_automatic || automatic.count(&binding) != 0;
     entry.size_bytes = binding.size_bytes;
     entry.location = locate(binding.location);
   }
@@ -294,8 +300,10 @@ void Checker::check_overlaps() {
       for (size_t j = i + 1; j < entry.bindings.size(); ++j) {
         const BindingInfo& a = *by_index[entry.bindings[i]];
         const BindingInfo& b = *by_index[entry.bindings[j]];
-        const bool overlap = a.register_class == b.register_class && a.space == b.space &&
-                             a.register_index < end_of(b) && b.register_index < end_of(a);
+        // What two libraries declare may be the same resource.
+        const bool overlap = a.unit == b.unit && a.register_class == b.register_class &&
+                             a.space == b.space && a.register_index < end_of(b) &&
+                             b.register_index < end_of(a);
         if (!overlap || !reported.insert({a.index, b.index}).second) continue;
         report_with_notes(CheckId::kOverlap, b.location,
                           {b.name, a.name,

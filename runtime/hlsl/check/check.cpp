@@ -7,7 +7,7 @@ namespace kaamos::hlsl {
 
 Checker::Checker(const CheckOptions& options, const SourceManager& sources,
                  DiagnosticEngine& diagnostics)
-    : options_(options),
+    : options_(&options),
       sources_(sources),
       diagnostics_(diagnostics),
       module_(std::make_unique<ir::Module>()),
@@ -15,6 +15,7 @@ Checker::Checker(const CheckOptions& options, const SourceManager& sources,
       build_(*module_, types_),
       lower_(*this) {
   global_ = make_scope(ScopeKind::kGlobal, nullptr);
+  unit_scopes_ = {global_};
   lower_.scope_ = global_;
 }
 
@@ -23,7 +24,7 @@ void Checker::report_with_notes(CheckId id, SourceLocation location,
                                 const std::vector<std::pair<SourceLocation, std::string>>& notes) {
   const bool is_error =
       diagnostic_info(id).severity == DiagnosticClass::kError ||
-      (diagnostic_info(id).severity == DiagnosticClass::kStrict && options_.strict);
+      (diagnostic_info(id).severity == DiagnosticClass::kStrict && options_->strict);
   if (is_error) ++error_count_;
   if (muted_ > 0) return;
   has_errors_ = has_errors_ || is_error;
@@ -72,19 +73,56 @@ ir::Location Checker::locate(SourceLocation location) {
 }
 
 std::unique_ptr<ir::Module> Checker::run(const TranslationUnit& unit) {
-  module_->name = options_.name;
-  module_->target = options_.target;
+  module_->name = options_->name;
+  module_->target = options_->target;
   declare_builtins();
   declare_all(unit.declarations, global_);
   check_initialisers();
   find_entry_points();
-  if (options_.target.starts_with("lib")) add_library_functions();
+  if (options_->target.starts_with("lib")) add_library_functions();
   check_initialisers();
   finish(*module_);
   if (!has_errors()) check_payload_uses();
   if (!has_errors()) warn_skipped();
   if (has_errors() || diagnostics_.has_errors()) return nullptr;
+  set_aside_unlinked();
   return std::move(module_);
+}
+
+std::unique_ptr<ir::Module> Checker::run(const Link& link) {
+  link_ = &link;
+  module_->name = options_->name;
+  module_->target = options_->target;
+  declare_builtins();
+  builtin_symbols_ = global_->symbols;
+  for (uint32_t unit = 0; unit < link.units.size(); ++unit) {
+    if (unit > 0) {
+      global_ = make_scope(ScopeKind::kGlobal, nullptr);
+      global_->unit = unit;
+      global_->symbols = builtin_symbols_;
+      unit_scopes_.push_back(global_);
+      globals_buffer_ = nullptr;
+      globals_offset_ = 0;
+    }
+    enter_unit(unit);
+    lower_.scope_ = global_;
+    declare_all(link.units[unit].tree->declarations, global_);
+  }
+  assign_known_registers();
+  enter_unit(0);
+  lower_.scope_ = global_ = unit_scopes_[0];
+  check_initialisers();
+  find_entry_points();
+  check_initialisers();
+  finish(*module_);
+  if (has_errors() || diagnostics_.has_errors()) return nullptr;
+  return std::move(module_);
+}
+
+std::unique_ptr<ir::Module> check_linked(const Link& link, const SourceManager& sources,
+                                         DiagnosticEngine& diagnostics) {
+  Checker checker(link.units[0].options, sources, diagnostics);
+  return checker.run(link);
 }
 
 std::unique_ptr<ir::Module> check(const TranslationUnit& unit, const CheckOptions& options,

@@ -44,7 +44,35 @@ struct CheckOptions {
   bool strict = false;  // what DXC refuses is an error, not a warning
 };
 
-// Returns null after an error, which is then in the engine.
+// Libraries that call each other's functions, as one module.
+struct LinkedUnit {
+  struct Register {
+    std::string binding;
+    uint32_t index = 0;
+    uint32_t space = 0;
+  };
+  const TranslationUnit* tree = nullptr;
+  CheckOptions options;
+  std::vector<Register> registers;  // of bindings that have none in the source
+};
+struct Link {
+  // A function without a body in `unit`, and its definition, by their mangled names. That of the
+  // definition is the export's.
+  struct Definition {
+    uint32_t unit = 0;
+    std::string import;
+    uint32_t from = 0;
+    std::string definition;
+  };
+  std::vector<LinkedUnit> units;
+  std::vector<std::string> entries;  // exports of the first unit that become entry points
+  std::vector<Definition> definitions;
+};
+std::unique_ptr<ir::Module> check_linked(const Link& link, const SourceManager& sources,
+                                         DiagnosticEngine& diagnostics);
+
+// Returns null after an error, which is then in the engine. A function without a body that the code
+// of a library calls becomes an import.
 std::unique_ptr<ir::Module> check(const TranslationUnit& unit, const CheckOptions& options,
                                   const SourceManager& sources, DiagnosticEngine& diagnostics);
 

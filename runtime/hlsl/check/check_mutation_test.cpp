@@ -43,6 +43,9 @@ float3 helper(F3 v, inout uint seed, out float w, float s = 2.0) {
   return seed > 3 && v.x > 0 ? n::twice(v) : v.xxx;
 }
 struct Payload { float4 color; uint depth; };
+float outside(float x, inout Payload p);
+export float inside(float x) { Payload p = (Payload)0; return outside(x, p); }
+[shader("miss")] void Miss(inout Payload p) { p.color.x = outside(1, p); }
 [shader("raygeneration")]
 void RayGen() {
   uint2 id = DispatchRaysIndex().xy; uint seed = id.x; float w;

@@ -2,7 +2,7 @@
 //
 // The checker's inner state; check.h is what others include. It is one class, split into one file
 // per noun: scopes, resolve_types, declarations, structs, templates, specializations, bindings,
-// entry_points, graphics_stages, pixel_functions, subobjects, payloads, payload_uses,
+// imports, entry_points, graphics_stages, pixel_functions, subobjects, payloads, payload_uses,
 // finish_module. The lowerer handles bodies and expressions (lowerer.h).
 #pragma once
 
@@ -41,6 +41,7 @@ class Checker {
  public:
   Checker(const CheckOptions& options, const SourceManager& sources, DiagnosticEngine& diagnostics);
   std::unique_ptr<ir::Module> run(const TranslationUnit& unit);
+  std::unique_ptr<ir::Module> run(const Link& link);
 
  private:
   friend class Lowerer;
@@ -59,6 +60,10 @@ class Checker {
   Scope* make_scope(ScopeKind kind, Scope* parent, std::string_view name = {});
   Symbol* add_symbol(Scope* scope, SymbolKind kind, std::string_view name, SourceLocation location);
   Symbol* find_local(Scope* scope, std::string_view name);
+  // A struct or enum, whose name a variable or function of the same scope may take over.
+  static bool is_tag(const Symbol& symbol);
+  // What keeps variables and functions from having the name in this scope.
+  Symbol* find_taken(Scope* scope, std::string_view name);
   Symbol* find_in_scope(Scope* scope, std::string_view name, bool check_order);
   Symbol* find_member(StructInfo* structure, std::string_view name);
   Symbol* find(Scope* scope, std::string_view name);
@@ -193,6 +198,7 @@ class Checker {
   bool check_compute_parameters(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_thread_group(FunctionInfo* function, ir::EntryPoint& entry);
   bool read_wave_size(FunctionInfo* function, ir::EntryPoint& entry);
+  static bool has_stage(const FunctionInfo& function);
   uint32_t stage_attribute(FunctionInfo* function);
   std::vector<std::string> export_names(const FunctionInfo* function);
   void add_library_functions();
@@ -206,18 +212,41 @@ class Checker {
   void check_payload_uses();
   class PayloadUses;
 
+  // -- Functions without a body (imports.cpp)
+  struct Exported {
+    std::string name;
+    std::string mangled;
+    FunctionInfo* function;
+  };
+  std::vector<Exported> exported_functions(uint32_t unit);
+  void enter_unit(uint32_t unit);
+  void reuse_struct(StructInfo* info);
+  bool is_importable(const FunctionInfo& function) const;
+  FunctionInfo* linked_definition(const FunctionInfo& import);
+  bool same_signatures(const FunctionInfo& import, const FunctionInfo& definition,
+                       SourceLocation use);
+  void make_import(FunctionInfo* function, SourceLocation use);
+  void check_initialiser_imports(const VariableInfo& variable);
+  void collect_imports(const FunctionInfo* function, std::set<const FunctionInfo*>& visited,
+                       std::vector<uint32_t>& imports);
+  std::vector<uint32_t> imports_of(const FunctionInfo* function);
+  void set_aside_unlinked();
+  void assign_known_registers();
+
   // -- The module (finish_module.cpp)
   void finish(ir::Module& module);
   void finish_waves(const std::vector<std::pair<FunctionInfo*, FunctionInfo*>>& initialisers);
   void mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint32_t mark,
                       std::set<uint32_t>& globals);
+  void mark_bindings(FunctionInfo* function, uint32_t mark);
   void collect_structs();
   void collect_struct(const ir::Type* type);
   void collect_structs_of(const ir::Block& body);
   void collect_structs_of(const ir::Expr* expression);
   void warn_skipped();
 
-  const CheckOptions& options_;
+  const CheckOptions* options_;  // of the unit whose code is being checked
+  const Link* link_ = nullptr;   // null: a library by itself
   const SourceManager& sources_;
   DiagnosticEngine& diagnostics_;
   std::unique_ptr<ir::Module> module_;
@@ -242,11 +271,15 @@ class Checker {
   std::unordered_map<const StructInfo*, std::pair<StructTemplate*, TemplateValues>>
       instance_arguments_;
   std::set<std::string> struct_names_;
-  Scope* global_ = nullptr;
+  Scope* global_ = nullptr;  // of the unit that is being declared
+  std::vector<Scope*> unit_scopes_;
+  std::unordered_map<std::string_view, Symbol*> builtin_symbols_;
+  std::unordered_multimap<std::string, const StructInfo*> structs_by_name_;
   uint32_t sequence_ = 0;
   uint32_t file_cache_ = 0;
   std::unordered_map<std::string, uint32_t> files_;
 
+  std::vector<BindingInfo*> globals_buffers_;  // one for each unit that has any
   BindingInfo* globals_buffer_ = nullptr;
   ir::Struct* globals_struct_ = nullptr;
   uint32_t globals_offset_ = 0;
@@ -269,7 +302,7 @@ class Checker {
     uint32_t stage;
   };
   std::vector<Wrapper> wrappers_;
-  std::vector<const FunctionInfo*> library_functions_;  // for Module::library_functions
+  std::vector<FunctionInfo*> library_functions_;  // for Module::library_functions
   std::unordered_map<const ir::Struct*, const StructInfo*> payload_structs_;
   std::set<std::tuple<uint32_t, uint32_t, std::vector<std::string>>> reported_;
   std::set<std::pair<uint32_t, uint32_t>> reported_uses_;
@@ -289,7 +322,9 @@ struct Lowerer::BodyScope {
         loops_(lowerer.loop_depth_),
         switches_(lowerer.switch_depth_),
         unused_(lowerer.result_unused_),
-        location_(lowerer.build_.location) {
+        location_(lowerer.build_.location),
+        options_(lowerer.checker_.options_) {
+    lowerer.checker_.enter_unit(scope->unit);
     lowerer.function_ = function;
     lowerer.block_ = block;
     lowerer.scope_ = scope;
@@ -307,6 +342,7 @@ struct Lowerer::BodyScope {
     lowerer_.switch_depth_ = switches_;
     lowerer_.result_unused_ = unused_;
     lowerer_.build_.location = location_;
+    lowerer_.checker_.options_ = options_;
   }
   BodyScope(const BodyScope&) = delete;
   BodyScope& operator=(const BodyScope&) = delete;
@@ -322,6 +358,7 @@ struct Lowerer::BodyScope {
   int switches_;
   bool unused_;
   ir::Location location_;
+  const CheckOptions* options_;
 };
 
 }  // namespace kaamos::hlsl

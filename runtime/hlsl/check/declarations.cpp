@@ -196,7 +196,7 @@ void Checker::declare_variable(const VariableDecl* decl, Scope* scope) {
     }
     return;
   }
-  if (find_local(scope, decl->name)) {
+  if (find_taken(scope, decl->name)) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
     return;
   }
@@ -296,6 +296,7 @@ void Checker::initialise(VariableInfo* variable) {
       }
     }
   }
+  check_initialiser_imports(*variable);
   variable->state = VariableInfo::State::kDone;
 }
 
@@ -335,7 +336,9 @@ void Checker::resolve_signature(FunctionInfo* function) {
     report(CheckId::kStringUse, decl->location);
     function->signature_failed = true;
   }
-  if (function->result->is_array()) {
+  const Type* element = function->result;
+  while (element->is_array() && element->count != 0) element = element->element;
+  if (element->is_array() || (function->result->is_array() && contains_resource(element))) {
     report(CheckId::kReturnsArray, decl->location, {std::string(decl->name)});
     function->signature_failed = true;
   }
@@ -404,7 +407,7 @@ void Checker::declare_function(const FunctionDecl* decl, Scope* scope, StructInf
   if (decl->is_specialization) return specialize_function(decl, scope, owner);
   FunctionInfo* function = make_function(decl, scope, owner);
   if (owner && decl->qualifier) function->is_static = false;
-  Symbol* symbol = find_local(scope, decl->name);
+  Symbol* symbol = owner ? find_local(scope, decl->name) : find_taken(scope, decl->name);
   if (symbol && symbol->kind != SymbolKind::kFunctions) {
     report(CheckId::kRedefinition, decl->location, {std::string(decl->name)});
     return;

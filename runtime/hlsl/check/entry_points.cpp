@@ -52,6 +52,10 @@ const Attribute* find_attribute(std::span<const Attribute> attributes, std::stri
   return nullptr;
 }
 
+bool Checker::has_stage(const FunctionInfo& function) {
+  return find_attribute(function, "shader") != nullptr;
+}
+
 // Returns 0 if there is none.
 uint32_t Checker::stage_attribute(FunctionInfo* function) {
   const Attribute* attribute = find_attribute(*function, "shader");
@@ -77,9 +81,9 @@ uint32_t Checker::stage_attribute(FunctionInfo* function) {
 }
 
 std::vector<std::string> Checker::export_names(const FunctionInfo* function) {
-  if (options_.exports.empty()) return {std::string(function->name)};
+  if (options_->exports.empty()) return {std::string(function->name)};
   std::vector<std::string> names;
-  for (const ExportRequest& request : options_.exports) {
+  for (const ExportRequest& request : options_->exports) {
     const bool is_meant =
         request.function == function->name || request.function == function->qualified ||
         (!function->signature_failed && !function->is_template &&
@@ -90,31 +94,35 @@ std::vector<std::string> Checker::export_names(const FunctionInfo* function) {
 }
 
 void Checker::find_entry_points() {
-  const bool is_library = options_.target.starts_with("lib");
+  const bool is_library = options_->target.starts_with("lib");
   if (!is_library) {
     FunctionInfo* kernel = nullptr;
     for (FunctionInfo* function : all_functions_) {
-      if (function->definition && !function->owner && function->name == options_.entry_point) {
+      if (function->definition && !function->owner && function->name == options_->entry_point) {
         kernel = function;
       }
     }
     if (!kernel) {
-      report(CheckId::kNoEntryPoint, {}, {options_.entry_point});
+      report(CheckId::kNoEntryPoint, {}, {options_->entry_point});
       return;
     }
-    const uint32_t stage = options_.target.starts_with("vs")   ? ir::kStageVertex
-                           : options_.target.starts_with("ps") ? ir::kStagePixel
-                                                               : ir::kStageCompute;
-    check_entry_point(kernel, stage, options_.entry_point);
+    const uint32_t stage = options_->target.starts_with("vs")   ? ir::kStageVertex
+                           : options_->target.starts_with("ps") ? ir::kStagePixel
+                                                                : ir::kStageCompute;
+    check_entry_point(kernel, stage, options_->entry_point);
     return;
   }
   // By index, because lowering a body may declare more methods (of local structs).
   for (size_t i = 0; i < all_functions_.size(); ++i) {
     FunctionInfo* function = all_functions_[i];
-    if (!function->definition) continue;
+    if (!function->definition || function->scope->unit != 0) continue;
     const uint32_t stage = stage_attribute(function);
     if (stage == 0) continue;
     for (const std::string& name : export_names(function)) {
+      if (link_ &&
+          std::find(link_->entries.begin(), link_->entries.end(), name) == link_->entries.end()) {
+        continue;
+      }
       check_entry_point(function, stage, name);
     }
   }
@@ -264,10 +272,10 @@ bool Checker::read_wave_size(FunctionInfo* function, ir::EntryPoint& entry) {
     report(CheckId::kWaveSizeRange, attribute->location, {std::to_string(count) + " values"});
     return false;
   }
-  if (shader_model_minor(options_.target) < needs) {
+  if (shader_model_minor(options_->target) < needs) {
     report(CheckId::kWaveShaderModel, attribute->location,
            {count == 1 ? "[WaveSize]" : "[WaveSize] with a range", "6." + std::to_string(needs),
-            options_.target});
+            options_->target});
     return false;
   }
   uint32_t lanes[3] = {};
@@ -380,31 +388,15 @@ bool Checker::check_compute_parameters(FunctionInfo* function, ir::EntryPoint& e
 }
 
 void Checker::add_library_functions() {
-  const bool everything =
-      options_.target == "lib_6_x" || options_.external_linkage || !options_.exports.empty();
-  for (size_t i = 0; i < all_functions_.size(); ++i) {
-    FunctionInfo* function = all_functions_[i];
-    if (!function->definition || function->is_static || function->owner ||
-        function->signature_failed || !(everything || function->is_exported) ||
-        find_attribute(*function, "shader")) {
-      continue;
-    }
-    for (const std::string& name : export_names(function)) {
-      lower_.lower_function(function, function->definition->location);
-      if (!function->ir) continue;
-      std::vector<MangledParameter> parameters;
-      for (const ParameterInfo& parameter : function->parameters) {
-        parameters.push_back({parameter.type, parameter.is_out && parameter.type->is_numeric()});
-      }
-      // Renaming an export changes the name inside the mangled one, too.
-      std::string qualified = function->qualified;
-      if (name != function->name) qualified = name;
-      module_->library_functions.push_back(
-          {name, mangle(qualified, function->result, parameters), {}});
-      library_functions_.push_back(function);
-    }
+  for (const Exported& exported : exported_functions(0)) {
+    FunctionInfo* const function = exported.function;
+    lower_.lower_function(function, function->definition->location);
+    if (!function->ir) continue;
+    module_->library_functions.push_back(
+        {exported.name, exported.mangled, lower_.describe(*function), {}, {}});
+    library_functions_.push_back(function);
   }
-  for (const ExportRequest& request : options_.exports) {
+  for (const ExportRequest& request : options_->exports) {
     const bool found =
         std::any_of(request.names.begin(), request.names.end(), [&](const std::string& name) {
           const auto& entries = module_->entry_points;

@@ -16,8 +16,10 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
                              std::set<uint32_t>& globals) {
   if (function->visit_mark == mark) return;
   function->visit_mark = mark;
-  function->stages |= entry.stage;
-  if (function->ir) function->ir->stages |= entry.stage;
+  if (entry.imports.empty()) {
+    function->stages |= entry.stage;
+    if (function->ir) function->ir->stages |= entry.stage;
+  }
   entry.attribute_bytes = std::max(entry.attribute_bytes, function->reported_bytes);
   entry.attribute_type = joined_type(entry.attribute_type, function->reported_type);
   for (const StageUse& use : function->stage_uses) {
@@ -43,6 +45,14 @@ void Checker::mark_reachable(FunctionInfo* function, ir::EntryPoint& entry, uint
   for (FunctionInfo* callee : function->callees) mark_reachable(callee, entry, mark, globals);
 }
 
+// Root signatures bind what exported functions use, for libraries that will be linked.
+void Checker::mark_bindings(FunctionInfo* function, uint32_t mark) {
+  if (function->visit_mark == mark) return;
+  function->visit_mark = mark;
+  for (BindingInfo* binding : function->bindings) binding->reachable = true;
+  for (FunctionInfo* callee : function->callees) mark_bindings(callee, mark);
+}
+
 void Checker::finish(ir::Module& module) {
   // Facts propagate from callees to callers, which works because callees were lowered first.
   for (FunctionInfo* function : lower_.lowered_functions_) {
@@ -66,13 +76,14 @@ void Checker::finish(ir::Module& module) {
   }
   std::set<VariableInfo*> all_globals;
   std::vector<std::set<BindingInfo*>> bindings_of(module.entry_points.size());
-  std::set<const ir::Function*> started;
+  std::set<const ir::Function*> started, run;
   std::vector<std::pair<FunctionInfo*, FunctionInfo*>> initialisers;  // entry point, what it runs
   uint32_t mark = 0;
   for (const auto& [function, index] : entries_) {
     ir::EntryPoint& entry = module.entry_points[index];
     entry_bindings_.clear();
     entry_globals_.clear();
+    entry.imports = imports_of(function);
     std::set<uint32_t> globals;
     mark_reachable(function, entry, ++mark, globals);
     bindings_of[index] = entry_bindings_;
@@ -80,6 +91,8 @@ void Checker::finish(ir::Module& module) {
       if (library_functions_[i]->visit_mark != mark) continue;
       module.library_functions[i].callers.push_back(static_cast<uint32_t>(index));
     }
+    if (!entry.imports.empty()) continue;
+    run.insert(entry.function);
     std::sort(entry_globals_.begin(), entry_globals_.end(),
               [](const VariableInfo* a, const VariableInfo* b) {
                 return a->variable->id < b->variable->id;
@@ -97,6 +110,10 @@ void Checker::finish(ir::Module& module) {
       body.insert(body.begin(), start.begin(), start.end());
     }
   }
+  for (size_t i = 0; i < library_functions_.size(); ++i) {
+    mark_bindings(library_functions_[i], ++mark);
+    module.library_functions[i].imports = imports_of(library_functions_[i]);
+  }
   finish_waves(initialisers);
   for (const auto& [wrapper, function, stage] : wrappers_) {
     wrapper->stages = stage;
@@ -110,7 +127,9 @@ void Checker::finish(ir::Module& module) {
   for (FunctionInfo* function : lower_.lowered_functions_) {
     if (function->ir->stages != 0) module.functions.push_back(function->ir);
   }
-  for (const Wrapper& one : wrappers_) module.functions.push_back(one.function);
+  for (const Wrapper& one : wrappers_) {
+    if (run.count(one.function)) module.functions.push_back(one.function);
+  }
   for (VariableInfo& variable : variables_) {
     if (variable.kind == VariableKind::kGlobal && all_globals.count(&variable)) {
       module.globals.push_back(variable.variable);

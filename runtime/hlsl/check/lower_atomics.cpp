@@ -8,12 +8,19 @@ Value Lowerer::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
                            std::span<Value> arguments, SourceLocation location) {
   size_t index = 0;
   statement->atomic = rule.op;
+  // Floats are exchanged as their bits.
+  const bool is_float = is_floating(type->scalar);
+  const ir::Type* memory_type = is_float ? types_.scalar(Scalar::kUint32)->ir : type->ir;
+  const auto operand = [&](const Value& argument) {
+    const ir::Expr* value = convert(argument, type, argument.location);
+    return value && is_float ? build_.intrinsic(Intrinsic::asuint, memory_type, {value}) : value;
+  };
   if (rule.has_compare) {
-    statement->compare = convert(arguments[index], type, arguments[index].location);
+    statement->compare = operand(arguments[index]);
     if (!statement->compare) return error_value();
     ++index;
   }
-  statement->value = convert(arguments[index], type, arguments[index].location);
+  statement->value = operand(arguments[index]);
   if (!statement->value) return error_value();
   ++index;
   at(location);
@@ -31,11 +38,12 @@ Value Lowerer::emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Ty
   }
   size_t position = block().size();
   freeze(original, &position);
-  const ir::Variable* result = empty_temporary(type->ir);
+  const ir::Variable* result = empty_temporary(memory_type);
   statement->result = result;
   emit(statement);
-  store(original,
-        convert(rvalue(build_.read(result), type), original.type, original.location, true));
+  const ir::Expr* before = build_.read(result);
+  if (is_float) before = build_.intrinsic(Intrinsic::asfloat, type->ir, {before});
+  store(original, convert(rvalue(before, type), original.type, original.location, true));
   return rvalue(build_.int32(0), types_.void_type());
 }
 
@@ -52,19 +60,27 @@ Value Lowerer::call_interlocked(const AtomicRule& rule, std::vector<Value>& argu
   const Type* type = target.type;
   const bool integer =
       type->is_scalar() && is_integer(type->scalar) && scalar_bytes(type->scalar) >= 4;
-  if (!integer) {
+  const bool exchanges_float = type->is_scalar() &&
+                               plain_scalar(type->scalar) == Scalar::kFloat32 &&
+                               (rule.on_floats || rule.op == ir::AtomicOp::kExchange);
+  if (rule.on_floats ? !exchanges_float : !integer && !exchanges_float) {
     report(CheckId::kAtomicType, target.location, {std::string(rule.name), to_string(type)});
+    return error_value();
+  }
+  if (exchanges_float && target.kind != ValueKind::kMemory) {
+    report(
+        CheckId::kUnsupported, target.location,
+        {"'" + std::string(rule.name) + "' on a float that is not in a structured or raw buffer"});
     return error_value();
   }
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);
   if (target.kind == ValueKind::kTyped && !target.whole) {
     statement->target = ir::AtomicTarget::kTyped;
     statement->operands = {target.expr, target.coordinates};
-  } else if (target.kind == ValueKind::kMemory &&
-             (!target.whole || (!target.whole->is_matrix() && !target.component_stride))) {
-    const uint32_t bytes = scalar_bytes(type->scalar);
+  } else if (target.kind == ValueKind::kMemory) {
     const ir::Expr* offset =
-        target.whole ? build_.add(target.offset, target.components[0] * bytes) : target.offset;
+        target.whole ? build_.add(target.offset, component_bytes(target, target.components[0]))
+                     : target.offset;
     if (target.element) {
       statement->target = ir::AtomicTarget::kElement;
       statement->operands = {target.expr, target.element, offset};

@@ -170,6 +170,7 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
   if (!function) return error_value();
   lower_function(function, location);
   if (!function->ir) return error_value();
+  if (function->is_import) warn_passed_payload(*function, arguments);
   at(location);
   ir::Stmt* statement = build_.stmt(ir::StmtKind::kCall);
   statement->function = function->ir;
@@ -265,7 +266,7 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
     result = empty_temporary(function->result->ir);
     statement->result = result;
   }
-  if (function_) function_->callees.push_back(function);
+  if (function_) function_->callees.push_back(function->linked ? function->linked : function);
   emit(statement);
   call_result_ = result;
   for (const CopyOut& copy : copies) {
@@ -277,6 +278,20 @@ Value Lowerer::call(FunctionInfo* function, const Value* object, std::vector<Val
                   function->result->is_void() || !unused ? types_.void_type() : function->result);
   }
   return rvalue(build_.read(result), function->result);
+}
+
+// [DXC: payload qualifiers] The other library's payload may have others.
+void Lowerer::warn_passed_payload(const FunctionInfo& import, const std::vector<Value>& arguments) {
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    const Type* type = import.parameters[i].type;
+    const ir::Expr* expr = arguments[i].expr;
+    const bool is_own = arguments[i].kind == ValueKind::kExpr && expr &&
+                        expr->kind == ir::ExprKind::kVariable &&
+                        expr->variable->storage == ir::Storage::kParameter;
+    if (is_own && import.parameters[i].is_out && type->is_struct() && type->structure->is_payload) {
+      report(CheckId::kImportPayload, arguments[i].location, {import.qualified});
+    }
+  }
 }
 
 // An unbounded array has no value that could be passed: a function that takes one is lowered again
@@ -311,8 +326,8 @@ ir::Function* Lowerer::make_ir_function(FunctionInfo* function) {
   ir::Function* node = &checker_.module_->function_pool.emplace_back();
   node->name = function->qualified;
   node->result = function->result->ir;
-  node->location = locate(function->definition->location);
-  node->end_location = locate(function->definition->body->end);
+  node->location = locate((function->definition ? function->definition : function->decl)->location);
+  if (function->definition) node->end_location = locate(function->definition->body->end);
   if (function->owner && !function->is_static) {
     ir::Variable* self =
         build_.variable("this", function->owner->type->ir, ir::Storage::kParameter);
@@ -344,6 +359,10 @@ void Lowerer::lower_function(FunctionInfo* function, SourceLocation use) {
   if (function->state == FunctionInfo::State::kDone) return;
   if (function->state == FunctionInfo::State::kLowering) {
     report(CheckId::kRecursion, use, {function->qualified});
+    return;
+  }
+  if (!function->definition && checker_.is_importable(*function)) {
+    checker_.make_import(function, use);
     return;
   }
   if (!function->definition) {

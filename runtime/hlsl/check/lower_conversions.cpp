@@ -56,6 +56,9 @@ ConversionRank Lowerer::rank(const Type* from, const Type* to) {
   }
   if (from->is_resource() && to->is_resource()) {
     result.possible = from->ir == to->ir;
+    // Texture2D<half4> and Texture2D<float4> are one type only where half is float.
+    const bool has_elements = from->element && to->element;
+    if (result.possible && has_elements && !same_type(from->element, to->element)) result.cost = 1;
     return result;
   }
   if (from->is_resource() && from->resource == ir::ResourceKind::kConstantBuffer &&

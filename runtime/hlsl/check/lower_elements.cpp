@@ -113,6 +113,13 @@ Value Lowerer::element_of(const Value& base, const Value& index, SourceLocation 
   if (base.kind == ValueKind::kTyped && at_index->kind == ir::ExprKind::kLiteral) {
     return component_of(base, {static_cast<uint8_t>(at_index->literal[0])});
   }
+  if (base.kind == ValueKind::kTyped && !base.whole && base.is_place) {
+    Value result = base;
+    result.type = element;
+    result.whole = type;
+    result.element = at_index;
+    return result;
+  }
   Value result = base;
   const ir::Expr* expr = load(base);
   if (!expr) return error_value();
@@ -143,7 +150,8 @@ Value Lowerer::component_of(const Value& base, const std::vector<uint8_t>& compo
   result.type = types_.vector(base.type->scalar, static_cast<uint32_t>(components.size()));
   if (has_repeats(components)) result.is_place = false;
   if (base.kind == ValueKind::kMemory || base.kind == ValueKind::kTyped) {
-    if (base.type->is_scalar() && !base.whole) {
+    const bool is_one_component = base.kind == ValueKind::kTyped && base.element;
+    if (base.type->is_scalar() && (!base.whole || is_one_component)) {
       if (components.size() == 1) return base;
       const ir::Expr* expr = load(base);
       return expr ? rvalue(build_.swizzle(expr, components), result.type) : error_value();

@@ -54,7 +54,7 @@ Value Lowerer::lower_inner(const Expr* expression) {
       if (literal->suffix == LiteralSuffix::kF) scalar = Scalar::kFloat32;
       if (literal->suffix == LiteralSuffix::kL) scalar = Scalar::kFloat64;
       if (literal->suffix == LiteralSuffix::kH) {
-        scalar = checker_.options_.native_16bit ? Scalar::kFloat16 : Scalar::kHalf;
+        scalar = checker_.options_->native_16bit ? Scalar::kFloat16 : Scalar::kHalf;
       }
       const Type* type = types_.scalar(scalar);
       return rvalue(
@@ -372,6 +372,13 @@ Value Lowerer::lower_cast(const CastExpr* expr) {
   if (operand.failed() || type->is_error()) return error_value();
   at(expr->location);
   if (type->is_void()) return rvalue(build_.zero(types_.scalar(Scalar::kInt32)->ir), type);
+  // A cast to the same type or to a base stays a place.
+  if (operand.is_place && operand.type && !operand.bits) {
+    if (same_type(operand.type, type)) return operand;
+    const bool is_base = operand.type->is_struct() && type->is_struct() &&
+                         operand.kind != ValueKind::kSplit && rank(operand.type, type).possible;
+    if (is_base) return base_of(operand, type->structure);
+  }
   return rvalue(convert(operand, type, expr->location, true), type);
 }
 

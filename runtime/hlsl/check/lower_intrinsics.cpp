@@ -57,6 +57,11 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
     const ir::Expr* index = index_value(arguments[0], location);
     return rvalue(index ? build_.convert(index, ir::Scalar::kUint32) : nullptr, type);
   }
+  if (name == "CheckAccessFullyMapped") {
+    if (!check_count(name, count, 1, 1, location)) return error_value();
+    const ir::Expr* status = convert(arguments[0], types_.scalar(Scalar::kUint32), location);
+    return rvalue(status ? build_.convert(status, ir::Scalar::kBool) : nullptr, types_.boolean());
+  }
   if (name == "D3DCOLORtoUBYTE4") {
     if (!check_count(name, count, 1, 1, location)) return error_value();
     const Type* type = types_.vector(Scalar::kFloat32, 4);
@@ -92,10 +97,8 @@ std::optional<Value> Lowerer::call_builtin(const NamePart& part, std::vector<Val
     return rvalue(build_.int32(0), types_.void_type());
   }
   if (is_pixel_function(name)) return call_pixel_function(name, arguments, location);
-  if (name.find("Float") == std::string_view::npos) {
-    if (const AtomicRule* rule = find_atomic(name); rule && !name.ends_with("64")) {
-      return call_interlocked(*rule, arguments, location);
-    }
+  if (const AtomicRule* rule = find_atomic(name); rule && rule->name == name) {
+    if (name != "InterlockedExchangeFloat") return call_interlocked(*rule, arguments, location);
   }
   if (const auto wave = call_wave(name, arguments, location)) return wave;
   const std::string_view family = unsupported_function(name);

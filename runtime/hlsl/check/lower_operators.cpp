@@ -305,7 +305,7 @@ Value Lowerer::lower_logical(const BinaryExpr* expr) {
   if (!is_single(left) || !is_single(right)) {
     const bool vectors =
         left.type && right.type && left.type->is_numeric() && right.type->is_numeric();
-    if (vectors && checker_.options_.hlsl_version >= 2021) {
+    if (vectors && checker_.options_->hlsl_version >= 2021) {
       report(CheckId::kVectorLogic, expr->location, {is_and ? "&&" : "||", is_and ? "and" : "or"});
     }
     if (effects_ != effects) {
@@ -332,7 +332,7 @@ Value Lowerer::lower_logical(const BinaryExpr* expr) {
                               boolean->ir, {a, b}),
                   boolean);
   }
-  if (checker_.options_.hlsl_version < 2021) {
+  if (checker_.options_->hlsl_version < 2021) {
     const ir::Expr* first = build_.read(temporary(a));
     block().insert(block().end(), right_block.begin(), right_block.end());
     return rvalue(build_.binary(is_and ? ir::BinaryOp::kBitAnd : ir::BinaryOp::kBitOr, first, b),
@@ -463,7 +463,7 @@ Value Lowerer::lower_conditional(const ConditionalExpr* expr) {
     if (blocks[0].empty() && blocks[1].empty()) {
       return rvalue(build_.conditional(chosen, values[0], values[1]), type);
     }
-    if (checker_.options_.hlsl_version < 2021) {
+    if (checker_.options_->hlsl_version < 2021) {
       const ir::Expr* test = build_.read(temporary(chosen));
       block().insert(block().end(), blocks[0].begin(), blocks[0].end());
       const ir::Expr* first = build_.read(temporary(values[0]));
@@ -484,7 +484,7 @@ Value Lowerer::lower_conditional(const ConditionalExpr* expr) {
     return rvalue(build_.read(result), type);
   }
   // A vector condition selects per component and evaluates both sides.
-  if (checker_.options_.hlsl_version >= 2021) {
+  if (checker_.options_->hlsl_version >= 2021) {
     report(CheckId::kVectorLogic, expr->location, {"?:", "select"});
   }
   if (effects_ != effects) {

@@ -67,7 +67,7 @@ Value Lowerer::add_uint64(std::vector<Value>& arguments, SourceLocation location
 
 // a.x * b.x + a.y * b.y + c in float; the products are exact.
 Value Lowerer::dot_of_halves(std::vector<Value>& arguments, SourceLocation location) {
-  if (!checker_.options_.native_16bit) {
+  if (!checker_.options_->native_16bit) {
     report(CheckId::kNeeds16Bit, location, {"dot2add"});
     return error_value();
   }

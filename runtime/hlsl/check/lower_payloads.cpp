@@ -56,7 +56,7 @@ void Lowerer::wrap_payload(FunctionInfo* function, ir::EntryPoint& entry) {
   if (!function->ir || function->parameters.empty()) return;
   const StructInfo& structure = *function->parameters[0].type->structure;
   if (!structure.is_payload) return;
-  entry.unbounded_payload = !checker_.options_.target.ends_with("6_6");
+  entry.unbounded_payload = !checker_.options_->target.ends_with("6_6");
   const uint8_t stage = payload_stage_of(entry.stage);
   const std::vector<PayloadLeaf> leaves = payload_leaves(structure);
   if (all_access(leaves, stage)) return;

@@ -2,6 +2,8 @@
 // What needs the quad of a pixel shader: derivatives, implicit levels of detail; and clip. What is
 // made of them here stays an expression until it is known which stages reach it.
 // [pixel_functions.h]
+#include <utility>
+
 #include "runtime/hlsl/check/checker.h"
 
 namespace kaamos::hlsl {
@@ -123,8 +125,13 @@ void Lowerer::take_level_zero(FunctionInfo& function) {
   for (ir::Expr* sample : function.implicit_levels) {
     if (!sample->implicit_level) continue;
     sample->implicit_level = false;
-    if (sample->sample != ir::SampleKind::kLevel) continue;
-    sample->operands[3] = build_.zero(build_.scalar_type(ir::Scalar::kFloat32));
+    const ir::Expr* least = build_.zero(build_.scalar_type(ir::Scalar::kFloat32));
+    if (std::exchange(sample->clamps_level, false)) {
+      least = sample->operands.back();
+      sample->operands.pop_back();
+    }
+    if (sample->sample == ir::SampleKind::kLevel) sample->operands[3] = least;
+    if (sample->sample == ir::SampleKind::kCompareLevel) sample->operands[4] = least;
   }
 }
 

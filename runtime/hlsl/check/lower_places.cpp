@@ -195,6 +195,7 @@ const ir::Expr* Lowerer::load(const Value& value) {
                                    {value.expr, value.coordinates});
       if (value.mip) node->operands.push_back(value.mip);
       const ir::Expr* texel_value = from_texel(node, type);
+      if (value.element) return build_.element(texel_value, value.element);
       return value.whole ? build_.swizzle(texel_value, value.components) : texel_value;
     }
     case ValueKind::kMemory: {
@@ -276,16 +277,20 @@ const ir::Expr* Lowerer::load(const Value& value) {
   return nullptr;
 }
 
-void Lowerer::store_component(const Value& target, uint32_t component, const ir::Expr* value) {
+uint32_t Lowerer::component_bytes(const Value& target, uint32_t component) {
   const Type* whole = target.whole ? target.whole : target.type;
   const uint32_t bytes = scalar_bytes(whole->scalar);
-  uint32_t offset = component * (target.component_stride ? target.component_stride : bytes);
-  if (whole->is_matrix()) {
-    const uint32_t stride = matrix_stride(whole, target.layout);
-    const uint32_t row = component / 4;
-    const uint32_t column = component % 4;
-    offset = whole->row_major ? row * stride + column * bytes : column * stride + row * bytes;
+  if (!whole->is_matrix()) {
+    return component * (target.component_stride ? target.component_stride : bytes);
   }
+  const uint32_t stride = matrix_stride(whole, target.layout);
+  const uint32_t row = component / 4;
+  const uint32_t column = component % 4;
+  return whole->row_major ? row * stride + column * bytes : column * stride + row * bytes;
+}
+
+void Lowerer::store_component(const Value& target, uint32_t component, const ir::Expr* value) {
+  const uint32_t offset = component_bytes(target, component);
   const auto kind = target.element ? ir::StmtKind::kStoreElement : ir::StmtKind::kStore;
   ir::Stmt* statement = build_.stmt(kind);
   statement->operands.push_back(target.expr);
@@ -332,13 +337,16 @@ void Lowerer::store(const Value& target, const ir::Expr* value) {
       // To write part of a texel: read it, change it, write it back.
       Value all = target;
       all.whole = nullptr;
+      all.element = nullptr;
       all.saved = nullptr;
       all.components.clear();
       all.type = target.whole;
       const ir::Expr* source = build_.read(temporary(value));
       const ir::Variable* texel_value = temporary(load(all));
       ir::Stmt* change = build_.stmt(ir::StmtKind::kAssign);
-      change->place = build_.swizzle(build_.read(texel_value), target.components);
+      const ir::Expr* place = build_.read(texel_value);
+      change->place = target.element ? build_.element(place, target.element)
+                                     : build_.swizzle(place, target.components);
       change->value = source;
       emit(change);
       stored = build_.read(texel_value);

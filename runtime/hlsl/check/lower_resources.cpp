@@ -80,10 +80,10 @@ Value Lowerer::call_resource_method(const Value& object, const NamePart& part,
     if (auto result = call_raw_method(object, part, arguments, location)) return *result;
   } else if (is_structured(type->resource)) {
     if (name == "Load") {
-      if (!check_count("Load", arguments.size(), 1, 1, location)) return error_value();
+      if (!check_count("Load", arguments.size(), 1, 2, location)) return error_value();
       Value value = index_resource(object, arguments[0], location);
       value.is_place = false;
-      return value;
+      return arguments.size() == 2 ? with_status(value, arguments[1]) : value;
     }
     if (auto result = call_counter_method(object, name, arguments, location)) return *result;
   } else if (has_elements(type->resource)) {
@@ -122,6 +122,13 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     const ir::Expr* offset = index_value(arguments[0], location);
     if (!offset) return error_value();
     const bool wide = name.ends_with("64");
+    ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);
+    statement->target = ir::AtomicTarget::kMemory;
+    statement->operands = {resource, build_.convert(offset, ir::Scalar::kUint32)};
+    if (atomic->on_floats) {
+      return emit_atomic(*atomic, statement, types_.scalar(Scalar::kFloat32),
+                         std::span(arguments).subspan(1), location);
+    }
     const Type* given = arguments[1].type;
     const bool is_signed =
         given && given->is_numeric() &&
@@ -129,9 +136,6 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
     const Type* type = types_.scalar(wide        ? (is_signed ? Scalar::kInt64 : Scalar::kUint64)
                                      : is_signed ? Scalar::kInt32
                                                  : Scalar::kUint32);
-    ir::Stmt* statement = build_.stmt(ir::StmtKind::kAtomic);
-    statement->target = ir::AtomicTarget::kMemory;
-    statement->operands = {resource, build_.convert(offset, ir::Scalar::kUint32)};
     return emit_atomic(*atomic, statement, type, std::span(arguments).subspan(1), location);
   }
   name.remove_prefix(is_load ? 4 : 5);
@@ -140,11 +144,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
   const uint32_t size = plain ? 1 : static_cast<uint32_t>(name[0] - '0');
   const Type* type = types_.vector(Scalar::kUint32, size);
   const size_t count = is_load ? 1 : 2;
-  if (is_load && arguments.size() == 2) {
-    report(CheckId::kUnsupported, location, {"the status of a load (tiled resources)"});
-    return error_value();
-  }
-  if (!check_count(part.identifier, arguments.size(), count, count, location)) {
+  if (!check_count(part.identifier, arguments.size(), count, 2, location)) {
     return error_value();
   }
   if (part.has_template_arguments) {
@@ -179,7 +179,7 @@ std::optional<Value> Lowerer::call_raw_method(const Value& object, const NamePar
                         ir::Layout::kStructured, !writable);
   if (is_load) {
     target.is_place = false;
-    return target;
+    return arguments.size() == 2 ? with_status(target, arguments[1]) : target;
   }
   const ir::Expr* value = convert(arguments[1], type, arguments[1].location);
   if (!value) return error_value();

@@ -156,7 +156,7 @@ void Lowerer::lower_statement(const Stmt* statement) {
       break;
     case StmtKind::kFor: {
       const auto* loop = static_cast<const ForStmt*>(statement);
-      if (checker_.options_.hlsl_version < 2021) {
+      if (checker_.options_->hlsl_version < 2021) {
         lower_loop_head(loop->init);
         lower_loop(loop->condition, loop->step, loop->body, false, *loop);
         break;
@@ -237,7 +237,7 @@ void Lowerer::lower_local(const VariableDecl* decl) {
   info->type = types_.error();
   info->is_const = checker_.is_const_type(decl->type);
   const bool valid = checker_.check_variable_type(type, decl->location, decl->name);
-  if (const Symbol* before = checker_.find_local(scope_, decl->name)) {
+  if (const Symbol* before = checker_.find_taken(scope_, decl->name)) {
     // [HLSL 2018: the variables of a loop belong to the scope around it]
     const bool hides = before->kind == SymbolKind::kVariable && before->variable->is_loop_variable;
     report(hides ? CheckId::kLoopVariableAgain : CheckId::kRedefinition, decl->location,

@@ -34,11 +34,13 @@ Value Lowerer::call_load(const Value& object, std::vector<Value>& arguments,
     report(CheckId::kNoSuchMethod, location, {std::string(traits.name), "Load"});
     return error_value();
   }
-  if (arguments.size() > 1 && !sampled) {
-    report(CheckId::kUnsupported, location, {"the status of a load (tiled resources)"});
-    return error_value();
+  const size_t highest = sampled ? 3 : 2;
+  if (!check_count("Load", arguments.size(), 1, highest, location)) return error_value();
+  if (arguments.size() == highest) {
+    Value status = arguments.back();
+    arguments.pop_back();
+    return with_status(call_load(object, arguments, location), status);
   }
-  if (!check_count("Load", arguments.size(), 1, sampled ? 2 : 1, location)) return error_value();
   const ir::Expr* resource = load(object);
   if (!resource) return error_value();
   if (!sampled) {
@@ -99,13 +101,27 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   } else if (rule.form != F::kSample && rule.form != F::kGather) {
     fixed = 3;
   }
-  const size_t extra = is_cube ? 0 : 1;
-  if (arguments.size() > fixed + extra) {
-    report(CheckId::kUnsupported, location,
-           {"a clamp, a status or several offsets in '" + std::string(rule.name) + "'"});
+  const size_t offsets = is_cube ? 0 : 1;
+  const bool has_clamp = rule.form == F::kSample || rule.form == F::kBias ||
+                         rule.form == F::kGradient || rule.form == F::kCompare;
+  const size_t clamp_at = fixed + offsets;
+  const size_t status_at = clamp_at + (has_clamp ? 1 : 0);
+  const bool has_channel =
+      gathers && !is_cube && !rule.name.ends_with("Gather") && !rule.name.ends_with("Cmp");
+  if (has_channel && arguments.size() >= fixed + 4) {
+    return gather_four(object, rule, arguments, fixed, location);
+  }
+  if (!check_count(rule.name, arguments.size(), fixed, status_at + 1, location)) {
     return error_value();
   }
-  if (!check_count(rule.name, arguments.size(), fixed, fixed + extra, location)) {
+  if (arguments.size() == status_at + 1) {
+    Value status = arguments.back();
+    arguments.pop_back();
+    return with_status(call_sample(object, rule, arguments, location), status);
+  }
+  const Value* clamp = has_clamp && arguments.size() > clamp_at ? &arguments[clamp_at] : nullptr;
+  if (clamp && rule.form == F::kGradient) {
+    report(CheckId::kUnsupported, location, {"the clamp of 'SampleGrad'"});
     return error_value();
   }
   const auto sampler_kind =
@@ -159,10 +175,11 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
       scalar_operand(2);
       break;
   }
-  if (arguments.size() > fixed) {
+  if (offsets && arguments.size() > fixed) {
     operands.push_back(
         to_vector(arguments[fixed], Scalar::kInt32, dimensions, arguments[fixed].location));
   }
+  if (clamp) operands.push_back(convert(*clamp, types_.scalar(Scalar::kFloat32), clamp->location));
   for (const ir::Expr* operand : operands) {
     if (!operand) return error_value();
   }
@@ -175,9 +192,49 @@ Value Lowerer::call_sample(const Value& object, const SampleRule& rule,
   node->sample = kind;
   node->index = rule.component;
   if (rule.form == F::kSample || rule.form == F::kBias || rule.form == F::kCompare) {
+    node->clamps_level = clamp != nullptr;
     use_implicit_level(rule.name, node, location);
   }
   return rvalue(node, result);
+}
+
+// Component i of the result comes from the texels at offset i.
+Value Lowerer::gather_four(const Value& object, const SampleRule& rule,
+                           std::vector<Value>& arguments, size_t fixed, SourceLocation location) {
+  if (!check_count(rule.name, arguments.size(), fixed + 4, fixed + 5, location)) {
+    return error_value();
+  }
+  if (arguments.size() == fixed + 5) {
+    Value status = arguments.back();
+    arguments.pop_back();
+    return with_status(gather_four(object, rule, arguments, fixed, location), status);
+  }
+  std::vector<const ir::Expr*> parts;
+  const Type* type = nullptr;
+  for (uint8_t i = 0; i < 4; ++i) {
+    std::vector<Value> one(arguments.begin(),
+                           arguments.begin() + static_cast<std::ptrdiff_t>(fixed));
+    one.push_back(arguments[fixed + i]);
+    const Value gathered = call_sample(object, rule, one, location);
+    if (gathered.failed()) return error_value();
+    type = gathered.type;
+    parts.push_back(build_.swizzle(build_.read(temporary(gathered.expr)), {i}));
+  }
+  return rvalue(build_.construct(type->ir, std::move(parts)), type);
+}
+
+// Every resource is mapped completely.
+Value Lowerer::with_status(const Value& result, Value& status) {
+  if (result.failed()) return result;
+  const ir::Expr* value = load(result);
+  if (!value || !require_place(status, status.location, "the status of a load")) {
+    return error_value();
+  }
+  const Type* type = result.type;
+  value = build_.read(temporary(value));
+  store(status, convert(rvalue(build_.uint32(1), types_.scalar(Scalar::kUint32)), status.type,
+                        status.location));
+  return rvalue(value, type);
 }
 
 Value Lowerer::call_dimensions(const Value& object, std::vector<Value>& arguments,

@@ -95,9 +95,9 @@ std::optional<Value> Lowerer::call_wave(std::string_view name, std::vector<Value
                        : has_lane || has_mask              ? size_t{2}
                                                            : size_t{1};
   if (!check_count(name, arguments.size(), count, count, location)) return error_value();
-  if (rule->minor > shader_model_minor(checker_.options_.target)) {
+  if (rule->minor > shader_model_minor(checker_.options_->target)) {
     report(CheckId::kWaveShaderModel, location,
-           {std::string(name), "6." + std::to_string(rule->minor), checker_.options_.target});
+           {std::string(name), "6." + std::to_string(rule->minor), checker_.options_->target});
     return error_value();
   }
   const bool quad = shader::is_quad_operation(rule->op);

@@ -145,6 +145,7 @@ class Lowerer {
   std::string describe(const std::vector<Value>& arguments);
   void lower_function(FunctionInfo* function, SourceLocation use);
   FunctionInfo* bind_unbounded_arrays(FunctionInfo* function, const std::vector<Value>& arguments);
+  void warn_passed_payload(const FunctionInfo& import, const std::vector<Value>& arguments);
   ir::Function* make_ir_function(FunctionInfo* function);
 
   // -- Intrinsics (lower_intrinsics.cpp, lower_atomics.cpp, lower_waves.cpp,
@@ -170,6 +171,8 @@ class Lowerer {
                           SourceLocation location);
   Value call_interlocked(const AtomicRule& rule, std::vector<Value>& arguments,
                          SourceLocation location);
+  // Where a component of a numeric place in memory is, counted from the place.
+  static uint32_t component_bytes(const Value& target, uint32_t component);
   Value emit_atomic(const AtomicRule& rule, ir::Stmt* statement, const Type* type,
                     std::span<Value> arguments, SourceLocation location);
   Value call_trace_ray(std::vector<Value>& arguments, SourceLocation location);
@@ -208,6 +211,10 @@ class Lowerer {
                                            std::vector<Value>& arguments, SourceLocation location);
   Value call_sample(const Value& object, const SampleRule& rule, std::vector<Value>& arguments,
                     SourceLocation location);
+  Value gather_four(const Value& object, const SampleRule& rule, std::vector<Value>& arguments,
+                    size_t fixed, SourceLocation location);
+  // The result of a load or sample, whose last argument takes the status.
+  Value with_status(const Value& result, Value& status);
   Value call_load(const Value& object, std::vector<Value>& arguments, SourceLocation location);
   Value call_dimensions(const Value& object, std::vector<Value>& arguments,
                         SourceLocation location);

@@ -98,7 +98,7 @@ bool Checker::has_raypayload(const StructInfo& structure) {
 }
 
 void Checker::check_payload_struct(StructInfo* info) {
-  if (!options_.payload_qualifiers || !has_raypayload(*info)) return;
+  if (!options_->payload_qualifiers || !has_raypayload(*info)) return;
   info->is_payload = true;
   payload_structs_[info->ir] = info;
   if (info->base && !info->base->is_payload) {
@@ -158,9 +158,9 @@ void Checker::check_payload_field(FieldInfo& field) {
 void Checker::check_payload_use(const Type* type, SourceLocation location) {
   const StructInfo& structure = *type->structure;
   if (!structure.decl) return;
-  if (options_.payload_qualifiers) {
-    if (!structure.is_payload && options_.target != "lib_6_x") {
-      report(CheckId::kPayloadQualifiers, location, {to_string(type), options_.target});
+  if (options_->payload_qualifiers) {
+    if (!structure.is_payload && options_->target != "lib_6_x") {
+      report(CheckId::kPayloadQualifiers, location, {to_string(type), options_->target});
     }
   } else if (has_raypayload(structure)) {
     report(CheckId::kPayloadIgnored, structure.decl->location, {to_string(type)});

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "runtime/hlsl/check/checker.h"
 #include "runtime/hlsl/ir/visit.h"
@@ -278,6 +279,11 @@ class Checker::PixelFunctions {
 
   void take_derivatives(ir::Expr& sample) {
     sample.implicit_level = false;
+    const ir::Expr* least = nullptr;  // the clamp
+    if (std::exchange(sample.clamps_level, false)) {
+      least = sample.operands.back();
+      sample.operands.pop_back();
+    }
     const ResourceTraits& traits = traits_of(sample.operands[0]->type->resource);
     const ir::Expr*& at = sample.operands[2];
     const ir::Expr* place = at;
@@ -299,11 +305,22 @@ class Checker::PixelFunctions {
       return;
     }
     const ir::Type* real = build_.scalar_type(ir::Scalar::kFloat32);
-    if (sample.sample == ir::SampleKind::kCompareLevel) {
+    const auto level_of_detail = [&] {
       ir::Expr* level = build_.expr(ir::ExprKind::kSample, real,
                                     {sample.operands[0], sample.operands[1], at, ddx, ddy});
       level->sample = ir::SampleKind::kLevelOfDetail;
-      sample.operands[4] = level;
+      return level;
+    };
+    const auto at_least = [&](const ir::Expr* level) {
+      return least ? build_.intrinsic(Intrinsic::max, real, {level, least}) : level;
+    };
+    if (sample.sample == ir::SampleKind::kCompareLevel) {
+      sample.operands[4] = at_least(level_of_detail());
+      return;
+    }
+    if (least) {
+      sample.operands[3] =
+          at_least(build_.binary(ir::BinaryOp::kAdd, level_of_detail(), sample.operands[3]));
       return;
     }
     // A bias is a factor of the derivatives.

@@ -11,7 +11,7 @@ constexpr int64_t kAllRayFlags = 0x3FF;
 }  // namespace
 
 Scalar Checker::scalar_of(ScalarKind kind, SourceLocation location) {
-  const bool native = options_.native_16bit;
+  const bool native = options_->native_16bit;
   const auto native_only = [&](Scalar scalar, std::string_view name) {
     if (!native) report(CheckId::kNeeds16Bit, location, {std::string(name)});
     return scalar;
@@ -84,7 +84,7 @@ const Type* Checker::resolve_type(const TypeSyntax* syntax, Scope* scope) {
       const Scalar scalar = scalar_of(syntax->scalar, syntax->location);
       const bool row_major = syntax->modifiers & kModRowMajor
                                  ? true
-                                 : options_.row_major && !(syntax->modifiers & kModColumnMajor);
+                                 : options_->row_major && !(syntax->modifiers & kModColumnMajor);
       if (syntax->rows == 0 && syntax->columns == 1) return types_.single(scalar);
       return types_.numeric(scalar, syntax->rows, syntax->columns, row_major);
     }
@@ -166,6 +166,7 @@ const Type* Checker::resolve_named(const TypeSyntax* syntax, Scope* scope) {
     resolve_name(name, scope, false);
     return types_.error();
   }
+  if (symbol->hidden) symbol = symbol->hidden;
   switch (symbol->kind) {
     case SymbolKind::kType:
       if (StructTemplate* own = template_of(symbol, name.last())) {
@@ -250,7 +251,7 @@ const Type* Checker::resolve_builtin(const NamePart& part, SourceLocation locati
     if (is_vector && sizes[0] == 1) return types_.single(scalar);
     if (is_vector) return types_.vector(scalar, static_cast<uint32_t>(sizes[0]));
     return types_.matrix(scalar, static_cast<uint32_t>(sizes[0]), static_cast<uint32_t>(sizes[1]),
-                         options_.row_major);
+                         options_->row_major);
   }
   if (part.identifier == "string") return types_.string();
   const ResourceTraits* traits = find_resource(part.identifier);

@@ -47,6 +47,7 @@ Scope* Checker::make_scope(ScopeKind kind, Scope* parent, std::string_view name)
   Scope* scope = &scopes_.emplace_back();
   scope->kind = kind;
   scope->parent = parent;
+  if (parent) scope->unit = parent->unit;
   if (kind == ScopeKind::kBlock) return scope;
   scope->name = name.empty() && parent ? parent->name
                 : parent               ? qualify(parent, name)
@@ -77,8 +78,20 @@ Symbol* Checker::add_symbol(Scope* scope, SymbolKind kind, std::string_view name
   symbol->location = location;
   const bool ordered = scope->kind == ScopeKind::kGlobal || scope->kind == ScopeKind::kNamespace;
   symbol->sequence = ordered && location.is_valid() ? ++sequence_ : 0;
-  if (!name.empty()) scope->symbols[name] = symbol;
+  if (name.empty()) return symbol;
+  Symbol*& entry = scope->symbols[name];
+  if (entry && is_tag(*entry) && kind != SymbolKind::kType) symbol->hidden = entry;
+  entry = symbol;
   return symbol;
+}
+
+bool Checker::is_tag(const Symbol& symbol) {
+  return symbol.kind == SymbolKind::kType && symbol.scope;
+}
+
+Symbol* Checker::find_taken(Scope* scope, std::string_view name) {
+  Symbol* symbol = find_local(scope, name);
+  return symbol && is_tag(*symbol) ? nullptr : symbol;
 }
 
 Symbol* Checker::find_local(Scope* scope, std::string_view name) {
@@ -89,6 +102,7 @@ Symbol* Checker::find_local(Scope* scope, std::string_view name) {
 Symbol* Checker::find_in_scope(Scope* scope, std::string_view name, bool check_order) {
   Symbol* symbol = find_local(scope, name);
   if (symbol && (!check_order || symbol->sequence <= visible_)) return symbol;
+  if (symbol && symbol->hidden && symbol->hidden->sequence <= visible_) return symbol->hidden;
   if (scope->structure && scope->structure->base) {
     if (Symbol* inherited = find_member(scope->structure->base, name)) return inherited;
   }
@@ -130,12 +144,13 @@ Scope* Checker::scope_of_part(const NamePart& part, Symbol* symbol, Scope* scope
       return info ? info->scope : nullptr;
     }
     default:
-      return nullptr;
+      return symbol->hidden ? scope_of_part(part, symbol->hidden, scope) : nullptr;
   }
 }
 
 Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quiet) {
-  Scope* in = name.is_global ? global_ : nullptr;
+  Scope* const global = unit_scopes_[scope->unit];
+  Scope* in = name.is_global ? global : nullptr;
   Symbol* symbol = nullptr;
   for (const NamePart& part : name.parts) {
     symbol = in ? find_in_scope(in, part.identifier, in->kind != ScopeKind::kStruct)
@@ -144,7 +159,7 @@ Symbol* Checker::resolve_name(const QualifiedName& name, Scope* scope, bool quie
       if (!quiet && !in && part.identifier == "dx" && name.parts.size() > 1) {
         report(CheckId::kNeedsShaderModel, name.parts[0].location, {spell(name), "6.9"});
       } else if (!quiet) {
-        const std::string where = in && in != global_ ? " in '" + in->name + "'" : "";
+        const std::string where = in && in != global ? " in '" + in->name + "'" : "";
         report_unknown(CheckId::kUndeclared, part.location, {std::string(part.identifier), where},
                        part.identifier, in ? in : scope, in == nullptr);
       }

@@ -101,6 +101,7 @@ void Checker::complete_struct(StructInfo* info) {
   for (const Decl* member : decl->members) declare_member(info, member);
   check_interfaces(info);
   info->complete = true;
+  reuse_struct(info);
   check_payload_struct(info);
 }
 
@@ -110,9 +111,9 @@ void Checker::declare_bit_field(StructInfo* info, const VariableDecl* decl, cons
   const std::string name(decl->name.empty() ? "(unnamed)" : decl->name);
   const auto width = constant_integer(decl->bit_width, info->scope, "the width of a bit field");
   if (type->is_error() || !width) return;
-  if (options_.hlsl_version < 2021) {
+  if (options_->hlsl_version < 2021) {
     report(CheckId::kBitFieldVersion, decl->bit_width->location,
-           {name, std::to_string(options_.hlsl_version)});
+           {name, std::to_string(options_->hlsl_version)});
     return;
   }
   if (!(type->is_enum() || (type->is_scalar() && !is_floating(type->scalar)))) {
@@ -190,7 +191,7 @@ void Checker::declare_member(StructInfo* info, const Decl* member) {
     report(CheckId::kRayQueryPlace, variable->location, {to_string(type), "a member of a struct"});
     type = types_.error();
   }
-  if (!variable->name.empty() && find_local(info->scope, variable->name)) {
+  if (!variable->name.empty() && find_taken(info->scope, variable->name)) {
     report(CheckId::kRedefinition, variable->location, {std::string(variable->name)});
     return;
   }

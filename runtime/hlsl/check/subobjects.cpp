@@ -29,6 +29,7 @@ constexpr Form kForms[] = {
 }  // namespace
 
 void Checker::declare_subobject(const SubobjectDecl* decl) {
+  if (link_) return;  // each library keeps its own
   const Form& form = kForms[static_cast<size_t>(decl->subobject_kind)];
   ir::Subobject subobject;
   subobject.name = decl->name;

@@ -31,6 +31,8 @@ struct BindingInfo {
   uint32_t size_bytes = 0;
   bool is_ordered = false;  // a RasterizerOrdered view
   SourceLocation location;
+  uint32_t unit = 0;  // as Scope::unit
+  bool is_automatic = false;
   bool reachable = false;
   uint32_t index = 0;  // in Module::bindings, once known
   std::vector<ir::Expr*> uses;
@@ -141,6 +143,10 @@ struct FunctionInfo {
   std::vector<ir::Expr*> quads;            // kQuad
   bool uses_view_heap = false;
   bool uses_sampler_heap = false;
+  // Without a body: its definition in another library, or its index in Module::imports.
+  FunctionInfo* linked = nullptr;
+  bool is_import = false;
+  uint32_t import_index = 0;
   uint32_t visit_mark = 0;
   uint32_t stages = 0;  // of the entry points that reach it
 };
@@ -185,6 +191,7 @@ struct Symbol {
   const TypeAliasDecl* alias = nullptr;
   const ir::Expr* value = nullptr;  // kConstant
   uint32_t field = 0;               // kField: position in StructInfo::fields
+  Symbol* hidden = nullptr;  // the struct or enum of the same name and scope [C++: class.name]
 };
 
 enum class ScopeKind : uint8_t { kGlobal, kNamespace, kStruct, kEnum, kTemplate, kBlock };
@@ -192,7 +199,8 @@ enum class ScopeKind : uint8_t { kGlobal, kNamespace, kStruct, kEnum, kTemplate,
 struct Scope {
   ScopeKind kind = ScopeKind::kBlock;
   Scope* parent = nullptr;
-  std::string name;  // qualified, without a trailing ::
+  uint32_t unit = 0;  // which of the libraries that are linked
+  std::string name;   // qualified, without a trailing ::
   StructInfo* structure = nullptr;
   std::unordered_map<std::string_view, Symbol*> symbols;
   std::vector<Scope*> used;  // using namespace
@@ -218,7 +226,8 @@ struct Value {
   bool is_place = false;
   bool is_const = false;
   const ir::Expr* expr = nullptr;
-  const ir::Expr* element = nullptr;  // kMemory: structured buffers' element index
+  // kMemory: structured buffers' element index. kTyped: a component known at run time only.
+  const ir::Expr* element = nullptr;
   const ir::Expr* offset = nullptr;
   const ir::Expr* coordinates = nullptr;
   const ir::Expr* mip = nullptr;

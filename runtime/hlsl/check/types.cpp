@@ -244,6 +244,13 @@ const Type* TypeTable::structure(StructInfo* info) {
   return type;
 }
 
+void TypeTable::share(StructInfo* info, const StructInfo& other) {
+  const auto own = std::find_if(pool_.begin(), pool_.end(),
+                                [&](const Type& type) { return &type == info->type; });
+  own->ir = other.type->ir;
+  info->ir = other.ir;
+}
+
 const Type* TypeTable::enumeration(EnumInfo* info) {
   Type* type = make(TypeKind::kEnum);
   type->enumeration = info;

@@ -199,6 +199,8 @@ class TypeTable {
   const Type* texel_of(const Type* element);
   const Type* ray_query(uint32_t flags);
   const Type* structure(StructInfo* info);
+  // Makes a struct the same type in the IR as another one with the same fields.
+  void share(StructInfo* info, const StructInfo& other);
   const Type* enumeration(EnumInfo* info);
   const Type* boolean() { return scalar(Scalar::kBool); }
   // float3[2] for half3[2].

@@ -148,6 +148,9 @@ class CppEmitter {
   void emit_compute_entry(size_t index);
   void emit_static_initialisers(const ir::Function& function);
   void emit_calls(size_t index, const ReachedCalls& calls);
+  std::string emit_list(const std::string& name, const std::vector<uint32_t>& list);
+  void emit_unlinked(const ir::EntryPoint& e, const std::string& bindings,
+                     const std::string& imports);
   void emit_tables();
   std::string entry_argument(const ir::EntryPoint& entry, size_t parameter);
   std::string entry_arguments(const ir::EntryPoint& entry);

@@ -85,6 +85,29 @@ void CppEmitter::emit_calls(size_t index, const ReachedCalls& calls) {
   line("static const uint32_t callables_" + std::to_string(index) + "[] = {" + callables + "0u};");
 }
 
+std::string CppEmitter::emit_list(const std::string& name, const std::vector<uint32_t>& list) {
+  std::string text = "static const uint32_t " + name + "[] = {";
+  for (const uint32_t n : list) text += std::to_string(n) + "u, ";
+  line(text + "0u};");
+  return name + ", " + std::to_string(list.size()) + "u";
+}
+
+// Entry points without code: what is known of them before they are linked.
+void CppEmitter::emit_unlinked(const EntryPoint& e, const std::string& bindings,
+                               const std::string& imports) {
+  const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
+  const bool callable = e.stage == kStageCallable;
+  const std::string storage = e.payload != nullptr ? "sizeof(" + type(e.payload) + ")" : "0u";
+  line("{" + quote(e.name) + ", " + quote(e.function->mangled) +
+       ", ks::Stage::" + stage_name(e.stage) + ", nullptr, nullptr, " +
+       number(callable ? 0 : e.payload_bytes) + ", " + storage + ", " + number(e.attribute_bytes) +
+       ", " + number(callable ? e.payload_bytes : 0) + ", 0u, " +
+       number(e.unbounded_payload ? 64u : 0u) + ", " + bindings +
+       ", nullptr, 0u, nullptr, 0u, nullptr, 0u, " + quote(value_layout(e.payload)) + ", " +
+       quote(value_layout(e.attributes)) + ", " + number(e.attribute_type) + ", nullptr, " +
+       (e.root_signature ? quote(*e.root_signature) : "nullptr") + ", " + imports + "},");
+}
+
 void CppEmitter::emit_tables() {
   const auto number = [](uint64_t n) { return std::to_string(n) + "u"; };
   open("static const ks::BindingDesc bindings[] = {");
@@ -104,6 +127,12 @@ void CppEmitter::emit_tables() {
     }
     line(list + "0u};");
   }
+  std::vector<std::pair<std::string, std::string>> unlinked;
+  for (const EntryPoint& e : module_.unlinked_entry_points) {
+    const std::string n = std::to_string(unlinked.size());
+    const std::string bindings = emit_list("unlinked_bindings_" + n, e.bindings);
+    unlinked.emplace_back(bindings, emit_list("unlinked_imports_" + n, e.imports));
+  }
   for (size_t i = 0; i < options_.spirv.size(); ++i) {
     out_ += "static const uint32_t spirv_" + std::to_string(i) + "[] = {";
     for (const uint32_t word : options_.spirv[i]) {
@@ -122,6 +151,7 @@ void CppEmitter::emit_tables() {
     for (const uint32_t caller : module_.library_functions[i].callers)
       list += number(caller) + ", ";
     line("static const uint32_t callers_" + std::to_string(i) + "[] = {" + list + "0u};");
+    emit_list("needed_" + std::to_string(i), module_.library_functions[i].imports);
   }
   open("static const ks::ExportDesc exports[] = {");
   for (size_t i = 0; i < module_.entry_points.size(); ++i) {
@@ -153,13 +183,18 @@ void CppEmitter::emit_tables() {
          (e.root_signature ? ", " + quote(*e.root_signature) : ", nullptr") +
          (e.is_graphics() ? ", &graphics_" + n : "") + "},");
   }
+  for (size_t i = 0; i < unlinked.size(); ++i) {
+    emit_unlinked(module_.unlinked_entry_points[i], unlinked[i].first, unlinked[i].second);
+  }
   for (size_t i = 0; i < module_.library_functions.size(); ++i) {
     const LibraryFunction& f = module_.library_functions[i];
     line("{" + quote(f.name) + ", " + quote(f.mangled) +
          ", ks::Stage::kLibrary, nullptr, nullptr, 0u, 0u, 0u, 0u, 0u, 0u, nullptr, 0u, nullptr, "
          "0u, "
          "nullptr, 0u, callers_" +
-         std::to_string(i) + ", " + number(f.callers.size()) + "},");
+         std::to_string(i) + ", " + number(f.callers.size()) +
+         ", nullptr, nullptr, 0u, nullptr, nullptr, needed_" + std::to_string(i) + ", " +
+         number(f.imports.size()) + ", " + quote(f.signature) + "},");
   }
   line("{}};");
   --indent_;
@@ -171,6 +206,13 @@ void CppEmitter::emit_tables() {
     const auto n = [&](size_t i) { return number(i < s.values.size() ? s.values[i] : 0); };
     line("{" + quote(s.name) + ", " + number(s.type) + ", {" + text(0) + ", " + text(1) + ", " +
          text(2) + "}, {" + n(0) + ", " + n(1) + "}},");
+  }
+  line("{}};");
+  --indent_;
+  open("static const ks::ImportDesc imports[] = {");
+  for (const Import& import : module_.imports) {
+    line("{" + quote(import.name) + ", " + quote(import.mangled) + ", " + quote(import.signature) +
+         "},");
   }
   line("{}};");
   --indent_;
@@ -187,11 +229,13 @@ void CppEmitter::emit_tables() {
   }
   line("static const ks::LibraryDesc library = {ks::kAbiVersion, sizeof(ks::LibraryDesc), " +
        quote(module_.name) + ", " + quote(module_.target) + ", exports, " +
-       number(module_.entry_points.size() + module_.library_functions.size()) + ", bindings, " +
-       number(module_.bindings.size()) + ", subobjects, " + number(module_.subobjects.size()) +
-       ", " + number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " +
+       number(module_.entry_points.size() + unlinked.size() + module_.library_functions.size()) +
+       ", bindings, " + number(module_.bindings.size()) + ", subobjects, " +
+       number(module_.subobjects.size()) + ", " +
+       number(options_.flags | (module_.check_access ? 1u : 0u)) + ", files, " +
        number(module_.files.size()) + ", " +
-       (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + "};");
+       (module_.source.empty() ? "nullptr, 0u" : "source, sizeof(source) - 1") + ", imports, " +
+       number(module_.imports.size()) + "};");
 }
 
 }  // namespace kaamos::hlsl

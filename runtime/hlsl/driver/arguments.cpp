@@ -246,7 +246,8 @@ Of its own:
                             device: accesses outside root descriptors, wrong descriptors, NaN rays;
                             slower
   -no-source                leaves out the source, from which a checked device compiles that code
-                            for a library that was compiled without -check-access
+                            for a library that was compiled without -check-access, and a state
+                            object links the library with others that it calls
   -no-wide                  compute, ray generation, vertex and pixel shaders run thread by
                             thread, never 8 threads at once
   --strict                  refuses what DXC refuses, even if Kaamos could accept it

@@ -2,7 +2,6 @@
 #include "runtime/hlsl/driver/frontend.h"
 
 #include "runtime/hlsl/driver/embedded_source.h"
-#include "runtime/hlsl/front/ast_arena.h"
 #include "runtime/hlsl/front/parse.h"
 #include "runtime/hlsl/front/preprocess.h"
 
@@ -56,8 +55,8 @@ std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text)
   return requests;
 }
 
-std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
-                                          DiagnosticEngine& diagnostics) {
+std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, SourceManager& sources,
+                                           DiagnosticEngine& diagnostics) {
   const int minor = minor_version(options.target);
   if (minor < 0) {
     diagnostics.report(DiagnosticId::kUnknownTarget, {}, {options.target});
@@ -82,7 +81,8 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   preprocess.shader_model_minor = static_cast<uint32_t>(minor);
   preprocess.hlsl_version = options.hlsl_version;
   preprocess.enable_16bit_types = options.native_16bit;
-  const TokenList tokens =
+  auto parsed = std::make_unique<ParsedSource>();
+  parsed->tokens =
       options.text ? preprocess_text(options.path, *options.text, preprocess, sources, diagnostics)
                    : preprocess_file(options.path, preprocess, sources, diagnostics);
   // What the missing file declares would only be reported as undeclared.
@@ -91,10 +91,8 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
                             diagnostic.id == DiagnosticId::kIncludeUnreadable;
     if (is_missing && diagnostic.severity == Severity::kError) return nullptr;
   }
-  AstArena arena;
-  const TranslationUnit* unit = parse(tokens, arena, diagnostics);
-
-  CheckOptions check_options;
+  parsed->tree = parse(parsed->tokens, parsed->arena, diagnostics);
+  CheckOptions& check_options = parsed->options;
   check_options.name = options.path;
   check_options.target = options.target;
   check_options.entry_point = options.entry_point;
@@ -106,7 +104,14 @@ std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, Source
   check_options.hlsl_version = options.hlsl_version;
   check_options.payload_qualifiers = options.payload_qualifiers.value_or(minor >= 7);
   check_options.strict = options.strict;
-  auto module = check(*unit, check_options, sources, diagnostics);
+  return parsed;
+}
+
+std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
+                                          DiagnosticEngine& diagnostics) {
+  const auto parsed = parse_source(options, sources, diagnostics);
+  if (parsed == nullptr) return nullptr;
+  auto module = check(*parsed->tree, parsed->options, sources, diagnostics);
   if (module != nullptr) {
     module->check_access = options.check_access;
     if (options.embed_source) module->source = embed_source(options, sources);

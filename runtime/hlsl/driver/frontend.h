@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "runtime/hlsl/check/check.h"
+#include "runtime/hlsl/front/ast_arena.h"
 #include "runtime/hlsl/front/diagnostic.h"
 #include "runtime/hlsl/front/source.h"
+#include "runtime/hlsl/front/token.h"
 #include "runtime/hlsl/ir/ir.h"
 
 namespace kaamos::hlsl {
@@ -40,6 +42,17 @@ struct FrontendOptions {
 // of the diagnostics, and lists the files that were read.
 std::unique_ptr<ir::Module> compile_to_ir(const FrontendOptions& options, SourceManager& sources,
                                           DiagnosticEngine& diagnostics);
+
+// A source up to its syntax tree, and how it is to be checked.
+struct ParsedSource {
+  TokenList tokens;
+  AstArena arena;
+  const TranslationUnit* tree = nullptr;
+  CheckOptions options;
+};
+// Returns null if it cannot even be parsed; other errors are in `diagnostics` only.
+std::unique_ptr<ParsedSource> parse_source(const FrontendOptions& options, SourceManager& sources,
+                                           DiagnosticEngine& diagnostics);
 
 // Parses "A;B1,B2=C" into requests. Empty if `text` does not have that form.
 std::optional<std::vector<ExportRequest>> parse_exports(const std::string& text);

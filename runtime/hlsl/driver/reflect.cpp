@@ -130,6 +130,11 @@ nlohmann::ordered_json signature_json(const std::vector<SignatureElement>& eleme
   return json;
 }
 
+void add_imports(nlohmann::ordered_json& json, const Module& module,
+                 const std::vector<uint32_t>& imports) {
+  for (const uint32_t index : imports) json["imports"].push_back(module.imports[index].signature);
+}
+
 nlohmann::ordered_json export_json(const Module& module, const EntryPoint& entry) {
   nlohmann::ordered_json json;
   json["name"] = entry.name;
@@ -150,6 +155,7 @@ nlohmann::ordered_json export_json(const Module& module, const EntryPoint& entry
   for (const uint32_t index : entry.bindings) {
     json["bindings"].push_back(module.bindings[index].name);
   }
+  add_imports(json, module, entry.imports);
   return json;
 }
 
@@ -163,9 +169,13 @@ std::string reflect_json(const Module& module) {
   for (const EntryPoint& entry : module.entry_points) {
     json["exports"].push_back(export_json(module, entry));
   }
+  for (const EntryPoint& entry : module.unlinked_entry_points) {
+    json["exports"].push_back(export_json(module, entry));
+  }
   for (const LibraryFunction& function : module.library_functions) {
-    json["exports"].push_back(
-        {{"name", function.name}, {"mangled", function.mangled}, {"stage", "library"}});
+    nlohmann::ordered_json& one = json["exports"].emplace_back(nlohmann::ordered_json{
+        {"name", function.name}, {"mangled", function.mangled}, {"stage", "library"}});
+    add_imports(one, module, function.imports);
   }
   json["bindings"] = nlohmann::ordered_json::array();
   for (const Binding& binding : module.bindings) {

@@ -59,6 +59,8 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   recover_behind_paren(open);
   if (panic_) return;
   decl->parameters = list(found);
+  // `int f()[2]` returns an array.
+  if (at(Kind::kLeftBracket)) decl->return_type = array_bounds(type);
   decl->is_const_method = accept(Kind::kConst);
   decl->annotations = annotations();
   if (panic_) return;

@@ -12,6 +12,13 @@ constexpr int kMaxLookAheadDepth = 4;
 
 }  // namespace
 
+ParsedSymbol Parser::find_first_part(size_t index) {
+  const auto is_behind = [&](Kind kind) { return index > 0 && tokens_[index - 1].is(kind); };
+  const bool is_tag = is_behind(Kind::kStruct) || is_behind(Kind::kClass) ||
+                      is_behind(Kind::kEnum) || token_at(index + 1).is(Kind::kColonColon);
+  return is_tag ? scopes_.find_tag(token_at(index)) : scopes_.find(token_at(index));
+}
+
 Parser::NameLookup Parser::look_up(size_t index) {
   NameLookup result;
   size_t i = index;
@@ -19,8 +26,7 @@ Parser::NameLookup Parser::look_up(size_t index) {
   if (is_global) ++i;
   result.end = index;
   if (!is_name(i)) return result;
-  result.symbol =
-      is_global ? scopes_.find_in(kGlobalScope, token_at(i)) : scopes_.find(token_at(i));
+  result.symbol = is_global ? scopes_.find_in(kGlobalScope, token_at(i)) : find_first_part(i);
   // `::float3`, `::RayDesc`: the built-in names are in the global scope.
   if (is_global && result.symbol.kind == ParsedKind::kUnknown) {
     const ScopeId previous = scopes_.enter(kGlobalScope);
@@ -188,7 +194,7 @@ const QualifiedName* Parser::qualified_name(bool is_member, ParsedSymbol* symbol
       current = scopes_.find_in(scope, name);
       if (current.kind == ParsedKind::kUnknown && parts.empty()) current = scopes_.find(name);
     } else if (!is_member) {
-      current = scopes_.find(name);
+      current = find_first_part(pos_);
     }
     NamePart part{.location = name.location, .identifier = name.text, .template_arguments = {}};
     const size_t name_index = pos_;

@@ -60,6 +60,7 @@ void ParseScopes::declare_value(ScopeId scope, const Token& name) {
   info.is_recorded = true;
   // Overloading a function template leaves it a template.
   ParsedSymbol& symbol = symbols_[key(scope, name.value)];
+  if (symbol.kind == ParsedKind::kType) hidden_[key(scope, name.value)] = symbol;
   if (symbol.kind != ParsedKind::kFunctionTemplate) symbol = {ParsedKind::kValue, kNoScope};
 }
 
@@ -86,6 +87,19 @@ ParsedSymbol ParseScopes::find(const Token& name) {
   if (found.kind == BuiltinName::kNamespace) return {ParsedKind::kNamespace, kBuiltinScope};
   if (found.kind == BuiltinName::kSubobject) return {ParsedKind::kSubobject, kNoScope};
   return {};
+}
+
+ParsedSymbol ParseScopes::find_tag(const Token& name) {
+  if (infos_[name.value].is_recorded) {
+    for (ScopeId scope = current_; scope != kNoScope; scope = scopes_[scope].parent) {
+      const auto found = hidden_.find(key(scope, name.value));
+      if (found != hidden_.end()) return found->second;
+      int visits = kMaxVisits;
+      const ParsedSymbol symbol = find_linked(scope, name.value, visits);
+      if (symbol.is_type()) return symbol;
+    }
+  }
+  return find(name);
 }
 
 ParsedSymbol ParseScopes::find_in(ScopeId scope, const Token& name) {

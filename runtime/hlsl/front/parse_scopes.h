@@ -54,6 +54,8 @@ class ParseScopes {
   void declare_value(ScopeId scope, const Token& name);
   ParsedSymbol find(const Token& name);
   ParsedSymbol find_in(ScopeId scope, const Token& name);
+  // Behind `struct` or `enum` and before `::`: values of the same name and scope are not seen.
+  ParsedSymbol find_tag(const Token& name);
   // Is there a function template called `name` in any scope? Decides `x.name<` when the type of x
   // is unknown.
   bool is_template_function(uint32_t name) const { return infos_[name].is_template_function; }
@@ -79,6 +81,8 @@ class ParseScopes {
   std::vector<Scope> scopes_;
   std::vector<NameInfo> infos_;  // By Token::value.
   std::unordered_map<uint64_t, ParsedSymbol> symbols_;
+  std::unordered_map<uint64_t, ParsedSymbol>
+      hidden_;  // Structs and enums, by values of their name.
   ScopeId current_ = kGlobalScope;
 };
 

@@ -146,6 +146,8 @@ class Parser {
     bool is_type() const { return symbol.is_type(); }
   };
   NameLookup look_up(size_t index);
+  // What a name that follows no `::` means where it stands.
+  ParsedSymbol find_first_part(size_t index);
   // Whether the `<` at `index`, after the name at `name_index`, begins template arguments.
   bool begins_template_arguments(size_t index, size_t name_index, const ParsedSymbol& symbol,
                                  bool is_member);

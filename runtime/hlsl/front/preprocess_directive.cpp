@@ -98,7 +98,7 @@ void Preprocessor::directive_line(std::string_view name, std::optional<Token> nu
     is_valid = is_valid && c >= '0' && c <= '9';
     value = value * 10 + static_cast<uint64_t>(c - '0');
   }
-  if (!is_valid || value > 2147483647 || (value == 0 && !is_marker)) {
+  if (!is_valid || value > 2147483647) {
     diagnostics_.report(DiagnosticId::kLineNumberExpected, line.location, {describe(line)});
     return finish_directive();
   }

@@ -74,7 +74,7 @@ const Case kCases[] = {
     {"FloatInIf", "#if 1.0\n#endif", "main.hlsl:1:5 KA2038"},
     {"ErrorDirective", "#error don't do  this\nx", "main.hlsl:1:2 KA2040", "x"},
     {"WarningDirective", "#warning old", "main.hlsl:1:2 KA2041"},
-    {"LineZero", "#line 0", "main.hlsl:1:7 KA2042"},
+    {"LineNotANumber", "#line 1x", "main.hlsl:1:7 KA2042"},
     {"LineTooLarge", "#line 2147483648", "main.hlsl:1:7 KA2042"},
     {"LineName", "#line 3 foo", "main.hlsl:1:9 KA2043"},
     {"LineNameEmpty", "#line 3 \"\"\nx", "main.hlsl:1:9 KA2043", "x"},

@@ -26,6 +26,11 @@ SourceText* SourceManager::load(const std::string& path, std::string* error) {
   return text;
 }
 
+void SourceManager::forget_paths() {
+  by_path_.clear();
+  by_canonical_.clear();
+}
+
 SourceText* SourceManager::add_text(std::string name, std::string text) {
   auto owned = std::make_unique<SourceText>();
   owned->path = std::move(name);

@@ -66,6 +66,8 @@ class SourceManager {
   // The file's text, cached after the first time; nullptr if there is none. `error` is set only if
   // the file exists but cannot be read.
   SourceText* load(const std::string& path, std::string* error);
+  // Other files may have the same paths from here on; what was read stays.
+  void forget_paths();
   // A text that does not come from a loader, such as -D options.
   SourceText* add_text(std::string name, std::string text);
   // Enters a text at `included_from` (invalid for the main file). Returns nullopt if the 2 GiB of

@@ -21,6 +21,7 @@ struct InterpretedLibrary::Tables {
   std::vector<shader::BindingDesc> bindings;
   std::vector<shader::ExportDesc> exports;
   std::vector<shader::SubobjectDesc> subobjects;
+  std::vector<shader::ImportDesc> imports;
   std::deque<shader::ComputeDesc> compute;
   std::deque<shader::GraphicsDesc> graphics;
   std::deque<std::vector<shader::SignatureElement>> signatures;
@@ -157,32 +158,44 @@ shader::GraphicsDesc describe_graphics(const ir::EntryPoint& entry,
   return out;
 }
 
-shader::ExportDesc describe(const EntryCode& code) {
-  const ir::EntryPoint& entry = *code.entry;
+void set_imports(shader::ExportDesc& out, const std::vector<uint32_t>& imports) {
+  out.imports = imports.data();
+  out.import_count = static_cast<uint32_t>(imports.size());
+}
+
+// What is known of an entry point without its code.
+shader::ExportDesc describe(const ir::EntryPoint& entry) {
   const bool callable = entry.stage == ir::kStageCallable;
   shader::ExportDesc out = {};
   out.name = entry.name.c_str();
   out.mangled_name = entry.function->mangled.c_str();
   out.stage = stage_of(entry.stage);
   out.payload_bytes = callable ? 0 : entry.payload_bytes;
-  out.payload_storage_bytes = code.payload_bytes;
   out.attribute_bytes = entry.attribute_bytes;
   out.attribute_type = entry.attribute_type;
   out.callable_data_bytes = callable ? entry.payload_bytes : 0;
+  if (entry.unbounded_payload) out.flags |= shader::kExportQualifiedPayload;
+  if (entry.root_signature) out.root_signature = entry.root_signature->c_str();
+  out.bindings = entry.bindings.data();
+  out.binding_count = static_cast<uint32_t>(entry.bindings.size());
+  set_imports(out, entry.imports);
+  return out;
+}
+
+shader::ExportDesc describe(const EntryCode& code) {
+  const ir::EntryPoint& entry = *code.entry;
+  shader::ExportDesc out = describe(entry);
+  out.payload_storage_bytes = code.payload_bytes;
   out.stack_bytes = code.code->stack_bytes + code.static_bytes;
-  out.flags =
+  out.flags |=
       (entry.function->may_trace ? shader::kExportTraces : 0u) |
       (entry.function->uses_query ? shader::kExportUsesRayQuery : 0u) |
       (entry.function->may_call ? shader::kExportCalls : 0u) |
       (entry.uses_view_heap ? shader::kExportUsesViewHeap : 0u) |
       (entry.uses_sampler_heap ? shader::kExportUsesSamplerHeap : 0u) |
       (code.code->reads_hit_kind ? shader::kExportReadsHitKind : 0u) |
-      (entry.unbounded_payload ? shader::kExportQualifiedPayload : 0u) |
       (entry.attributes != nullptr && !reads_attributes(entry) ? shader::kExportIgnoresAttributes
                                                                : 0u);
-  if (entry.root_signature) out.root_signature = entry.root_signature->c_str();
-  out.bindings = entry.bindings.data();
-  out.binding_count = static_cast<uint32_t>(entry.bindings.size());
   return out;
 }
 
@@ -241,6 +254,11 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     tables.exports.push_back(desc);
     tables.closures.push_back(std::move(closure));
   }
+  for (const ir::EntryPoint& entry : m.unlinked_entry_points) {
+    shader::ExportDesc& desc = tables.exports.emplace_back(describe(entry));
+    desc.payload_layout = tables.layouts.emplace_back(value_layout(entry.payload)).c_str();
+    desc.attribute_layout = tables.layouts.emplace_back(value_layout(entry.attributes)).c_str();
+  }
   for (const ir::LibraryFunction& f : m.library_functions) {
     shader::ExportDesc desc = {};
     desc.name = f.name.c_str();
@@ -248,10 +266,16 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
     desc.stage = shader::Stage::kLibrary;
     desc.callable_indices = f.callers.data();
     desc.callable_index_count = static_cast<uint32_t>(f.callers.size());
+    desc.signature = f.signature.c_str();
+    set_imports(desc, f.imports);
     tables.exports.push_back(desc);
   }
   for (const ir::Binding& b : m.bindings) tables.bindings.push_back(describe(b));
   for (const ir::Subobject& s : m.subobjects) tables.subobjects.push_back(describe(s));
+  for (const ir::Import& import : m.imports) {
+    tables.imports.push_back(
+        {import.name.c_str(), import.mangled.c_str(), import.signature.c_str()});
+  }
   for (const std::string& file : m.files) tables.files.push_back(file.c_str());
   const auto count = [](const auto& list) { return static_cast<uint32_t>(list.size()); };
   tables.library = {shader::kAbiVersion,     sizeof(shader::LibraryDesc), m.name.c_str(),
@@ -262,6 +286,8 @@ std::shared_ptr<const InterpretedLibrary> InterpretedLibrary::create(
       shader::kLibraryInterpreted | (m.check_access ? shader::kLibraryChecked : 0u);
   tables.library.files = tables.files.data();
   tables.library.file_count = count(tables.files);
+  tables.library.imports = tables.imports.data();
+  tables.library.import_count = count(tables.imports);
   if (!m.source.empty()) {
     tables.library.source = m.source.data();
     tables.library.source_bytes = m.source.size();

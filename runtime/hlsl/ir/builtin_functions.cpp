@@ -184,6 +184,9 @@ constexpr AtomicRule kAtomics[] = {
     {"InterlockedExchange", A::kExchange, false, true, true},
     {"InterlockedCompareExchange", A::kCompareExchange, true, true, true},
     {"InterlockedCompareStore", A::kCompareStore, true, false, false},
+    {"InterlockedExchangeFloat", A::kExchange, false, true, true, true},
+    {"InterlockedCompareExchangeFloatBitwise", A::kCompareExchange, true, true, true, true},
+    {"InterlockedCompareStoreFloatBitwise", A::kCompareStore, true, false, false, true},
 };
 
 constexpr BarrierRule kBarriers[] = {
@@ -229,8 +232,8 @@ constexpr WaveRule kWaves[] = {
     {"QuadReadAcrossX", W::kQuadReadAcrossX, O::kNumber, 0},
     {"QuadReadAcrossY", W::kQuadReadAcrossY, O::kNumber, 0},
     {"QuadReadAcrossDiagonal", W::kQuadReadAcrossDiagonal, O::kNumber, 0},
-    {"QuadAny", W::kQuadAny, O::kBool, 7},
-    {"QuadAll", W::kQuadAll, O::kBool, 7},
+    {"QuadAny", W::kQuadAny, O::kBool, 0},
+    {"QuadAll", W::kQuadAll, O::kBool, 0},
 };
 
 using F = SampleForm;
@@ -264,7 +267,6 @@ constexpr Family kUnsupported[] = {
     {"IsHelperLane", "pixel shaders", true},
     {"EvaluateAttribute", "pixel shaders", false},
     {"GetRenderTargetSample", "pixel shaders", false},
-    {"CheckAccessFullyMapped", "tiled resources", true},
     {"AllocateRayQuery", "the name of an instruction; declare a RayQuery", true},
     {"printf", "printf", true},
     {"errorf", "errorf", true},
@@ -278,9 +280,6 @@ constexpr Family kUnsupported[] = {
     {"unpack_u8u32", "packed 8-bit intrinsics", true},
     {"unpack_s8s16", "packed 8-bit intrinsics", true},
     {"unpack_s8s32", "packed 8-bit intrinsics", true},
-    {"InterlockedExchangeFloat", "interlocked operations on floats", true},
-    {"InterlockedCompareExchangeFloatBitwise", "interlocked operations on floats", true},
-    {"InterlockedCompareStoreFloatBitwise", "interlocked operations on floats", true},
     {"tex1D", "Direct3D 9 texture functions", false},
     {"tex2D", "Direct3D 9 texture functions", false},
     {"tex3D", "Direct3D 9 texture functions", false},

@@ -79,6 +79,7 @@ struct AtomicRule {
   bool has_compare;
   bool needs_result;  // the last argument must not be omitted
   bool has_result;
+  bool on_floats = false;  // compares and exchanges their bits
 };
 // InterlockedAdd and so on. The methods of raw buffers have the same names and may end in "64".
 const AtomicRule* find_atomic(std::string_view name);

@@ -425,6 +425,14 @@ std::string dump(const ir::Module& module) {
     for (const uint32_t binding : entry.bindings) text += " " + std::to_string(binding);
     text += "\n";
   }
+  for (const ir::Import& import : module.imports) text += "import " + import.signature + "\n";
+  for (const ir::EntryPoint& entry : module.unlinked_entry_points) {
+    text += "unlinked entry " + entry.name + " " + std::string(stage_name(entry.stage)) +
+            " payload " + std::to_string(entry.payload_bytes) + " attributes " +
+            std::to_string(entry.attribute_bytes) + " imports";
+    for (const uint32_t import : entry.imports) text += " " + std::to_string(import);
+    text += "\n";
+  }
   for (const ir::LibraryFunction& function : module.library_functions) {
     text += "library function " + function.name + "\n";
   }

@@ -299,6 +299,7 @@ struct Expr {
   // Only while a module is made: a kSample whose level of detail comes from the quad. kLevel: the
   // lod is a bias; kLevelOfDetail: without its derivatives.
   bool implicit_level = false;
+  bool clamps_level = false;  // then the last operand is the least level
 };
 
 // ---------------------------------------------------------------------------------------------
@@ -486,16 +487,26 @@ struct EntryPoint {
   bool uses_sampler_heap = false;
   std::vector<SignatureElement> inputs;
   std::vector<SignatureElement> outputs;
-  uint32_t graphics_flags = 0;  // shader::GraphicsFlags
+  uint32_t graphics_flags = 0;    // shader::GraphicsFlags
+  std::vector<uint32_t> imports;  // indices into Module::imports that it can reach
 
   bool is_graphics() const { return (stage & (kStageVertex | kStagePixel)) != 0; }
+};
+
+// A function without a body, which another library defines.
+struct Import {
+  std::string name;       // qualified as in the source
+  std::string mangled;    // as DXC mangles it
+  std::string signature;  // as in messages: "float f(inout Payload)"
 };
 
 // An exported function that is not an entry point. [-default-linkage external, -exports, `export`]
 struct LibraryFunction {
   std::string name;
   std::string mangled;
-  std::vector<uint32_t> callers;  // entry points that can reach it
+  std::string signature;          // as Import::signature
+  std::vector<uint32_t> callers;  // entry points that can reach it; after them, the unlinked ones
+  std::vector<uint32_t> imports;  // as EntryPoint::imports
 };
 
 struct Binding {
@@ -525,7 +536,11 @@ struct Module {
   std::string target;  // "lib_6_6"
   std::vector<std::string> files;
   std::vector<EntryPoint> entry_points;
+  // Entry points that reach imports: they run only once they are linked, in another module. Their
+  // functions are not among `functions`.
+  std::vector<EntryPoint> unlinked_entry_points;
   std::vector<LibraryFunction> library_functions;
+  std::vector<Import> imports;
   std::vector<Function*> functions;    // reachable ones, callees before callers
   std::vector<Variable*> globals;      // reachable kStaticGlobal, kConstant, kGroupShared
   std::vector<const Struct*> structs;  // used ones, members before users

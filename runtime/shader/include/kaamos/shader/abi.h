@@ -16,7 +16,7 @@
 namespace kaamos::shader {
 
 // Must change whenever a struct below changes. Loading refuses a library of another version.
-inline constexpr uint32_t kAbiVersion = 13;
+inline constexpr uint32_t kAbiVersion = 14;
 
 inline constexpr uint32_t kUnbounded = 0xFFFFFFFFu;
 
@@ -579,6 +579,18 @@ struct ExportDesc {
   RayGenerationRowFn row = nullptr;        // ray generation; null: only `entry` runs it
   const char* root_signature = nullptr;    // text of [RootSignature]; null: the export has none
   const GraphicsDesc* graphics = nullptr;  // null unless kVertex or kPixel
+  // Functions of other libraries that the export can reach: indices into LibraryDesc::imports. Such
+  // an export has no code; a state object compiles it together with those libraries.
+  const uint32_t* imports = nullptr;
+  uint32_t import_count = 0;
+  const char* signature = nullptr;  // kLibrary: "float f(inout Payload)"; null: unknown
+};
+
+// A function that the library declares and calls, and that another library defines.
+struct ImportDesc {
+  const char* name;          // as written
+  const char* mangled_name;  // as DXC would mangle it
+  const char* signature;     // as in ExportDesc
 };
 
 // Subobjects defined in HLSL. Which members are used depends on type (values of
@@ -618,6 +630,8 @@ struct LibraryDesc {
   // [runtime/hlsl/driver/embedded_source.h]
   const char* source = nullptr;
   uint64_t source_bytes = 0;
+  const ImportDesc* imports = nullptr;
+  uint32_t import_count = 0;
 };
 
 // The only symbol of a library that is compiled at run time.

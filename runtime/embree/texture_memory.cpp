@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/embree/texture_memory.h"
+
+#include <algorithm>
+
+#include "runtime/embree/memory.h"
+
+namespace kaamos::embree {
+namespace {
+
+// Long rows are an odd number of cache lines apart; otherwise texels above each other would share a
+// few cache sets, all of them the same one if a row is a power of two long.
+uint64_t row_pitch_of(uint64_t row_bytes) {
+  constexpr uint64_t kLine = 64, kLong = 1024;
+  if (row_bytes < kLong) return row_bytes;
+  return ((row_bytes + kLine - 1) / kLine | 1) * kLine;
+}
+
+}  // namespace
+
+TextureMemory::TextureMemory(const rtapi::TextureDesc& desc, uint32_t element_bytes,
+                             uint32_t block_side)
+    : size_{desc.Width, desc.Height, 1},
+      is_volume_(desc.Dimension == rtapi::ResourceDimension::kTexture3D),
+      array_size_(is_volume_ ? 1u : desc.DepthOrArraySize),
+      element_bytes_(element_bytes),
+      block_side_(block_side) {
+  if (is_volume_) size_[2] = desc.DepthOrArraySize;
+  for (uint32_t mip = 0; mip < desc.MipLevels; ++mip) {
+    mip_offsets_.push_back(array_pitch_);
+    const Subresource s = mip_layout(mip);
+    array_pitch_ += (s.slice_pitch * s.extent[2] + 63) / 64 * 64;
+  }
+}
+
+TextureMemory::~TextureMemory() {
+  if (memory_ != nullptr) Memory::release(memory_, size_bytes());
+}
+
+bool TextureMemory::allocate() {
+  memory_ = Memory::allocate(size_bytes());
+  return memory_ != nullptr;
+}
+
+TextureMemory::Subresource TextureMemory::mip_layout(uint32_t mip) const {
+  Subresource s;
+  for (int i = 0; i < 3; ++i) {
+    const uint32_t texels = std::max(size_[i] >> mip, 1u);
+    s.extent[i] = i < 2 ? (texels + block_side_ - 1) / block_side_ : texels;
+  }
+  s.row_pitch = row_pitch_of(uint64_t{s.extent[0]} * element_bytes_);
+  s.slice_pitch = s.row_pitch * s.extent[1];
+  return s;
+}
+
+TextureMemory::Subresource TextureMemory::subresource(uint32_t mip, uint32_t array_element) const {
+  Subresource s = mip_layout(mip);
+  s.first = memory_ + array_element * array_pitch_ + mip_offsets_[mip];
+  return s;
+}
+
+}  // namespace kaamos::embree

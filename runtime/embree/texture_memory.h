@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// The memory of a texture, or of the texels that its blocks decode to: array elements one after
+// another, each with all its mips.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <rtapi/resource.h>
+
+namespace kaamos::embree {
+
+class TextureMemory {
+ public:
+  // For elements of block_side x block_side texels. Nothing is allocated yet.
+  TextureMemory(const rtapi::TextureDesc& desc, uint32_t element_bytes, uint32_t block_side);
+  ~TextureMemory();
+  TextureMemory(const TextureMemory&) = delete;
+  TextureMemory& operator=(const TextureMemory&) = delete;
+
+  // Zeros. False if out of memory.
+  bool allocate();
+
+  struct Subresource {
+    uint8_t* first = nullptr;
+    uint32_t extent[3] = {0, 0, 0};  // elements: width, height, depth
+    uint64_t row_pitch = 0;          // bytes
+    uint64_t slice_pitch = 0;
+    uint8_t* at(const uint32_t position[3], uint32_t element_bytes) const {
+      return first + position[2] * slice_pitch + position[1] * row_pitch +
+             uint64_t{position[0]} * element_bytes;
+    }
+  };
+  Subresource subresource(uint32_t mip, uint32_t array_element) const;
+
+  uint32_t element_bytes() const { return element_bytes_; }
+  uint64_t array_pitch() const { return array_pitch_; }  // from an array element to the next
+  uint64_t size_bytes() const { return array_pitch_ * array_size_; }
+
+ private:
+  Subresource mip_layout(uint32_t mip) const;
+
+  uint32_t size_[3];
+  bool is_volume_;
+  uint32_t array_size_;
+  uint32_t element_bytes_;
+  uint32_t block_side_;
+  uint64_t array_pitch_ = 0;
+  std::vector<uint64_t> mip_offsets_;
+  uint8_t* memory_ = nullptr;
+};
+
+}  // namespace kaamos::embree

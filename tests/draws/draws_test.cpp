@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+//
+// What draws leave in targets, from shaders in buffers to texels. Expected values are worked out by
+// hand from the rules.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "canvas.h"
+#include "tests/common/structures.h"
+
+namespace kaamos::draws {
+namespace {
+
+using namespace rtapi;
+
+struct Corner {
+  float position[3];
+  float color[3];
+};
+
+// Pixel coordinates of the canvas to normalized ones; both are exact.
+float ndc_x(float x) {
+  return x / 32 - 1;
+}
+float ndc_y(float y) {
+  return 1 - y / 32;
+}
+
+std::vector<InputElementDesc> layout() {
+  return {{.SemanticName = "POSITION", .Format = Format::kR32G32B32Float},
+          {.SemanticName = "COLOR", .Format = Format::kR32G32B32Float},
+          {.SemanticName = "OFFSET",
+           .Format = Format::kR32G32Float,
+           .InputSlot = 1,
+           .InputSlotClass = InputClassification::kPerInstanceData,
+           .InstanceDataStepRate = 1}};
+}
+
+// The rectangle (8, 8) to (24, 24) as two triangles; its left half is red on one side, green on the
+// other.
+const std::vector<Corner> kRectangle = {
+    {{ndc_x(8), ndc_y(8), 0.5f}, {1, 0, 0}},   {{ndc_x(24), ndc_y(8), 0.5f}, {0, 1, 0}},
+    {{ndc_x(8), ndc_y(24), 0.5f}, {1, 0, 0}},  {{ndc_x(24), ndc_y(8), 0.5f}, {0, 1, 0}},
+    {{ndc_x(24), ndc_y(24), 0.5f}, {0, 1, 0}}, {{ndc_x(8), ndc_y(24), 0.5f}, {1, 0, 0}}};
+
+class Draws : public ::testing::Test {
+ protected:
+  Buffer upload(const auto& elements) {
+    return CreateUploadBuffer(canvas_.device, elements, "vertices").value();
+  }
+  static VertexBufferView view(const Buffer& buffer, uint32_t stride) {
+    return {buffer.GetGPUVirtualAddress(), static_cast<uint32_t>(buffer.size()), stride};
+  }
+  std::array<uint32_t, 2> counts() {
+    const auto bytes = ReadbackBuffer(canvas_.device, canvas_.queue, canvas_.counter).value();
+    std::array<uint32_t, 2> out;
+    std::memcpy(out.data(), bytes.data(), sizeof out);
+    return out;
+  }
+
+  Canvas canvas_;
+};
+
+TEST_F(Draws, VerticesComeFromBuffersAndColorsAreInterpolated) {
+  GraphicsPipelineStateDesc desc = canvas_.desc("FromBuffers", "Color");
+  desc.InputLayout = layout();
+  const PipelineState pipeline = canvas_.make(desc);
+  const Buffer vertices = upload(kRectangle);
+  // The second instance is 32 pixels to the right.
+  const Buffer offsets = upload(std::vector<float>{0, 0, 1, 0});
+  canvas_.run([&](CommandList& list) {
+    Canvas::use(list, pipeline, {1, 0.5f, 1, 1});
+    const VertexBufferView views[] = {view(vertices, sizeof(Corner)), view(offsets, 8)};
+    list.IASetVertexBuffers(0, views);
+    list.DrawInstanced(6, 2, 0, 0);
+  });
+  int covered = 0;
+  for (uint32_t y = 0; y < kSize; ++y) {
+    for (uint32_t x = 0; x < kSize; ++x) {
+      const uint32_t in_rectangle = x % 32;
+      const bool inside = in_rectangle >= 8 && in_rectangle < 24 && y >= 8 && y < 24;
+      covered += canvas_.texel<float>(x, y, 3) == 1.0f;
+      ASSERT_EQ(canvas_.texel<float>(x, y, 3), inside ? 1.0f : 0.0f) << x << ", " << y;
+      if (!inside) continue;
+      const float green = (static_cast<float>(in_rectangle) + 0.5f - 8) / 16;
+      EXPECT_NEAR(canvas_.texel<float>(x, y, 0), 1 - green, 1e-6f) << x << ", " << y;
+      EXPECT_NEAR(canvas_.texel<float>(x, y, 1), green / 2, 1e-6f) << x << ", " << y;
+      EXPECT_EQ(canvas_.depth(x, y), 0.5f);
+    }
+  }
+  EXPECT_EQ(covered, 2 * 16 * 16);
+}
+
+TEST_F(Draws, RAS_08_10_12_IdsBeginAtZeroWhereverTheDrawStarts) {
+  Canvas canvas(Format::kR32G32B32A32Uint);
+  GraphicsPipelineStateDesc desc = canvas.desc("FromBuffers", "Facts");
+  desc.InputLayout = layout();
+  const PipelineState pipeline = canvas.make(desc);
+  const Buffer vertices = CreateUploadBuffer(canvas.device, kRectangle).value();
+  const Buffer offsets = CreateUploadBuffer(canvas.device, std::vector<float>{0, 0, 1, 0}).value();
+  const Buffer indices =
+      CreateUploadBuffer(canvas.device, std::vector<uint16_t>{9, 9, 4, 5, 6, 7, 8, 9}).value();
+  canvas.run([&](CommandList& list) {
+    Canvas::use(list, pipeline);
+    const VertexBufferView views[] = {view(vertices, sizeof(Corner)), view(offsets, 8)};
+    list.IASetVertexBuffers(0, views);
+    const IndexBufferView index_view = {indices.GetGPUVirtualAddress(), 16, Format::kR16Uint};
+    list.IASetIndexBuffer(&index_view);
+    // Indices 4, 5, ... with base -4; only the second instance's offset.
+    list.DrawIndexedInstanced(6, 1, 2, -4, 1);
+  });
+  EXPECT_EQ(canvas.texel<uint32_t>(41, 9, 0), 4u);   // SV_VertexID is the index, instance 0
+  EXPECT_EQ(canvas.texel<uint32_t>(41, 9, 1), 0u);   // the first triangle
+  EXPECT_EQ(canvas.texel<uint32_t>(55, 23, 0), 7u);  // the leading vertex of the second
+  EXPECT_EQ(canvas.texel<uint32_t>(55, 23, 1), 1u);
+  EXPECT_EQ(canvas.texel<uint32_t>(41, 9, 2), 1u);  // clockwise on the screen: front
+  EXPECT_EQ(canvas.texel<uint32_t>(41, 9, 3), 41u + 1000 * 9);
+  EXPECT_EQ(canvas.texel<uint32_t>(9, 9, 3), 0u);  // nothing of the first instance
+}
+
+TEST_F(Draws, RAS_61_101_TheNearestWinsInAnyOrder) {
+  const PipelineState pipeline = canvas_.make(canvas_.desc("WholeTarget", "Constant"));
+  canvas_.run([&](CommandList& list) {
+    for (const float z : {0.5f, 0.25f, 0.75f, 0.25f}) {
+      // The tint's alpha is the depth; its red says which draw it was.
+      Canvas::use(list, pipeline, {z == 0.25f ? 2.0f : 1.0f, 0, 0, z});
+      list.DrawInstanced(3, 1, 0, 0);
+    }
+  });
+  EXPECT_EQ(canvas_.texel<float>(5, 40, 0), 2.0f);
+  EXPECT_EQ(canvas_.depth(5, 40), 0.25f);
+}
+
+TEST_F(Draws, RAS_82_86_DerivativesAreRightBesideDiscardedPixels) {
+  const PipelineState pipeline = canvas_.make(canvas_.desc("WholeTarget", "Checkerboard"));
+  canvas_.run([&](CommandList& list) {
+    Canvas::use(list, pipeline, {1, 1, 1, 0.5f});
+    list.DrawInstanced(3, 1, 0, 0);
+  });
+  EXPECT_EQ(canvas_.texel<float>(10, 20, 0), 20.5f);  // d(x y)/dx in row 20
+  EXPECT_EQ(canvas_.texel<float>(10, 20, 1), 10.5f);
+  EXPECT_EQ(canvas_.texel<float>(11, 21, 0), 21.5f);
+  EXPECT_EQ(canvas_.texel<float>(11, 21, 1), 11.5f);
+  EXPECT_EQ(canvas_.texel<float>(11, 21, 2), 20.5f);  // coarse: the quad's first row
+  EXPECT_EQ(canvas_.texel<float>(11, 20, 3), 0.0f);   // discarded
+  EXPECT_EQ(canvas_.depth(11, 20), 1.0f);
+  EXPECT_EQ(canvas_.depth(10, 20), 0.5f);
+}
+
+TEST_F(Draws, RAS_91_TheLevelOfDetailComesFromTheQuad) {
+  // A texture of 256 texels on 64 pixels: level 2, whose texels are 2.
+  const Texture texture =
+      canvas_.device
+          .CreateTexture({.Width = 256, .Height = 256, .MipLevels = 0, .Format = Format::kR32Float})
+          .value();
+  for (uint32_t mip = 0; mip < 9; ++mip) {
+    const uint32_t side = 256u >> mip;
+    const std::vector<float> texels(size_t{side} * side, static_cast<float>(mip));
+    UploadTexture(canvas_.device, canvas_.queue, texture, mip,
+                  std::as_bytes(std::span<const float>(texels)))
+        .value();
+  }
+  canvas_.device.CreateShaderResourceView(texture, canvas_.views.GetCPUDescriptorHandle(0)).value();
+  const PipelineState pipeline = canvas_.make(canvas_.desc("WholeTarget", "Sampled"));
+  canvas_.run([&](CommandList& list) {
+    Canvas::use(list, pipeline, {1, 1, 1, 0.5f});
+    list.DrawInstanced(3, 1, 0, 0);
+  });
+  for (const uint32_t x : {0u, 17u, 63u}) EXPECT_NEAR(canvas_.texel<float>(x, 33), 2.0f, 0.02f);
+}
+
+TEST_F(Draws, RAS_85_99_UnorderedAccessesOfCoveredPixelsOnly) {
+  const PipelineState pipeline = canvas_.make(canvas_.desc("WholeTarget", "Counted"));
+  canvas_.run([&](CommandList& list) {
+    list.RSSetScissorRects(Rect{3, 5, 51, 38});
+    Canvas::use(list, pipeline, {1, 1, 1, 0.5f});
+    list.DrawInstanced(3, 1, 0, 0);
+    // Behind the first: no test before the shader, since it writes memory.
+    Canvas::use(list, pipeline, {1, 1, 1, 0.75f});
+    list.DrawInstanced(3, 1, 0, 0);
+  });
+  EXPECT_EQ(counts()[0], 2u * 48 * 33);
+  EXPECT_EQ(counts()[1], 2u * 29 * 33);  // pixels 3 to 31 go on after the discard
+}
+
+TEST_F(Draws, RAS_120_BlendingInTheOrderOfDraws) {
+  GraphicsPipelineStateDesc desc = canvas_.desc("WholeTarget", "Constant");
+  desc.DepthStencilState.DepthEnable = false;
+  RenderTargetBlendDesc& blend = desc.BlendState.RenderTarget[0];
+  blend.BlendEnable = true;
+  blend.SrcBlend = Blend::kSrcAlpha;
+  blend.DestBlend = Blend::kInvSrcAlpha;
+  const PipelineState pipeline = canvas_.make(desc);
+  canvas_.run([&](CommandList& list) {
+    for (const float red : {1.0f, 0.0f, 3.0f}) {
+      Canvas::use(list, pipeline, {red, 0, 0, 0.5f});
+      list.DrawInstanced(3, 1, 0, 0);
+    }
+  });
+  // ((0 + 1) / 2 + 0) / 2 = 0.25; (0.25 + 3) / 2.
+  EXPECT_EQ(canvas_.texel<float>(31, 31, 0), 1.625f);
+}
+
+TEST_F(Draws, RAS_145_IndirectDraws) {
+  GraphicsPipelineStateDesc desc = canvas_.desc("WholeTarget", "Constant");
+  desc.DepthStencilState.DepthEnable = false;
+  RenderTargetBlendDesc& blend = desc.BlendState.RenderTarget[0];
+  blend.BlendEnable = true;
+  blend.DestBlend = Blend::kOne;
+  const PipelineState pipeline = canvas_.make(desc);
+  const CommandSignature signature =
+      canvas_.device
+          .CreateCommandSignature(
+              {.ByteStride = 20,
+               .ArgumentDescs = {{.Type = IndirectArgumentType::kConstant, .Constant = {0, 0, 1}},
+                                 {.Type = IndirectArgumentType::kDraw}}},
+              canvas_.root_signature)
+          .value();
+  std::vector<uint32_t> arguments;
+  for (const float red : {1.0f, 2.0f, 4.0f, 8.0f, 16.0f}) {
+    for (const uint32_t word : {std::bit_cast<uint32_t>(red), red == 2.0f ? 0u : 3u, 1u, 0u, 0u}) {
+      arguments.push_back(word);
+    }
+  }
+  const Buffer buffer = upload(arguments);
+  const Buffer count = upload(std::vector<uint32_t>{3});
+  canvas_.run([&](CommandList& list) {
+    Canvas::use(list, pipeline, {0, 0, 0, 0.5f});
+    list.ExecuteIndirect(signature, 5, buffer, 0, count, 0);
+  });
+  EXPECT_EQ(canvas_.texel<float>(10, 10, 0), 5.0f);  // 1 + 4; the second draws no vertices
+}
+
+TEST_F(Draws, DepthIsReadByTheNextPass) {
+  const PipelineState depth_only = canvas_.make(canvas_.desc("WholeTarget", ""));
+  GraphicsPipelineStateDesc desc = canvas_.desc("WholeTarget", "Fetched");
+  desc.DepthStencilState.DepthEnable = false;
+  desc.DSVFormat = Format::kUnknown;
+  const PipelineState shade = canvas_.make(desc);
+  canvas_.device
+      .CreateShaderResourceView(
+          Resource(canvas_.depth_buffer),
+          {.Format = Format::kR32Float, .ViewDimension = SrvDimension::kTexture2D},
+          canvas_.views.GetCPUDescriptorHandle(0))
+      .value();
+  canvas_.run([&](CommandList& list) {
+    list.RSSetScissorRects(Rect{0, 0, 32, 64});
+    Canvas::use(list, depth_only, {1, 1, 1, 0.375f});
+    list.DrawInstanced(3, 1, 0, 0);
+    list.ResourceBarrier(ResourceBarrier::Transition(
+        canvas_.depth_buffer, ResourceStates::kDepthWrite, ResourceStates::kPixelShaderResource));
+    const CpuDescriptorHandle target = canvas_.rtvs.GetCPUDescriptorHandle(0);
+    list.OMSetRenderTargets(1, &target);
+    list.RSSetScissorRects(Rect{0, 0, 64, 64});
+    Canvas::use(list, shade, {1, 1, 1, 0.5f});
+    list.DrawInstanced(3, 1, 0, 0);
+    list.ResourceBarrier(ResourceBarrier::Transition(
+        canvas_.depth_buffer, ResourceStates::kPixelShaderResource, ResourceStates::kDepthWrite));
+  });
+  EXPECT_EQ(canvas_.texel<float>(31, 50, 0), 0.375f);
+  EXPECT_EQ(canvas_.texel<float>(32, 50, 0), 1.0f);
+}
+
+TEST_F(Draws, RAS_108_PixelShadersTraceRays) {
+  // A triangle in the plane z = 1 that covers the pixels with x + y < 64.
+  const std::vector<float> corners = {-1, -1, 1, 1, -1, 1, -1, 1, 1};
+  const Buffer vertices = upload(corners);
+  RaytracingGeometryDesc geometry;
+  geometry.Type = RaytracingGeometryType::kTriangles;
+  geometry.Triangles.VertexFormat = Format::kR32G32B32Float;
+  geometry.Triangles.VertexCount = 3;
+  geometry.Triangles.VertexBuffer = {vertices.GetGPUVirtualAddress(), 12};
+  const Buffer bottom =
+      test::build_bottom_level(canvas_.device, canvas_.queue, {geometry});
+  RaytracingInstanceDesc instance = {};
+  instance.Transform[0][0] = instance.Transform[1][1] = instance.Transform[2][2] = 1;
+  instance.InstanceMask = 0xFF;
+  instance.AccelerationStructure = bottom.GetGPUVirtualAddress();
+  const Buffer top = test::build_top_level(canvas_.device, canvas_.queue, {instance});
+  const PipelineState pipeline = canvas_.make(canvas_.desc("WholeTarget", "Traced"));
+  canvas_.run([&](CommandList& list) {
+    Canvas::use(list, pipeline, {1, 1, 1, 0.5f});
+    list.SetGraphicsRootShaderResourceView(2, top.GetGPUVirtualAddress());
+    list.DrawInstanced(3, 1, 0, 0);
+  });
+  for (uint32_t y = 0; y < kSize; y += 3) {
+    for (uint32_t x = 0; x < kSize; x += 3) {
+      if (x + y + 1 == 64) continue;  // the ray goes through the edge
+      const bool hit = x + y + 1 < 64;
+      ASSERT_EQ(canvas_.texel<float>(x, y, 3), hit ? 1.0f : 0.0f) << x << ", " << y;
+      if (!hit) continue;
+      EXPECT_EQ(canvas_.texel<float>(x, y, 0), 2.0f);
+      EXPECT_NEAR(canvas_.texel<float>(x, y, 1), (static_cast<float>(x) + 0.5f) / 64, 1e-6f);
+    }
+  }
+}
+
+TEST(DrawThreads, RAS_149_ResultsDoNotDependOnThreads) {
+  std::vector<float> of_one_thread;
+  for (const uint32_t threads : {1u, 2u, 3u, 7u}) {
+    Canvas canvas(Format::kR32G32B32A32Float, threads);
+    GraphicsPipelineStateDesc desc = canvas.desc("WholeTarget", "Constant");
+    desc.DepthStencilState.DepthEnable = false;
+    RenderTargetBlendDesc& blend = desc.BlendState.RenderTarget[0];
+    blend.BlendEnable = true;
+    blend.SrcBlend = Blend::kSrcAlpha;
+    blend.DestBlend = Blend::kInvSrcAlpha;
+    const PipelineState pipeline = canvas.make(desc);
+    canvas.run([&](CommandList& list) {
+      for (int i = 0; i < 100; ++i) {
+        list.RSSetScissorRects(Rect{i % 40, i % 17, 64 - i % 23, 64});
+        Canvas::use(list, pipeline,
+                    {static_cast<float>(i) * 0.37f, 1, 0, static_cast<float>(i % 7) / 10});
+        list.DrawInstanced(3, 1, 0, 0);
+      }
+    });
+    std::vector<float> texels;
+    for (uint32_t y = 0; y < kSize; ++y) {
+      for (uint32_t x = 0; x < kSize; ++x) texels.push_back(canvas.texel<float>(x, y));
+    }
+    if (of_one_thread.empty()) of_one_thread = texels;
+    EXPECT_EQ(texels, of_one_thread) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace kaamos::draws
