@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "kaamos/shader/half.h"
 #include "runtime/raster/narrow_float.h"
+#include "runtime/raster/target_codec.h"
 #include "runtime/raster/testing/scene.h"
 #include "runtime/shader/texture/format_codec.h"
 
