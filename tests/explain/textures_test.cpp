@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Replays that write textures: afterwards a texture holds the result of exactly one dispatch.
+// Replays that write textures: afterwards a texture holds the result of exactly one dispatch. And
+// replays that read block-compressed ones.
 #include <gtest/gtest.h>
 #include <rtapi/explain.h>
 #include <rtapi/rtapi.h>
 #include <shaders/accumulate.h>
+#include <shaders/blocks.h>
 
 #include <cstring>
 
@@ -73,6 +75,53 @@ TEST_P(ExplainTextures, AReplayLeavesTexturesAsTheyAre) {
   EXPECT_EQ(floats_of(device_, queue_, pictures[0]), (std::vector<float>{1, 1}));
   EXPECT_EQ(floats_of(device_, queue_, pictures[1]), (std::vector<float>{1, 2, 3, 4, 0, 0, 0, 0}));
   EXPECT_EQ(floats_of(device_, queue_, pictures[2]), (std::vector<float>{0, 0, 0, 0, 1, 2, 3, 4}));
+}
+
+// The replay reads decoded texels, wherever the dispatch itself runs.
+TEST_P(ExplainTextures, AReplayReadsBlocks) {
+  TextureDesc texture_desc;
+  texture_desc.Width = 6;
+  texture_desc.Height = 5;
+  texture_desc.Format = Format::kBC1Unorm;
+  const Texture texture = device_.CreateTexture(texture_desc).value();
+  std::vector<std::byte> data(size_t{2} * 2 * 8);
+  data[8 + 1] = data[8 + 3] = std::byte{0xF8};  // the second block is red
+  UploadTexture(device_, queue_, texture, 0, data).value();
+  const DescriptorHeap heap =
+      device_
+          .CreateDescriptorHeap(
+              {.NumDescriptors = 1, .Flags = DescriptorHeapFlags::kShaderVisible, .Name = "views"})
+          .value();
+  device_.CreateShaderResourceView(texture, heap.GetCPUDescriptorHandle(0)).value();
+  const RootSignature root = device_.CreateRootSignature("DescriptorTable(SRV(t0))").value();
+  StateObjectDesc desc;
+  desc.Add(DxilLibraryDesc{LoadShaderLibrary(kaamos_shaders_blocks()).value()});
+  desc.Add(RaytracingShaderConfig{16, 8});
+  desc.Add(RaytracingPipelineConfig{1});
+  desc.Add(GlobalRootSignature{root});
+  const StateObject pipeline = device_.CreateStateObject(desc).value();
+  ShaderTable rays(pipeline, "ray generation"), callables(pipeline, "callables");
+  rays.AddRecord("ReadBlocks").value();
+  callables.AddRecord("Show").value();
+  rays.Build(device_).value();
+  callables.Build(device_).value();
+  DispatchRaysDesc dispatch;
+  dispatch.RayGenerationShaderRecord = rays.GetRecord(0);
+  dispatch.CallableShaderTable = callables.GetTable();
+  dispatch.Width = 7;
+
+  const auto shown = [&](uint32_t x) {
+    CommandList list = device_.CreateCommandList().value();
+    list.SetDescriptorHeaps({heap});
+    list.SetComputeRootSignature(root);
+    list.SetComputeRootDescriptorTable(0, heap.GetGPUDescriptorHandle(0));
+    list.SetPipelineState1(pipeline);
+    list.DispatchRays(dispatch);
+    return ToText(ExplainPixel(queue_, list, {.X = x}).value());
+  };
+  EXPECT_NE(shown(3).find("color = 0 0 0 1"), std::string::npos) << shown(3);
+  EXPECT_NE(shown(5).find("color = 1 0 0 1"), std::string::npos) << shown(5);
+  EXPECT_NE(shown(6).find("color = 0 0 0 0"), std::string::npos) << shown(6);
 }
 
 }  // namespace

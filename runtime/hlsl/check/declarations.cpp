@@ -77,7 +77,9 @@ void Checker::declare(const Decl* declaration, Scope* scope) {
       break;
     case DeclKind::kUsingNamespace: {
       const auto* decl = static_cast<const UsingNamespaceDecl*>(declaration);
-      Symbol* symbol = resolve_name(*decl->target, scope, false);
+      // `dx` exists before Shader Model 6.9, where it is empty.
+      const bool is_dx = decl->target->is_simple() && decl->target->last().identifier == "dx";
+      Symbol* symbol = resolve_name(*decl->target, scope, is_dx);
       if (symbol && symbol->kind != SymbolKind::kNamespace) {
         report(CheckId::kNotANamespace, decl->location, {spell(*decl->target)});
       } else if (symbol) {

@@ -295,6 +295,9 @@ Value Lowerer::member_of(const Value& base, const QualifiedName& name) {
   }
   if (type->is_matrix()) return matrix_swizzle_of(base, member, location);
   if (type->is_numeric()) return swizzle_of(base, member, location);
+  if (type->is_array() && type->count != 0 && member == "Length") {
+    return rvalue(build_.uint32(type->count), types_.scalar(Scalar::kUint32));
+  }
   if (!type->is_struct()) {
     report(CheckId::kNoMembers, location, {to_string(type), std::string(member)});
     return error_value();

@@ -19,6 +19,15 @@ void Checker::specialize_struct(const StructDecl* decl, Scope* scope) {
     return;
   }
   StructTemplate* structure = symbol->struct_template;
+  if (decl->is_instantiation) {
+    const NamePart part{.location = decl->location,
+                        .identifier = decl->name,
+                        .has_template_arguments = true,
+                        .template_arguments = decl->specialized};
+    const StructInfo* info = instantiate_struct(structure, part, decl->location, scope);
+    declared_types_[decl] = info ? info->type : types_.error();
+    return;
+  }
   if (decl->is_template) {
     structure->partials.push_back(decl);
     return;
@@ -158,6 +167,7 @@ void Checker::specialize_function(const FunctionDecl* decl, Scope* scope, Struct
     report(CheckId::kSpecializesNothing, decl->location, {lower_.describe(*wanted)});
     return;
   }
+  if (decl->is_instantiation) return;
   const bool is_defined = found->definition && found->definition->is_specialization;
   if (found->state != FunctionInfo::State::kPending || is_defined) {
     report(CheckId::kSpecializedLate, decl->location, {lower_.describe(*found)});

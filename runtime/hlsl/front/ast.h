@@ -537,6 +537,7 @@ struct FunctionDecl : Decl {
   std::span<const TemplateParameter> outer_parameters = {};
   bool is_template = false;
   bool is_specialization = false;  // `template<> void f<int>(int i)`
+  bool is_instantiation = false;   // `template void f<int>(int i);`; is_specialization is set too
   std::span<const TemplateArgument> specialized = {};
   bool is_const_method = false;
   const TypeSyntax* return_type = nullptr;
@@ -555,6 +556,7 @@ struct StructDecl : Decl {
   std::span<const TemplateParameter> template_parameters;
   // `template<> struct S<int>`, and with parameters `template<typename T> struct S<T, 0>`.
   bool is_specialization = false;
+  bool is_instantiation = false;  // `template struct S<int>;`
   std::span<const TemplateArgument> specialized = {};
   std::span<const TypeSyntax* const> bases;
   // In source order: VariableDecl (fields; static members carry kModStatic), FunctionDecl,

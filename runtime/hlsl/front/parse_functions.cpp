@@ -33,6 +33,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
   decl->outer_parameters = prefix.outer_parameters;
   decl->is_template = prefix.is_template;
   decl->is_specialization = prefix.is_specialization;
+  decl->is_instantiation = prefix.is_instantiation;
   decl->return_type = type;
   const Token* name_token = &token();
   ScopeId qualifier = kNoScope;
@@ -70,6 +71,7 @@ void Parser::function(const Prefix& prefix, Modifiers modifiers, const TypeSynta
     expect(Kind::kLeftBrace, "'{' or ';' after the function's parameters");
     return;
   }
+  if (decl->is_instantiation) report(DiagnosticId::kInstantiationBody, here(), {decl->name});
   const Token* outer = std::exchange(function_token_, name_token);
   decl->body = block();
   function_token_ = outer;

@@ -47,6 +47,10 @@ const StructDecl* Parser::struct_definition() {
     if (decl->is_specialization) {
       decl->specialized = template_arguments();
       if (panic_) return nullptr;
+      decl->is_instantiation = prefix->is_instantiation;
+      if (decl->is_instantiation && !at(Kind::kSemicolon)) {
+        report(DiagnosticId::kInstantiationBody, here(), {decl->name});
+      }
     } else if (prefix != nullptr && prefix->is_specialization) {
       fail(DiagnosticId::kSpecializationArguments, name->location, {name->text});
       return nullptr;

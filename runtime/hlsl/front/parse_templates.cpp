@@ -7,6 +7,11 @@ namespace kaamos::hlsl {
 void Parser::template_declaration(Prefix& prefix, DeclList& out) {
   const size_t open = pos_ + 1;
   advance();
+  if (!at(Kind::kLess) && prefix.outer_parameters.empty()) {
+    // `template void f<int>(int);` asks for an instance.
+    prefix.is_specialization = prefix.is_instantiation = true;
+    return simple_declaration(prefix, out);
+  }
   if (!expect(Kind::kLess, "'<' after 'template'")) return;
   prefix.is_specialization = at(Kind::kGreater);
   prefix.scope = scope_of(prefix);

@@ -261,6 +261,7 @@ class Parser {
     std::span<const TemplateParameter> outer_parameters = {};
     bool is_template = false;
     bool is_specialization = false;  // after `template<>`
+    bool is_instantiation = false;   // after `template` without a list
     // The scope to declare in; it differs from the current one inside a template's parameter scope.
     ScopeId scope = kNoScope;
     Context context = Context::kGlobal;

@@ -156,6 +156,15 @@ TEST(EmitGlsl, NamesOfTheSourceNeverStandBare) {
   EXPECT_THAT(text, HasSubstr("float u_buffer = "));
 }
 
+TEST(EmitGlsl, NamesAreCutToWhatGlslAllows) {
+  const std::string name(2000, 'x');
+  const std::string text = glsl_of(kernel("float " + name + "a = 1, " + name +
+                                              "b = 2;\nresults.Store2(0, asuint(float2(" + name +
+                                              "a, f" + name + "(" + name + "b))));",
+                                          "float f" + name + "(float v) { return v + 1; }"));
+  EXPECT_THAT(text, Not(HasSubstr(std::string(300, 'x'))));
+}
+
 TEST(EmitGlsl, IndicesThatMayBeOutOfRangeAreGuarded) {
   const std::string text =
       glsl_of(kernel("uint a[3] = {1, 2, 3};\nuint i = results.Load(0);\na[i] = 4;\n"

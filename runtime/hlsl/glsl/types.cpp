@@ -105,6 +105,9 @@ uint32_t words(const Type* type) {
 
 std::string GlslNames::add(std::string_view hlsl_name) {
   std::string base = prefix_ + cpp_identifier(hlsl_name);
+  // GLSL allows 1024 characters, of which generated names add some.
+  constexpr size_t kMaxCharacters = 256;
+  if (base.size() > kMaxCharacters) base.resize(kMaxCharacters);
   // Two consecutive underscores are reserved.
   while (base.size() > prefix_.size() && base.back() == '_') {
     base.pop_back();
