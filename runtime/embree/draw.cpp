@@ -34,14 +34,11 @@ raster::Draw resolve(const runtime::DrawCommand& command) {
 raster::Surface surface_of(const runtime::TargetView& view) {
   raster::Surface surface;
   if (view.texture == nullptr) return surface;
-  const auto& texture = static_cast<const Texture&>(*view.texture);
-  const Texture::Subresource first = texture.subresource(view.mip, view.first_slice);
-  surface.texels = first.texels;
+  const TextureMemory& memory = static_cast<const Texture&>(*view.texture).stored();
+  const TextureMemory::Subresource first = memory.subresource(view.mip, view.first_slice);
+  surface.texels = first.first;
   surface.row_pitch = first.row_pitch;
-  if (view.slice_count > 1) {
-    const auto second = texture.subresource(view.mip, view.first_slice + 1);
-    surface.slice_pitch = static_cast<uint64_t>(second.texels - first.texels);
-  }
+  surface.slice_pitch = memory.array_pitch();
   surface.width = view.width;
   surface.height = view.height;
   surface.slices = view.slice_count;
